@@ -10,7 +10,7 @@
 
 static const double ROUNDING = 1e-11; // of the greatest coordinate
 
-// A face on a dividing plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end
+// A face on a partition plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end
 // of a triangle; `reversed` if the outward normal runs the other way.
 typedef struct {
   int64_t loop[4];
@@ -173,7 +173,7 @@ static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Co
   CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, &data, 1, &open, &count));
   collect_points(&data, c);
   CW_TRY(collect_patches(mesh, region, &data, a, c));
-  // Each face of a cell is one of two at an inner face, or lies on a patch or a dividing plane.
+  // Each face of a cell is one of two at an inner face, or lies on a patch or a partition plane.
   triangles = 4 * (int64_t)(data.tetrahedron_count + data.pyramid_count) + 2 * (int64_t)data.prism_count;
   triangles -= data.triangle_count;
   quads = data.pyramid_count + 3 * (int64_t)data.prism_count - data.quad_count;
@@ -258,8 +258,8 @@ static CwStatus fail_at_open_face(const CwAssembly *a, const OpenFace *face, con
   const CwMeshRegion *line = &a->mesh->regions[face->region];
   for (int i = 0; i < count; ++i)
     for (int k = 0; k < 3; ++k) x[k] += 1e3 * a->shared[line->domain][face->loop[i]][k] / count;
-  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a dividing plane %s", line->path, x[0], x[1], x[2],
-                 what);
+  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a partition plane %s", line->path, x[0], x[1],
+                 x[2], what);
 }
 
 // The face between the cells of x and y, of which x sees it in the order of its loop.
@@ -305,7 +305,7 @@ static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected
   // A stable split by domain, as each numbers its shared points from 0.
   if (ranks->rank == 0) {
     OpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
-    if (!split) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on dividing planes", (long long)total);
+    if (!split) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on partition planes", (long long)total);
     for (int d = 0; d < a->mesh->domain_count && status == CW_OK; ++d) {
       int64_t count = 0;
       for (int64_t i = 0; i < total; ++i)

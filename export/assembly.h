@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The mesh as a whole without holding it: a first look at the region files finds the numbers every region starts at,
-// the shared points, and which cells meet across dividing planes. Regions are then checked and written one at a time,
+// the shared points, and which cells meet across partition planes. Regions are then checked and written one at a time,
 // in any order and from any rank (region_check.h).
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
@@ -37,7 +37,7 @@ typedef struct {
 typedef struct {
   int64_t first_point; // points of the domains before
   int64_t points, tetrahedra, pyramids, prisms, cells;
-  // Known when all regions have been checked; `orthogonality` holds the faces on dividing planes before.
+  // Known when all regions have been checked; `orthogonality` holds the faces on partition planes before.
   double volume, least_volume; // m3
   CwOrthogonality orthogonality;
 } CwDomainTotal;
@@ -55,8 +55,8 @@ typedef struct {
 } CwAssembly;
 
 // Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a shared point differs
-// between regions, a face on a dividing plane has no partner, the surface of a domain is not closed, or a patch that is
-// no wall is empty. Collective.
+// between regions, a face on a partition plane has no partner, the surface of a domain is not closed, or a patch that
+// is no wall is empty. Collective.
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *assembly);
 void cw_assembly_free(CwAssembly *assembly);
 

@@ -29,7 +29,7 @@ CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count,
   MPI_Type_contiguous((int)size, MPI_BYTE, &type);
   MPI_Type_commit(&type);
   MPI_Allreduce(&count, &sum, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
-  CW_REQUIRE(sum <= INT_MAX, CW_ERR_EXPORT, "%lld faces on dividing planes or interfaces; at most %d are allowed",
+  CW_REQUIRE(sum <= INT_MAX, CW_ERR_EXPORT, "%lld faces on partition planes or interfaces; at most %d are allowed",
              (long long)sum, INT_MAX);
   if (ranks->rank == 0) {
     *all = calloc(sum ? (size_t)sum : 1, size);

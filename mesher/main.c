@@ -4,7 +4,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 
-#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/parallel/ranks.h"
 #include "mesher/policy.h"
 #include "mesher/run/mesh_run.h"
@@ -52,7 +52,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_record_made_from(run.record, args.run_path, USAGE.reads));
   CW_TRY(cw_mesh_run(&run));
   json_t *account = NULL, *sides = NULL;
-  CW_TRY(cw_ledger_json(&account, &sides));
+  CW_TRY(cw_profiler_json(&account, &sides));
   CW_TRY(cw_record_json(run.record, "together", account));
   CW_TRY(cw_record_json(run.record, "side_by_side", sides));
   long long mine = cw_peak_memory_bytes(), all = 0;
@@ -66,7 +66,7 @@ int main(int argc, char **argv) {
 done:
   if (status != CW_OK) return cw_mpi_fail(status);
   cw_mesh_run_free(&run);
-  cw_ledger_free();
+  cw_profiler_free();
   cw_record_free(run.record);
   free(record_path);
   cw_log_close();

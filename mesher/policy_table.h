@@ -33,8 +33,9 @@ NUMBER(int32_t, recover_hold, 16, none, "1", "flips that only prepare others, be
 // Single changes.
 NUMBER(double, improve_below, 0.4226, none, "quality",
        "sine of 25 degrees: more costs time and gives no better worst ones")
-NUMBER(double, improve_below_crowded, 0.3584, none, "quality",
-       "sine of 21 degrees, in crowded regions: the last degrees, which the boundary keeps many from, cost aspect")
+NUMBER(double, improve_below_many_slender, 0.3584, none, "quality",
+       "sine of 21 degrees, where many tetrahedra are slender: the last degrees, which the boundary keeps many from, "
+       "cost aspect")
 NUMBER(int32_t, improve_passes, 5, none, "1", "over the list, at most")
 NUMBER(double, move_gain, 2e-3, none, "quality", "least gain of a move: smaller ones cost much and give little")
 NUMBER(double, move_step, 0.2, none, "radius", "first step of the search for the best place in a cavity")
@@ -47,9 +48,11 @@ NUMBER(double, insert_aim, 0.32, none, "quality", "second threshold")
 NUMBER(double, insert_aim_low, 0.25, none, "quality", "third threshold, before none")
 NUMBER(double, insert_shell, 0.2, none, "edge", "distance between the shells of places round about")
 NUMBER(double, slender_aspect, 1.6, none, "1", "longest over shortest edge above which the longest edge may go")
-NUMBER(double, slender_aspect_crowded, 1.5, none, "1", "the same in crowded regions, once points were taken away")
+NUMBER(double, slender_aspect_many, 1.5, none, "1",
+       "the same where many tetrahedra are slender, once points were taken away")
 NUMBER(double, usual_aspect, 1.4, none, "1", "of a tetrahedron that neither helps nor hinders a sum of aspects")
-NUMBER(double, crowded_share, 0.235, none, "1", "of slender tetrahedra, above which points stand too close and some go")
+NUMBER(double, many_slender_share, 0.235, none, "1",
+       "of slender tetrahedra, above which points stand too close and some go")
 NUMBER(double, collapse_loss, 1.0, none, "aspect",
        "a point goes although the sum of aspects grows by less: relaxing mends it")
 NUMBER(int32_t, collapse_slender, 7, none, "1", "slender tetrahedra with their shortest edge at a point that is tried")
@@ -67,12 +70,12 @@ NUMBER(int32_t, interface_weight, 2, none, "1",
        "of tetrahedra beside partition planes, whose triangles both sides share")
 NUMBER(double, pull_needed, 0.5, none, "edge", "where a second time pays")
 NUMBER(int32_t, steps_needed, 1, none, "1", "towards even edges there")
-NUMBER(int32_t, steps_crowded, 3, none, "1", "in crowded regions")
+NUMBER(int32_t, steps_many_slender, 3, none, "1", "where many tetrahedra are slender")
 NUMBER(double, pull_only, 0.14, none, "edge", "where it does not pay")
 NUMBER(int32_t, steps_beside, 3, none, "1", "and further ones beside partition planes")
 NUMBER(double, pull_last, 0.22, none, "edge", "the second time")
 NUMBER(int32_t, steps_last, 5, none, "1", "towards even edges then")
-NUMBER(int32_t, steps_last_crowded, 4, none, "1", "in crowded regions")
+NUMBER(int32_t, steps_last_many_slender, 4, none, "1", "where many tetrahedra are slender")
 NUMBER(int32_t, steps_last_beside, 2, none, "1", "and further ones beside partition planes")
 
 // Search of patches for what single changes cannot mend.

@@ -8,7 +8,7 @@ import sys
 
 STAGES = {"pipeline": ["pipeline"], "geometry": ["pipeline", "geometry"], "mesher": ["pipeline", "mesher"],
           "export": ["pipeline", "export"]}
-MESHER = ["parallel", "common", "cad", "size", "surface", "plan", "network", "layers", "skeleton", "heights", "fill",
+MESHER = ["parallel", "common", "cad", "size", "surface", "plan", "network", "layers", "boundary", "thickness", "fill",
           "region", "run"]
 
 # Rooms whose modules still stand in circles. A room that is clean leaves the list; none is ever added.

@@ -20,49 +20,49 @@ void cw_symmetry_turn(int32_t count, int32_t turns, const double x[3], double tu
   memcpy(turned, at, sizeof at);
 }
 
-void cw_orbits_free(CwOrbits *orbits) {
-  free(orbits->next);
-  free(orbits->first);
-  free(orbits->turns);
-  memset(orbits, 0, sizeof *orbits);
+void cw_images_free(CwImages *images) {
+  free(images->next);
+  free(images->first);
+  free(images->turns);
+  memset(images, 0, sizeof *images);
 }
 
-CwStatus cw_orbits_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwOrbits *orbits,
+CwStatus cw_images_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwImages *images,
                         int *whole) {
   CwStatus status = CW_OK;
   *whole = 0;
-  memset(orbits, 0, sizeof *orbits);
-  orbits->next = next;
-  CW_NEW(orbits->first, item_count);
-  CW_NEW(orbits->turns, item_count);
-  for (int32_t i = 0; i < item_count; i++) orbits->first[i] = -1;
+  memset(images, 0, sizeof *images);
+  images->next = next;
+  CW_NEW(images->first, item_count);
+  CW_NEW(images->turns, item_count);
+  for (int32_t i = 0; i < item_count; i++) images->first[i] = -1;
   *whole = 1;
   for (int32_t i = 0; i < item_count && *whole; i++) {
-    if (orbits->first[i] >= 0) continue;
+    if (images->first[i] >= 0) continue;
     int32_t size = 0, at = i;
     do {
-      if (at < 0 || orbits->first[at] >= 0 || size == count) {
+      if (at < 0 || images->first[at] >= 0 || size == count) {
         *whole = 0;
         break;
       }
-      orbits->first[at] = i;
-      orbits->turns[at] = size++;
+      images->first[at] = i;
+      images->turns[at] = size++;
       at = next[at];
     } while (at != i);
     if (size != count && !(size == 1 && allow_fixed)) *whole = 0;
   }
 done:
-  if (!*whole) cw_orbits_free(orbits);
+  if (!*whole) cw_images_free(images);
   return status;
 }
 
-int32_t cw_orbits_turned(const CwOrbits *orbits, int32_t item, int32_t turns) {
-  for (int32_t k = 0; k < turns; k++) item = orbits->next[item];
+int32_t cw_images_turned(const CwImages *images, int32_t item, int32_t turns) {
+  for (int32_t k = 0; k < turns; k++) item = images->next[item];
   return item;
 }
 
-int32_t cw_orbits_size(const CwOrbits *orbits, int32_t count, int32_t item) {
-  return orbits->next[item] == item ? 1 : count;
+int32_t cw_images_size(const CwImages *images, int32_t count, int32_t item) {
+  return images->next[item] == item ? 1 : count;
 }
 
 // Some places of each face, inside of it: middles of background triangles.
@@ -148,7 +148,7 @@ static int32_t face_image(const CwCad *cad, const FaceSamples *samples, int32_t 
   return of->count > 0 && edges_agree(cad, count, face, face) ? face : -1;
 }
 
-static int32_t edge_image(const CwCad *cad, const CwOrbits *face, int32_t count, int32_t edge) {
+static int32_t edge_image(const CwCad *cad, const CwImages *face, int32_t count, int32_t edge) {
   double range[2];
   int faces[2];
   cw_cad_edge_range(cad, edge, range);
@@ -199,30 +199,30 @@ static CwStatus try_count(const CwCad *cad, const FaceSamples *samples, int32_t 
     turning += next[f] != f;
   }
   if (turning == 0) goto done;
-  status = cw_orbits_make(faces, next, count, 1, &symmetry->face, whole);
+  status = cw_images_make(faces, next, count, 1, &symmetry->face, whole);
   next = NULL;
   if (!*whole) goto done;
   CW_NEW(next, edges);
   for (int32_t e = 0; e < edges; e++) next[e] = edge_image(cad, &symmetry->face, count, e);
-  status = cw_orbits_make(edges, next, count, 0, &symmetry->edge, whole);
+  status = cw_images_make(edges, next, count, 0, &symmetry->edge, whole);
   next = NULL;
   if (!*whole) goto done;
   CW_NEW(next, cw_cad_vertex_count(cad));
   for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) next[v] = vertex_image(cad, count, v);
-  status = cw_orbits_make(cw_cad_vertex_count(cad), next, count, 0, &symmetry->vertex, whole);
+  status = cw_images_make(cw_cad_vertex_count(cad), next, count, 0, &symmetry->vertex, whole);
   next = NULL;
 done:
   free(next);
   return status;
 }
 
-// Makes the first faces of all orbits one connected passage, as far as may be: what is done for them needs least beside
-// them then.
+// Makes the first faces of all image sets one connected passage, as far as may be: what is done for them needs least
+// beside them then.
 static CwStatus gather_firsts(const CwCad *cad, CwSymmetry *symmetry) {
   CwStatus status = CW_OK;
-  CwOrbits *face = &symmetry->face;
+  CwImages *face = &symmetry->face;
   int32_t faces = cw_cad_face_count(cad), taken = 0, done_with = 0, *queue = NULL;
-  uint8_t *settled = NULL; // of each orbit, by its first as it was
+  uint8_t *settled = NULL; // of each image set, by its first as it was
   CW_NEW(queue, faces);
   CW_NEW(settled, faces);
   for (int32_t f = 0; f < faces; f++) {
@@ -259,9 +259,9 @@ done:
 }
 
 static void clear(CwSymmetry *symmetry) {
-  cw_orbits_free(&symmetry->face);
-  cw_orbits_free(&symmetry->edge);
-  cw_orbits_free(&symmetry->vertex);
+  cw_images_free(&symmetry->face);
+  cw_images_free(&symmetry->edge);
+  cw_images_free(&symmetry->vertex);
 }
 
 CwStatus cw_symmetry_find(const CwCad *cad, const CwBackground *background, CwSymmetry **symmetry) {

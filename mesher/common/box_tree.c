@@ -8,7 +8,7 @@
 #include "mesher/common/hilbert.h"
 #include "mesher/common/radix.h"
 #include "mesher/common/vec.h"
-#include "mesher/parallel/share.h"
+#include "mesher/parallel/parallel_for.h"
 
 enum { LEAF = 4, BITS = 13, DEPTH = 64 };
 
@@ -49,15 +49,15 @@ static void join_nodes(CwBoxTree *tree) {
   }
 }
 
-// As cw_share, which bears its signature, by this rank alone.
-static CwStatus do_all(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out) {
+// As cw_parallel_for, which bears its signature, by this rank alone.
+static CwStatus do_all(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out) {
   CwStatus status = CW_OK;
   for (int32_t i = 0; i < count; i++) CW_TRY(body(context, i, (char *)out + (size_t)i * width));
 done:
   return status;
 }
 
-typedef CwStatus (*Share)(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out);
+typedef CwStatus (*Share)(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out);
 
 static CwStatus fit(CwBoxTree *tree, CwBoxOf box_of, const void *context, Share share) {
   CwStatus status = CW_OK;
@@ -99,7 +99,7 @@ done:
 }
 
 CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree) {
-  return make(count, within, box_of, context, cw_share, tree);
+  return make(count, within, box_of, context, cw_parallel_for, tree);
 }
 
 CwStatus cw_box_tree_make_alone(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context,
@@ -108,7 +108,7 @@ CwStatus cw_box_tree_make_alone(int32_t count, const CwBox *within, CwBoxOf box_
 }
 
 CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context) {
-  return fit(tree, box_of, context, cw_share);
+  return fit(tree, box_of, context, cw_parallel_for);
 }
 
 void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,

@@ -169,7 +169,7 @@ done:
   return status;
 }
 
-// Minimal polygons: the counter-clockwise loops whose inside is in the domain. Each clockwise loop is the rim of a
+// Minimal polygons: the counter-clockwise loops whose inside is in the domain. Each clockwise loop is the outline of a
 // connected piece of the graph; where it lies in a polygon it is a hole of the smallest one around it. Sets `outer`;
 // *count: polygons.
 static CwStatus find_outer_loops(const Graph *graph, const uint8_t *boundary, Loops *loops, int32_t *count) {
@@ -188,7 +188,7 @@ static CwStatus find_outer_loops(const Graph *graph, const uint8_t *boundary, Lo
     *count += loops->outer[l] == l;
   }
   for (int32_t l = 0; l < loops->count; l++) {
-    if (area[l] > 0 || !inside[l]) continue; // outside, a clockwise one is the rim of the whole, or of a solid
+    if (area[l] > 0 || !inside[l]) continue; // outside, a clockwise one is the outline of the whole, or of a solid
     double least = INFINITY;
     for (int32_t m = 0; m < loops->count; m++) {
       if (loops->outer[m] != m || area[m] >= least || area[m] <= -area[l]) continue;

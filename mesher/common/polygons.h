@@ -23,9 +23,9 @@ typedef struct {
 } CwPolygons;
 
 // The bounded faces of the graph whose inner points count as inside: a point is inside when a ray from it crosses an
-// odd number of edges with `boundary` set (walls and caps); the other edges (lines of other partition planes) only
-// divide. Edges cross nowhere but at their ends. Fails with CW_ERR_MESH and the place (coordinates of the open end)
-// where a boundary edge chain does not close.
+// odd number of edges with `boundary` set (walls and open patches); the other edges (lines of other partition planes)
+// only divide. Edges cross nowhere but at their ends. Fails with CW_ERR_MESH and the place (coordinates of the open
+// end) where a boundary edge chain does not close.
 CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count, const int32_t (*edge)[2],
                           const uint8_t *boundary, CwPolygons *polygons);
 void cw_polygons_free(CwPolygons *polygons);

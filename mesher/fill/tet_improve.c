@@ -32,16 +32,17 @@ static CwStatus even_out(CwTetWork *w, CwTetShapes *shapes, int *again) {
   shapes->floor = p->aspect_floor;
   CW_TRY(cw_tet_relax(w, shapes, (CwTetMoves){.centres = 1}));
   *again = shapes->slender.count > p->even_share * shapes->tet_count;
-  if (shapes->slender.count > p->crowded_share * shapes->tet_count) {
+  if (shapes->slender.count > p->many_slender_share * shapes->tet_count) {
     CW_TRY(cw_tet_collapse(w, shapes));
-    shapes->is_crowded = 1;
-    w->limit = p->improve_below_crowded;
+    shapes->many_slender = 1;
+    w->limit = p->improve_below_many_slender;
   }
   CW_TRY(cw_tet_shorten(w, shapes));
   CwTetMoves moves = {.centres = 1, .evenings = 1, .pull = p->pull_only, .beside = p->steps_beside};
   if (*again)
-    moves = (CwTetMoves){
-        .centres = 1, .evenings = shapes->is_crowded ? p->steps_crowded : p->steps_needed, .pull = p->pull_needed};
+    moves = (CwTetMoves){.centres = 1,
+                         .evenings = shapes->many_slender ? p->steps_many_slender : p->steps_needed,
+                         .pull = p->pull_needed};
   CW_TRY(cw_tet_relax(w, shapes, moves));
 done:
   return status;
@@ -52,7 +53,7 @@ done:
 static CwStatus even_out_again(CwTetWork *w, CwTetShapes *shapes) {
   CwStatus status = CW_OK;
   const CwPolicy *p = &cw_policy;
-  const CwTetMoves moves = {.evenings = shapes->is_crowded ? p->steps_last_crowded : p->steps_last,
+  const CwTetMoves moves = {.evenings = shapes->many_slender ? p->steps_last_many_slender : p->steps_last,
                             .pull = p->pull_last,
                             .beside = p->steps_last_beside};
   shapes->floor = w->limit;

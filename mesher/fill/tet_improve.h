@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Improves tetrahedra with the boundary fixed. In this order: single changes (tet_loop.h); for the aspect, moves of all
-// points at once (tet_relax.h) and removal of long edges (tet_shorten.h) and, in crowded regions, of points
-// (tet_collapse.h); single changes again; for the last ones, the search of patches (tet_search.h). What is well shaped
-// stays as it is.
+// points at once (tet_relax.h) and removal of long edges (tet_shorten.h) and, where many tetrahedra are slender, of
+// points (tet_collapse.h); single changes again; for the last ones, the search of patches (tet_search.h). What is well
+// shaped stays as it is.
 #ifndef CUTWATER_MESHER_FILL_TET_IMPROVE_H
 #define CUTWATER_MESHER_FILL_TET_IMPROVE_H
 

@@ -22,7 +22,7 @@ void cw_tet_shapes_free(CwTetShapes *shapes) {
 }
 
 double cw_tet_slender_square(const CwTetShapes *shapes) {
-  double aspect = shapes->is_crowded ? cw_policy.slender_aspect_crowded : cw_policy.slender_aspect;
+  double aspect = shapes->many_slender ? cw_policy.slender_aspect_many : cw_policy.slender_aspect;
   return aspect * aspect;
 }
 

@@ -15,7 +15,7 @@ extern "C" {
 typedef struct {
   const uint8_t *on_plane; // of the fixed points: 1 on a partition plane; or NULL
   double floor;            // quality below which none becomes worse for the sake of the aspect
-  int is_crowded;          // very many tetrahedra are slender: more of them are called so
+  int many_slender;        // very many tetrahedra are slender: more of them are called so
   CwTetList slender;       // of those judged last
   int32_t tet_count;       // without free places, when all were judged last
   uint8_t *irregular; // by point, where relaxing is to follow: 1 where one round it is not as in a lattice; or NULL

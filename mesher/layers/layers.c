@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "mesher/layers/layers_inner.h"
-#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/profiler.h"
 
 // The columns as they came out.
 typedef struct {
@@ -12,10 +12,10 @@ typedef struct {
   const CwLayers *layers;
 } Columns;
 
-static CwStatus find_height(void *context, int32_t v, void *out) {
+static CwStatus find_thickness(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   double d[3];
-  cw_sub(columns->layers->front[v], columns->work->in->x[v], d);
+  cw_sub(columns->layers->top[v], columns->work->in->x[v], d);
   *(double *)out = cw_layers_least_cosine(columns->work, v, d);
   return CW_OK;
 }
@@ -25,32 +25,32 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
   CwLayerWork work = {0};
   CwBoxTree tree = {0};
   memset(layers, 0, sizeof *layers);
-  cw_ledger_part("layers: neighbours");
+  cw_profiler_part("layers: neighbours");
   CW_TRY(cw_layers_topology(input, &work));
-  CW_NEW(layers->front, work.n);
-  CW_NEW(layers->height, work.n);
+  CW_NEW(layers->top, work.n);
+  CW_NEW(layers->thickness, work.n);
   CW_NEW(layers->reason, work.n);
-  cw_ledger_part("layers: directions taken");
+  cw_profiler_part("layers: directions taken");
   CW_TRY_STAGE(cw_layers_normals(&work, outcome), outcome);
-  cw_ledger_part("layers: tree");
+  cw_profiler_part("layers: tree");
   CW_TRY(cw_gap_tree_make(&work, &tree));
-  CW_TRY(cw_layers_limit_by_hollow(&work));
+  CW_TRY(cw_layers_limit_by_concavity(&work));
   memcpy(work.t, work.most, work.n * sizeof *work.t);
-  // The fan needs heights and the gap needs directions: twice is enough for both to settle.
+  // The smoothing needs thicknesses and the gap needs directions: twice is enough for both to settle.
   for (int pass = 0; pass < 2; pass++) {
-    cw_ledger_part("layers: fans set");
-    CW_TRY(cw_layers_fan(&work));
-    cw_ledger_part("layers: grading");
+    cw_profiler_part("layers: smoothing set up");
+    CW_TRY(cw_smooth_directions(&work));
+    cw_profiler_part("layers: grading");
     CW_TRY(cw_layers_limit_by_gap(&work, &tree));
     CW_TRY(cw_layers_grade(&work, NULL));
   }
-  cw_ledger_part("layers: repair");
-  CW_TRY(cw_layers_repair(&work, &tree, layers->front, &layers->repair_rounds));
-  CW_TRY(cw_share("layers: heights", work.n, sizeof *layers->height, find_height, &(Columns){&work, layers},
-                  layers->height));
+  cw_profiler_part("layers: repair");
+  CW_TRY(cw_layers_repair(&work, &tree, layers->top, &layers->repair_rounds));
+  CW_TRY(cw_parallel_for("layers: thicknesses", work.n, sizeof *layers->thickness, find_thickness,
+                         &(Columns){&work, layers}, layers->thickness));
   for (int32_t v = 0; v < work.n; v++) {
     layers->reason[v] = work.reason[v];
-    if (layers->height[v] >= 0.99 * input->target[v]) continue;
+    if (layers->thickness[v] >= 0.99 * input->target[v]) continue;
     layers->thinned_count++;
     // Neither gap nor neighbours: the wall is so sharp there that the offset stops at its floor.
     if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_REPAIR;
@@ -63,8 +63,8 @@ done:
 }
 
 void cw_layers_free(CwLayers *layers) {
-  free(layers->front);
-  free(layers->height);
+  free(layers->top);
+  free(layers->thickness);
   free(layers->reason);
   memset(layers, 0, sizeof *layers);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Pairs of triangles of front, wall and caps that cross. The first search looks at everything, the later ones at what
-// moved since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the triangles;
-// what is left is judged exactly.
+// Pairs of triangles of layer top, wall and open patches that cross. The first search looks at everything, the later
+// ones at what moved since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the
+// triangles; what is left is judged exactly.
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +14,8 @@
 enum { BLOCK = 2048 };
 static const double CLEAR = 1e-9; // way between plane and triangle, over the longest edge, beyond any rounding
 
-// Corners of triangle f of the kind: 0 front, 1 wall, 2 caps. Points are numbered through: front, wall, caps.
+// Corners of triangle f of the kind: 0 layer top, 1 wall, 2 open patches. Points are numbered through: layer top, wall,
+// open patches.
 static void corners(const CwLayerWork *work, int kind, int32_t f, int32_t corner[3]) {
   const CwLayerInput *in = work->in;
   const int32_t *given = kind == 2 ? in->obstacle_triangle[f] : in->triangle[f];
@@ -91,16 +92,16 @@ static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int
   return cw_box_of_triangle(x[corner[0]], x[corner[1]], x[corner[2]]);
 }
 
-// The box of a prism or of a cap's triangle.
+// The box of a prism or of an open patch's triangle.
 static CwBox box_of_item(const void *context, int32_t f) {
   const CwLayerCrossing *crossing = context;
   const CwLayerWork *work = crossing->work;
   const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t walls = work->in->triangle_count;
   if (f >= walls) return box_of(work, x, 2, f - walls);
-  CwBox front = box_of(work, x, 0, f), wall = box_of(work, x, 1, f);
-  cw_box_add(&front, &wall);
-  return front;
+  CwBox top = box_of(work, x, 0, f), wall = box_of(work, x, 1, f);
+  cw_box_add(&top, &wall);
+  return top;
 }
 
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing) {
@@ -131,8 +132,8 @@ void cw_layers_crossing_free(CwLayerCrossing *crossing) {
 typedef struct {
   const CwLayerCrossing *crossing;
   int32_t f;
-  int guided;
-  CwBox front, wall;
+  int constrained;
+  CwBox top, wall;
   CwLayerPair *pair;
   size_t count, capacity;
   CwStatus status;
@@ -153,7 +154,7 @@ static CwStatus try_pair(Finder *finder, int kind_f, int kind_g, int32_t g) {
   const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t a[3], b[3];
   CwBox box = box_of(crossing->work, x, kind_g, g);
-  if (!cw_boxes_meet(kind_f ? &finder->wall : &finder->front, &box)) goto done;
+  if (!cw_boxes_meet(kind_f ? &finder->wall : &finder->top, &box)) goto done;
   corners(crossing->work, kind_f, finder->f, a);
   corners(crossing->work, kind_g, g, b);
   if (cross(x, a, b)) CW_TRY(add_pair(finder, kind_f, kind_g, g));
@@ -161,7 +162,7 @@ done:
   return status;
 }
 
-// A cap's triangle without area crosses nothing that its neighbours do not.
+// An open patch's triangle without area crosses nothing that its neighbours do not.
 static int has_area(const CwLayerInput *in, int32_t g) {
   const int32_t *v = in->obstacle_triangle[g];
   double a[3], b[3], n[3];
@@ -178,7 +179,7 @@ static int visit(void *context, int32_t item) {
   const CwLayerInput *in = crossing->work->in;
   int32_t walls = in->triangle_count, f = finder->f;
   if (item >= walls) {
-    if (!finder->guided && has_area(in, item - walls)) CW_TRY(try_pair(finder, 0, 2, item - walls));
+    if (!finder->constrained && has_area(in, item - walls)) CW_TRY(try_pair(finder, 0, 2, item - walls));
     goto done;
   }
   CW_TRY(try_pair(finder, 0, 1, item));
@@ -189,12 +190,12 @@ done:
   return status != CW_OK;
 }
 
-// Whether a column of front triangle f runs in a guide: there it touches its cap, as it should, and the two
-// triangulations of a curved cap differ by their chords.
-static int is_guided(const CwLayerInput *in, int32_t f) {
-  if (!in->guide_count) return 0;
+// Whether a column of layer top triangle f runs in a constraint: there it touches its open patch, as it should, and the
+// two triangulations of a curved open patch differ by their chords.
+static int is_constrained(const CwLayerInput *in, int32_t f) {
+  if (!in->constraint_count) return 0;
   for (int i = 0; i < 3; i++) {
-    if (in->guide_count[in->triangle[f][i]]) return 1;
+    if (in->constraint_count[in->triangle[f][i]]) return 1;
   }
   return 0;
 }
@@ -207,10 +208,10 @@ static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t
   Finder finder = {.crossing = crossing};
   for (int32_t i = first; i < last; i++) {
     int32_t f = finder.f = crossing->list[i];
-    finder.guided = is_guided(crossing->work->in, f);
-    finder.front = box_of(crossing->work, x, 0, f);
+    finder.constrained = is_constrained(crossing->work->in, f);
+    finder.top = box_of(crossing->work, x, 0, f);
     finder.wall = box_of(crossing->work, x, 1, f);
-    CwBox box = crossing->searched ? finder.front : box_of_item(crossing, f);
+    CwBox box = crossing->searched ? finder.top : box_of_item(crossing, f);
     cw_box_tree_overlaps(&crossing->tree, &box, visit, &finder);
     CW_TRY(finder.status);
   }
@@ -233,14 +234,14 @@ static void drop_active(CwLayerCrossing *crossing) {
   crossing->pair_count = kept;
 }
 
-CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved) {
+CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[3], const uint8_t *moved) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = crossing->work;
   const CwLayerInput *in = work->in;
   void **bytes = NULL;
   int64_t *size = NULL;
   int32_t blocks = 0;
-  memcpy(crossing->x, front, (size_t)work->n * sizeof *front);
+  memcpy(crossing->x, top, (size_t)work->n * sizeof *top);
   crossing->list_count = 0;
   for (int32_t f = 0; f < in->triangle_count; f++) {
     const int32_t *v = in->triangle[f];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Where the front of the layers crosses itself, the wall or a cap, and the wall itself: kept up to date as columns
-// move.
+// Where the layer top of the layers crosses itself, the wall or an open patch, and the wall itself: kept up to date as
+// columns move.
 #ifndef CUTWATER_MESHER_LAYERS_LAYERS_CROSSING_H
 #define CUTWATER_MESHER_LAYERS_LAYERS_CROSSING_H
 
 #include "mesher/common/box_tree.h"
 #include "mesher/layers/layer_columns.h"
 
-// Two triangles that cross; kinds are 0 front, 1 wall, 2 caps.
+// Two triangles that cross; kinds are 0 layer top, 1 wall, 2 open patches.
 typedef struct {
   int32_t f, g, kind_f, kind_g;
 } CwLayerPair;
@@ -15,19 +15,19 @@ typedef struct {
 typedef struct {
   const CwLayerWork *work;
   int32_t item_count;
-  double (*x)[3];  // front, wall, caps
-  CwBoxTree tree;  // of the prisms and the caps; may be given in any order
+  double (*x)[3];  // layer top, wall, open patches
+  CwBoxTree tree;  // of the prisms and the open patches; may be given in any order
   uint8_t *active; // triangles that moved
   int32_t *list, list_count;
   int searched; // a first time
   int32_t pair_count;
-  CwLayerPair *pair; // front with front, wall or cap; wall with wall, looked for once
+  CwLayerPair *pair; // layer top with layer top, wall or open patch; wall with wall, looked for once
 } CwLayerCrossing;
 
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing); // zeroed before
 void cw_layers_crossing_free(CwLayerCrossing *crossing);
-// Brings the pairs up to date with the front; moved: vertices that moved since the last time; the first time all those
-// not known to be clear of one another. Collective.
-CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved);
+// Brings the pairs up to date with the layer top; moved: vertices that moved since the last time; the first time all
+// those not known to be clear of one another. Collective.
+CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[3], const uint8_t *moved);
 
 #endif

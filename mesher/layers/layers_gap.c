@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
-#include "mesher/layers/height_gradation.h"
+#include "mesher/layers/thickness_gradation.h"
 #include "mesher/layers/layers_inner.h"
 
 static const double LEAST_APART = 0.25; // of the wall's edge: distance of columns that nearly meet
@@ -72,7 +72,7 @@ static double hit(const CwLayerInput *in, int32_t f, const double x[3], const do
   return cw_dot(e2, q) / det;
 }
 
-// Walls around v, and walls at a concave crease next to v, bound no gap: the fan keeps columns clear of
+// Walls around v, and walls at a concave crease next to v, bound no gap: the smoothing keeps columns clear of
 // those.
 static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
   for (int i = 0; i < 3; i++) {
@@ -89,7 +89,7 @@ static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
 typedef struct {
   const CwLayerWork *work;
   int32_t v;
-  int guided;
+  int constrained;
   double g[3], stretch, offset, best, far;
 } Ray;
 
@@ -103,8 +103,8 @@ static int meet(void *context, int32_t f) {
     if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
     ray->best = fmin(ray->best, CW_GAP_SHARE * way / ray->stretch);
   } else {
-    // A column on a rim runs inside its own cap and must not take that for an obstacle.
-    if (facing < (ray->guided ? 0.3 : 0.05)) return 0;
+    // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
+    if (facing < (ray->constrained ? 0.3 : 0.05)) return 0;
     ray->best = fmin(ray->best, 0.6 * way / ray->stretch);
   }
   return 0;
@@ -117,13 +117,14 @@ typedef struct {
   int32_t count, *vertex;
 } Gaps;
 
-// Largest height that the gap along the column allows; INFINITY where nothing stands within reach.
-static CwStatus free_height(void *context, int32_t i, void *out) {
+// Largest thickness that the gap along the column allows; INFINITY where nothing stands within reach.
+static CwStatus free_thickness(void *context, int32_t i, void *out) {
   const Gaps *gaps = context;
   const CwLayerWork *work = gaps->work;
   const CwLayerInput *in = work->in;
   int32_t v = gaps->vertex[i];
-  Ray ray = {.work = work, .v = v, .guided = in->guide_count && in->guide_count[v] > 0, .best = INFINITY};
+  Ray ray = {
+      .work = work, .v = v, .constrained = in->constraint_count && in->constraint_count[v] > 0, .best = INFINITY};
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
@@ -149,7 +150,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
     gaps.vertex[gaps.count++] = v;
   }
   CW_NEW_UNSET(most, gaps.count);
-  CW_TRY(cw_share("layers: gaps", gaps.count, sizeof *most, free_height, &gaps, most));
+  CW_TRY(cw_parallel_for("layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
   for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], work->gap[v]);
@@ -161,8 +162,8 @@ done:
   return status;
 }
 
-// Whether the fan sees to the columns at both ends of this edge: it lies along a crease or runs into one.
-static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
+// Whether the smoothing sees to the columns at both ends of this edge: it lies along a crease or runs into one.
+static int smoothing_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
   int at_v = work->crease[v] == CW_CREASE_CONCAVE, at_w = work->crease[w] == CW_CREASE_CONCAVE;
   if (!at_v || !at_w) return at_v || at_w;
   double along_v = cw_dot(work->along[v], e), along_w = cw_dot(work->along[w], e), least = 0.7 * cw_norm(e);
@@ -179,8 +180,8 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
     int32_t w = work->near[k];
     double e[3];
     cw_sub(in->x[w], in->x[v], e);
-    if (fan_parts(work, v, w, e)) continue;
-    // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
+    if (smoothing_parts(work, v, w, e)) continue;
+    // Without constraints: the smoothing sees to what those tilt. Of the edge's length squared, by the thickness:
     double closing = cw_dot(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
                      cw_dot(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
     if (closing > 0) most = fmin(most, share * cw_dot(e, e) / closing);
@@ -189,36 +190,37 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
-  return cw_share("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
+CwStatus cw_layers_limit_by_concavity(CwLayerWork *work) {
+  return cw_parallel_for("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
 }
 
-// Height of w at most, beside v: by the distance of their columns on the wall or at the height of the lower one,
+// Thickness of w at most, beside v: by the distance of their columns on the wall or at the thickness of the lower one,
 // whichever is less. Beside a concave crease columns lean away from it by less and less, so that they stand closer on
-// the front than on the wall, and heights that rose by their distance there would fold the front along the crease.
+// the layer top than on the wall, and thicknesses that rose by their distance there would fold the layer top along the
+// crease.
 static double most_beside(const void *context, int32_t v, int32_t w) {
   const CwLayerWork *work = context;
   double e[3], d[3], t = fmin(work->t[v], work->t[w]);
   cw_sub(work->in->x[w], work->in->x[v], e);
   for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
   double wall = cw_norm(e);
-  return work->t[v] + CW_HEIGHT_SLOPE * fmin(wall, fmax(cw_norm(d), LEAST_APART * wall));
+  return work->t[v] + CW_THICKNESS_SLOPE * fmin(wall, fmax(cw_norm(d), LEAST_APART * wall));
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
   CwStatus status = CW_OK;
   uint8_t *graded = NULL;
   CW_NEW(graded, work->n);
-  CW_TRY(cw_grade_heights(&(CwGradation){.step = "layers: steep",
-                                         .count = work->n,
-                                         .start = work->face_start,
-                                         .triangle = work->face,
-                                         .corner = work->in->triangle,
-                                         .most = most_beside,
-                                         .context = work,
-                                         .height = work->t,
-                                         .graded = graded},
-                          lowered));
+  CW_TRY(cw_grade_thickness(&(CwGradation){.step = "layers: steep",
+                                           .count = work->n,
+                                           .start = work->face_start,
+                                           .triangle = work->face,
+                                           .corner = work->in->triangle,
+                                           .most = most_beside,
+                                           .context = work,
+                                           .thickness = work->t,
+                                           .graded = graded},
+                            lowered));
   for (int32_t v = 0; v < work->n; v++) {
     if (graded[v]) work->reason[v] = CW_LAYER_GRADATION;
   }

@@ -67,23 +67,23 @@ static void search_plane(Search *search, const double m[3]) {
   }
 }
 
-double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
+double cw_layers_most_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
                              double g[3]) {
   Search search = {.count = count, .normal = normal, .best = -2};
   double line[3] = {0};
-  if (guide_count == 2) cw_cross(guide[0], guide[1], line);
-  if (guide_count == 0)
+  if (constraint_count == 2) cw_cross(constraint[0], constraint[1], line);
+  if (constraint_count == 0)
     search_free(&search);
-  else if (guide_count == 2 && cw_norm(line) > 1e-3)
+  else if (constraint_count == 2 && cw_norm(line) > 1e-3)
     offer_both(&search, line);
   else
-    search_plane(&search, guide[0]);
+    search_plane(&search, constraint[0]);
   memcpy(g, search.g, sizeof search.g);
   return search.best;
 }
 
 int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]) {
-  // Vertices with very many faces lie on smooth fans; a coarser distinction is enough there.
+  // Vertices with very many faces lie on smooth surfaces; a coarser distinction is enough there.
   for (double same = 1e-9;; same *= 30) {
     int count = 0;
     int32_t k = work->face_start[v];
@@ -120,7 +120,7 @@ void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
   const CwLayerInput *in = work->in;
   for (int k = 0; k < 3; k++) end[k] = in->x[v][k] + work->t[v] * work->column[v][k];
-  if (in->snap && in->guide_count && in->guide_count[v] > 0) in->snap(in->snap_context, v, end);
+  if (in->snap && in->constraint_count && in->constraint_count[v] > 0) in->snap(in->snap_context, v, end);
 }
 
 // Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
@@ -171,7 +171,7 @@ done:
   return status;
 }
 
-// What the few vertices on creases and in guides have besides.
+// What the few vertices on creases and in constraints have besides.
 typedef struct {
   const CwLayerWork *work;
   int32_t count, *vertex;
@@ -181,8 +181,8 @@ typedef struct {
   double base[3], base_cos, along[3];
 } Held;
 
-static int guides_at(const CwLayerWork *work, int32_t v) {
-  return work->in->guide_count ? work->in->guide_count[v] : 0;
+static int constraints_at(const CwLayerWork *work, int32_t v) {
+  return work->in->constraint_count ? work->in->constraint_count[v] : 0;
 }
 
 static CwStatus find_held(void *context, int32_t i, void *out) {
@@ -191,28 +191,29 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
   int32_t v = special->vertex[i];
   Held *made = out;
   double normal[CW_LAYER_NORMALS][3];
-  int count = cw_layers_distinct_normals(work, v, normal), guides = guides_at(work, v);
+  int count = cw_layers_distinct_normals(work, v, normal), constraints = constraints_at(work, v);
   if (work->crease[v] != CW_CREASE_NONE) edge_direction(count, normal, made->along);
   memcpy(made->base, work->normal[v], sizeof made->base);
   made->base_cos = work->normal_cos[v];
-  if (guides == 0) return CW_OK;
+  if (constraints == 0) return CW_OK;
   made->base_cos =
-      cw_layers_most_normal(count, (const double(*)[3])normal, guides, work->in->guide_normal[v], made->base);
+      cw_layers_most_normal(count, (const double(*)[3])normal, constraints, work->in->constraint_normal[v], made->base);
   return CW_OK;
 }
 
 // Whether a column of this cosine leaves the wall inside what holds it at vertex v. Not in a block: all ranks fail
-// alike, and may go on with other planes, but not with other caps.
+// alike, and may go on with other planes, but not with other open patches.
 static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const double *x = work->in->x[v];
   if (cosine > LEAST_COSINE) goto done;
-  CW_REQUIRE(!work->in->guide_stays || !work->in->guide_stays[v], CW_ERR_MESH,
-             "layers: no column inside the cap at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
-             "%.2f needed): it is nearly tangent to the wall there",
-             CW_MM(x), cosine, LEAST_COSINE);
+  CW_REQUIRE(
+      !work->in->constraint_stays || !work->in->constraint_stays[v], CW_ERR_MESH,
+      "layers: no column inside the open patch at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
+      "%.2f needed): it is nearly tangent to the wall there",
+      CW_MM(x), cosine, LEAST_COSINE);
   cw_outcome_set(outcome, CW_OUTCOME_REPLAN, x,
-                 "no column inside a dividing plane leaves the wall (best cosine %.3f, at least %.2f needed)", cosine,
+                 "no column inside a partition plane leaves the wall (best cosine %.3f, at least %.2f needed)", cosine,
                  LEAST_COSINE);
 done:
   return status;
@@ -225,16 +226,16 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
   Held *held = NULL;
   CW_NEW_UNSET(made, work->n);
   CW_NEW_UNSET(special.vertex, work->n);
-  CW_TRY(cw_share("layers: directions", work->n, sizeof *made, find_direction, work, made));
+  CW_TRY(cw_parallel_for("layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
     work->normal_cos[v] = work->base_cos[v] = made[v].normal_cos;
     work->crease[v] = (uint8_t)made[v].crease;
-    if (made[v].crease != CW_CREASE_NONE || guides_at(work, v) > 0) special.vertex[special.count++] = v;
+    if (made[v].crease != CW_CREASE_NONE || constraints_at(work, v) > 0) special.vertex[special.count++] = v;
   }
   CW_NEW_UNSET(held, special.count);
-  CW_TRY(cw_share("layers: directions", special.count, sizeof *held, find_held, &special, held));
+  CW_TRY(cw_parallel_for("layers: directions", special.count, sizeof *held, find_held, &special, held));
   for (int32_t i = 0; i < special.count; i++) {
     int32_t v = special.vertex[i];
     CW_TRY_STAGE(judge_column(work, v, held[i].base_cos, outcome), outcome);

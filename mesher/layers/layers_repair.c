@@ -6,7 +6,7 @@
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/schedule.h"
 
-enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
+enum { ROUNDS = 40, TURNS = 4, RESMOOTH = 3 };
 enum { TOGETHER = 16 };                 // columns at least that are turned in one task
 enum { MANY = 2048 };                   // prisms that are worth handing round the ranks
 enum { FOR_SHAPE = 1, FOR_SOUNDNESS };  // what a column is turned and thinned for
@@ -17,7 +17,7 @@ static const double LEAST_SHARE = 0.01; // of its target: a column this thin tha
 
 typedef struct {
   CwLayerWork *work;
-  double (*front)[3];
+  double (*top)[3];
   double *quality;         // of each prism
   int32_t bad_count, *bad; // prisms
   int32_t *stale;          // prisms to judge
@@ -26,29 +26,29 @@ typedef struct {
   int32_t moved_count, *moved_list;
   uint8_t *uncrossed; // and since crossings were looked for
   double limit;       // prism quality asked for
-  double *height;     // as placed
+  double *thickness;  // as placed
   CwLayerCrossing crossing;
 } Repair;
 
-// Height down to which column v may be thinned for a better shape.
-static double least_height(const CwLayerWork *work, int32_t v) {
+// Thickness down to which column v may be thinned for a better shape.
+static double least_thickness(const CwLayerWork *work, int32_t v) {
   return work->in->least ? work->in->least[v] : 0;
 }
 
-// The front, and rounder prisms, count as long as one of the columns can still give way. What is good but for its shear
-// is CW_LAYER_GOOD: such columns are turned once more at the end, but never thinned.
+// The layer top, and rounder prisms, count as long as one of the columns can still give way. What is good but for its
+// shear is CW_LAYER_GOOD: such columns are turned once more at the end, but never thinned.
 static double judge(const Repair *repair, int32_t f) {
   const CwLayerWork *work = repair->work;
-  const double(*front)[3] = (const double(*)[3])repair->front;
-  double prism = cw_layers_prism_quality(work, f, front), quality = prism < KEPT ? prism : CW_LAYER_GOOD;
+  const double(*top)[3] = (const double(*)[3])repair->top;
+  double prism = cw_layers_prism_quality(work, f, top), quality = prism < KEPT ? prism : CW_LAYER_GOOD;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
-    if (work->t[v] <= least_height(work, v)) continue;
-    quality = fmin(prism, cw_layers_front_quality(work, f, front));
+    if (work->t[v] <= least_thickness(work, v)) continue;
+    quality = fmin(prism, cw_layers_top_quality(work, f, top));
     break;
   }
   if (quality <= CW_LAYER_GOOD) return quality;
-  return cw_layers_shear_quality(work, f, front, prism) < CW_LAYER_GOOD ? CW_LAYER_GOOD : quality;
+  return cw_layers_shear_quality(work, f, top, prism) < CW_LAYER_GOOD ? CW_LAYER_GOOD : quality;
 }
 
 static CwStatus judge_stale(void *context, int32_t i, void *out) {
@@ -85,7 +85,7 @@ static CwStatus find_bad(Repair *repair) {
   }
   if (stale > MANY) {
     CW_NEW_UNSET(many, stale);
-    CW_TRY(cw_share("layers: prisms", stale, sizeof *many, judge_stale, repair, many));
+    CW_TRY(cw_parallel_for("layers: prisms", stale, sizeof *many, judge_stale, repair, many));
   }
   for (int32_t i = 0; i < stale; i++) {
     int32_t f = repair->stale[i];
@@ -96,7 +96,7 @@ static CwStatus find_bad(Repair *repair) {
   memset(repair->mark, 0, (size_t)work->n);
   for (int32_t i = 0; i < kept; i++) {
     int32_t f = repair->bad[i];
-    int sound = cw_layers_prism_quality(work, f, (const double(*)[3])repair->front) >= fmin(KEPT, repair->limit);
+    int sound = cw_layers_prism_quality(work, f, (const double(*)[3])repair->top) >= fmin(KEPT, repair->limit);
     for (int k = 0; k < 3; k++) {
       uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
       if (*mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
@@ -107,13 +107,13 @@ done:
   return status;
 }
 
-// Puts the ends of the columns whose height changed where they belong.
+// Puts the ends of the columns whose thickness changed where they belong.
 static void place_changed(Repair *repair) {
   const CwLayerWork *work = repair->work;
   for (int32_t v = 0; v < work->n; v++) {
-    if (work->t[v] == repair->height[v]) continue;
-    cw_layers_place(work, v, repair->front[v]);
-    repair->height[v] = work->t[v];
+    if (work->t[v] == repair->thickness[v]) continue;
+    cw_layers_place(work, v, repair->top[v]);
+    repair->thickness[v] = work->t[v];
     set_moved(repair, v);
   }
 }
@@ -127,7 +127,7 @@ static CwStatus thin_marked(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
   for (int32_t v = 0; v < work->n; v++) {
-    double least = repair->mark[v] == FOR_SHAPE ? least_height(work, v) : 0;
+    double least = repair->mark[v] == FOR_SHAPE ? least_thickness(work, v) : 0;
     if (!repair->mark[v] || work->t[v] <= least) continue;
     work->t[v] = fmax(THIN * work->t[v], least);
     work->reason[v] = CW_LAYER_REPAIR;
@@ -138,13 +138,13 @@ done:
   return status;
 }
 
-// Marks the columns of crossing front triangles; *crossing: pairs that matter.
+// Marks the columns of crossing layer top triangles; *crossing: pairs that matter.
 static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   const CwLayerInput *in = work->in;
   memset(repair->mark, 0, work->n);
-  CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double(*)[3])repair->front, repair->uncrossed));
+  CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double(*)[3])repair->top, repair->uncrossed));
   memset(repair->uncrossed, 0, work->n);
   *crossing = repair->crossing.pair_count;
   for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
@@ -165,13 +165,14 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
         share = fmax(share, work->t[v] / in->target[v]);
       }
     }
-    CW_REQUIRE(share > LEAST_SHARE, CW_ERR_MESH,
-               "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made; ask for more "
-               "cells",
-               CW_MM(x),
-               pair->kind_g == 0   ? "itself"
-               : pair->kind_g == 1 ? "the wall"
-                                   : "a cap");
+    CW_REQUIRE(
+        share > LEAST_SHARE, CW_ERR_MESH,
+        "layers: near (%.4f, %.4f, %.4f) mm the layer top crosses %s however thin the layers are made; ask for more "
+        "cells",
+        CW_MM(x),
+        pair->kind_g == 0   ? "itself"
+        : pair->kind_g == 1 ? "the wall"
+                            : "an open patch");
   }
 done:
   return status;
@@ -186,7 +187,7 @@ typedef struct {
 
 // What one column has become.
 typedef struct {
-  double front[3], column[3];
+  double top[3], column[3];
   int32_t changed;
 } Turned;
 
@@ -238,16 +239,16 @@ static CwStatus turn_group(void *context, int32_t group, void **bytes, int64_t *
   CwStatus status = CW_OK;
   const Groups *groups = context;
   CwLayerWork *work = groups->repair->work;
-  double(*front)[3] = groups->repair->front;
+  double(*top)[3] = groups->repair->top;
   int32_t first = groups->start[group], count = groups->start[group + 1] - first;
   Turned *made = NULL;
   CW_NEW(made, count);
   for (int32_t i = 0; i < count; i++) {
     int32_t v = groups->vertex[first + i];
-    memcpy(made[i].front, front[v], sizeof *front);
-    cw_layers_turn(work, v, front, cw_layers_around);
-    made[i].changed = memcmp(made[i].front, front[v], sizeof *front) != 0;
-    memcpy(made[i].front, front[v], sizeof *front);
+    memcpy(made[i].top, top[v], sizeof *top);
+    cw_layers_turn(work, v, top, cw_layers_around);
+    made[i].changed = memcmp(made[i].top, top[v], sizeof *top) != 0;
+    memcpy(made[i].top, top[v], sizeof *top);
     memcpy(made[i].column, work->column[v], sizeof made[i].column);
   }
   *bytes = made;
@@ -277,7 +278,7 @@ static CwStatus turn_marked(Repair *repair) {
     for (int32_t i = groups.start[g]; i < groups.start[g + 1]; i++, made++) {
       int32_t v = groups.vertex[i];
       if (!made->changed) continue;
-      memcpy(repair->front[v], made->front, sizeof made->front);
+      memcpy(repair->top[v], made->top, sizeof made->top);
       memcpy(work->column[v], made->column, sizeof made->column);
       set_moved(repair, v);
     }
@@ -292,37 +293,37 @@ done:
   return status;
 }
 
-// Fans the columns anew for the heights as they are now.
-static CwStatus fan_again(Repair *repair) {
+// Smoothing the columns anew for the thicknesses as they are now.
+static CwStatus smoothing_again(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
-  CW_TRY(cw_layers_fan(work));
+  CW_TRY(cw_smooth_directions(work));
   for (int32_t v = 0; v < work->n; v++) {
     double before[3];
-    memcpy(before, repair->front[v], sizeof before);
-    cw_layers_place(work, v, repair->front[v]);
-    if (memcmp(before, repair->front[v], sizeof before) != 0) set_moved(repair, v);
+    memcpy(before, repair->top[v], sizeof before);
+    cw_layers_place(work, v, repair->top[v]);
+    if (memcmp(before, repair->top[v], sizeof before) != 0) set_moved(repair, v);
   }
 done:
   return status;
 }
 
-// Turns once more the columns that keep their first height although prism or front could be better (those were turned
-// last while they were taller), and those that lean so much that determinants are small. *turned: whether any did.
-// Collective.
+// Turns once more the columns that keep their first height although prism or layer top could be better (those were
+// turned last while they were taller), and those that lean so much that determinants are small. *turned: whether any
+// did. Collective.
 static CwStatus turn_kept(Repair *repair, int *turned) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
-  const double(*front)[3] = (const double(*)[3])repair->front;
+  const double(*top)[3] = (const double(*)[3])repair->top;
   *turned = 0;
   for (int pass = 0; pass < TURNS; pass++) {
     int marked = 0;
     memset(repair->mark, 0, (size_t)work->n);
     for (int32_t f = 0; f < work->in->triangle_count; f++) {
       if (repair->quality[f] != CW_LAYER_GOOD) continue;
-      double prism = cw_layers_prism_quality(work, f, front);
-      double shape = fmin(prism, cw_layers_front_quality(work, f, front));
-      if (fmin(shape, cw_layers_shear_quality(work, f, front, prism)) >= CW_LAYER_GOOD) continue;
+      double prism = cw_layers_prism_quality(work, f, top);
+      double shape = fmin(prism, cw_layers_top_quality(work, f, top));
+      if (fmin(shape, cw_layers_shear_quality(work, f, top, prism)) >= CW_LAYER_GOOD) continue;
       for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[f][k]] = FOR_SHAPE;
       marked = 1;
     }
@@ -349,14 +350,14 @@ static CwStatus start(Repair *repair, CwBoxTree *tree) {
   CW_NEW_UNSET(repair->stale, triangles);
   CW_NEW(repair->uncrossed, n);
   memset(repair->uncrossed, 1, (size_t)n);
-  CW_NEW_UNSET(repair->height, n);
+  CW_NEW_UNSET(repair->thickness, n);
   CW_TRY(cw_layers_crossing_make(work, &repair->crossing));
   repair->crossing.tree = *tree; // the prisms stand where the walls do
   memset(tree, 0, sizeof *tree);
-  CW_TRY(cw_share("layers: ends", n, sizeof *repair->front, find_end, work, repair->front));
-  memcpy(repair->height, work->t, (size_t)n * sizeof *repair->height);
+  CW_TRY(cw_parallel_for("layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
+  memcpy(repair->thickness, work->t, (size_t)n * sizeof *repair->thickness);
   for (int32_t f = 0; f < triangles; f++) repair->stale[f] = f;
-  CW_TRY(cw_share("layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair, repair->quality));
+  CW_TRY(cw_parallel_for("layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair, repair->quality));
   for (int32_t f = 0; f < triangles; f++) {
     if (repair->quality[f] < CW_LAYER_GOOD) repair->bad[repair->bad_count++] = f;
   }
@@ -384,10 +385,11 @@ static CwStatus not_repaired(Repair *repair, int32_t crossing) {
     if (repair->mark[v]) last = v;
   }
   const double *x = work->in->x[last];
-  status = CW_FAIL(CW_ERR_MESH,
-                   "layers: no valid front after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
-                   "(%.4f, %.4f, %.4f) mm",
-                   ROUNDS, repair->bad_count, crossing, CW_MM(x));
+  status =
+      CW_FAIL(CW_ERR_MESH,
+              "layers: no valid layer top after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
+              "(%.4f, %.4f, %.4f) mm",
+              ROUNDS, repair->bad_count, crossing, CW_MM(x));
 done:
   return status;
 }
@@ -400,13 +402,13 @@ static void repair_free(Repair *repair) {
   free(repair->bad);
   free(repair->stale);
   free(repair->uncrossed);
-  free(repair->height);
+  free(repair->thickness);
   cw_layers_crossing_free(&repair->crossing);
 }
 
-CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds) {
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds) {
   CwStatus status = CW_OK;
-  Repair repair = {.work = work, .front = front};
+  Repair repair = {.work = work, .top = top};
   int32_t crossing = 0;
   int once_more = 0;
   CW_TRY(start(&repair, tree));
@@ -427,9 +429,9 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
       }
     }
     CW_TRY(thin_marked(&repair));
-    // What is bad still leans as the old heights asked; less height needs less lean. Once only: the turned columns are
-    // lost by it, and only thinning is sure to come to an end.
-    if (*rounds == REFAN) CW_TRY(fan_again(&repair));
+    // What is bad still leans as the old thicknesses asked; less thickness needs less lean. Once only: the turned
+    // columns are lost by it, and only thinning is sure to come to an end.
+    if (*rounds == RESMOOTH) CW_TRY(smoothing_again(&repair));
   }
   status = not_repaired(&repair, crossing);
 done:

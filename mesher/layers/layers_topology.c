@@ -38,13 +38,14 @@ static CwStatus check_vertex(const CwLayerInput *in, int32_t v) {
   CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
              "layers: wall vertex %d has a coordinate that is not a number", v);
   CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
-             "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", cw_mm(in->target[v]), CW_MM(x));
-  int guides = in->guide_count ? in->guide_count[v] : 0;
-  CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT, "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2",
-             guides, CW_MM(x));
-  for (int i = 0; i < guides; i++)
-    CW_REQUIRE(fabs(cw_norm(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
-               "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", CW_MM(x));
+             "layers: thickness %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", cw_mm(in->target[v]),
+             CW_MM(x));
+  int constraints = in->constraint_count ? in->constraint_count[v] : 0;
+  CW_REQUIRE(constraints >= 0 && constraints <= 2, CW_ERR_INPUT,
+             "layers: %d constraints at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2", constraints, CW_MM(x));
+  for (int i = 0; i < constraints; i++)
+    CW_REQUIRE(fabs(cw_norm(in->constraint_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
+               "layers: constraint normal at (%.4f, %.4f, %.4f) mm is not a unit vector", CW_MM(x));
 done:
   return status;
 }
@@ -91,7 +92,7 @@ static CwStatus lists(CwLayerWork *work) {
   CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count);
   CW_NEW_UNSET(start, work->n + 1);
   for (int32_t v = 0; v <= work->n; v++) start[v] = 2 * work->face_start[v];
-  CW_TRY(cw_share_lists("layers: neighbours", work->n, start, sizeof *work->near, list_near, work, work->near));
+  CW_TRY(cw_parallel_for_lists("layers: neighbours", work->n, start, sizeof *work->near, list_near, work, work->near));
   for (int32_t v = 0; v < work->n; v++) {
     work->near_start[v] = count;
     for (int32_t k = start[v]; k < start[v + 1] && work->near[k] >= 0; k++) work->near[count++] = work->near[k];
@@ -168,8 +169,8 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
   CW_TRY(check_triangles(input));
   CW_TRY(lists(work));
   CW_NEW_UNSET(work->face_normal, input->triangle_count);
-  CW_TRY(cw_share("layers: normals", input->triangle_count, sizeof *work->face_normal, find_normal, work,
-                  work->face_normal));
+  CW_TRY(cw_parallel_for("layers: normals", input->triangle_count, sizeof *work->face_normal, find_normal, work,
+                         work->face_normal));
   CW_NEW_UNSET(work->normal, work->n);
   CW_NEW_UNSET(work->normal_cos, work->n);
   CW_NEW_UNSET(work->base, work->n);
@@ -203,6 +204,6 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->gap);
   free(work->gap_column);
   free(work->curve);
-  cw_fans_free(&work->fans);
+  cw_smoothing_free(&work->smoothing);
   memset(work, 0, sizeof *work);
 }

@@ -2,29 +2,29 @@
 // How good the prisms round a column are, and the search for a better direction of it.
 #include "mesher/layers/layers_inner.h"
 
-static const double FRONT = 0.4;        // what the quality of the front counts beside that of prisms: 0.3 is good
+static const double TOP = 0.4;          // what the quality of the layer top counts beside that of prisms: 0.3 is good
 static const double UPRIGHT = 0.5;      // prism quality from which on columns lean too little to shear prisms much
 static const double MUCH = 100;         // more than any quality
 static const double LEAST_COSINE = 0.3; // of a direction that the search may choose
 
-double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
+double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   const int32_t *v = work->in->triangle[f];
   const double(*x)[3] = work->in->x;
-  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {top[v[0]], top[v[1]], top[v[2]]};
   return cw_prism_quality(wall, end);
 }
 
-double cw_layers_front_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
+double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   const int32_t *v = work->in->triangle[f];
   const double(*x)[3] = work->in->x;
-  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
-  return FRONT * cw_prism_front_quality(wall, end);
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {top[v[0]], top[v[1]], top[v[2]]};
+  return TOP * cw_prism_top_quality(wall, end);
 }
 
-double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*front)[3], double prism) {
+double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism) {
   const int32_t *v = work->in->triangle[f];
   const double(*x)[3] = work->in->x;
-  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {top[v[0]], top[v[1]], top[v[2]]};
   const CwLayerDivision *division = &work->in->division;
   if (division->count < 1 || prism > UPRIGHT) return CW_LAYER_GOOD;
   double last[3], normal[3], column[3];
@@ -38,18 +38,18 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
   return CW_LAYER_GOOD * cw_prism_shear_quality(wall, end, division->count, last);
 }
 
-double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {
+double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first) {
   double prism = INFINITY, end = INFINITY, quality = INFINITY;
   int32_t start = work->face_start[v], count = work->face_start[v + 1] - start, worst = *first;
   for (int32_t i = 0; i < count && quality > floor; i++) {
     int32_t at = (*first + i) % count, f = work->face[start + at];
-    double q = cw_layers_prism_quality(work, f, front), before = quality;
+    double q = cw_layers_prism_quality(work, f, top), before = quality;
     if (q < prism) prism = q;
     if (prism < CW_LAYER_GOOD) {
       quality = prism - MUCH;
     } else {
-      double shear = cw_layers_shear_quality(work, f, front, q);
-      q = cw_layers_front_quality(work, f, front);
+      double shear = cw_layers_shear_quality(work, f, top, q);
+      q = cw_layers_top_quality(work, f, top);
       if (shear < CW_LAYER_GOOD) q = fmin(q, shear);
       if (q < end) end = q;
       quality = end < prism ? end : prism;
@@ -60,21 +60,21 @@ double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front
   return quality;
 }
 
-void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3], CwLayerJudge judge) {
+void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge judge) {
   const CwLayerInput *in = work->in;
   const double step[2] = {0.25, 0.1};
-  int guides = in->guide_count ? in->guide_count[v] : 0;
-  if (guides == 2) return;
+  int constraints = in->constraint_count ? in->constraint_count[v] : 0;
+  if (constraints == 2) return;
   int32_t first = 0;
-  double best = judge(work, v, (const double(*)[3])front, -INFINITY, &first), kept[3], column[3];
+  double best = judge(work, v, (const double(*)[3])top, -INFINITY, &first), kept[3], column[3];
   double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
-  memcpy(kept, front[v], sizeof kept);
+  memcpy(kept, top[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
   for (int s = 0; s < 2; s++) {
     double g[3] = {column[0], column[1], column[2]}, side[3], up[3];
     cw_unit(g);
-    if (guides == 1) {
-      cw_cross(g, in->guide_normal[v][0], side);
+    if (constraints == 1) {
+      cw_cross(g, in->constraint_normal[v][0], side);
       memset(up, 0, sizeof up);
     } else {
       int axis = fabs(g[0]) < 0.6 ? 0 : 1;
@@ -83,25 +83,25 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3], CwLayerJud
       cw_cross(g, e, side);
     }
     cw_unit(side);
-    if (guides == 0) cw_cross(g, side, up);
+    if (constraints == 0) cw_cross(g, side, up);
     double slope = tan(step[s]);
     for (int i = 0; i < 8; i++) {
-      if (guides == 1 && i % 4) continue;
+      if (constraints == 1 && i % 4) continue;
       double angle = i * M_PI / 4, c = cos(angle), d = sin(angle), trial[3];
       for (int k = 0; k < 3; k++) trial[k] = g[k] + slope * (c * side[k] + d * up[k]);
       cw_unit(trial);
       double cosine = cw_layers_least_cosine(work, v, trial);
       if (cosine < least_cosine) continue;
       for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
-      cw_layers_place(work, v, front[v]);
-      double quality = judge(work, v, (const double(*)[3])front, best, &first);
+      cw_layers_place(work, v, top[v]);
+      double quality = judge(work, v, (const double(*)[3])top, best, &first);
       if (quality > best) {
         best = quality;
-        memcpy(kept, front[v], sizeof kept);
+        memcpy(kept, top[v], sizeof kept);
         memcpy(column, work->column[v], sizeof column);
       }
     }
   }
-  memcpy(front[v], kept, sizeof kept);
+  memcpy(top[v], kept, sizeof kept);
   memcpy(work->column[v], column, sizeof column);
 }

@@ -6,15 +6,15 @@
 
 static const double ENOUGH = 1.05 * CW_SMALL_DETERMINANT;
 
-double cw_prism_quality(const double *const wall[3], const double *const front[3]) {
+double cw_prism_quality(const double *const wall[3], const double *const top[3]) {
   double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
   for (int i = 0; i < 3; i++) {
-    cw_sub(front[i], wall[i], d[i]);
+    cw_sub(top[i], wall[i], d[i]);
     height[i] = cw_norm(d[i]);
   }
   for (int i = 0; i < 3; i++) {
     cw_sub(wall[(i + 1) % 3], wall[i], e[i]); // edge from corner i to the next
-    cw_sub(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to front
+    cw_sub(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to layer top
     length[i] = cw_norm(e[i]);
   }
   for (int i = 0; i < 3; i++) {
@@ -40,8 +40,8 @@ double cw_prism_quality(const double *const wall[3], const double *const front[3
   return least;
 }
 
-double cw_prism_front_quality(const double *const wall[3], const double *const front[3]) {
-  const double *const *const x[2] = {wall, front};
+double cw_prism_top_quality(const double *const wall[3], const double *const top[3]) {
+  const double *const *const x[2] = {wall, top};
   double least = INFINITY;
   for (int i = 0; i < 3; i++) {
     double c[2][3], scale[2];
@@ -59,28 +59,28 @@ double cw_prism_front_quality(const double *const wall[3], const double *const f
 }
 
 // Determinant of the right prism with the base's triangle and as high as the top is over it, in the mean.
-static double right_determinant(const double base[3][3], const double top[3][3], int on_wall) {
+static double right_determinant(const double base[3][3], const double upper[3][3], int on_wall) {
   double column[3], normal[3], height = 0, right[3][3];
   cw_normal(base[0], base[1], base[2], normal);
   cw_unit(normal);
   for (int k = 0; k < 3; k++) {
-    cw_sub(top[k], base[k], column);
+    cw_sub(upper[k], base[k], column);
     height += cw_dot(column, normal) / 3;
   }
   for (int k = 0; k < 9; k++) right[k / 3][k % 3] = base[k / 3][k % 3] + height * normal[k % 3];
   return cw_prism_determinant(base, (const double(*)[3])right, on_wall);
 }
 
-double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers,
+double cw_prism_shear_quality(const double *const wall[3], const double *const top[3], int layers,
                               const double last[3]) {
   double least = 1;
   for (int on_wall = 0; on_wall < 2; on_wall++) {
-    double base[3][3], top[3][3];
+    double base[3][3], upper[3][3];
     for (int k = 0; k < 3; k++) {
-      cw_lerp(wall[k], front[k], on_wall ? 0 : 1 - last[k], base[k]);
-      cw_lerp(wall[k], front[k], on_wall ? 1.0 / layers : 1, top[k]);
+      cw_lerp(wall[k], top[k], on_wall ? 0 : 1 - last[k], base[k]);
+      cw_lerp(wall[k], top[k], on_wall ? 1.0 / layers : 1, upper[k]);
     }
-    const double(*b)[3] = (const double(*)[3])base, (*t)[3] = (const double(*)[3])top;
+    const double(*b)[3] = (const double(*)[3])base, (*t)[3] = (const double(*)[3])upper;
     if (right_determinant(b, t, on_wall) < ENOUGH) continue;
     least = fmin(least, cw_prism_determinant(b, t, on_wall) / ENOUGH);
   }

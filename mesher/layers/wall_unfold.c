@@ -10,7 +10,7 @@
 enum { SWEEPS = 8 };
 static const double OPEN = 0.2;      // cosine of a vertex that needs no help
 static const double GAIN = 0.02;     // in the cosine, that is worth a flip
-static const double FLATTEST = 0.02; // height over base of a triangle that a flip may make
+static const double FLATTEST = 0.02; // thickness over base of a triangle that a flip may make
 
 typedef struct {
   const double (*x)[3];
@@ -132,7 +132,7 @@ CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t trian
   for (int32_t v = 0; v < point_count; v++) wall.around[v] = -1;
   for (int32_t t = 0; t < triangle_count; t++)
     for (int k = 0; group[t] >= 0 && k < 3; k++) wall.around[mesh->triangle[t][k]] = t;
-  CW_TRY(cw_share("layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
+  CW_TRY(cw_parallel_for("layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     *folded = 0;

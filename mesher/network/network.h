@@ -3,11 +3,11 @@
 // corners, each discretised once and shared by all surfaces it bounds.
 //
 //   edge piece   part of a CAD edge between corners
-//   cut piece    where a dividing plane meets a CAD face, within the plane's cell
-//   line piece   where two dividing planes meet inside the domain
+//   cut piece    where a partition plane meets a CAD face, within the plane's cell
+//   line piece   where two partition planes meet inside the domain
 //
-// A curve is a wall curve when at least one surface along it is a wall: layers start there. The others (cap with cap,
-// cap with plane, plane with plane) are free curves: they begin where the layers end.
+// A curve is a wall curve when at least one surface along it is a wall: layers start there. The others (open patch with
+// open patch, open patch with plane, plane with plane) are free curves: they begin where the layers end.
 #ifndef CUTWATER_MESHER_NETWORK_NETWORK_H
 #define CUTWATER_MESHER_NETWORK_NETWORK_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Cut curves: the traces of a dividing plane on the CAD faces, found on the background triangulation (marked edges,
+// Cut curves: the traces of a partition plane on the CAD faces, found on the background triangulation (marked edges,
 // chained to loops and arcs: paper, section 2.2, steps 1 to 4) and then put exactly onto plane and surface.
 #include <math.h>
 #include <stdlib.h>
@@ -150,7 +150,7 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
   }
   double length = cw_distance(background->x[found->crossing[2 * key].a], background->x[found->crossing[2 * key].b]);
   CW_END_UNLESS(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + BESIDE, outcome, CW_OUTCOME_REPLAN,
-                guess, "dividing plane %d grazes the edge between faces %s and %s", node, cw_cad_face_name(cad, f),
+                guess, "partition plane %d grazes the edge between faces %s and %s", node, cw_cad_face_name(cad, f),
                 cw_cad_face_name(cad, g));
 done:
   return status;
@@ -183,7 +183,7 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
     } else {
       crossing_on_face(found, key, triangle, uv, x);
       double left = cw_face_onto_plane(cad, face, found->plane, uv, x);
-      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, x, "dividing plane %d grazes face %s", node,
+      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, x, "partition plane %d grazes face %s", node,
                     cw_cad_face_name(cad, face));
     }
     trace->count++;
@@ -226,7 +226,7 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       for (int k = 0; k < 2; k++) split.uv[k] = trace->uv[i][k] + s * (trace->uv[i + 1][k] - trace->uv[i][k]);
       double left = cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.uv, split.x);
       CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, trace->x[i],
-                    "dividing planes %d and %d meet too flatly on face %s", node, q,
+                    "partition planes %d and %d meet too flatly on face %s", node, q,
                     cw_cad_face_name(network->cad, trace->face));
       int32_t skip[1] = {node};
       if (below && !cw_plan_in_cell(plan, q, split.x, 1e-9, skip, 1)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Plane coordinates of a dividing plane: an isometry, so that meshes in (u,v) are meshes in space.
+// Plane coordinates of a partition plane: an isometry, so that meshes in (u,v) are meshes in space.
 #ifndef CUTWATER_MESHER_NETWORK_PLANE_MAP_H
 #define CUTWATER_MESHER_NETWORK_PLANE_MAP_H
 

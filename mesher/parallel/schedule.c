@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/parallel/ranks.h"
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
@@ -166,7 +166,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   double *time = NULL, own = 0;
   Marks marks = {.window = MPI_WIN_NULL};
   int64_t gathered = 0;
-  const char *part = cw_ledger_part("exchange");
+  const char *part = cw_profiler_part("exchange");
   CW_NEW(order, schedule->count);
   CW_NEW(owner, schedule->count);
   CW_NEW(time, schedule->count);
@@ -183,10 +183,10 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     if (schedule->gather) CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }
   for (int32_t task = 0; schedule->gather && task < schedule->count; task++) gathered += size[task];
-  CW_TRY(cw_ledger_tasks(schedule->step, schedule->count, schedule->cost, schedule->after, time, own, gathered));
+  CW_TRY(cw_profiler_tasks(schedule->step, schedule->count, schedule->cost, schedule->after, time, own, gathered));
   if (seconds) memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
   if (schedule->unit) cw_progress_end();
-  cw_ledger_part(part);
+  cw_profiler_part(part);
 done:
   free(time);
   free(owner);

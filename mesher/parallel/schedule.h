@@ -18,7 +18,7 @@ extern "C" {
 typedef CwStatus (*CwTask)(void *context, int32_t task, void **bytes, int64_t *size);
 
 typedef struct {
-  const char *step; // "surface patches", also in the ledger
+  const char *step; // "surface patches", also in the profiler
   const char *unit; // "patches"; NULL: a part of a step, without progress of its own
   int32_t count;
   const double *cost; // predicted, any unit; largest is taken first, ties by index

@@ -10,8 +10,8 @@
 CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
-  const int32_t count[6] = {plan->node_count, plan->region_count, plan->fan_first,
-                            plan->fan_count,  plan->fan_region,   plan->fan_turns};
+  const int32_t count[6] = {plan->node_count,   plan->region_count,  plan->sector_first,
+                            plan->sector_count, plan->sector_region, plan->sector_turns};
   char *block;
   CW_NEW(block, sizeof count + nodes + 2 * numbers);
   memcpy(block, count, sizeof count);
@@ -32,10 +32,10 @@ CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
   memset(plan, 0, sizeof *plan);
   plan->node_count = count[0];
   plan->region_count = count[1];
-  plan->fan_first = count[2];
-  plan->fan_count = count[3];
-  plan->fan_region = count[4];
-  plan->fan_turns = count[5];
+  plan->sector_first = count[2];
+  plan->sector_count = count[3];
+  plan->sector_region = count[4];
+  plan->sector_turns = count[5];
   size_t n = (size_t)plan->region_count;
   CW_NEW(plan->node, n);
   CW_NEW(plan->predicted_cells, n);
@@ -55,29 +55,29 @@ void cw_plan_free(CwPlan *plan) {
   memset(plan, 0, sizeof *plan);
 }
 
-int cw_fan_holds(const CwPlan *plan, int32_t node) {
-  return node >= plan->fan_first && node < plan->fan_first + plan->fan_count;
+int cw_sector_holds(const CwPlan *plan, int32_t node) {
+  return node >= plan->sector_first && node < plan->sector_first + plan->sector_count;
 }
 
-CwPlane cw_fan_end(const CwPlan *plan, int32_t node) {
+CwPlane cw_sector_end(const CwPlan *plan, int32_t node) {
   const double *n = plan->node[node].plane.normal;
   return (CwPlane){{n[1], -n[0], 0}, 0}; // normal x z
 }
 
-double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]) {
-  CwPlane end = cw_fan_end(plan, node);
+double cw_sector_reach(const CwPlan *plan, int32_t node, const double x[3]) {
+  CwPlane end = cw_sector_end(plan, node);
   return cw_plane_distance(&end, x);
 }
 
-int32_t cw_fan_wedge(const CwPlan *plan, const double x[3]) {
-  const CwPlanNode *node = &plan->node[plan->fan_first];
-  int after = cw_plane_distance(&node[plan->fan_count - 1].plane, x) > 0;
-  for (int32_t j = plan->fan_count - 1; j >= 0; j--) { // the last wedge ends at half-plane 0
-    int before_next = cw_plane_distance(&node[(j + 1) % plan->fan_count].plane, x) <= 0;
-    if (after && before_next) return plan->fan_first + j;
+int32_t cw_sector_wedge(const CwPlan *plan, const double x[3]) {
+  const CwPlanNode *node = &plan->node[plan->sector_first];
+  int after = cw_plane_distance(&node[plan->sector_count - 1].plane, x) > 0;
+  for (int32_t j = plan->sector_count - 1; j >= 0; j--) { // the last wedge ends at half-plane 0
+    int before_next = cw_plane_distance(&node[(j + 1) % plan->sector_count].plane, x) <= 0;
+    if (after && before_next) return plan->sector_first + j;
     if (j > 0) after = cw_plane_distance(&node[j - 1].plane, x) > 0;
   }
-  return plan->fan_first; // only on the axis
+  return plan->sector_first; // only on the axis
 }
 
 // Where turns take item `index` of those from..end: as many in every pitch, pitch by pitch.
@@ -86,19 +86,19 @@ static int32_t turned(int32_t count, int32_t turns, int32_t from, int32_t end, i
   return from + (index - from + turns * ((end - from) / count)) % (end - from);
 }
 
-int32_t cw_fan_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node) {
-  int32_t end = plan->fan_first + plan->fan_count;
-  return node < end ? turned(count, turns, plan->fan_first, end, node)
+int32_t cw_sector_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node) {
+  int32_t end = plan->sector_first + plan->sector_count;
+  return node < end ? turned(count, turns, plan->sector_first, end, node)
                     : turned(count, turns, end, plan->node_count, node);
 }
 
-int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region) {
-  return turned(count, turns, plan->fan_region, plan->region_count, region);
+int32_t cw_sector_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region) {
+  return turned(count, turns, plan->sector_region, plan->region_count, region);
 }
 
-int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region) {
-  int32_t within = region - plan->fan_region;
-  return within < 0 ? region : plan->fan_region + within % ((plan->region_count - plan->fan_region) / count);
+int32_t cw_sector_first_region(const CwPlan *plan, int32_t count, int32_t region) {
+  int32_t within = region - plan->sector_region;
+  return within < 0 ? region : plan->sector_region + within % ((plan->region_count - plan->sector_region) / count);
 }
 
 int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {
@@ -106,7 +106,7 @@ int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {
   int32_t node = 0;
   while (node >= 0) {
     int32_t child = plan->node[node].child[cw_plane_distance(&plan->node[node].plane, x) > 0];
-    node = child >= 0 && cw_fan_holds(plan, child) ? plan->node[cw_fan_wedge(plan, x)].child[1] : child;
+    node = child >= 0 && cw_sector_holds(plan, child) ? plan->node[cw_sector_wedge(plan, x)].child[1] : child;
   }
   return -1 - node;
 }
@@ -115,7 +115,7 @@ CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node) {
   int32_t above = plan->node[node].parent;
   if (above < 0) return (CwPlanBound){-1, 0};
   // Of the half-planes the one above knows the first alone.
-  return (CwPlanBound){above, plan->node[above].child[1] == (cw_fan_holds(plan, node) ? plan->fan_first : node)};
+  return (CwPlanBound){above, plan->node[above].child[1] == (cw_sector_holds(plan, node) ? plan->sector_first : node)};
 }
 
 // The innermost plane that bounds a region.
@@ -123,14 +123,14 @@ static CwPlanBound region_bound(const CwPlan *plan, int32_t region) {
   for (int32_t node = 0; node < plan->node_count; node++) {
     if (plan->node[node].child[1] == -1 - region) return (CwPlanBound){node, 1};
     // A wedge is found by the half-plane that opens it.
-    if (plan->node[node].child[0] == -1 - region && !cw_fan_holds(plan, node)) return (CwPlanBound){node, 0};
+    if (plan->node[node].child[0] == -1 - region && !cw_sector_holds(plan, node)) return (CwPlanBound){node, 0};
   }
   return (CwPlanBound){-1, 0}; // the only region
 }
 
 CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound) {
-  if (!cw_fan_holds(plan, bound.node) || !bound.positive) return cw_plan_bound(plan, bound.node);
-  return (CwPlanBound){plan->fan_first + (bound.node - plan->fan_first + 1) % plan->fan_count, 0};
+  if (!cw_sector_holds(plan, bound.node) || !bound.positive) return cw_plan_bound(plan, bound.node);
+  return (CwPlanBound){plan->sector_first + (bound.node - plan->sector_first + 1) % plan->sector_count, 0};
 }
 
 // True where x is within `tolerance` of the half-spaces of the bound and of all further ones.
@@ -148,7 +148,7 @@ static int within(const CwPlan *plan, CwPlanBound bound, const double x[3], doub
 
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count) {
-  if (cw_fan_holds(plan, node) && cw_fan_reach(plan, node, x) < -tolerance) return 0;
+  if (cw_sector_holds(plan, node) && cw_sector_reach(plan, node, x) < -tolerance) return 0;
   return within(plan, cw_plan_bound(plan, node), x, tolerance, skip, skip_count);
 }
 

@@ -2,14 +2,15 @@
 // The decomposition of a domain by partition planes (paper, section 2.1): a binary tree; inner nodes hold planes,
 // leaves are the regions. Immutable once made (plan_make.h, sector_plan.h).
 //
-// With rotational symmetry half-planes that hold the z axis divide the flow around it into wedges, a fan:
+// In the sector decomposition of a domain with rotational symmetry half-planes that hold the z axis divide the flow
+// around it into wedges:
 //
-//   node 0                the plane across the axis; its negative side is that of the pipe
-//   1 .. fan_first - 1    planes between slices
-//   fan_first ...         fan_count half-planes by ascending angle; wedge j lies between half-plane j and the next:
-//                         child[1] of half-plane j (child[0] is that of the one before)
-//   the rest              planes within wedges, pitch by pitch
-//   regions               slices, then from fan_region those of the wedges, pitch by pitch
+//   node 0                    the plane across the axis; its negative side is that of the pipe
+//   1 .. sector_first - 1     planes between slices
+//   sector_first ...          sector_count half-planes by ascending angle; wedge j lies between half-plane j and the
+//                             next: child[1] of half-plane j (child[0] is that of the one before)
+//   the rest                  planes within wedges, pitch by pitch
+//   regions                   slices, then from sector_region those of the wedges, pitch by pitch
 #ifndef CUTWATER_MESHER_PLAN_PLAN_H
 #define CUTWATER_MESHER_PLAN_PLAN_H
 
@@ -25,18 +26,19 @@ extern "C" {
 
 typedef struct {
   CwPlane plane;    // child[0] lies on the negative side
-  int32_t parent;   // -1 for the root; of a half-plane the plane above the fan
+  int32_t parent;   // -1 for the root; of a half-plane the plane above the sectors
   int32_t child[2]; // node, or -1 - region for a leaf
 } CwPlanNode;
 
 typedef struct {
-  int32_t node_count; // region_count - 1, of a fan region_count
+  int32_t node_count; // region_count - 1, of a sector decomposition region_count
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
   double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
-  int32_t fan_first, fan_count, fan_region; // half-planes and the first region of a wedge; fan_count 0: none
-  int32_t fan_turns;                        // that bring the plan's wedges to themselves
+  int32_t sector_first, sector_count,
+      sector_region;    // half-planes and the first region of a wedge; sector_count 0: none
+  int32_t sector_turns; // that bring the plan's wedges to themselves
 } CwPlan;
 
 // A plane that bounds a cell, and the side on which the cell lies.
@@ -73,21 +75,21 @@ int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count);
 
-// True where `node` is a half-plane. Its plane acts only where cw_fan_reach is not negative.
-int cw_fan_holds(const CwPlan *plan, int32_t node);
+// True where `node` is a half-plane. Its plane acts only where cw_sector_reach is not negative.
+int cw_sector_holds(const CwPlan *plan, int32_t node);
 // Where it ends: the plane that holds the axis and stands across it; the distance to it is the way from the axis along
 // the half-plane.
-CwPlane cw_fan_end(const CwPlan *plan, int32_t node);
-double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]);
-// The half-plane that opens the wedge of a point on the fan's side of node 0 (a point on a half-plane belongs to the
+CwPlane cw_sector_end(const CwPlan *plan, int32_t node);
+double cw_sector_reach(const CwPlan *plan, int32_t node, const double x[3]);
+// The half-plane that opens the wedge of a point on the sector side of node 0 (a point on a half-plane belongs to the
 // wedge before it).
-int32_t cw_fan_wedge(const CwPlan *plan, const double x[3]);
+int32_t cw_sector_wedge(const CwPlan *plan, const double x[3]);
 
 // Where `turns` turns of a symmetry of `count` turns take a node or region of the plan.
-int32_t cw_fan_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node);
-int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region);
-// The region that this one is a turned copy of, or itself.
-int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region);
+int32_t cw_sector_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node);
+int32_t cw_sector_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region);
+// The region that this one is a periodic image of, or itself.
+int32_t cw_sector_first_region(const CwPlan *plan, int32_t count, int32_t region);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// How the planner weighs one dividing plane against another.
+// How the planner weighs one partition plane against another.
 #ifndef CUTWATER_MESHER_PLAN_PLAN_COST_H
 #define CUTWATER_MESHER_PLAN_PLAN_COST_H
 

@@ -18,7 +18,7 @@ static const double SAME_POINT = 1e-9;   // of the model's unit
 static const double LEANING = 0.55;      // cosine of a line to a wall's normal: columns that lean more are lower
 static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
 static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
-static const double HOLLOW_WALL = 0.8;   // share of the layers that a line in them leaves behind where the wall bends
+static const double CONCAVE_WALL = 0.8;  // share of the layers that a line in them leaves behind where the wall bends
 static const double SAME_WALL = 0.9;     // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3;  // of a line that may run beside another
 static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
@@ -33,7 +33,8 @@ typedef struct {
   double cosine;  // least of a line to a wall's normal; 1 without lines
 } Lines;
 
-// A plane that comes near a line, as so many turns make it: within the wedges of a fan planes have turned copies.
+// A plane that comes near a line, as so many turns make it: within the wedges of a sector decomposition planes have
+// periodic images.
 typedef struct {
   CwPlane plane;
   int32_t node, turns;
@@ -77,8 +78,8 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
     cut(line, &side, 1);
   }
   const CwPlan *plan = line->plan;
-  if (cw_fan_holds(plan, node)) {
-    CwPlane end = cw_fan_end(plan, node);
+  if (cw_sector_holds(plan, node)) {
+    CwPlane end = cw_sector_end(plan, node);
     cut(line, &end, 1);
   }
   for (CwPlanBound b = cw_plan_bound(plan, node); b.node >= 0; b = cw_plan_next_bound(plan, b)) {
@@ -87,7 +88,7 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
 }
 
 // Collects the planes, not those of the line nor those below, that come within `room` of it; of the new plane its
-// turned copies.
+// periodic images.
 static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
   CwStatus status = CW_OK;
   const CwPlan *plan = line->plan;
@@ -96,11 +97,11 @@ static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, 
   at(line, line->to, ends[1]);
   line->neighbour_count = 0;
   for (int32_t c = 0; c < plan->node_count || c <= node; c++) {
-    int in_wedge = plan->fan_turns && c >= plan->fan_first + plan->fan_count;
-    for (int32_t turns = c == node; turns < (in_wedge ? plan->fan_turns : 1); turns++) {
+    int in_wedge = plan->sector_turns && c >= plan->sector_first + plan->sector_count;
+    for (int32_t turns = c == node; turns < (in_wedge ? plan->sector_turns : 1); turns++) {
       Neighbour made = {c == node ? *plane : plan->node[c].plane, c, turns};
       if (c == line->above) continue;
-      if (turns) cw_symmetry_turn(plan->fan_turns, turns, made.plane.normal, made.plane.normal);
+      if (turns) cw_symmetry_turn(plan->sector_turns, turns, made.plane.normal, made.plane.normal);
       double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
       if ((a > room && b > room) || (a < -room && b < -room)) continue;
       if (c > node && cw_plan_is_ancestor(plan, node, c)) continue; // its own lines are judged from there
@@ -120,7 +121,7 @@ static double plane_near(const Line *line, const double x[3], double room) {
     double distance = fabs(cw_plane_distance(&near->plane, x)), back[3];
     if (distance >= best) continue;
     cw_copy(x, back);
-    if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
+    if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
     if (cw_plan_in_cell(line->plan, near->node, back, room, NULL, 0)) best = distance;
   }
   return best;
@@ -153,7 +154,7 @@ static double judge_crossings(const Line *line, double from, double to, Lines *l
     if ((before > 0) == (after > 0)) continue;
     cw_lerp(a, b, before / (before - after), x);
     cw_copy(x, back);
-    if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
+    if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
     if (!cw_plan_in_cell(line->plan, near->node, back, 2 * SAME_POINT, NULL, 0)) continue;
     CwPlanWall wall = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest);
     if (wall.thickness > 0) worst = fmax(worst, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
@@ -192,7 +193,7 @@ static double wanted_of(const Line *line, const End *end, double place, int32_t 
   const CwPlanModel *model = line->model;
   if (end->triangle < 0 || fabs(place - end->place) > 2 * ROOM * end->layers) return 1;
   if (cw_dot(model->normal[end->triangle], model->normal[triangle]) < SAME_WALL) return 1;
-  return HOLLOW_WALL * fmin(1, end->cosine / LEANING);
+  return CONCAVE_WALL * fmin(1, end->cosine / LEANING);
 }
 
 // A run of the line through the domain.

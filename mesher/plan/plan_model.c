@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/parallel/share.h"
+#include "mesher/parallel/parallel_for.h"
 
 enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
 enum {
@@ -20,8 +20,8 @@ static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that i
 // want a cell between them; beside a smooth edge only the surface triangles do.
 static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
 static const double TOUCH_ROOM = 0.5; // between a cut and an edge beside it, in wanted lengths
-// Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the front (the paper's pump from 1 to
-// 20 million cells, by region).
+// Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the layer top (the paper's pump from
+// 1 to 20 million cells, by region).
 static const double LATTICE = 8.4;   // per volume / h^3
 static const double SHELL = 4.2;     // per area of the walls / h^2
 static const double WALL_STEP = 1;   // base sizes between points on walls, at most
@@ -70,7 +70,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     cw_cad_edge_faces(cad, e, faces);
     cw_cad_edge_range(cad, e, range);
     for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
-    if (room == 0) continue; // between two caps
+    if (room == 0) continue; // between two open patches
     int smooth = cw_plan_edge_is_smooth(cad, e);
     room *= smooth ? SMOOTH_ROOM : EDGE_ROOM;
     int32_t points = points_of_edge(cad, e, range, step);
@@ -150,7 +150,7 @@ static CwStatus sample_walls(CwPlanModel *model) {
   int32_t triangles = model->background->triangle_count, *count = NULL, *start = NULL;
   CW_NEW_UNSET(count, triangles);
   CW_NEW_UNSET(start, triangles + 1);
-  CW_TRY(cw_share("decomposition", triangles, sizeof *count, count_points, model, count));
+  CW_TRY(cw_parallel_for("decomposition", triangles, sizeof *count, count_points, model, count));
   start[0] = 0;
   for (int32_t t = 0; t < triangles; t++) {
     start[t + 1] = start[t] + count[t];
@@ -162,7 +162,8 @@ static CwStatus sample_walls(CwPlanModel *model) {
   for (int32_t t = 0; t < triangles; t++) {
     for (int32_t i = start[t]; i < start[t + 1]; i++) model->wall_triangle[i] = t;
   }
-  CW_TRY(cw_share_lists("decomposition", triangles, start, sizeof *model->wall_x, find_points, model, model->wall_x));
+  CW_TRY(cw_parallel_for_lists("decomposition", triangles, start, sizeof *model->wall_x, find_points, model,
+                               model->wall_x));
   CW_TRY(
       cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP * model->base_size, &model->walls));
 done:
@@ -311,8 +312,8 @@ static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, Cw
   for (int32_t t = 0; t < background->triangle_count; t++) {
     model->wall[t] = cw_cad_patch_kind(cad, cw_cad_face_patch(cad, background->face[t])) == CW_PATCH_WALL;
   }
-  CW_TRY(cw_share("decomposition", background->triangle_count, sizeof *made, measure, &(Walls){cad, options, model},
-                  made));
+  CW_TRY(cw_parallel_for("decomposition", background->triangle_count, sizeof *made, measure,
+                         &(Walls){cad, options, model}, made));
   for (int32_t t = 0; t < background->triangle_count; t++) {
     cw_copy(made[t].normal, model->normal[t]);
     model->density[t] = made[t].density;
@@ -390,7 +391,7 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   double even = 0, *outside = NULL;
   CW_TRY(cw_size_samples(model->size, &places.count, &places.x, &places.volume));
   CW_NEW(places.work, places.count);
-  CW_TRY(cw_share("decomposition", places.count, sizeof *places.work, find_work, &places, places.work));
+  CW_TRY(cw_parallel_for("decomposition", places.count, sizeof *places.work, find_work, &places, places.work));
   for (int32_t i = 0; i < places.count; i++) even += places.work[i] / SAMPLES_OF_REGION / options->region_count;
   visit_samples(&places, even, model);
   CW_NEW(model->sample_volume, model->sample_count);
@@ -402,7 +403,8 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
     if (model->sample_volume[i] > model->sample_spacing) model->sample_spacing = model->sample_volume[i];
   }
   model->sample_spacing = cbrt(model->sample_spacing);
-  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *outside, find_work_outside_layers, model, outside));
+  CW_TRY(
+      cw_parallel_for("decomposition", model->sample_count, sizeof *outside, find_work_outside_layers, model, outside));
   memcpy(model->sample_work, outside, (size_t)model->sample_count * sizeof *outside);
 done:
   free(places.x);

@@ -16,8 +16,9 @@
 
 // What a plan is asked to be.
 typedef struct {
-  int32_t region_count;    // at least 1; the plan has fewer where no plane divides a part of the domain any more
-  const double *thickness; // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
+  int32_t region_count; // at least 1; the plan has fewer where no plane divides a part of the domain any more
+  const double
+      *thickness; // of the layers on each patch of the CAD, m (0 on open patches): planes and lines keep room for it
   const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
   double tallest;
   double base_size;    // at which the model is looked at: a wanted edge length of a mesh of about a million cells

@@ -75,7 +75,7 @@ CwStatus cw_plan_part_whole(const CwPlanModel *model, CwPlanPart *part) {
   CW_TRY(pieces_new(&part->pieces, background->triangle_count, 3 * (size_t)background->triangle_count));
   for (int32_t t = 0; t < background->triangle_count; t++) {
     double corner[3][3];
-    if (!model->wall[t]) continue; // planes may meet caps as they like
+    if (!model->wall[t]) continue; // planes may meet open patches as they like
     for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], corner[k]);
     piece_add(model, &part->pieces, t, 3, (const double(*)[3])corner);
   }

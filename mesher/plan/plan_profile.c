@@ -76,7 +76,7 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
     }
     int32_t t = pieces->triangle[i];
     double dot = cw_dot(n, model->normal[t]), square = dot * dot;
-    double layers = CW_LAYER_ROOM * model->thickness[t] * dot * scale; // the front lies behind the wall by so much
+    double layers = CW_LAYER_ROOM * model->thickness[t] * dot * scale; // the layer top lies behind the wall by so much
     low = layers > 0 ? fmax(low - layers, 0) : low;
     high = layers < 0 ? fmin(high - layers, end) : high;
     for (int b = (int)low; b <= (int)high; b++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Where the planes of a fan stand.
+// Where the planes of a sector decomposition stand.
 #include "mesher/plan/sector_plan.h"
 
 #include <math.h>
@@ -45,10 +45,10 @@ typedef struct {
   CwPlanProfile along;    // the domain along up * z
   Judged judged[ANGLES];  // half-planes, once they were judged
   int is_judged;
-} Fan;
+} Sectors;
 
-static CwPlane across(const Fan *fan, double place) {
-  return (CwPlane){{0, 0, fan->up}, place};
+static CwPlane across(const Sectors *sectors, double place) {
+  return (CwPlane){{0, 0, sectors->up}, place};
 }
 
 // What a slice costs that is so much larger or smaller than wanted.
@@ -58,8 +58,8 @@ static double slice_cost(double work, double wanted) {
 }
 
 // What a plane across the axis costs.
-static double judge_across(const Fan *fan, double place, double *worst) {
-  CwPlanPlace found = cw_profile_at(&fan->along, cw_profile_bin(&fan->along, place));
+static double judge_across(const Sectors *sectors, double place, double *worst) {
+  CwPlanPlace found = cw_profile_at(&sectors->along, cw_profile_bin(&sectors->along, place));
   *worst = found.worst;
   return cw_plan_place_cost(found);
 }
@@ -69,24 +69,24 @@ static CwPlane half_plane(double angle) {
 }
 
 // What a half-plane through `wheel`, the part beyond the plane across the axis, costs.
-static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double angle, Judged *judged) {
+static CwStatus judge_half_plane(const Sectors *sectors, const CwPlanPart *wheel, double angle, Judged *judged) {
   CwStatus status = CW_OK;
-  CwPlan *plan = fan->plan;
+  CwPlan *plan = sectors->plan;
   CwPlane plane = half_plane(angle);
-  plan->node[plan->fan_first].plane = plane;
-  CwPlane end = cw_fan_end(plan, plan->fan_first);
-  CwPlanPlace place = cw_plan_place(fan->model, wheel, &plane, &end);
+  plan->node[plan->sector_first].plane = plane;
+  CwPlane end = cw_sector_end(plan, plan->sector_first);
+  CwPlanPlace place = cw_plan_place(sectors->model, wheel, &plane, &end);
   CwPlanLines lines;
-  CW_TRY(cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY, &lines));
-  double touch = cw_plan_touch_cost(cw_plan_touch(fan->model, wheel, &plane, &end));
+  CW_TRY(cw_plan_lines(sectors->model, plan, plan->sector_first, wheel, &plane, INFINITY, &lines));
+  double touch = cw_plan_touch_cost(cw_plan_touch(sectors->model, wheel, &plane, &end));
   *judged = (Judged){cw_plan_place_cost(place) + touch + lines.cost, place.worst};
 done:
   return status;
 }
 
 // Finds which side of the domain has fluid on the axis; CW_OUTCOME_ASYMMETRIC where both or none have it.
-static void find_axis(Fan *fan, CwOutcome *outcome) {
-  const CwBackground *background = fan->model->background;
+static void find_axis(Sectors *sectors, CwOutcome *outcome) {
+  const CwBackground *background = sectors->model->background;
   double low = INFINITY, high = -INFINITY;
   for (int32_t i = 0; i < background->point_count; i++) {
     low = fmin(low, background->x[i][2]);
@@ -96,7 +96,7 @@ static void find_axis(Fan *fan, CwOutcome *outcome) {
   int wet[AXIS_SAMPLES], runs = 0, last = 0;
   for (int i = 0; i < AXIS_SAMPLES; i++) {
     double x[3] = {0, 0, low + step * (i + 0.5)};
-    wet[i] = cw_inside_test(fan->model->inside, x);
+    wet[i] = cw_inside_test(sectors->model->inside, x);
     runs += i > 0 && wet[i] != wet[i - 1];
   }
   if (runs != 1) {
@@ -104,31 +104,31 @@ static void find_axis(Fan *fan, CwOutcome *outcome) {
     return;
   }
   while (wet[last] == wet[0]) last++;
-  fan->up = wet[0] ? 1 : -1;
-  fan->low = wet[0] ? low : -high;
-  fan->high = wet[0] ? high : -low;
-  fan->nose = fan->up * (low + step * last);
+  sectors->up = wet[0] ? 1 : -1;
+  sectors->low = wet[0] ? low : -high;
+  sectors->high = wet[0] ? high : -low;
+  sectors->nose = sectors->up * (low + step * last);
 }
 
 // The side of the pipe in steps of equal work, from node 0 outwards.
-static double step_place(const Fan *fan, int32_t slices, int32_t step) {
-  double all = cw_profile_below(&fan->along, fan->plan->node[0].plane.offset);
-  return cw_profile_place(&fan->along, all * (1 - (double)step / (slices * STEPS)));
+static double step_place(const Sectors *sectors, int32_t slices, int32_t step) {
+  double all = cw_profile_below(&sectors->along, sectors->plan->node[0].plane.offset);
+  return cw_profile_place(&sectors->along, all * (1 - (double)step / (slices * STEPS)));
 }
 
 // Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn
 // the best way to every step; slices have half to one and a half of their even work.
-static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t *step, double *cost) {
+static CwStatus find_slices(const Sectors *sectors, int32_t slices, double mean, int32_t *step, double *cost) {
   CwStatus status = CW_OK;
   int32_t steps = slices * STEPS, *from = NULL; // of each plane and step, the step of the plane before
   double *least = NULL, *place_cost = NULL, *uneven = NULL, worst;
-  double all = cw_profile_below(&fan->along, fan->plan->node[0].plane.offset);
+  double all = cw_profile_below(&sectors->along, sectors->plan->node[0].plane.offset);
   CW_NEW(from, (slices + 1) * (steps + 1));
   CW_NEW(least, (slices + 1) * (steps + 1));
   CW_NEW(place_cost, steps + 1);
   CW_NEW(uneven, steps + 1);
   for (int32_t s = 1; s <= steps; s++) uneven[s] = slice_cost(all * s / steps, mean);
-  for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(fan, step_place(fan, slices, s), &worst);
+  for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(sectors, step_place(sectors, slices, s), &worst);
   for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
   least[0] = 0;
   for (int32_t i = 1; i <= slices; i++) {
@@ -153,21 +153,21 @@ done:
 
 // Divides the side of the pipe into slices of about `mean` work: planes 1 .. slices - 1 in a chain from node 0
 // outwards.
-static CwStatus place_slices(Fan *fan, int32_t slices, double mean, double *cost) {
+static CwStatus place_slices(Sectors *sectors, int32_t slices, double mean, double *cost) {
   CwStatus status = CW_OK;
-  CwPlan *plan = fan->plan;
+  CwPlan *plan = sectors->plan;
   int32_t *step = NULL;
-  double all = cw_profile_below(&fan->along, plan->node[0].plane.offset);
+  double all = cw_profile_below(&sectors->along, plan->node[0].plane.offset);
   CW_NEW(step, slices + 1);
-  CW_TRY(find_slices(fan, slices, mean, step, cost));
+  CW_TRY(find_slices(sectors, slices, mean, step, cost));
   plan->node[0].child[0] = -1; // with one slice alone
   for (int32_t i = 1; i <= slices; i++) {
     plan->predicted_cells[slices - i] = all * (step[i] - step[i - 1]) / (slices * STEPS);
     if (i == slices) break;
-    CwPlane plane = across(fan, step_place(fan, slices, step[i]));
+    CwPlane plane = across(sectors, step_place(sectors, slices, step[i]));
     plan->node[i] = (CwPlanNode){plane, i - 1, {-1, -1 - (slices - i)}};
     plan->node[i - 1].child[0] = i;
-    judge_across(fan, plane.offset, &plan->worst_angle[i]);
+    judge_across(sectors, plane.offset, &plan->worst_angle[i]);
   }
   plan->node_count = plan->region_count = slices;
 done:
@@ -177,38 +177,38 @@ done:
 
 // The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
 // slices that are as large as the regions of a pitch (0: one slice as it comes).
-static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices, CwOutcome *outcome) {
+static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwPlan *plan = fan->plan;
-  double all = fan->along.below[CW_PROFILE_BINS], chosen = 0, best = INFINITY, cost;
+  CwPlan *plan = sectors->plan;
+  double all = sectors->along.below[CW_PROFILE_BINS], chosen = 0, best = INFINITY, cost;
   *slices = 1;
   for (int i = 1; i < STATIONS; i++) {
-    double place = fan->nose + (fan->high - fan->nose) * i / STATIONS;
-    double before = cw_profile_below(&fan->along, place), alone = before * (fan->count - 1) / all;
+    double place = sectors->nose + (sectors->high - sectors->nose) * i / STATIONS;
+    double before = cw_profile_below(&sectors->along, place), alone = before * (sectors->count - 1) / all;
     if (!(before > 0 && before < all) || alone >= best) continue;
-    plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
-    alone += judge_across(fan, place, &plan->worst_angle[0]);
+    plan->node[0] = (CwPlanNode){across(sectors, place), -1, {-1, 1}};
+    alone += judge_across(sectors, place, &plan->worst_angle[0]);
     if (regions == 0 && alone < best) best = alone, chosen = place;
-    double pitch = (all - before) / fan->count;
+    double pitch = (all - before) / sectors->count;
     int32_t few = (int32_t)fmax(1, floor(before / pitch * regions));
-    for (int32_t count = few; count <= few + 1 && count <= fan->slices_most && regions && alone < best; count++) {
-      double mean = all / (count + fan->count * regions);
-      CW_TRY(place_slices(fan, count, mean, &cost));
+    for (int32_t count = few; count <= few + 1 && count <= sectors->slices_most && regions && alone < best; count++) {
+      double mean = all / (count + sectors->count * regions);
+      CW_TRY(place_slices(sectors, count, mean, &cost));
       cost += alone + UNEVEN * cw_plan_unevenness(pitch, regions * mean, regions);
       if (cost < best) best = cost, chosen = place, *slices = count;
     }
   }
   CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no plane across the axis fits");
-  plan->node[0] = (CwPlanNode){across(fan, chosen), -1, {-1, 1}};
-  judge_across(fan, chosen, &plan->worst_angle[0]);
-  double before = cw_profile_below(&fan->along, chosen);
-  CW_TRY(place_slices(fan, *slices, regions > 0 ? all / (*slices + fan->count * regions) : before, &cost));
+  plan->node[0] = (CwPlanNode){across(sectors, chosen), -1, {-1, 1}};
+  judge_across(sectors, chosen, &plan->worst_angle[0]);
+  double before = cw_profile_below(&sectors->along, chosen);
+  CW_TRY(place_slices(sectors, *slices, regions > 0 ? all / (*slices + sectors->count * regions) : before, &cost));
 done:
   return status;
 }
 
 typedef struct {
-  const Fan *fan;
+  const Sectors *sectors;
   const CwPlanPart *part;
 } Wheel;
 
@@ -217,7 +217,7 @@ static CwStatus judge_angle(void *context, int32_t i, void **bytes, int64_t *siz
   const Wheel *wheel = context;
   Judged *made = NULL;
   CW_NEW(made, 1);
-  CW_TRY(judge_half_plane(wheel->fan, wheel->part, 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES, made));
+  CW_TRY(judge_half_plane(wheel->sectors, wheel->part, 2 * M_PI / wheel->sectors->count * (i + 0.5) / ANGLES, made));
   *bytes = made;
   *size = sizeof *made;
 done:
@@ -226,64 +226,64 @@ done:
 }
 
 // All half-planes of one pitch, shared among the ranks.
-static CwStatus judge_half_planes(Fan *fan, const CwPlanPart *part) {
+static CwStatus judge_half_planes(Sectors *sectors, const CwPlanPart *part) {
   CwStatus status = CW_OK;
-  Wheel wheel = {fan, part};
+  Wheel wheel = {sectors, part};
   void *bytes[ANGLES] = {0};
   int64_t size[ANGLES] = {0};
   CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  for (int i = 0; i < ANGLES; i++) memcpy(&fan->judged[i], bytes[i], sizeof fan->judged[i]);
-  fan->is_judged = 1;
+  for (int i = 0; i < ANGLES; i++) memcpy(&sectors->judged[i], bytes[i], sizeof sectors->judged[i]);
+  sectors->is_judged = 1;
 done:
   for (int i = 0; i < ANGLES; i++) free(bytes[i]);
   return status;
 }
 
 // The half-planes: `wedges` in each pitch, evenly, where they cost least.
-static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges, CwOutcome *outcome) {
+static CwStatus place_sectors(Sectors *sectors, const CwPlanPart *wheel, int wedges, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwPlan *plan = fan->plan;
-  const Judged *judged = fan->judged;
-  double pitch = 2 * M_PI / fan->count, best = INFINITY;
+  CwPlan *plan = sectors->plan;
+  const Judged *judged = sectors->judged;
+  double pitch = 2 * M_PI / sectors->count, best = INFINITY;
   int apart = ANGLES / wedges, chosen = 0;
-  plan->fan_first = plan->fan_region = plan->node_count;
-  plan->node[0].child[1] = plan->fan_first;
-  plan->node[plan->fan_first].parent = 0;
-  plan->fan_count = 1; // for the judges
-  if (!fan->is_judged) CW_TRY(judge_half_planes(fan, wheel));
+  plan->sector_first = plan->sector_region = plan->node_count;
+  plan->node[0].child[1] = plan->sector_first;
+  plan->node[plan->sector_first].parent = 0;
+  plan->sector_count = 1; // for the judges
+  if (!sectors->is_judged) CW_TRY(judge_half_planes(sectors, wheel));
   for (int start = 0; start < apart; start++) {
     double sum = 0;
     for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
     if (sum < best) best = sum, chosen = start;
   }
   CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no half-planes fit");
-  plan->fan_count = wedges * fan->count;
-  plan->fan_turns = fan->count;
-  plan->node_count += plan->fan_count;
-  for (int32_t j = 0; j < plan->fan_count; j++) {
+  plan->sector_count = wedges * sectors->count;
+  plan->sector_turns = sectors->count;
+  plan->node_count += plan->sector_count;
+  for (int32_t j = 0; j < plan->sector_count; j++) {
     int at = chosen + j % wedges * apart;
-    CwPlanNode *node = &plan->node[plan->fan_first + j];
+    CwPlanNode *node = &plan->node[plan->sector_first + j];
     CwPlane first = half_plane(pitch * (at + 0.5) / ANGLES);
     *node = (CwPlanNode){first, 0, {INT32_MIN, INT32_MIN}}; // children not known yet
-    cw_symmetry_turn(fan->count, j / wedges, first.normal, node->plane.normal);
-    plan->worst_angle[plan->fan_first + j] = judged[at].worst;
+    cw_symmetry_turn(sectors->count, j / wedges, first.normal, node->plane.normal);
+    plan->worst_angle[plan->sector_first + j] = judged[at].worst;
   }
 done:
   return status;
 }
 
 // Divides the wedges of the first pitch into regions of about so much work.
-static CwStatus divide_wedges(const Fan *fan, const CwPlanPart *wheel, int wedges, double region) {
+static CwStatus divide_wedges(const Sectors *sectors, const CwPlanPart *wheel, int wedges, double region) {
   CwStatus status = CW_OK;
-  CwPlan *plan = fan->plan;
+  CwPlan *plan = sectors->plan;
   CwPlanPart after = {0}, wedge = {0};
-  for (int32_t w = plan->fan_first; w < plan->fan_first + wedges; w++) {
-    int32_t next = plan->fan_first + (w - plan->fan_first + 1) % plan->fan_count;
-    CW_TRY(cw_plan_part_clip(fan->model, wheel, &plan->node[w].plane, 1, &after));
-    CW_TRY(cw_plan_part_clip(fan->model, &after, &plan->node[next].plane, 0, &wedge));
+  for (int32_t w = plan->sector_first; w < plan->sector_first + wedges; w++) {
+    int32_t next = plan->sector_first + (w - plan->sector_first + 1) % plan->sector_count;
+    CW_TRY(cw_plan_part_clip(sectors->model, wheel, &plan->node[w].plane, 1, &after));
+    CW_TRY(cw_plan_part_clip(sectors->model, &after, &plan->node[next].plane, 0, &wedge));
     cw_plan_part_free(&after);
-    CW_TRY(cw_plan_divide(fan->model, plan, &wedge, (int32_t)fmax(1, floor(wedge.work / region + 0.5)), w, 1));
+    CW_TRY(cw_plan_divide(sectors->model, plan, &wedge, (int32_t)fmax(1, floor(wedge.work / region + 0.5)), w, 1));
   }
 done:
   cw_plan_part_free(&after);
@@ -295,32 +295,33 @@ static int32_t turned_child(int32_t child, int32_t nodes, int32_t regions) {
   return child >= 0 ? child + nodes : child - regions;
 }
 
-// The wedges of the other pitches, as turned copies.
-static void turn_wedges(const Fan *fan, int wedges) {
-  CwPlan *plan = fan->plan;
-  int32_t first = plan->fan_first + plan->fan_count, nodes = plan->node_count - first;
-  int32_t regions = plan->region_count - plan->fan_region;
-  for (int32_t turns = 1; turns < fan->count; turns++) {
+// The wedges of the other pitches, as periodic images.
+static void turn_wedges(const Sectors *sectors, int wedges) {
+  CwPlan *plan = sectors->plan;
+  int32_t first = plan->sector_first + plan->sector_count, nodes = plan->node_count - first;
+  int32_t regions = plan->region_count - plan->sector_region;
+  for (int32_t turns = 1; turns < sectors->count; turns++) {
     for (int32_t i = 0; i < nodes; i++) {
       const CwPlanNode *source = &plan->node[first + i];
       CwPlanNode *copy = &plan->node[plan->node_count];
       int32_t parent = source->parent + turns * (source->parent < first ? wedges : nodes);
       *copy = (CwPlanNode){.plane.offset = source->plane.offset, .parent = parent};
-      cw_symmetry_turn(fan->count, turns, source->plane.normal, copy->plane.normal);
+      cw_symmetry_turn(sectors->count, turns, source->plane.normal, copy->plane.normal);
       for (int s = 0; s < 2; s++) copy->child[s] = turned_child(source->child[s], turns * nodes, turns * regions);
       plan->worst_angle[plan->node_count++] = plan->worst_angle[first + i];
     }
     for (int w = 0; w < wedges; w++) {
-      int32_t source = plan->fan_first + w;
+      int32_t source = plan->sector_first + w;
       plan->node[source + turns * wedges].child[1] =
           turned_child(plan->node[source].child[1], turns * nodes, turns * regions);
     }
     for (int32_t r = 0; r < regions; r++) {
-      plan->predicted_cells[plan->region_count++] = plan->predicted_cells[plan->fan_region + r];
+      plan->predicted_cells[plan->region_count++] = plan->predicted_cells[plan->sector_region + r];
     }
   }
-  for (int32_t j = 0; j < plan->fan_count; j++) {
-    plan->node[plan->fan_first + (j + 1) % plan->fan_count].child[0] = plan->node[plan->fan_first + j].child[1];
+  for (int32_t j = 0; j < plan->sector_count; j++) {
+    plan->node[plan->sector_first + (j + 1) % plan->sector_count].child[0] =
+        plan->node[plan->sector_first + j].child[1];
   }
 }
 
@@ -332,20 +333,21 @@ static void make_sum(CwPlan *plan, int32_t first, int32_t end, double wanted) {
 }
 
 // The plan with so many regions in one pitch.
-static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, int32_t regions, CwOutcome *outcome) {
+static CwStatus divide(Sectors *sectors, CwPlanModel *model, const CwPlanPart *whole, int32_t regions,
+                       CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlanPart wheel = {0};
   int32_t slices;
-  int wedges = fan->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
-  CW_TRY_STAGE(place_root(fan, regions, &slices, outcome), outcome);
-  CW_TRY(cw_plan_part_clip(model, whole, &fan->plan->node[0].plane, 1, &wheel));
-  model->mean_work = whole->work / (slices + fan->count * regions);
-  CW_TRY_STAGE(place_fan(fan, &wheel, wedges, outcome), outcome);
-  CW_TRY(divide_wedges(fan, &wheel, wedges, wheel.work / fan->count / regions));
+  int wedges = sectors->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
+  CW_TRY_STAGE(place_root(sectors, regions, &slices, outcome), outcome);
+  CW_TRY(cw_plan_part_clip(model, whole, &sectors->plan->node[0].plane, 1, &wheel));
+  model->mean_work = whole->work / (slices + sectors->count * regions);
+  CW_TRY_STAGE(place_sectors(sectors, &wheel, wedges, outcome), outcome);
+  CW_TRY(divide_wedges(sectors, &wheel, wedges, wheel.work / sectors->count / regions));
   // The samples of all pitches together tell the work of one better than its own.
-  make_sum(fan->plan, 0, slices, whole->work - wheel.work);
-  make_sum(fan->plan, slices, fan->plan->region_count, wheel.work / fan->count);
-  turn_wedges(fan, wedges);
+  make_sum(sectors->plan, 0, slices, whole->work - wheel.work);
+  make_sum(sectors->plan, slices, sectors->plan->region_count, wheel.work / sectors->count);
+  turn_wedges(sectors, wedges);
 done:
   cw_plan_part_free(&wheel);
   return status;
@@ -358,7 +360,7 @@ static double badness(const CwPlan *plan) {
   for (int32_t r = 0; r < plan->region_count; r++) {
     most = fmax(most, fabs(plan->predicted_cells[r] / sum * plan->region_count - 1));
   }
-  for (int32_t n = plan->fan_first; n < plan->node_count; n++) worst = fmin(worst, plan->worst_angle[n]);
+  for (int32_t n = plan->sector_first; n < plan->node_count; n++) worst = fmin(worst, plan->worst_angle[n]);
   return most + (worst < SHARP ? EVEN + SHARP - worst : 0);
 }
 
@@ -384,8 +386,8 @@ static int by_cost(const void *a, const void *b) {
 }
 
 // What the slices and the planes across the axis that are in the plan cost: nothing where they are even and stand well.
-static double pipe_cost(const Fan *fan, int32_t slices, double mean) {
-  const CwPlan *plan = fan->plan;
+static double pipe_cost(const Sectors *sectors, int32_t slices, double mean) {
+  const CwPlan *plan = sectors->plan;
   double off = 0, worst = 1;
   for (int32_t i = 0; i < slices; i++) {
     off = fmax(off, fabs(plan->predicted_cells[i] / mean - 1));
@@ -396,16 +398,16 @@ static double pipe_cost(const Fan *fan, int32_t slices, double mean) {
 
 // The numbers of regions in one pitch that bring the plan near the asked number, best first: those with which regions
 // and slices would be about as large if `pipe` were the work of the slices, and of these, those with the best slices.
-static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked, Number number[NUMBERS],
+static CwStatus weigh_numbers(Sectors *sectors, double pipe, double pitch, int32_t asked, Number number[NUMBERS],
                               int32_t *count, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Number *all = NULL;
-  double whole = pipe + fan->count * pitch, wanted = pitch / whole * asked;
+  double whole = pipe + sectors->count * pitch, wanted = pitch / whole * asked;
   int32_t least = (int32_t)fmax(1, 0.85 * wanted), found = 0;
   int32_t most = (int32_t)fmax(1, fmin(2 * wanted, ceil(1.15 * wanted) + 1));
   CW_NEW(all, most - least + 1);
   for (int32_t n = least; n <= most; n++) {
-    double slices = fmax(1, round(pipe / pitch * n)), regions = slices + fan->count * n, mean = whole / regions;
+    double slices = fmax(1, round(pipe / pitch * n)), regions = slices + sectors->count * n, mean = whole / regions;
     double off = fmax(fabs(pipe / slices / mean - 1), fabs(pitch / n / mean - 1));
     all[found++] = (Number){n, off + 0.3 * fabs(log(regions / asked))};
   }
@@ -414,9 +416,9 @@ static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked
   int32_t weighed = *count > 1 ? *count : 0; // one alone is taken
   for (int32_t i = 0; i < weighed; i++) {
     int32_t slices;
-    CW_TRY_STAGE(place_root(fan, all[i].regions, &slices, outcome), outcome);
-    int32_t regions = slices + fan->count * all[i].regions;
-    all[i].cost = pipe_cost(fan, slices, whole / regions) + OTHER_NUMBER * fabs(log((double)regions / asked));
+    CW_TRY_STAGE(place_root(sectors, all[i].regions, &slices, outcome), outcome);
+    int32_t regions = slices + sectors->count * all[i].regions;
+    all[i].cost = pipe_cost(sectors, slices, whole / regions) + OTHER_NUMBER * fabs(log((double)regions / asked));
   }
   qsort(all, (size_t)*count, sizeof *all, by_cost);
   memcpy(number, all, (size_t)*count * sizeof *number);
@@ -432,7 +434,7 @@ CwStatus cw_sector_plan_make(const CwCad *cad, const CwBackground *background, c
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
   CwPlan tried = {0};
-  Fan fan = {.model = &model, .plan = &tried, .count = count, .slices_most = options->region_count};
+  Sectors sectors = {.model = &model, .plan = &tried, .count = count, .slices_most = options->region_count};
   Number number[NUMBERS];
   size_t room = 3 * (size_t)options->region_count + 4 * (size_t)count;
   double least = INFINITY;
@@ -441,15 +443,15 @@ CwStatus cw_sector_plan_make(const CwCad *cad, const CwBackground *background, c
   CW_TRY(new_plan(room, &tried));
   CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
-  find_axis(&fan, outcome);
+  find_axis(&sectors, outcome);
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
-  CwPlane along = across(&fan, 0);
-  cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &fan.along);
-  CW_TRY_STAGE(place_root(&fan, 0, &slices, outcome), outcome);
-  double pipe = cw_profile_below(&fan.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
-  CW_TRY_STAGE(weigh_numbers(&fan, pipe, pitch, options->region_count, number, &numbers, outcome), outcome);
+  CwPlane along = across(&sectors, 0);
+  cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &sectors.along);
+  CW_TRY_STAGE(place_root(&sectors, 0, &slices, outcome), outcome);
+  double pipe = cw_profile_below(&sectors.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
+  CW_TRY_STAGE(weigh_numbers(&sectors, pipe, pitch, options->region_count, number, &numbers, outcome), outcome);
   for (int k = 0; k < numbers && k < NUMBERS_TRIED && least > EVEN; k++) {
-    CW_TRY_STAGE(divide(&fan, &model, &whole, number[k].regions, outcome), outcome);
+    CW_TRY_STAGE(divide(&sectors, &model, &whole, number[k].regions, outcome), outcome);
     double bad = badness(&tried);
     if (bad >= least) continue;
     CwPlan better = tried;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The decomposition of a domain with rotational symmetry (plan.h): one plane across the axis cuts off the side where
-// fluid lies on the axis (pipe and nose of the nut), planes parallel to it divide that side into slices, and a fan with
-// the symmetry of the domain divides the other. The wedges of one pitch are divided by any planes, and those of the
-// other pitches by the same planes, turned.
+// fluid lies on the axis (pipe and nose of the nut), planes parallel to it divide that side into slices, and a sector
+// decomposition with the symmetry of the domain divides the other. The wedges of one pitch are divided by any planes,
+// and those of the other pitches by the same planes, turned.
 #ifndef CUTWATER_MESHER_PLAN_SECTOR_PLAN_H
 #define CUTWATER_MESHER_PLAN_SECTOR_PLAN_H
 

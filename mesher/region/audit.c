@@ -20,7 +20,7 @@ static uint64_t mixed(uint64_t h, uint64_t v) {
   return cw_mix((h ^ v) + CW_MIX_STEP);
 }
 
-// The hash of an open face on a dividing plane, negative where its cell sees it the other way round.
+// The hash of an open face on a partition plane, negative where its cell sees it the other way round.
 static uint64_t open_face_hash(const CwRegionData *data, int32_t open) {
   int32_t point[4];
   int64_t shared[4];

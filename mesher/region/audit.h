@@ -32,9 +32,9 @@ typedef struct {
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
   int64_t dihedral_bin[18];                 // of the least angle of each tetrahedron, 10 degrees wide up to 180
-  CwTetFigures beside, apart;               // those with a corner on a dividing plane, and the others
-  // Sum of hashes of all open faces on dividing planes (shared numbers and coordinates to the last bit), negative where
-  // the face is seen from its other side: 0 over all regions of a domain where each face has its two cells.
+  CwTetFigures beside, apart;               // those with a corner on a partition plane, and the others
+  // Sum of hashes of all open faces on partition planes (shared numbers and coordinates to the last bit), negative
+  // where the face is seen from its other side: 0 over all regions of a domain where each face has its two cells.
   uint64_t open_faces;
   // prisms
   int64_t prism_count;
@@ -45,9 +45,9 @@ typedef struct {
 // Fails with CW_ERR_MESH, naming region, cell and place (mm), where a cell has no positive volume, a face
 // belongs to more than two cells (or has both of its two on one side), a point belongs to no cell, a listed
 // face has the wrong cell or its normal into the domain, or an open face is neither listed as boundary
-// exactly once nor has all its points shared (on a dividing plane). Where it passes fills *quality.
+// exactly once nor has all its points shared (on a partition plane). Where it passes fills *quality.
 CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality);
-// What is left to audit in a turned copy of a region that passed: its points are its own, but its cells and faces
+// What is left to audit in a periodic image of a region that passed: its points are its own, but its cells and faces
 // are those of the first. Fails like cw_audit_region where a cell has no positive volume; *open_faces as there.
 CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces);
 // Adds figures of one region, which holds `tetrahedra`, to those of others. Starts by cw_quality_start: no

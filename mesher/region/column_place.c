@@ -7,28 +7,28 @@
 #include "mesher/common/vec.h"
 
 static int compare_places(const void *p, const void *q) {
-  const CwRimPlace *a = p, *b = q;
+  const CwOpenEdgePlace *a = p, *b = q;
   if (a->vertex != b->vertex) return a->vertex < b->vertex ? -1 : 1;
   return (a->face > b->face) - (a->face < b->face);
 }
 
-CwStatus cw_rim_places_make(const CwSkeleton *skeleton, CwRimPlaces *places) {
+CwStatus cw_open_edge_places_make(const CwBoundary *boundary, CwOpenEdgePlaces *places) {
   CwStatus status = CW_OK;
   int32_t count = 0;
   memset(places, 0, sizeof *places);
   for (int pass = 0; pass < 2; pass++) {
     if (pass == 1) CW_NEW(places->place, count);
-    for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
-      const CwCurve *curve = &skeleton->network.curve[i];
+    for (int32_t i = 0; i < boundary->network.curve_count; i++) {
+      const CwCurve *curve = &boundary->network.curve[i];
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
       for (int side = 0; side < 2; side++) {
         int32_t face = curve->face[side];
-        if (cw_face_is_wall(skeleton->cad, face)) continue;
+        if (cw_face_is_wall(boundary->cad, face)) continue;
         count += pass == 0 ? curve->point_count : 0;
         for (int32_t k = 0; pass == 1 && k < curve->point_count; k++) {
-          CwRimPlace *made = &places->place[places->count++];
-          *made = (CwRimPlace){curve->node[k], face, {0, 0}};
-          cw_cad_edge_uv(skeleton->cad, curve->edge, face, curve->parameter[k][0], made->uv);
+          CwOpenEdgePlace *made = &places->place[places->count++];
+          *made = (CwOpenEdgePlace){curve->node[k], face, {0, 0}};
+          cw_cad_edge_uv(boundary->cad, curve->edge, face, curve->parameter[k][0], made->uv);
         }
       }
     }
@@ -38,28 +38,29 @@ done:
   return status;
 }
 
-void cw_rim_places_free(CwRimPlaces *places) {
+void cw_open_edge_places_free(CwOpenEdgePlaces *places) {
   free(places->place);
   memset(places, 0, sizeof *places);
 }
 
-void cw_column_place(const CwSkeleton *skeleton, const CwRimPlaces *places, int32_t vertex, double share, double x[3]) {
-  CwGuide guide = skeleton->surface.guide[vertex];
-  cw_lerp(skeleton->surface.x[vertex], skeleton->layers.front[vertex], share, x);
+void cw_column_place(const CwBoundary *boundary, const CwOpenEdgePlaces *places, int32_t vertex, double share,
+                     double x[3]) {
+  CwConstraint constraint = boundary->surface.constraint[vertex];
+  cw_lerp(boundary->surface.x[vertex], boundary->layers.top[vertex], share, x);
   if (share <= 0 || share >= 1) return;
-  if (guide.kind == CW_GUIDE_CAP) {
-    CwRimPlace key = {vertex, guide.index, {0, 0}};
-    const CwRimPlace *found =
+  if (constraint.kind == CW_CONSTRAINT_PATCH) {
+    CwOpenEdgePlace key = {vertex, constraint.index, {0, 0}};
+    const CwOpenEdgePlace *found =
         bsearch(&key, places->place, (size_t)places->count, sizeof *places->place, compare_places);
     if (!found) return;
     double uv[2] = {found->uv[0], found->uv[1]}, from[3];
     cw_copy(x, from);
-    cw_cad_face_project(skeleton->cad, guide.index, from, uv);
-    cw_cad_face_point(skeleton->cad, guide.index, uv, x, NULL, NULL);
-  } else if (guide.kind == CW_GUIDE_CURVE) {
-    const CwCurve *curve = &skeleton->network.curve[guide.index];
+    cw_cad_face_project(boundary->cad, constraint.index, from, uv);
+    cw_cad_face_point(boundary->cad, constraint.index, uv, x, NULL, NULL);
+  } else if (constraint.kind == CW_CONSTRAINT_CURVE) {
+    const CwCurve *curve = &boundary->network.curve[constraint.index];
     double parameter[2];
     if (curve->kind == CW_CURVE_LINE) return;
-    cw_curve_point(&skeleton->network, curve, cw_curve_nearest(curve, x), x, parameter);
+    cw_curve_point(&boundary->network, curve, cw_curve_nearest(curve, x), x, parameter);
   }
 }

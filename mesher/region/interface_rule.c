@@ -8,47 +8,47 @@
 #include "mesher/fill/fill_points.h"
 #include "mesher/region/encroach.h"
 #include "mesher/region/region_boundary.h"
-#include "mesher/skeleton/skeleton_curves.h"
+#include "mesher/boundary/boundary_curves.h"
 
 // The refined interfaces of a region, packed: their number, and of each a header, the inserted points and the
 // triangles. Corners below 0 are inserted points: -1 - k.
 enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 
-int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, int32_t outline) {
-  const CwInterfaceOutline *interface = &skeleton->interfaces.outline[outline];
+int32_t cw_interface_owner(const CwBoundary *boundary, const int32_t *number, int32_t outline) {
+  const CwInterfaceOutline *interface = &boundary->interfaces.outline[outline];
   const int32_t(*regions)[2] = (const int32_t(*)[2])(
-      skeleton->interfaces.planned.region ? skeleton->interfaces.planned.region : skeleton->interfaces.refined.region);
+      boundary->interfaces.planned.region ? boundary->interfaces.planned.region : boundary->interfaces.refined.region);
   const int32_t *region = regions[interface->triangle_start];
   return number[region[0]] < number[region[1]] ? region[0] : region[1];
 }
 
-// Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of front and caps.
-// Where there are slabs, those in them.
-static CwStatus candidates(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t slab_count,
+// Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of layer top and
+// open patches. Where there are slabs, those in them.
+static CwStatus candidates(const CwBoundary *boundary, int32_t region, const char *name, int32_t slab_count,
                            const CwFillSlab *slab, int32_t *count, double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
-  CwRegionBoundary boundary = {0};
-  CW_TRY(cw_region_boundary_make(skeleton, region, 1, &boundary));
-  CwFillInput input = cw_region_fill_input(skeleton, &boundary, name);
-  input.open_count = boundary.interface_count;
+  CwRegionBoundary inner = {0};
+  CW_TRY(cw_region_boundary_make(boundary, region, 1, &inner));
+  CwFillInput input = cw_region_fill_input(boundary, &inner, name);
+  input.open_count = inner.interface_count;
   input.slab_count = slab_count;
   input.slab = slab;
   CW_TRY(cw_fill_points(&input, 1.0, count, x, site));
 done:
-  cw_region_boundary_free(&boundary);
+  cw_region_boundary_free(&inner);
   return status;
 }
 
 // The outline with the inner nodes of the planned interface.
-static CwStatus planned_points(const CwSkeleton *skeleton, const CwInterfaceOutline *interface, const CwPlaneMap *map,
+static CwStatus planned_points(const CwBoundary *boundary, const CwInterfaceOutline *interface, const CwPlaneMap *map,
                                CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_skeleton_interface_outline(skeleton, interface, map, outline));
+  CW_TRY(cw_boundary_interface_outline(boundary, interface, map, outline));
   for (int32_t node = interface->free_start; node < interface->free_start + interface->free_count; node++) {
     double uv[2];
     int32_t local;
-    cw_plane_uv(map, skeleton->interfaces.nodes.x[node], uv);
-    CW_TRY(cw_outline_point(outline, node, uv, skeleton->interfaces.nodes.x[node], &local));
+    cw_plane_uv(map, boundary->interfaces.nodes.x[node], uv);
+    CW_TRY(cw_outline_point(outline, node, uv, boundary->interfaces.nodes.x[node], &local));
   }
 done:
   return status;
@@ -97,36 +97,36 @@ done:
 
 // How far from the plane of an interface points may lie that count there. Inserting centres makes no circle larger; the
 // constrained Delaunay triangulation may differ a little from the planned one before.
-static CwFillSlab beside_interface(const CwSkeleton *skeleton, const CwInterfaceOutline *interface) {
-  const CwPlane *plane = &skeleton->plan->node[interface->node].plane;
+static CwFillSlab beside_interface(const CwBoundary *boundary, const CwInterfaceOutline *interface) {
+  const CwPlane *plane = &boundary->plan->node[interface->node].plane;
   CwPlaneMap map = cw_plane_map_of(plane);
   double radius = largest_radius(&map, interface->triangle_count,
-                                 (const int32_t(*)[3])skeleton->interfaces.refined.triangle + interface->triangle_start,
-                                 (const double(*)[3])skeleton->interfaces.nodes.x);
+                                 (const int32_t(*)[3])boundary->interfaces.refined.triangle + interface->triangle_start,
+                                 (const double(*)[3])boundary->interfaces.nodes.x);
   return (CwFillSlab){*plane, 2 * radius};
 }
 
-static CwStatus refine(const CwSkeleton *skeleton, int32_t index, double reach, int32_t count,
+static CwStatus refine(const CwBoundary *boundary, int32_t index, double reach, int32_t count,
                        const double (*candidate)[3], char **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  const CwInterfaceOutline *interface = &skeleton->interfaces.outline[index];
+  const CwInterfaceOutline *interface = &boundary->interfaces.outline[index];
   CwPatchOutline outline = {0};
   CwBeside beside = {0};
   CwEncroachRefined refined = {0};
-  CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
-  CW_TRY(planned_points(skeleton, interface, &map, &outline));
+  CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[interface->node].plane);
+  CW_TRY(planned_points(boundary, interface, &map, &outline));
   CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, count, candidate, &beside));
   CwPatchInput patch = {.surface = cw_plane_map,
                         .surface_context = &map,
-                        .size = skeleton->size_at,
-                        .size_context = skeleton->size,
+                        .size = boundary->size_at,
+                        .size_context = boundary->size,
                         .point_count = outline.point_count,
                         .uv = (const double(*)[2])outline.uv,
                         .x = (const double(*)[3])outline.x,
                         .edge_count = outline.edge_count,
                         .edge = (const int32_t(*)[2])outline.edge,
                         .boundary = outline.boundary,
-                        .name = "on a dividing plane"};
+                        .name = "on a partition plane"};
   CW_TRY(cw_encroach_refine(&patch, &beside, &refined));
   CW_TRY(pack(index, &map, &outline, &refined, bytes, size));
 done:
@@ -136,7 +136,7 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, int32_t region, const char *name,
+CwStatus cw_interface_rule(const CwBoundary *boundary, const int32_t *number, int32_t region, const char *name,
                            void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   double(*candidate)[3] = NULL;
@@ -147,16 +147,16 @@ CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, in
   *size = 0;
   CW_NEW(made, sizeof owned);
   *size = sizeof owned;
-  CW_NEW(outline, skeleton->interfaces.outline_count);
-  CW_NEW(slab, skeleton->interfaces.outline_count);
-  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
-    if (cw_interface_owner(skeleton, number, i) != region) continue;
-    slab[owned] = beside_interface(skeleton, &skeleton->interfaces.outline[i]);
+  CW_NEW(outline, boundary->interfaces.outline_count);
+  CW_NEW(slab, boundary->interfaces.outline_count);
+  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
+    if (cw_interface_owner(boundary, number, i) != region) continue;
+    slab[owned] = beside_interface(boundary, &boundary->interfaces.outline[i]);
     outline[owned++] = i;
   }
-  CW_TRY(candidates(skeleton, region, name, owned, slab, &count, &candidate, NULL));
+  CW_TRY(candidates(boundary, region, name, owned, slab, &count, &candidate, NULL));
   for (int32_t i = 0; i < owned; i++) {
-    CW_TRY(refine(skeleton, outline[i], slab[i].reach, count, (const double(*)[3])candidate, &made, size));
+    CW_TRY(refine(boundary, outline[i], slab[i].reach, count, (const double(*)[3])candidate, &made, size));
   }
   memcpy(made, &owned, sizeof owned);
   *bytes = made;
@@ -169,13 +169,13 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInterfaceRuleCounts *counts) {
+CwStatus cw_interface_rule_merge(CwBoundary *boundary, void *const *bytes, CwInterfaceRuleCounts *counts) {
   CwStatus status = CW_OK;
   const char **block = NULL;
   int32_t header[HEADER], total = 0;
-  *counts = (CwInterfaceRuleCounts){.planned = skeleton->interfaces.refined.count};
-  CW_NEW(block, skeleton->interfaces.outline_count);
-  for (int32_t r = 0; r < skeleton->plan->region_count; r++) {
+  *counts = (CwInterfaceRuleCounts){.planned = boundary->interfaces.refined.count};
+  CW_NEW(block, boundary->interfaces.outline_count);
+  for (int32_t r = 0; r < boundary->plan->region_count; r++) {
     int32_t owned = 0;
     const char *at = bytes[r];
     if (!at) continue;
@@ -193,29 +193,29 @@ CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInt
       total += header[TRIANGLES];
     }
   }
-  skeleton->interfaces.planned = skeleton->interfaces.refined;
-  skeleton->interfaces.refined = (CwInterfaceTriangles){0};
-  CW_NEW(skeleton->interfaces.refined.triangle, total);
-  CW_NEW(skeleton->interfaces.refined.region, total);
-  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
-    CwInterfaceOutline *interface = &skeleton->interfaces.outline[i];
+  boundary->interfaces.planned = boundary->interfaces.refined;
+  boundary->interfaces.refined = (CwInterfaceTriangles){0};
+  CW_NEW(boundary->interfaces.refined.triangle, total);
+  CW_NEW(boundary->interfaces.refined.region, total);
+  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
+    CwInterfaceOutline *interface = &boundary->interfaces.outline[i];
     CW_REQUIRE(block[i], CW_ERR_MESH, "interface %d has no owner", i);
     memcpy(header, block[i], sizeof header);
     const char *at = block[i] + sizeof header;
-    int32_t first = skeleton->interfaces.nodes.count, node;
+    int32_t first = boundary->interfaces.nodes.count, node;
     for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
       double x[3];
       memcpy(x, at, sizeof x);
-      CW_TRY(cw_skeleton_add_node(skeleton, x, 1, &node));
+      CW_TRY(cw_boundary_add_node(boundary, x, 1, &node));
     }
-    interface->refined_start = skeleton->interfaces.refined.count;
+    interface->refined_start = boundary->interfaces.refined.count;
     interface->refined_count = header[TRIANGLES];
     for (int32_t t = 0; t < header[TRIANGLES]; t++, at += sizeof(int32_t[3])) {
-      int32_t *corner = skeleton->interfaces.refined.triangle[skeleton->interfaces.refined.count];
+      int32_t *corner = boundary->interfaces.refined.triangle[boundary->interfaces.refined.count];
       memcpy(corner, at, sizeof(int32_t[3]));
       for (int k = 0; k < 3; k++) corner[k] = corner[k] < 0 ? first + (-1 - corner[k]) : corner[k];
-      memcpy(skeleton->interfaces.refined.region[skeleton->interfaces.refined.count++],
-             skeleton->interfaces.planned.region[interface->triangle_start], sizeof(int32_t[2]));
+      memcpy(boundary->interfaces.refined.region[boundary->interfaces.refined.count++],
+             boundary->interfaces.planned.region[interface->triangle_start], sizeof(int32_t[2]));
     }
   }
 done:
@@ -223,26 +223,26 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
+CwStatus cw_interface_rule_points(const CwBoundary *boundary, int32_t region, const char *name, int32_t *count,
                                   double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   CwBeside beside = {0};
   uint8_t *dropped = NULL;
   int32_t kept = 0;
-  CW_TRY(candidates(skeleton, region, name, 0, NULL, count, x, site));
+  CW_TRY(candidates(boundary, region, name, 0, NULL, count, x, site));
   CW_NEW(dropped, *count);
-  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
-    const CwInterfaceOutline *interface = &skeleton->interfaces.outline[i];
-    const int32_t *regions = skeleton->interfaces.refined.region[interface->refined_start];
+  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
+    const CwInterfaceOutline *interface = &boundary->interfaces.outline[i];
+    const int32_t *regions = boundary->interfaces.refined.region[interface->refined_start];
     if (regions[0] != region && regions[1] != region) continue;
-    CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
-    const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->interfaces.refined.triangle + interface->refined_start;
+    CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[interface->node].plane);
+    const int32_t(*triangle)[3] = (const int32_t(*)[3])boundary->interfaces.refined.triangle + interface->refined_start;
     double reach =
-        largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])skeleton->interfaces.nodes.x);
+        largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])boundary->interfaces.nodes.x);
     CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, *count, (const double(*)[3]) * x, &beside));
     for (int32_t t = 0; t < interface->refined_count; t++) {
       double uv[3][2], centre[2], radius;
-      for (int k = 0; k < 3; k++) cw_plane_uv(&map, skeleton->interfaces.nodes.x[triangle[t][k]], uv[k]);
+      for (int k = 0; k < 3; k++) cw_plane_uv(&map, boundary->interfaces.nodes.x[triangle[t][k]], uv[k]);
       if (!cw_encroach_circle(uv[0], uv[1], uv[2], centre, &radius)) continue;
       cw_beside_in_sphere(&beside, centre, radius, dropped);
     }

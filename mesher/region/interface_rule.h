@@ -11,13 +11,13 @@
 #define CUTWATER_MESHER_REGION_INTERFACE_RULE_H
 
 #include "mesher/fill/lattice_core.h"
-#include "mesher/skeleton/skeleton.h"
+#include "mesher/boundary/boundary.h"
 
 // Region (0-based) of the smaller number beside interface `outline`.
-int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, int32_t outline);
+int32_t cw_interface_owner(const CwBoundary *boundary, const int32_t *number, int32_t outline);
 
 // Refines all interfaces that `region` owns; packed for cw_interface_rule_merge. A task; the inner surfaces are merged.
-CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, int32_t region, const char *name,
+CwStatus cw_interface_rule(const CwBoundary *boundary, const int32_t *number, int32_t region, const char *name,
                            void **bytes, int64_t *size);
 
 typedef struct {
@@ -29,11 +29,11 @@ typedef struct {
 } CwInterfaceRuleCounts;
 
 // Takes up the results of all regions (NULL: owns nothing): new nodes, new interface triangles.
-CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInterfaceRuleCounts *counts);
+CwStatus cw_interface_rule_merge(CwBoundary *boundary, void *const *bytes, CwInterfaceRuleCounts *counts);
 
 // The inner points of a region: its candidates outside of all spheres of its interfaces, and their places in the
 // lattice. Caller frees *x and *site.
-CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
+CwStatus cw_interface_rule_points(const CwBoundary *boundary, int32_t region, const char *name, int32_t *count,
                                   double (**x)[3], CwLatticeSite **site);
 
 #endif

@@ -8,7 +8,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_with_fallback.h"
-#include "mesher/heights/layer_heights.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/policy.h"
@@ -16,7 +16,7 @@
 #include "pipeline/hash.h"
 #include "pipeline/mesh/interface_tolerance.h"
 
-static int compare_rims(const void *p, const void *q) {
+static int compare_open_edges(const void *p, const void *q) {
   const int32_t *a = p, *b = q;
   for (int k = 0; k < 2; k++) {
     if (a[k] != b[k]) return a[k] < b[k] ? -1 : 1;
@@ -24,55 +24,55 @@ static int compare_rims(const void *p, const void *q) {
   return 0;
 }
 
-// Wall edges along caps: their columns' sides are faces of the caps.
-static CwStatus find_rims(CwRegionContext *context) {
+// Wall edges along open patches: their columns' sides are faces of the open patches.
+static CwStatus find_open_edges(CwRegionContext *context) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = context->skeleton;
+  const CwBoundary *boundary = context->boundary;
   int32_t count = 0;
   for (int pass = 0; pass < 2; pass++) {
-    if (pass == 1) CW_NEW(context->rim, count);
-    for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
-      const CwCurve *curve = &skeleton->network.curve[i];
+    if (pass == 1) CW_NEW(context->open_edge, count);
+    for (int32_t i = 0; i < boundary->network.curve_count; i++) {
+      const CwCurve *curve = &boundary->network.curve[i];
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
-      int32_t cap = -1;
+      int32_t open_patch = -1;
       for (int k = 0; k < 2; k++) {
-        if (!cw_face_is_wall(skeleton->cad, curve->face[k])) cap = curve->face[k];
+        if (!cw_face_is_wall(boundary->cad, curve->face[k])) open_patch = curve->face[k];
       }
-      if (cap < 0) continue;
+      if (open_patch < 0) continue;
       if (pass == 0) {
         count += curve->point_count - 1;
         continue;
       }
       for (int32_t k = 0; k + 1 < curve->point_count; k++) {
         int32_t a = curve->node[k], b = curve->node[k + 1];
-        int32_t *rim = context->rim[context->rim_count++];
-        rim[0] = a < b ? a : b;
-        rim[1] = a < b ? b : a;
-        rim[2] = cap;
+        int32_t *open_edge = context->open_edge[context->open_edge_count++];
+        open_edge[0] = a < b ? a : b;
+        open_edge[1] = a < b ? b : a;
+        open_edge[2] = open_patch;
       }
     }
   }
-  qsort(context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
+  qsort(context->open_edge, (size_t)context->open_edge_count, sizeof *context->open_edge, compare_open_edges);
 done:
   return status;
 }
 
 CwStatus cw_region_context_make(CwRegionContext *context) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = context->skeleton;
+  const CwBoundary *boundary = context->boundary;
   CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
              context->layer_count, CW_LAYERS_MOST);
-  CW_NEW(context->shared_base, skeleton->interfaces.nodes.count);
-  CW_NEW(context->shared_node, skeleton->interfaces.nodes.count);
-  for (int32_t i = 0; i < skeleton->interfaces.nodes.count; i++) {
+  CW_NEW(context->shared_base, boundary->interfaces.nodes.count);
+  CW_NEW(context->shared_node, boundary->interfaces.nodes.count);
+  for (int32_t i = 0; i < boundary->interfaces.nodes.count; i++) {
     context->shared_base[i] = -1;
-    if (!skeleton->interfaces.nodes.on_plane[i]) continue;
+    if (!boundary->interfaces.nodes.on_plane[i]) continue;
     context->shared_base[i] = context->shared_count;
     context->shared_node[context->shared_node_count++] = i;
-    context->shared_count += i < skeleton->surface.vertex_count ? context->layer_count + 1 : 1;
+    context->shared_count += i < boundary->surface.vertex_count ? context->layer_count + 1 : 1;
   }
-  CW_TRY(find_rims(context));
-  CW_TRY(cw_rim_places_make(skeleton, &context->rim_places));
+  CW_TRY(find_open_edges(context));
+  CW_TRY(cw_open_edge_places_make(boundary, &context->open_edge_places));
 done:
   return status;
 }
@@ -80,15 +80,15 @@ done:
 void cw_region_context_free(CwRegionContext *context) {
   free(context->shared_base);
   free(context->shared_node);
-  free(context->rim);
-  cw_rim_places_free(&context->rim_places);
+  free(context->open_edge);
+  cw_open_edge_places_free(&context->open_edge_places);
   context->shared_base = NULL;
   context->shared_node = NULL;
-  context->rim = NULL;
+  context->open_edge = NULL;
 }
 
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]) {
-  const CwSkeleton *skeleton = context->skeleton;
+  const CwBoundary *boundary = context->boundary;
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
@@ -97,41 +97,42 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 #endif
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
-  for (int32_t i = skeleton->surface.region_start[region]; i < skeleton->surface.region_start[region + 1]; i++) {
-    int32_t t = skeleton->surface.region_triangle[i];
-    cw_hash_bytes(&hash, &skeleton->surface.face[t], sizeof(int32_t));
+  for (int32_t i = boundary->surface.region_start[region]; i < boundary->surface.region_start[region + 1]; i++) {
+    int32_t t = boundary->surface.region_triangle[i];
+    cw_hash_bytes(&hash, &boundary->surface.face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->surface.triangle[t][k];
-      cw_hash_bytes(&hash, skeleton->surface.x[v], sizeof(double[3]));
-      cw_hash_bytes(&hash, skeleton->layers.front[v], sizeof(double[3]));
+      int32_t v = boundary->surface.triangle[t][k];
+      cw_hash_bytes(&hash, boundary->surface.x[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, boundary->layers.top[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
       cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
       cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
-  for (int32_t t = 0; t < skeleton->interfaces.cap.count; t++) {
-    if (skeleton->interfaces.cap.region[t] != region) continue;
-    cw_hash_bytes(&hash, &skeleton->interfaces.cap.face[t], sizeof(int32_t));
+  for (int32_t t = 0; t < boundary->interfaces.open_patch.count; t++) {
+    if (boundary->interfaces.open_patch.region[t] != region) continue;
+    cw_hash_bytes(&hash, &boundary->interfaces.open_patch.face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++)
-      cw_hash_bytes(&hash, skeleton->interfaces.nodes.x[skeleton->interfaces.cap.triangle[t][k]], sizeof(double[3]));
-  }
-  for (int32_t t = 0; t < skeleton->interfaces.planned.count; t++) { // candidates follow from these
-    if (skeleton->interfaces.planned.region[t][0] != region && skeleton->interfaces.planned.region[t][1] != region)
-      continue;
-    for (int k = 0; k < 3; k++)
-      cw_hash_bytes(&hash, skeleton->interfaces.nodes.x[skeleton->interfaces.planned.triangle[t][k]],
+      cw_hash_bytes(&hash, boundary->interfaces.nodes.x[boundary->interfaces.open_patch.triangle[t][k]],
                     sizeof(double[3]));
   }
-  for (int32_t t = 0; t < skeleton->interfaces.refined.count; t++) {
-    if (skeleton->interfaces.refined.region[t][0] != region && skeleton->interfaces.refined.region[t][1] != region)
+  for (int32_t t = 0; t < boundary->interfaces.planned.count; t++) { // candidates follow from these
+    if (boundary->interfaces.planned.region[t][0] != region && boundary->interfaces.planned.region[t][1] != region)
+      continue;
+    for (int k = 0; k < 3; k++)
+      cw_hash_bytes(&hash, boundary->interfaces.nodes.x[boundary->interfaces.planned.triangle[t][k]],
+                    sizeof(double[3]));
+  }
+  for (int32_t t = 0; t < boundary->interfaces.refined.count; t++) {
+    if (boundary->interfaces.refined.region[t][0] != region && boundary->interfaces.refined.region[t][1] != region)
       continue;
     for (int k = 0; k < 3; k++) {
-      int32_t node = skeleton->interfaces.refined.triangle[t][k];
-      cw_hash_bytes(&hash, skeleton->interfaces.nodes.x[node], sizeof(double[3]));
+      int32_t node = boundary->interfaces.refined.triangle[t][k];
+      cw_hash_bytes(&hash, boundary->interfaces.nodes.x[node], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
     }
     double centre =
-        skeleton->size_at(skeleton->size, skeleton->interfaces.nodes.x[skeleton->interfaces.refined.triangle[t][0]]);
+        boundary->size_at(boundary->size, boundary->interfaces.nodes.x[boundary->interfaces.refined.triangle[t][0]]);
     cw_hash_bytes(&hash, &centre, sizeof centre);
   }
   cw_hash_hex(&hash, fingerprint);
@@ -141,47 +142,47 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 typedef struct {
   const CwRegionContext *context;
   int32_t region;
-  CwRegionBoundary boundary;
+  CwRegionBoundary inner;
   CwFill fill;
   int32_t *place;  // point of the region file for each fill point
-  int32_t *column; // first point of the layers below each local node that stands on the front, by level
+  int32_t *column; // first point of the layers below each local node that stands on the layer top, by level
 } Build;
 
 // Numbers the points of the region file, shared ones first, and places them.
 static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
-  const CwSkeleton *skeleton = context->skeleton;
+  const CwBoundary *boundary = context->boundary;
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
   double fraction[CW_LAYERS_MOST + 1];
-  for (int32_t i = 0; i < build->boundary.node_count; i++) {
-    int on_front = build->boundary.node[i] < skeleton->surface.vertex_count,
-        is_shared = context->shared_base[build->boundary.node[i]] >= 0;
-    if (on_front) total += levels;
-    if (is_shared) shared += on_front ? levels + 1 : 1;
+  for (int32_t i = 0; i < build->inner.node_count; i++) {
+    int on_top = build->inner.node[i] < boundary->surface.vertex_count,
+        is_shared = context->shared_base[build->inner.node[i]] >= 0;
+    if (on_top) total += levels;
+    if (is_shared) shared += on_top ? levels + 1 : 1;
   }
   mesh->point_count = total;
   mesh->shared_count = shared;
   CW_NEW(mesh->x, total);
   CW_NEW(mesh->shared_id, shared);
   CW_NEW(build->place, build->fill.point_count);
-  CW_NEW(build->column, build->boundary.node_count);
+  CW_NEW(build->column, build->inner.node_count);
   int32_t next_shared = 0, next_own = shared;
   for (int32_t i = 0; i < build->fill.point_count; i++) {
-    int32_t node = i < build->boundary.node_count ? build->boundary.node[i] : -1;
+    int32_t node = i < build->inner.node_count ? build->inner.node[i] : -1;
     int64_t base = node >= 0 ? context->shared_base[node] : -1;
-    int on_front = node >= 0 && node < skeleton->surface.vertex_count;
+    int on_top = node >= 0 && node < boundary->surface.vertex_count;
     int32_t *next = base >= 0 ? &next_shared : &next_own;
-    if (on_front) {
+    if (on_top) {
       build->column[i] = *next;
-      cw_layer_fractions(skeleton->layers.height[node], context->first_height[node], levels, context->growth[node],
+      cw_layer_fractions(boundary->layers.thickness[node], context->first_height[node], levels, context->growth[node],
                          fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->shared_id[*next] = base + k;
-        cw_column_place(skeleton, &context->rim_places, node, fraction[k], mesh->x[(*next)++]);
+        cw_column_place(boundary, &context->open_edge_places, node, fraction[k], mesh->x[(*next)++]);
       }
     }
-    if (base >= 0) mesh->shared_id[*next] = base + (on_front ? levels : 0);
+    if (base >= 0) mesh->shared_id[*next] = base + (on_top ? levels : 0);
     build->place[i] = *next;
     cw_copy(build->fill.x[i], mesh->x[(*next)++]);
   }
@@ -189,22 +190,23 @@ done:
   return status;
 }
 
-// Point at `level` of the column of a local front node: 0 on the wall, layer_count on the front.
+// Point at `level` of the column of a local layer top node: 0 on the wall, layer_count on the layer top.
 static int32_t column_point(const Build *build, int32_t local, int level) {
   return level == build->context->layer_count ? build->place[local] : build->column[local] + level;
 }
 
-static int32_t rim_cap(const CwRegionContext *context, int32_t a, int32_t b) {
+static int32_t open_edge_open_patch(const CwRegionContext *context, int32_t a, int32_t b) {
   int32_t key[3] = {a < b ? a : b, a < b ? b : a, 0};
-  const int32_t(*found)[3] = bsearch(key, context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
+  const int32_t(*found)[3] = bsearch(key, context->open_edge, (size_t)context->open_edge_count,
+                                     sizeof *context->open_edge, compare_open_edges);
   return found ? (*found)[2] : -1;
 }
 
 // Nodes of a face of an interface lie on its exact surface: solvers couple the two sides there.
-static CwStatus check_on_cap(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
-                             int count) {
+static CwStatus check_on_open_patch(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
+                                    int count) {
   CwStatus status = CW_OK;
-  const CwCad *cad = build->context->skeleton->cad;
+  const CwCad *cad = build->context->boundary->cad;
   const double *x[4];
   int patch = cw_cad_face_patch(cad, face);
   if (cw_cad_patch_kind(cad, patch) != CW_PATCH_INTERFACE) return CW_OK;
@@ -221,13 +223,13 @@ done:
   return status;
 }
 
-// Prisms of all columns, wall triangles under them, and the quads of their sides on caps.
+// Prisms of all columns, wall triangles under them, and the quads of their sides on open patches.
 static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
-  const CwSkeleton *skeleton = context->skeleton;
+  const CwBoundary *boundary = context->boundary;
   int levels = context->layer_count;
-  mesh->prism_count = build->boundary.wall_count * levels;
+  mesh->prism_count = build->inner.wall_count * levels;
   CW_NEW(mesh->prism, mesh->prism_count);
   int32_t sides = 0;
   for (int pass = 0; pass < 2; pass++) {
@@ -236,13 +238,13 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       CW_NEW(mesh->quad_patch, (size_t)sides * (size_t)levels);
       CW_NEW(mesh->quad_cell, (size_t)sides * (size_t)levels);
     }
-    for (int32_t t = 0; t < build->boundary.wall_count; t++) {
-      const int32_t *corner = build->boundary.triangle[t];
+    for (int32_t t = 0; t < build->inner.wall_count; t++) {
+      const int32_t *corner = build->inner.triangle[t];
       int32_t first_cell = mesh->tetrahedron_count + t * levels;
       for (int e = 0; e < 3; e++) {
         int32_t a = corner[e], b = corner[(e + 1) % 3],
-                cap = rim_cap(context, build->boundary.node[a], build->boundary.node[b]);
-        if (cap < 0) continue;
+                open_patch = open_edge_open_patch(context, build->inner.node[a], build->inner.node[b]);
+        if (open_patch < 0) continue;
         sides += pass == 0;
         for (int k = 0; pass == 1 && k < levels; k++) {
           int32_t q = mesh->quad_count++;
@@ -250,9 +252,9 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
           mesh->quad[q][1] = column_point(build, a, k);
           mesh->quad[q][2] = column_point(build, a, k + 1);
           mesh->quad[q][3] = column_point(build, b, k + 1);
-          mesh->quad_patch[q] = cw_cad_face_patch(skeleton->cad, cap);
+          mesh->quad_patch[q] = cw_cad_face_patch(boundary->cad, open_patch);
           mesh->quad_cell[q] = first_cell + k;
-          CW_TRY(check_on_cap(build, mesh, cap, mesh->quad[q], 4));
+          CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->quad[q], 4));
         }
       }
       if (pass == 0) continue;
@@ -265,7 +267,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       }
       int32_t w = mesh->triangle_count++;
       for (int c = 0; c < 3; c++) mesh->triangle[w][c] = column_point(build, corner[c], 0);
-      mesh->triangle_patch[w] = cw_cad_face_patch(skeleton->cad, skeleton->surface.face[build->boundary.source[t]]);
+      mesh->triangle_patch[w] = cw_cad_face_patch(boundary->cad, boundary->surface.face[build->inner.source[t]]);
       mesh->triangle_cell[w] = first_cell;
     }
   }
@@ -294,41 +296,40 @@ static int compare_faces(const void *p, const void *q) {
   return memcmp(((const Face *)p)->corner, ((const Face *)q)->corner, sizeof(int32_t[3]));
 }
 
-// Triangles of the caps with the tetrahedron behind each.
-static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
+// Triangles of the open patches with the tetrahedron behind each.
+static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = build->context->skeleton;
+  const CwBoundary *boundary = build->context->boundary;
   Face *face = NULL;
-  int32_t first = build->boundary.wall_count;
-  CW_NEW(face, build->boundary.cap_count);
-  for (int32_t t = 0; t < build->boundary.cap_count; t++) {
-    const int32_t *corner = build->boundary.triangle[first + t];
+  int32_t first = build->inner.wall_count;
+  CW_NEW(face, build->inner.open_patch_count);
+  for (int32_t t = 0; t < build->inner.open_patch_count; t++) {
+    const int32_t *corner = build->inner.triangle[first + t];
     face[t] = face_of(corner[0], corner[1], corner[2], t);
     int32_t made = mesh->triangle_count++;
     for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
-    int32_t cap = skeleton->interfaces.cap.face[build->boundary.source[first + t]];
-    mesh->triangle_patch[made] = cw_cad_face_patch(skeleton->cad, cap);
+    int32_t open_patch = boundary->interfaces.open_patch.face[build->inner.source[first + t]];
+    mesh->triangle_patch[made] = cw_cad_face_patch(boundary->cad, open_patch);
     mesh->triangle_cell[made] = -1;
-    CW_TRY(check_on_cap(build, mesh, cap, mesh->triangle[made], 3));
+    CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->triangle[made], 3));
   }
-  qsort(face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
+  qsort(face, (size_t)build->inner.open_patch_count, sizeof *face, compare_faces);
   for (int32_t t = 0; t < build->fill.tetrahedron_count; t++) {
     const int32_t *corner = build->fill.tetrahedron[t];
     for (int k = 0; k < 4; k++) {
       int32_t a = corner[(k + 1) % 4], b = corner[(k + 2) % 4], c = corner[(k + 3) % 4];
-      if (a >= build->boundary.node_count || b >= build->boundary.node_count || c >= build->boundary.node_count)
-        continue;
+      if (a >= build->inner.node_count || b >= build->inner.node_count || c >= build->inner.node_count) continue;
       Face key = face_of(a, b, c, 0);
-      const Face *found = bsearch(&key, face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
-      if (found) mesh->triangle_cell[build->boundary.wall_count + found->index] = t;
+      const Face *found = bsearch(&key, face, (size_t)build->inner.open_patch_count, sizeof *face, compare_faces);
+      if (found) mesh->triangle_cell[build->inner.wall_count + found->index] = t;
     }
   }
-  for (int32_t t = 0; t < build->boundary.cap_count; t++) {
-    const double *x = mesh->x[mesh->triangle[build->boundary.wall_count + t][0]];
-    CW_REQUIRE(mesh->triangle_cell[build->boundary.wall_count + t] >= 0, CW_ERR_MESH,
+  for (int32_t t = 0; t < build->inner.open_patch_count; t++) {
+    const double *x = mesh->x[mesh->triangle[build->inner.wall_count + t][0]];
+    CW_REQUIRE(mesh->triangle_cell[build->inner.wall_count + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
-               build->region + 1,
-               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), CW_MM(x));
+               build->region + 1, cw_cad_patch_name(boundary->cad, mesh->triangle_patch[build->inner.wall_count + t]),
+               CW_MM(x));
   }
 done:
   free(face);
@@ -347,10 +348,10 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   mesh->region = region + 1;
   mesh->number = number;
   cw_region_fingerprint(context, region, mesh->fingerprint);
-  CW_TRY(cw_region_boundary_make(context->skeleton, region, 0, &build.boundary));
-  CwFillInput input = cw_region_fill_input(context->skeleton, &build.boundary, name);
-  if (context->skeleton->interfaces.planned.triangle) {
-    CW_TRY(cw_interface_rule_points(context->skeleton, region, name, &input.inner_count, &inner, &site));
+  CW_TRY(cw_region_boundary_make(context->boundary, region, 0, &build.inner));
+  CwFillInput input = cw_region_fill_input(context->boundary, &build.inner, name);
+  if (context->boundary->interfaces.planned.triangle) {
+    CW_TRY(cw_interface_rule_points(context->boundary, region, name, &input.inner_count, &inner, &site));
     input.inner = (const double(*)[3])inner;
     input.inner_site = site;
   }
@@ -362,15 +363,15 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   for (int32_t t = 0; t < mesh->tetrahedron_count; t++) {
     for (int k = 0; k < 4; k++) mesh->tetrahedron[t][k] = build.place[build.fill.tetrahedron[t][k]];
   }
-  CW_NEW(mesh->triangle, build.boundary.wall_count + build.boundary.cap_count);
-  CW_NEW(mesh->triangle_patch, build.boundary.wall_count + build.boundary.cap_count);
-  CW_NEW(mesh->triangle_cell, build.boundary.wall_count + build.boundary.cap_count);
+  CW_NEW(mesh->triangle, build.inner.wall_count + build.inner.open_patch_count);
+  CW_NEW(mesh->triangle_patch, build.inner.wall_count + build.inner.open_patch_count);
+  CW_NEW(mesh->triangle_cell, build.inner.wall_count + build.inner.open_patch_count);
   CW_TRY(add_layers(&build, mesh));
-  CW_TRY(add_caps(&build, mesh));
+  CW_TRY(add_open_patches(&build, mesh));
 done:
   if (status != CW_OK) cw_region_free(mesh);
   cw_fill_free(&build.fill);
-  cw_region_boundary_free(&build.boundary);
+  cw_region_boundary_free(&build.inner);
   free(inner);
   free(site);
   free(build.place);

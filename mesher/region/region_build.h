@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// One region of the mesh from the skeleton: tetrahedra inside its front, prisms in its columns, boundary faces.
+// One region of the mesh from the boundary: tetrahedra inside its layer top, prisms in its columns, boundary faces.
 #ifndef CUTWATER_MESHER_REGION_REGION_BUILD_H
 #define CUTWATER_MESHER_REGION_REGION_BUILD_H
 
 #include "mesher/region/column_place.h"
 #include "mesher/region/region_file.h"
-#include "mesher/skeleton/skeleton.h"
+#include "mesher/boundary/boundary.h"
 #include "pipeline/case.h"
 
 // What all regions of a domain share.
 typedef struct {
-  const CwSkeleton *skeleton;
+  const CwBoundary *boundary;
   const char *domain;
   int layer_count;
   CwFillMethod fill;
   const double *first_height; // of each wall vertex, by which its column is divided, m
   const double *growth;       // of each wall vertex, largest ratio of neighbouring layers
   // Filled by cw_region_context_make:
-  int64_t *shared_base; // of each skeleton node: first shared number of its column (or its own), -1: not shared
+  int64_t *shared_base; // of each boundary node: first shared number of its column (or its own), -1: not shared
   int64_t shared_count;
   int32_t shared_node_count, *shared_node; // the shared nodes by ascending base
-  CwRimPlaces rim_places;
-  int32_t rim_count;
-  int32_t (*rim)[3]; // wall edges on caps: smaller vertex, greater vertex, cap face; sorted
+  CwOpenEdgePlaces open_edge_places;
+  int32_t open_edge_count;
+  int32_t (*open_edge)[3]; // wall edges on open patches: smaller vertex, greater vertex, open patch face; sorted
 } CwRegionContext;
 
 CwStatus cw_region_context_make(CwRegionContext *context);

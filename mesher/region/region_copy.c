@@ -7,13 +7,13 @@
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
-#include "mesher/heights/layer_heights.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "pipeline/hash.h"
 
 static const double SAME_POINT = 1e-9; // of the model's unit
 
 static int32_t copied_region(const CwRegionContext *context, int32_t first, int32_t turns) {
-  return cw_orbit_region(&context->skeleton->orbits, context->skeleton->plan, first, turns);
+  return cw_image_region(&context->boundary->images, context->boundary->plan, first, turns);
 }
 
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
@@ -26,7 +26,7 @@ void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMe
   cw_hash_hex(&hash, fingerprint);
 }
 
-// The skeleton node under a shared number: the last whose base is not greater.
+// The boundary node under a shared number: the last whose base is not greater.
 static int32_t node_of(const CwRegionContext *context, int64_t id) {
   int32_t low = 0, high = context->shared_node_count;
   while (high - low > 1) {
@@ -43,19 +43,19 @@ static int32_t node_of(const CwRegionContext *context, int64_t id) {
 // Number and place of the shared point that `turns` turns make of `id`.
 static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t turns, int64_t *turned, double x[3]) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = context->skeleton;
-  int32_t from = node_of(context, id), node = cw_orbit_node(&skeleton->orbits, from, turns);
+  const CwBoundary *boundary = context->boundary;
+  int32_t from = node_of(context, id), node = cw_image_node(&boundary->images, from, turns);
   int64_t level = id - context->shared_base[from];
-  CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no turned copy", context->domain,
-             CW_MM(skeleton->interfaces.nodes.x[from]));
+  CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no periodic image",
+             context->domain, CW_MM(boundary->interfaces.nodes.x[from]));
   *turned = context->shared_base[node] + level;
-  if (node < skeleton->surface.vertex_count && level < context->layer_count) {
+  if (node < boundary->surface.vertex_count && level < context->layer_count) {
     double fraction[CW_LAYERS_MOST + 1];
-    cw_layer_fractions(skeleton->layers.height[node], context->first_height[node], context->layer_count,
+    cw_layer_fractions(boundary->layers.thickness[node], context->first_height[node], context->layer_count,
                        context->growth[node], fraction);
-    cw_column_place(skeleton, &context->rim_places, node, fraction[level], x);
+    cw_column_place(boundary, &context->open_edge_places, node, fraction[level], x);
   } else {
-    cw_copy(skeleton->interfaces.nodes.x[node], x);
+    cw_copy(boundary->interfaces.nodes.x[node], x);
   }
 done:
   return status;
@@ -91,12 +91,12 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
   CW_NEW(mesh->shared_id, mesh->shared_count);
   for (int32_t i = 0; i < mesh->point_count; i++) {
     double turned[3];
-    cw_orbit_point(&context->skeleton->orbits, turns, first->x[i], turned);
+    cw_image_point(&context->boundary->images, turns, first->x[i], turned);
     cw_copy(turned, mesh->x[i]);
     if (i >= mesh->shared_count) continue;
     CW_TRY(turned_point(context, first->shared_id[i], turns, &mesh->shared_id[i], mesh->x[i]));
     CW_REQUIRE(cw_distance(turned, mesh->x[i]) < SAME_POINT, CW_ERR_MESH,
-               "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its turned copy",
+               "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its periodic image",
                context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, mesh->x[i])));
   }
   struct {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The turned copy of a region: the same cells over turned points. Shared points get the numbers and the very bits that
-// the skeleton has there, so that the copy fits its neighbours.
+// The periodic image of a region: the same cells over turned points. Shared points get the numbers and the very bits
+// that the boundary has there, so that the copy fits its neighbours.
 #ifndef CUTWATER_MESHER_REGION_REGION_COPY_H
 #define CUTWATER_MESHER_REGION_REGION_COPY_H
 
 #include "mesher/region/region_build.h"
 
-// Hex fingerprint of the copy of `first`, the mesh of the first region of an orbit, `turns` turns on: of what both
+// Hex fingerprint of the copy of `first`, the mesh of the first region of an image set, `turns` turns on: of what both
 // follow from.
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
                                 char fingerprint[CW_HASH_TEXT]);
 
-// Makes that copy, with its fingerprint. Fails with CW_ERR_MESH where a shared point of the skeleton does not lie where
+// Makes that copy, with its fingerprint. Fails with CW_ERR_MESH where a shared point of the boundary does not lie where
 // the turn takes it.
 CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns, int32_t number,
                         const char *fingerprint, CwRegionMesh *mesh);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is done about a region that cannot be filled: its boundary is kept for a look, the place is found, and the
-// columns of the layers there are thinned, so that front, planes and caps get more room between them.
+// columns of the layers there are thinned, so that layer top, planes and open patches get more room between them.
 #ifndef CUTWATER_MESHER_REGION_REGION_FAILURE_H
 #define CUTWATER_MESHER_REGION_REGION_FAILURE_H
 
@@ -10,18 +10,18 @@ typedef struct {
   int32_t failed;     // 1: the region could not be made
   int32_t everywhere; // no place is known: 1 means all of the region
   double at[3];       // m
-  char patch[40];     // where the place is on the front or on a cap, else "dividing plane"
+  char patch[40];     // where the place is on the layer top or on an open patch, else "partition plane"
   char message[400];  // of the last attempt
 } CwRegionFailure;
 
 // Examines the boundary of `region` after a failure with `message`, and writes it to `path` (VTK PolyData; cell data
-// surface: 0 front, 1 cap, 2 interface; crossing: 1 where the triangle meets another).
-CwStatus cw_region_failure_examine(const CwSkeleton *skeleton, int32_t region, const char *message, const char *path,
+// surface: 0 layer top, 1 open patch, 2 interface; crossing: 1 where the triangle meets another).
+CwStatus cw_region_failure_examine(const CwBoundary *boundary, int32_t region, const char *message, const char *path,
                                    CwRegionFailure *failure);
 
-// Lowers the greatest heights `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they are
-// now: those whose front is nearer to it than `reach` wanted lengths, or all of the region.
-void cw_region_failure_thin(const CwSkeleton *skeleton, int32_t region, const CwRegionFailure *failure, double reach,
+// Lowers the greatest thicknesses `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they
+// are now: those whose layer top is nearer to it than `reach` wanted lengths, or all of the region.
+void cw_region_failure_thin(const CwBoundary *boundary, int32_t region, const CwRegionFailure *failure, double reach,
                             double *most);
 
 #endif

@@ -3,24 +3,24 @@
 
 #include <math.h>
 
-#include "mesher/heights/layer_count.h"
+#include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
 
 enum { SCALE_STEPS = 100 };
 
 // Triangles for each area of h^2 on the walls, where the first pass starts; the passes correct it. Equilateral ones
-// would be 4 / sqrt(3) = 2.31; those on rims and in bends come on top, with a share that grows with h (measured in the
-// pumps of cases/ at 0.3 million cells: 2.55 to 2.72, at 1 million 2.39 to 2.49; in the paper's at 3, 8 and 20
+// would be 4 / sqrt(3) = 2.31; those on open edges and in bends come on top, with a share that grows with h (measured
+// in the pumps of cases/ at 0.3 million cells: 2.55 to 2.72, at 1 million 2.39 to 2.49; in the paper's at 3, 8 and 20
 // million 2.43, 2.38 and 2.36).
 static double prisms_per_layer(double asked) {
   return 2.34 + 0.12 / sqrt(asked / 1e6);
 }
 
-// Tetrahedra for each volume of h^3, likewise. A lattice is 8.2; those that fit it to the front come on top. In coarse
-// meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the front: sizes change
-// within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells, within 5 %
-// in others). In fine ones those on interfaces come with the many regions (measured in the paper's from 3 to 20 million
-// cells: 13.0 at scale 0.75, 11.8 at 0.50, 10.9 at 0.35).
+// Tetrahedra for each volume of h^3, likewise. A lattice is 8.2; those that fit it to the layer top come on top. In
+// coarse meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the layer top:
+// sizes change within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells,
+// within 5 % in others). In fine ones those on interfaces come with the many regions (measured in the paper's from 3 to
+// 20 million cells: 13.0 at scale 0.75, 11.8 at 0.50, 10.9 at 0.35).
 static double tets_per_volume(const CwMeshRun *run, double scale) {
   double walls = 0, volume = 0;
   if (scale <= 1) return 8.45 + 6.25 * scale + 0.011 / (scale * scale);

@@ -8,12 +8,12 @@
 #include "mesher/cad/background_tessellate.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
-#include "mesher/heights/even_columns.h"
-#include "mesher/heights/layer_count.h"
-#include "mesher/heights/layer_heights.h"
-#include "mesher/layers/height_gradation.h"
+#include "mesher/thickness/even_columns.h"
+#include "mesher/thickness/layer_count.h"
+#include "mesher/thickness/layer_thickness.h"
+#include "mesher/layers/thickness_gradation.h"
 #include "mesher/layers/thin_prism.h"
-#include "mesher/parallel/share.h"
+#include "mesher/parallel/parallel_for.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
 #include "mesher/region/region_number.h"
@@ -23,10 +23,10 @@ static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
 // What `least_regions` asks beyond FREE_REGIONS has at least so many cells: planes through fewer meet in too few edges.
 static const double FREE_REGIONS = 4, FEWEST_CELLS = 5000;
-static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
-static const double LONGEST_ON_WALL = 30;   // of second heights: inside, prisms of the second layer are the thinnest
-static const double LARGEST_ON_WALL = 40;   // the same of an equilateral triangle as large as any may be
-static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
+static const double LONGEST_AT_OPEN_EDGE = 16; // of first heights: there prisms have a side on the boundary
+static const double LONGEST_ON_WALL = 30;      // of second heights: inside, prisms of the second layer are the thinnest
+static const double LARGEST_ON_WALL = 40;      // the same of an equilateral triangle as large as any may be
+static const double SAMPLE_STEP = 1.02;        // ratio of sizes of wall that count together
 static const double SEED_AREA = 0.25;       // of base sizes squared, that takes as long to seed as a triangle by itself
 static const double MORE_SEEDS = 0.12;      // of the triangles: as many take as long as edges or lines
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -115,10 +115,11 @@ static CwStatus integrate(CwDomain *domain, double scale) {
   cw_size_set_scale(domain->size, scale);
   CW_NEW(piece, domain->background.triangle_count);
   CW_NEW(along, lines);
-  CW_TRY(cw_share("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
+  CW_TRY(
+      cw_parallel_for("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
   for (int32_t t = 0; t < domain->background.triangle_count; t++) piece[t].size /= scale;
   CW_TRY(sum_pieces(domain, piece));
-  CW_TRY(cw_share("size integrals", lines, sizeof *along, find_line, domain, along));
+  CW_TRY(cw_parallel_for("size integrals", lines, sizeof *along, find_line, domain, along));
   for (int32_t i = 0; i < lines; i++) domain->volume_integral += along[i] * scale * scale * scale;
 done:
   free(piece);
@@ -131,7 +132,7 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *target = &domain->patch_layers[sample->patch];
-    layers += sample->density * cw_column_height_flat(target, domain->layer_count, scale * sample->size);
+    layers += sample->density * cw_column_thickness_flat(target, domain->layer_count, scale * sample->size);
   }
   layers *= domain->layer_share;
   // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
@@ -271,36 +272,36 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double
   CwMeshTable mesh = table->mesh;
   mesh.gradation = gradation;
   if (part >= SIZE_FIELDS) return measure_face(domain, part - SIZE_FIELDS, bytes, byte_count);
-  double *rim = NULL, *wall = NULL; // no wall is limited where wall_scale is 0
+  double *open_edge = NULL, *wall = NULL; // no wall is limited where wall_scale is 0
   int patches = cw_cad_patch_count(domain->cad);
-  CW_NEW(rim, patches);
+  CW_NEW(open_edge, patches);
   if (wall_scale > 0) CW_NEW(wall, patches);
   for (int p = 0; p < patches; p++) {
-    rim[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
+    open_edge[p] = LONGEST_AT_OPEN_EDGE * domain->patch_layers[p].first_height;
     if (wall) wall[p] = longest_on_wall(domain, p) / wall_scale;
   }
-  CwSizeLimits limits = {rim, wall};
+  CwSizeLimits limits = {open_edge, wall};
   CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, domain->base_size, &limits, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:
-  free(rim);
+  free(open_edge);
   free(wall);
   return status;
 }
 
 CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
   CwStatus status = CW_OK;
-  CwSize *rims = NULL;
+  CwSize *open_edges = NULL;
   cw_size_seeds_free(&domain->seeds);
   CW_TRY(cw_size_unpack(&bytes[0], &domain->size));
-  CW_TRY(cw_size_unpack(&bytes[1], &rims));
-  cw_size_join(domain->size, &rims);
+  CW_TRY(cw_size_unpack(&bytes[1], &open_edges));
+  cw_size_join(domain->size, &open_edges);
   domain->solid_volume = 0;
   for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
   CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
   CW_TRY(integrate(domain, 1));
 done:
-  cw_size_free(&rims);
+  cw_size_free(&open_edges);
   return status;
 }
 
@@ -315,15 +316,15 @@ done:
   return status;
 }
 
-// Cells a region. With more than some 140 regions in all a dividing plane finds no good place in narrow parts, such as
+// Cells a region. With more than some 140 regions in all a partition plane finds no good place in narrow parts, such as
 // beside the tongue, while memory never asks for so many.
 static double cells_per_region(const CwCase *table) {
   if (table->mesh.cells_per_region > 0) return (double)table->mesh.cells_per_region;
   return fmax(LEAST_REGION_CELLS, (double)table->mesh.cells / MOST_REGIONS);
 }
 
-// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the fan are copied with
-// their faces.
+// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the sectors are copied
+// with their faces.
 static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
   const CwBackground *background = &domain->background;
   for (int32_t t = 0; t < background->triangle_count; t++) {
@@ -349,7 +350,7 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
     thickness[p] = domain->patch_layers[p].thickness;
-    least[p] = cw_column_height_least(domain->patch_layers[p].first_height, domain->layer_count);
+    least[p] = cw_column_thickness_least(domain->patch_layers[p].first_height, domain->layer_count);
   }
   CwPlanOptions options = {.region_count =
                                domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + domain->more_regions,
@@ -377,37 +378,37 @@ done:
 
 CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwSkeleton *skeleton = &domain->skeleton;
+  CwBoundary *boundary = &domain->boundary;
   cw_domain_clear(domain);
-  skeleton->cad = domain->cad;
-  skeleton->plan = &domain->plan;
-  skeleton->size_at = cw_size_at;
-  skeleton->size = domain->size;
+  boundary->cad = domain->cad;
+  boundary->plan = &domain->plan;
+  boundary->size_at = cw_size_at;
+  boundary->size = domain->size;
   int patches = cw_cad_patch_count(domain->cad);
-  CW_NEW(skeleton->largest, patches);
+  CW_NEW(boundary->largest, patches);
   for (int p = 0; p < patches; p++)
-    skeleton->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
+    boundary->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
   CW_TRY_STAGE(
-      cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network, outcome),
+      cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &boundary->network, outcome),
       outcome);
-  skeleton->orbits.symmetry = domain->symmetry;
-  if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits, outcome));
+  boundary->images.symmetry = domain->symmetry;
+  if (domain->symmetry) CW_TRY(cw_periodic_images_make(&boundary->network, &boundary->images, outcome));
 done:
   return status;
 }
 
 CwStatus cw_domain_targets(CwDomain *domain) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = &domain->skeleton;
+  const CwBoundary *boundary = &domain->boundary;
   CwLayerTarget *layers = NULL; // of each face
   CwIncident around = {0};
   int faces = cw_cad_face_count(domain->cad);
   CW_NEW(layers, faces);
   for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
-  CW_TRY(cw_incident_make(skeleton->surface.vertex_count, skeleton->surface.triangle_count,
-                          (const int32_t(*)[3])skeleton->surface.triangle, &around));
-  CW_TRY(cw_column_heights_make(skeleton, &around, layers, domain->layer_count, &domain->heights));
-  CW_TRY(cw_column_heights_share(&domain->heights, skeleton, &around, layers, &domain->layer_share));
+  CW_TRY(cw_incident_make(boundary->surface.vertex_count, boundary->surface.triangle_count,
+                          (const int32_t(*)[3])boundary->surface.triangle, &around));
+  CW_TRY(cw_column_targets_make(boundary, &around, layers, domain->layer_count, &domain->targets));
+  CW_TRY(cw_column_targets_share(&domain->targets, boundary, &around, layers, &domain->layer_share));
 done:
   cw_incident_free(&around);
   free(layers);
@@ -416,7 +417,7 @@ done:
 
 CwStatus cw_domain_number(CwDomain *domain) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_skeleton_adjacency(&domain->skeleton, &domain->pair_count, &domain->pair));
+  CW_TRY(cw_boundary_adjacency(&domain->boundary, &domain->pair_count, &domain->pair));
   CW_NEW(domain->number, domain->plan.region_count);
   CW_TRY(cw_region_numbers(domain->plan.region_count, domain->pair_count, (const int32_t(*)[2])domain->pair,
                            domain->number, NULL, &domain->colours));
@@ -426,68 +427,68 @@ done:
 
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
-  domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
+  domain->context = (CwRegionContext){.boundary = &domain->boundary,
                                       .domain = domain->name,
                                       .layer_count = domain->layer_count,
-                                      .growth = domain->heights.growth,
+                                      .growth = domain->targets.growth,
                                       .fill = table->mesh.fill,
-                                      .first_height = domain->heights.first_made};
+                                      .first_height = domain->targets.first_made};
   CW_TRY(cw_region_context_make(&domain->context));
 done:
   return status;
 }
 
 // Adds the prisms over a wall triangle that are thin for their length, or sheared: of small determinants.
-static void count_thin(const CwSkeleton *skeleton, int32_t t, const CwColumnHeights *heights, CwLayerCoverage *of) {
-  const int32_t *corner = skeleton->surface.triangle[t];
+static void count_thin(const CwBoundary *boundary, int32_t t, const CwColumnTargets *targets, CwLayerCoverage *of) {
+  const int32_t *corner = boundary->surface.triangle[t];
   double determinant[CW_LAYERS_MOST], first[3];
-  for (int k = 0; k < 3; k++) first[k] = heights->first_made[corner[k]];
-  cw_column_determinants(heights, skeleton, t, first, determinant);
-  for (int k = 0; k < heights->layer_count; k++) {
+  for (int k = 0; k < 3; k++) first[k] = targets->first_made[corner[k]];
+  cw_column_determinants(targets, boundary, t, first, determinant);
+  for (int k = 0; k < targets->layer_count; k++) {
     if (determinant[k] >= CW_SMALL_DETERMINANT) continue;
     double wanted = cw_thin_prism_wanted(determinant[k]);
     of->thin++;
     if (wanted <= of->thin_wanted) continue;
     of->thin_wanted = wanted;
-    cw_copy(skeleton->surface.x[corner[0]], of->thin_at);
+    cw_copy(boundary->surface.x[corner[0]], of->thin_at);
   }
 }
 
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
-  const CwSkeleton *skeleton = &domain->skeleton;
-  const CwColumnHeights *heights = &domain->heights;
+  const CwBoundary *boundary = &domain->boundary;
+  const CwColumnTargets *targets = &domain->targets;
   double fraction[CW_LAYERS_MOST + 1];
-  for (int32_t i = skeleton->surface.region_start[region]; i < skeleton->surface.region_start[region + 1]; i++) {
-    int32_t t = skeleton->surface.region_triangle[i];
-    int patch = cw_cad_face_patch(domain->cad, skeleton->surface.face[t]);
+  for (int32_t i = boundary->surface.region_start[region]; i < boundary->surface.region_start[region + 1]; i++) {
+    int32_t t = boundary->surface.region_triangle[i];
+    int patch = cw_cad_face_patch(domain->cad, boundary->surface.face[t]);
     if (patch >= patches) continue;
     CwLayerCoverage *of = &coverage[patch];
     int full = 1, met = 1, worst = 0;
     for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->surface.triangle[t][k];
-      double height = skeleton->layers.height[v];
-      double wanted = heights->first_height[v];
+      int32_t v = boundary->surface.triangle[t][k];
+      double thickness = boundary->layers.thickness[v];
+      double wanted = targets->first_height[v];
       double first =
-          cw_layer_fractions(height, heights->first_made[v], heights->layer_count, heights->growth[v], fraction);
-      full &= height >= 0.99 * heights->target[v];
+          cw_layer_fractions(thickness, targets->first_made[v], targets->layer_count, targets->growth[v], fraction);
+      full &= thickness >= 0.99 * targets->target[v];
       met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;
-      if (skeleton->layers.reason[v] > worst) worst = skeleton->layers.reason[v];
-      of->thickness += height / 3;
-      of->least = of->faces == 0 && k == 0 ? height : fmin(of->least, height);
+      if (boundary->layers.reason[v] > worst) worst = boundary->layers.reason[v];
+      of->thickness += thickness / 3;
+      of->least = of->faces == 0 && k == 0 ? thickness : fmin(of->least, thickness);
     }
     of->faces++;
     of->full += full;
     of->first_met += met;
     of->reason[full ? 0 : worst]++;
     if (!met) of->missed[worst]++;
-    count_thin(skeleton, t, heights, of);
+    count_thin(boundary, t, targets, of);
   }
 }
 
 void cw_domain_clear(CwDomain *domain) {
   cw_region_context_free(&domain->context);
-  cw_skeleton_free(&domain->skeleton);
-  cw_column_heights_free(&domain->heights);
+  cw_boundary_free(&domain->boundary);
+  cw_column_targets_free(&domain->targets);
   free(domain->number);
   free(domain->pair);
   domain->number = NULL;

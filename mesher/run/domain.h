@@ -5,8 +5,8 @@
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/symmetry.h"
-#include "mesher/heights/column_heights.h"
-#include "mesher/heights/wall_targets.h"
+#include "mesher/thickness/column_targets.h"
+#include "mesher/thickness/wall_targets.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_build.h"
 #include "mesher/size/size.h"
@@ -43,8 +43,8 @@ typedef struct {
   double layer_share;   // of that, what graded columns take; known with the walls
   int32_t more_regions; // than the number of cells asks for: plans given up; CW_UNDIVIDED: one region
   CwPlan plan;
-  CwSkeleton skeleton;
-  CwColumnHeights heights;
+  CwBoundary boundary;
+  CwColumnTargets targets;
   CwRegionContext context;
   int32_t *number, colours;       // region numbers
   int32_t pair_count, (*pair)[2]; // adjacent regions
@@ -93,12 +93,12 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale);
 int cw_domain_least_regions(const CwCase *table, double cells);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
-// the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan; outcome:
-// CW_OUTCOME_ASYMMETRIC where none can be had.
+// the ranks look along some of the directions each, and have the same plan. With a symmetry it is a sector
+// decomposition; outcome: CW_OUTCOME_ASYMMETRIC where none can be had.
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome);
 
-// Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
-// cw_skeleton_wall_curves. Outcome: that of cw_network_make and cw_orbit_network.
+// Starts the boundary anew at the present scale of the size field: curve network. Then cw_couple_open_edges and
+// cw_boundary_wall_curves. Outcome: that of cw_network_make and cw_periodic_images_make.
 CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome);
 
 // First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
@@ -125,7 +125,7 @@ typedef struct {
 // Of the patches up to `patches`, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
 
-void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
+void cw_domain_clear(CwDomain *domain); // the boundary and what follows from it
 void cw_domain_close(CwDomain *domain);
 
 #endif

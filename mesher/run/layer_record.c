@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/heights/layer_count.h"
+#include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 #include "pipeline/wall_group.h"

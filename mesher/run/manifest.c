@@ -10,7 +10,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/tet_bound.h"
-#include "mesher/heights/layer_heights.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/layers.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
@@ -75,7 +75,7 @@ static json_t *counts_json(const int64_t *count, int size) {
   return array;
 }
 
-// Tetrahedra that touch a dividing plane, or those that do not.
+// Tetrahedra that touch a partition plane, or those that do not.
 static json_t *tet_figures_json(const CwTetFigures *figures) {
   double count = figures->count ? (double)figures->count : 1;
   return json_pack("{s:I, s:o, s:o, s:o, s:o, s:o}", "tetrahedra", (json_int_t)figures->count, "aspect_mean",
@@ -184,7 +184,7 @@ static json_t *region_json(const CwMeshRun *run, int d, int32_t r, double predic
   const CwRegionSummary *made = &run->summary[d][r];
   return json_pack(
       "{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
-      cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r) + 1, "number", domain->number[r], "tetrahedra",
+      cw_image_region_first(&domain->boundary.images, &domain->plan, r) + 1, "number", domain->number[r], "tetrahedra",
       (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms, "recovered_triangles", made->recovery.missing,
       "recovery_flips", made->recovery.flips, "tetgen", made->recovery.tetgen, "predicted_share",
       cw_json_number(domain->plan.predicted_cells[r] / predicted_sum), "seconds",
@@ -251,7 +251,7 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
-      domain->skeleton.interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3",
+      domain->boundary.interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3",
       metres_json(quality.volume, 3), "solid_volume_m3", metres_json(solid, 3), "volume_error",
       cw_json_number(quality.volume / solid - 1), "least_cell_volume_m3", metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));

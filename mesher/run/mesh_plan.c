@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/parallel/ledger.h"
-#include "mesher/parallel/sides.h"
+#include "mesher/parallel/profiler.h"
+#include "mesher/parallel/groups.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
@@ -59,7 +59,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
   CwMeshTask *task = NULL;
   int32_t faces[CW_DOMAINS_MOST], count = 0, all = 0;
   double deflection = DEFLECTION * least_extent(run);
-  cw_ledger_part("edges of the background");
+  cw_profiler_part("edges of the background");
   cw_face_counts(run, faces);
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_domain_start_background(&run->domain[d], deflection));
@@ -73,7 +73,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
     }
   }
   CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
-  cw_ledger_part("background joined");
+  cw_profiler_part("background joined");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
     cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
@@ -91,7 +91,7 @@ static CwStatus find_symmetry(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwDomain *domain = &run->domain[0];
   if (!run->table->mesh.periodic_impeller) goto done;
-  cw_ledger_part("symmetry");
+  cw_profiler_part("symmetry");
   CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
   if (domain->symmetry) {
     cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
@@ -150,7 +150,8 @@ static CwStatus hold_gradation(CwMeshRun *run) {
   CwResults results = {0};
   double allowed = run->table->mesh.gradation, made_for = 0, greatest = 0;
   int32_t parts[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) parts[d] = CW_SIZE_SEEDS + 1; // rims ask for metres, whatever the scale
+  for (int d = 0; d < run->domains.count; d++)
+    parts[d] = CW_SIZE_SEEDS + 1; // open edges ask for metres, whatever the scale
   for (int round = 0;; round++) {
     cw_mesh_solve_layers(run);
     double growth = run->scale * run->gradation / allowed;
@@ -187,7 +188,7 @@ static CwStatus make_sizes(CwMeshRun *run) {
   run->gradation = run->table->mesh.gradation;
   run->wall_scale = 0;
   CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
-  cw_ledger_part("integrals of the size");
+  cw_profiler_part("integrals of the size");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
   CW_TRY(hold_gradation(run));
 done:
@@ -225,7 +226,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   char path[4096];
   double started = cw_seconds();
   run->headlines = json_array();
-  cw_ledger_part("geometry");
+  cw_profiler_part("geometry");
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
   CW_TRY(cw_flow_scales_read(path, &scales));
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
@@ -254,7 +255,7 @@ done:
 
 // Collective. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
 static CwStatus plan_domain(CwMeshRun *run, int d, CwOutcome *outcome) {
-  cw_ledger_part("planes weighed");
+  cw_profiler_part("planes weighed");
   return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, outcome);
 }
 
@@ -348,23 +349,23 @@ static void warn_of_few_cells(const CwMeshRun *run, int d) {
               run->domain[d].name, asked, least, cells);
 }
 
-static CwStatus plan_side(void *context, int32_t d, CwOutcome *outcome) {
+static CwStatus plan_item(void *context, int32_t d, CwOutcome *outcome) {
   return plan_domain(context, d, outcome);
 }
 
-static CwStatus hand_plan(void *context, const CwSideHand *hand) {
+static CwStatus hand_plan(void *context, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
-  CwPlan *plan = &run->domain[hand->side].plan;
+  CwPlan *plan = &run->domain[hand->item].plan;
   void *bytes = NULL;
   int64_t size = 0;
   if (hand->mine) CW_TRY(cw_plan_pack(plan, &bytes, &size));
-  cw_side_give(hand, &size, sizeof size);
+  cw_group_give(hand, &size, sizeof size);
   if (!hand->mine) {
     bytes = malloc((size_t)size);
     CW_REQUIRE(bytes, CW_ERR_MEMORY, "out of memory: plan of %lld bytes", (long long)size);
   }
-  cw_side_give(hand, bytes, size);
+  cw_group_give(hand, bytes, size);
   if (!hand->mine) CW_TRY(cw_plan_unpack(bytes, plan));
 done:
   free(bytes);
@@ -380,15 +381,15 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   run->planned_tet_factor = run->tet_factor;
   run->planned_scale = run->scale;
   for (int d = 0; d < run->domains.count; d++) cost[d] = run->domain[d].symmetry ? PERIODIC_PLAN : 1;
-  CwSides sides = {.step = "decomposition",
-                   .count = run->domains.count,
-                   .cost = cost,
-                   .own = OWN_PLAN,
-                   .run = plan_side,
-                   .hand = hand_plan,
-                   .context = run};
+  CwGroupWork work = {.step = "decomposition",
+                      .count = run->domains.count,
+                      .cost = cost,
+                      .own = OWN_PLAN,
+                      .run = plan_item,
+                      .hand = hand_plan,
+                      .context = run};
   cw_progress_start("decomposition", run->domains.count, "domains");
-  CW_TRY(cw_sides_run(&sides, outcome));
+  CW_TRY(cw_groups_run(&work, outcome));
   cw_progress(run->domains.count);
   cw_progress_end();
   for (int d = 0; d < run->domains.count; d++) {

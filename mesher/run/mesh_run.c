@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/manifest.h"
 #include "mesher/run/mesh_plan.h"
@@ -113,7 +113,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     cw_mesh_solve_scale(run);
   }
-  cw_ledger_part("manifest");
+  cw_profiler_part("manifest");
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
 done:
   return status;

@@ -26,21 +26,21 @@ CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 }
 
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
+  return cw_boundary_mesh_wall(&run->domain[task.domain].boundary, task.index, bytes, size);
 }
 
 CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  const CwSkeleton *skeleton = &run->domain[task.domain].skeleton;
-  int32_t faces = cw_cad_face_count(skeleton->cad);
-  return task.index < faces ? cw_skeleton_mesh_cap(skeleton, task.index, bytes, size)
-                            : cw_skeleton_mesh_interface(skeleton, task.index - faces, bytes, size);
+  const CwBoundary *boundary = &run->domain[task.domain].boundary;
+  int32_t faces = cw_cad_face_count(boundary->cad);
+  return task.index < faces ? cw_boundary_mesh_open_patch(boundary, task.index, bytes, size)
+                            : cw_boundary_mesh_interface(boundary, task.index - faces, bytes, size);
 }
 
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   const CwDomain *domain = &run->domain[task.domain];
   char name[64];
   snprintf(name, sizeof name, "%s region %d", domain->name, task.index + 1);
-  return cw_interface_rule(&domain->skeleton, domain->number, task.index, name, bytes, size);
+  return cw_interface_rule(&domain->boundary, domain->number, task.index, name, bytes, size);
 }
 
 static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
@@ -73,9 +73,9 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   }
 }
 
-int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region) {
-  const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  return cw_orbit_region(orbits, skeleton->plan, region, 1) == region ? 1 : orbits->symmetry->count;
+int32_t cw_region_copies(const CwBoundary *boundary, int32_t region) {
+  const CwPeriodicImages *images = &boundary->images;
+  return cw_image_region(images, boundary->plan, region, 1) == region ? 1 : images->symmetry->count;
 }
 
 static CwStatus region_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
@@ -114,18 +114,18 @@ done:
   return status;
 }
 
-// Makes a turned copy of the region `source`, whose file at `source_path` is whole, or takes it up where an earlier run
-// left it so.
+// Makes a periodic image of the region `source`, whose file at `source_path` is whole, or takes it up where an earlier
+// run left it so.
 static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source, const char *source_path,
                           CwRegionSummary *summary) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
-  const CwSkeletonOrbits *orbits = &domain->skeleton.orbits;
+  const CwPeriodicImages *images = &domain->boundary.images;
   CwRegionMesh first = {0}, mesh = {0};
   char path[4096], fingerprint[CW_HASH_TEXT];
   int32_t turns = 1;
   int taken;
-  while (cw_orbit_region(orbits, &domain->plan, source, turns) != task.index) turns++;
+  while (cw_image_region(images, &domain->plan, source, turns) != task.index) turns++;
   CW_TRY(cw_region_read(source_path, &first));
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
@@ -164,17 +164,17 @@ done:
 // What the region's boundary allows the tetrahedra.
 static CwStatus bound_angles(const CwDomain *domain, int32_t region, double *allowed) {
   CwStatus status = CW_OK;
-  CwRegionBoundary boundary = {0};
+  CwRegionBoundary inner = {0};
   int32_t worst;
-  CW_TRY(cw_region_boundary_make(&domain->skeleton, region, 0, &boundary));
-  CwFillInput input = cw_region_fill_input(&domain->skeleton, &boundary, domain->name);
+  CW_TRY(cw_region_boundary_make(&domain->boundary, region, 0, &inner));
+  CwFillInput input = cw_region_fill_input(&domain->boundary, &inner, domain->name);
   CW_TRY(cw_tet_bound(&input, allowed, &worst));
 done:
-  cw_region_boundary_free(&boundary);
+  cw_region_boundary_free(&inner);
   return status;
 }
 
-// Makes the region, or takes it up from its file where an earlier run left it whole. A turned copy is made of its
+// Makes the region, or takes it up from its file where an earlier run left it whole. A periodic image is made of its
 // first.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
@@ -183,7 +183,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CwRegionSummary *summary = NULL;
   char path[4096], boundary_path[4096], fingerprint[CW_HASH_TEXT];
   int taken;
-  int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, task.index);
+  int32_t first = cw_image_region_first(&domain->boundary.images, &domain->plan, task.index);
   if (first != task.index) return step_copy(run, task, first, bytes, size);
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   CW_TRY(failure_path(run, domain, task.index, sizeof boundary_path, boundary_path));
@@ -194,7 +194,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   if (made == CW_OK && !taken) made = cw_audit_region(&mesh, &summary->quality);
   if (made == CW_ERR_MESH) {
     CW_TRY(
-        cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path, &summary->failure));
+        cw_region_failure_examine(&domain->boundary, task.index, cw_fail_message(), boundary_path, &summary->failure));
     remove(path); // of an earlier attempt: it must not be copied
   } else {
     CW_TRY(made);

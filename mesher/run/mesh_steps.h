@@ -17,12 +17,12 @@ CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64
 CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-// A cap, or after all faces an interface polygon.
+// An open patch, or after all faces an interface polygon.
 CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 
-// How many regions a region stands for: itself and its turned copies.
-int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region);
+// How many regions a region stands for: itself and its periodic images.
+int32_t cw_region_copies(const CwBoundary *boundary, int32_t region);
 
 #endif

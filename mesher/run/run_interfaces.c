@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"
 #include "pipeline/log.h"
@@ -12,12 +12,12 @@
 CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwResults results = {0}; // of each domain first those of its faces
-  CwMeshTask *cap = NULL, *task = NULL;
-  int32_t caps, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
-  cw_ledger_part("free curves");
+  CwMeshTask *open_patch = NULL, *task = NULL;
+  int32_t open_patches, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
+  cw_profiler_part("free curves");
   for (int d = 0; d < run->domains.count; d++) {
     CwOutcome of_domain = {.domain = d};
-    CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton, &of_domain));
+    CW_TRY(cw_boundary_free_curves(&run->domain[d].boundary, &of_domain));
     if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
     if (of_domain.kind == CW_OUTCOME_DONE) continue;
     *outcome = of_domain;
@@ -25,34 +25,34 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   }
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
   cw_face_counts(run, faces);
-  CW_TRY(cw_face_tasks(run, 0, &caps, &cap));
-  count = caps;
+  CW_TRY(cw_face_tasks(run, 0, &open_patches, &open_patch));
+  count = open_patches;
   for (int d = 0; d < run->domains.count; d++) {
-    parts[d] = faces[d] + run->domain[d].skeleton.interfaces.outline_count;
-    count += run->domain[d].skeleton.interfaces.outline_count;
+    parts[d] = faces[d] + run->domain[d].boundary.interfaces.outline_count;
+    count += run->domain[d].boundary.interfaces.outline_count;
   }
   CW_TRY(cw_results_make(&results, run->domains.count, parts));
   CW_NEW(task, count);
-  memcpy(task, cap, (size_t)caps * sizeof *task);
-  count = caps;
+  memcpy(task, open_patch, (size_t)open_patches * sizeof *task);
+  count = open_patches;
   for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
-      if (cw_orbit_turns(&skeleton->orbits, &skeleton->orbits.outline, i) > 0) continue;
-      // Takes about as long as a cap of as many triangles.
-      task[count++] = (CwMeshTask){d, faces[d] + i, skeleton->interfaces.outline[i].corner_count};
+    const CwBoundary *boundary = &run->domain[d].boundary;
+    for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
+      if (cw_image_turns(&boundary->images, &boundary->images.outline, i) > 0) continue;
+      // Takes about as long as an open patch of as many triangles.
+      task[count++] = (CwMeshTask){d, faces[d] + i, boundary->interfaces.outline[i].corner_count};
     }
   }
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
-  cw_ledger_part("inner surfaces merged");
+  cw_profiler_part("inner surfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, results.bytes[d], results.bytes[d] + faces[d]));
-    CW_AUDIT(cw_interfaces_audit(&run->domain[d].skeleton.interfaces, run->domain[d].plan.region_count));
+    CW_TRY(cw_boundary_merge_inner(&run->domain[d].boundary, results.bytes[d], results.bytes[d] + faces[d]));
+    CW_AUDIT(cw_interfaces_audit(&run->domain[d].boundary.interfaces, run->domain[d].plan.region_count));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
   cw_results_free(&results);
-  free(cap);
+  free(open_patch);
   free(task);
   return status;
 }
@@ -71,20 +71,20 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t r = 0; r < regions[d]; r++) {
       int owns = 0;
-      for (int32_t i = 0; i < domain->skeleton.interfaces.outline_count && !domain->symmetry; i++) {
-        owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
+      for (int32_t i = 0; i < domain->boundary.interfaces.outline_count && !domain->symmetry; i++) {
+        owns |= cw_interface_owner(&domain->boundary, domain->number, i) == r;
       }
       if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
     }
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
   CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
-  cw_ledger_part("interfaces merged");
+  cw_profiler_part("interfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
-    CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
-    CW_AUDIT(cw_interfaces_audit(&domain->skeleton.interfaces, domain->plan.region_count));
+    CW_TRY(cw_interface_rule_merge(&domain->boundary, results.bytes[d], &domain->rule));
+    CW_AUDIT(cw_interfaces_audit(&domain->boundary.interfaces, domain->plan.region_count));
     if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
            "centres inserted %lld, triangles left to both sides %lld",

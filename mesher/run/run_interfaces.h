@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The stages of the surfaces that bear no layers: interfaces and caps, and the rule of region numbers.
+// The stages of the surfaces that bear no layers: interfaces and open patches, and the rule of region numbers.
 #ifndef CUTWATER_MESHER_RUN_RUN_INTERFACES_H
 #define CUTWATER_MESHER_RUN_RUN_INTERFACES_H
 
@@ -7,8 +7,8 @@
 
 // Collective.
 
-// Free curves, caps and interfaces. Outcome: CW_OUTCOME_THIN where layers leave no room on the planes, with the places
-// of all domains; CW_OUTCOME_ASYMMETRIC.
+// Free curves, open patches and interfaces. Outcome: CW_OUTCOME_THIN where layers leave no room on the planes, with the
+// places of all domains; CW_OUTCOME_ASYMMETRIC.
 CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome);
 
 // The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where

@@ -1,98 +1,98 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run/run_layers.h"
 
-#include "mesher/heights/even_columns.h"
-#include "mesher/heights/layer_heights.h"
-#include "mesher/parallel/ledger.h"
-#include "mesher/parallel/sides.h"
+#include "mesher/thickness/even_columns.h"
+#include "mesher/thickness/layer_thickness.h"
+#include "mesher/parallel/profiler.h"
+#include "mesher/parallel/groups.h"
 #include "pipeline/log.h"
 
 // Of the work, what every rank of a group does for itself, and of that on a wall triangle what one takes that is a
-// turned copy. Measured from 0.3 to 21 million cells.
-static const double OWN_HEIGHTS = 0.3, COPIED_HEIGHTS = 0.15, OWN_LAYERS = 0.05, COPIED_LAYERS = 0.65;
+// periodic image. Measured from 0.3 to 21 million cells.
+static const double OWN_THICKNESS = 0.3, COPIED_THICKNESS = 0.15, OWN_LAYERS = 0.05, COPIED_LAYERS = 0.65;
 
 // Returns the wall triangles.
 static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DOMAINS_MOST]) {
   int64_t all = 0;
   for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    const CwBoundary *boundary = &run->domain[d].boundary;
     int32_t firsts = 0;
-    for (int32_t t = 0; t < skeleton->surface.triangle_count; t++) firsts += skeleton->surface.source[t] == t;
-    cost[d] = firsts + copied * (skeleton->surface.triangle_count - firsts);
-    all += skeleton->surface.triangle_count;
+    for (int32_t t = 0; t < boundary->surface.triangle_count; t++) firsts += boundary->surface.source[t] == t;
+    cost[d] = firsts + copied * (boundary->surface.triangle_count - firsts);
+    all += boundary->surface.triangle_count;
   }
   return all;
 }
 
-static CwStatus find_heights(void *context, int32_t d, CwOutcome *outcome) {
+static CwStatus find_thickness(void *context, int32_t d, CwOutcome *outcome) {
   CwMeshRun *run = context;
   return cw_domain_targets(&run->domain[d]);
 }
 
-static CwStatus hand_heights(void *context, const CwSideHand *hand) {
+static CwStatus hand_thickness(void *context, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
-  CwDomain *domain = &run->domain[hand->side];
-  CwColumnHeights *heights = &domain->heights;
-  int32_t n = domain->skeleton.surface.vertex_count;
-  heights->layer_count = domain->layer_count;
-  CW_SIDE_ARRAY(hand, heights->first_height, n);
-  CW_SIDE_ARRAY(hand, heights->growth, n);
-  CW_SIDE_ARRAY(hand, heights->target, n);
-  CW_SIDE_ARRAY(hand, heights->least, n);
-  cw_side_give(hand, &domain->layer_share, sizeof domain->layer_share);
+  CwDomain *domain = &run->domain[hand->item];
+  CwColumnTargets *targets = &domain->targets;
+  int32_t n = domain->boundary.surface.vertex_count;
+  targets->layer_count = domain->layer_count;
+  CW_GROUP_ARRAY(hand, targets->first_height, n);
+  CW_GROUP_ARRAY(hand, targets->growth, n);
+  CW_GROUP_ARRAY(hand, targets->target, n);
+  CW_GROUP_ARRAY(hand, targets->least, n);
+  cw_group_give(hand, &domain->layer_share, sizeof domain->layer_share);
 done:
   return status;
 }
 
-CwStatus cw_run_heights(CwMeshRun *run) {
-  CwOutcome outcome[CW_DOMAINS_MOST]; // all done: heights are never tried another way
+CwStatus cw_run_thickness(CwMeshRun *run) {
+  CwOutcome outcome[CW_DOMAINS_MOST]; // all done: thicknesses are never tried another way
   double cost[CW_DOMAINS_MOST];
-  find_costs(run, COPIED_HEIGHTS, cost);
-  CwSides sides = {.step = "heights of the layers",
-                   .count = run->domains.count,
-                   .cost = cost,
-                   .own = OWN_HEIGHTS,
-                   .run = find_heights,
-                   .hand = hand_heights,
-                   .context = run};
-  return cw_sides_run(&sides, outcome);
+  find_costs(run, COPIED_THICKNESS, cost);
+  CwGroupWork work = {.step = "thicknesses of the layers",
+                      .count = run->domains.count,
+                      .cost = cost,
+                      .own = OWN_THICKNESS,
+                      .run = find_thickness,
+                      .hand = hand_thickness,
+                      .context = run};
+  return cw_groups_run(&work, outcome);
 }
 
 // Share of the column over a vertex that its last layer takes where it is so high.
-static double last_layer(const void *context, int32_t vertex, double height) {
-  const CwColumnHeights *heights = context;
+static double last_layer(const void *context, int32_t vertex, double thickness) {
+  const CwColumnTargets *targets = context;
   double fraction[CW_LAYERS_MOST + 1];
-  cw_layer_fractions(height, heights->first_height[vertex], heights->layer_count, heights->growth[vertex], fraction);
-  return 1 - fraction[heights->layer_count - 1];
+  cw_layer_fractions(thickness, targets->first_height[vertex], targets->layer_count, targets->growth[vertex], fraction);
+  return 1 - fraction[targets->layer_count - 1];
 }
 
 static CwStatus grow(void *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[d];
-  CwLayerDivision division = {domain->layer_count, last_layer, &domain->heights};
-  CW_TRY_STAGE(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least,
+  CwLayerDivision division = {domain->layer_count, last_layer, &domain->targets};
+  CW_TRY_STAGE(cw_boundary_grow(&domain->boundary, &domain->background, domain->targets.target, domain->targets.least,
                                 &division, outcome),
                outcome);
-  cw_ledger_part("layers: small prisms");
-  CW_TRY(cw_column_heights_even(&domain->heights, &domain->skeleton));
+  cw_profiler_part("layers: small prisms");
+  CW_TRY(cw_column_targets_even(&domain->targets, &domain->boundary));
 done:
   return status;
 }
 
-static CwStatus hand_layers(void *context, const CwSideHand *hand) {
+static CwStatus hand_layers(void *context, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
-  CwDomain *domain = &run->domain[hand->side];
-  CwSkeleton *skeleton = &domain->skeleton;
-  int32_t n = skeleton->surface.vertex_count;
-  cw_side_give(hand, skeleton->surface.triangle,
-               skeleton->surface.triangle_count * (int64_t)sizeof *skeleton->surface.triangle);
-  CW_SIDE_ARRAY(hand, skeleton->layers.front, n);
-  CW_SIDE_ARRAY(hand, skeleton->layers.height, n);
-  CW_SIDE_ARRAY(hand, skeleton->layers.reason, n);
-  CW_SIDE_ARRAY(hand, domain->heights.first_made, n);
+  CwDomain *domain = &run->domain[hand->item];
+  CwBoundary *boundary = &domain->boundary;
+  int32_t n = boundary->surface.vertex_count;
+  cw_group_give(hand, boundary->surface.triangle,
+                boundary->surface.triangle_count * (int64_t)sizeof *boundary->surface.triangle);
+  CW_GROUP_ARRAY(hand, boundary->layers.top, n);
+  CW_GROUP_ARRAY(hand, boundary->layers.thickness, n);
+  CW_GROUP_ARRAY(hand, boundary->layers.reason, n);
+  CW_GROUP_ARRAY(hand, domain->targets.first_made, n);
 done:
   return status;
 }
@@ -102,15 +102,15 @@ CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
   CwOutcome of_domain[CW_DOMAINS_MOST];
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
   int64_t faces = find_costs(run, COPIED_LAYERS, cost);
-  CwSides sides = {.step = "layers",
-                   .count = run->domains.count,
-                   .cost = cost,
-                   .own = OWN_LAYERS,
-                   .run = grow,
-                   .hand = hand_layers,
-                   .context = run};
+  CwGroupWork work = {.step = "layers",
+                      .count = run->domains.count,
+                      .cost = cost,
+                      .own = OWN_LAYERS,
+                      .run = grow,
+                      .hand = hand_layers,
+                      .context = run};
   cw_progress_start("layers", faces, "wall faces");
-  CW_TRY(cw_sides_run(&sides, of_domain));
+  CW_TRY(cw_groups_run(&work, of_domain));
   *outcome = cw_outcomes_first(run->domains.count, of_domain);
   if (outcome->kind == CW_OUTCOME_DONE) cw_progress(faces);
   cw_progress_end();

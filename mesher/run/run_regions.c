@@ -4,19 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"
 #include "pipeline/log.h"
 
-static const double COPY_COST = 0.07; // of a turned copy of a region, by that of its first
+static const double COPY_COST = 0.07; // of a periodic image of a region, by that of its first
 
-// The summaries of a region and of its turned copies.
+// The summaries of a region and of its periodic images.
 static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
-  const CwSkeleton *skeleton = &run->domain[d].skeleton;
-  int32_t copies = cw_region_copies(skeleton, region);
+  const CwBoundary *boundary = &run->domain[d].boundary;
+  int32_t copies = cw_region_copies(boundary, region);
   for (int32_t turns = 0; turns < copies; turns++) {
-    int32_t copy = cw_orbit_region(&skeleton->orbits, skeleton->plan, region, turns);
+    int32_t copy = cw_image_region(&boundary->images, boundary->plan, region, turns);
     run->summary[d][copy] = *made;
     run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
   }
@@ -28,7 +28,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   CwMeshTask *task = NULL;
   uint64_t open_faces[CW_DOMAINS_MOST] = {0};
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
-  cw_ledger_part("points that regions share");
+  cw_profiler_part("points that regions share");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
   for (int d = 0; d < run->domains.count; d++) {
     regions[d] = run->domain[d].plan.region_count;
@@ -43,23 +43,23 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   CW_NEW(task, all);
   CW_NEW(after, all);
   for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    const CwBoundary *boundary = &run->domain[d].boundary;
     for (int32_t r = 0; r < regions[d]; r++) {
-      if (cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r) != r) continue;
-      int32_t first = count, copies = cw_region_copies(skeleton, r);
+      if (cw_image_region_first(&boundary->images, boundary->plan, r) != r) continue;
+      int32_t first = count, copies = cw_region_copies(boundary, r);
       double cost = run->domain[d].plan.predicted_cells[r];
       after[count] = -1;
       task[count++] = (CwMeshTask){d, r, cost};
       for (int32_t turns = 1; turns < copies; turns++) {
         after[count] = first;
-        task[count++] = (CwMeshTask){d, cw_orbit_region(&skeleton->orbits, skeleton->plan, r, turns), COPY_COST * cost};
+        task[count++] = (CwMeshTask){d, cw_image_region(&boundary->images, boundary->plan, r, turns), COPY_COST * cost};
       }
     }
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
   CW_TRY(
       cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes, run->region_seconds));
-  cw_ledger_part("results");
+  cw_profiler_part("results");
   run->cells = 0;
   for (int32_t i = 0; i < count; i++) {
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
@@ -71,8 +71,9 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   }
   if (outcome->kind == CW_OUTCOME_THIN) CW_TRY_STAGE(cw_thin_places_in_regions(run, places), outcome);
   for (int d = 0; d < run->domains.count; d++) {
-    CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
-               run->domain[d].name, run->run_path);
+    CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH,
+               "%s: the regions in %s/mesh do not fit together on the partition planes", run->domain[d].name,
+               run->run_path);
   }
 done:
   cw_results_free(&results);

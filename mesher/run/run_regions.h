@@ -5,7 +5,7 @@
 
 #include "mesher/run/run_thinning.h"
 
-// Regions are made, and the turned copies of each as soon as it is whole. Outcome: CW_OUTCOME_THIN with the places
+// Regions are made, and the periodic images of each as soon as it is whole. Outcome: CW_OUTCOME_THIN with the places
 // where regions could not be made; they have no copies.
 // Collective.
 CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome);

@@ -51,14 +51,14 @@ typedef struct {
   CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
-  void **seeds[CW_DOMAINS_MOST];        // of the size field, by part, while it is made
-  int layer_count;                      // as the case gives it, or as the size fields ask
-  double y_plus_auto;                   // where the case leaves it open
-  double prism_factor, tet_factor;      // cells per unit of the integrals
-  double scale;                         // of the size field
-  double gradation;                     // of the size field at scale 1
-  double wall_scale;                    // at which walls limit its edges; 0: they do not
-  double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
+  void **seeds[CW_DOMAINS_MOST];           // of the size field, by part, while it is made
+  int layer_count;                         // as the case gives it, or as the size fields ask
+  double y_plus_auto;                      // where the case leaves it open
+  double prism_factor, tet_factor;         // cells per unit of the integrals
+  double scale;                            // of the size field
+  double gradation;                        // of the size field at scale 1
+  double wall_scale;                       // at which walls limit its edges; 0: they do not
+  double *most_thickness[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
   // With which the domains were planned.
   double planned_prism_factor, planned_tet_factor, planned_scale;
   int whole;           // 1: a symmetry was given up

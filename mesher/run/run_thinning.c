@@ -12,28 +12,28 @@
 enum { ATTEMPTS = 3 };               // on one plan
 static const double FIRST_REACH = 4; // wanted lengths about a failure in which layers are thinned; doubled each time
 
-// Gives all turned copies of a column the least height of them.
-static void thin_alike(const CwSkeleton *skeleton, double *most_height) {
-  const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  for (int32_t v = 0; orbits->symmetry && v < skeleton->surface.vertex_count; v++) {
-    if (cw_orbit_node_turns(orbits, v) > 0) continue;
-    double least = most_height[v];
-    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
-      least = fmin(least, most_height[at]);
+// Gives all periodic images of a column the least thickness of them.
+static void thin_alike(const CwBoundary *boundary, double *most_thickness) {
+  const CwPeriodicImages *images = &boundary->images;
+  for (int32_t v = 0; images->symmetry && v < boundary->surface.vertex_count; v++) {
+    if (cw_image_node_turns(images, v) > 0) continue;
+    double least = most_thickness[v];
+    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+      least = fmin(least, most_thickness[at]);
     }
-    most_height[v] = least;
-    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
-      most_height[at] = least;
+    most_thickness[v] = least;
+    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+      most_thickness[at] = least;
     }
   }
 }
 
 static CwStatus start_thinning(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
-  int32_t count = run->domain[d].skeleton.surface.vertex_count;
-  if (run->most_height[d]) goto done;
-  CW_NEW(run->most_height[d], count);
-  for (int32_t v = 0; v < count; v++) run->most_height[d][v] = INFINITY;
+  int32_t count = run->domain[d].boundary.surface.vertex_count;
+  if (run->most_thickness[d]) goto done;
+  CW_NEW(run->most_thickness[d], count);
+  for (int32_t v = 0; v < count; v++) run->most_thickness[d][v] = INFINITY;
 done:
   return status;
 }
@@ -53,11 +53,11 @@ done:
 
 CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = &run->domain[why->domain].skeleton;
+  const CwBoundary *boundary = &run->domain[why->domain].boundary;
   CwRegionFailure failure = {.failed = 1, .patch = "inner surface"};
   snprintf(failure.message, sizeof failure.message, "%s", why->reason);
-  for (int32_t i = 0; i < skeleton->interfaces.tight_count; i++) {
-    memcpy(failure.at, skeleton->interfaces.tight[i], sizeof failure.at);
+  for (int32_t i = 0; i < boundary->interfaces.tight_count; i++) {
+    memcpy(failure.at, boundary->interfaces.tight[i], sizeof failure.at);
     CW_TRY(add_place(why->domain, -1, &failure, places));
   }
 done:
@@ -114,11 +114,11 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
                   text, ATTEMPTS, file);
     if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
     CW_TRY(start_thinning(run, d));
-    cw_region_failure_thin(&run->domain[d].skeleton, place->region, &place->failure,
-                           FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
+    cw_region_failure_thin(&run->domain[d].boundary, place->region, &place->failure,
+                           FIRST_REACH * (double)(1 << attempt), run->most_thickness[d]);
   }
   for (int d = 0; d < run->domains.count; d++) {
-    if (run->most_height[d]) thin_alike(&run->domain[d].skeleton, run->most_height[d]);
+    if (run->most_thickness[d]) thin_alike(&run->domain[d].boundary, run->most_thickness[d]);
   }
   run->retries++;
 done:
@@ -127,7 +127,7 @@ done:
 
 void cw_end_thinning(CwMeshRun *run) {
   for (int d = 0; d < run->domains.count; d++) {
-    free(run->most_height[d]);
-    run->most_height[d] = NULL;
+    free(run->most_thickness[d]);
+    run->most_thickness[d] = NULL;
   }
 }

@@ -8,7 +8,7 @@
 
 // A place where the layers have to be thinner, and why.
 typedef struct {
-  int32_t domain, region; // region -1: on a dividing plane, of no region alone
+  int32_t domain, region; // region -1: on a partition plane, of no region alone
   CwRegionFailure failure;
 } CwThinPlace;
 

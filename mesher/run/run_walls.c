@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mesher/heights/coupled_rim.h"
-#include "mesher/parallel/ledger.h"
+#include "mesher/thickness/coupled_edges.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_layers.h"
@@ -15,7 +15,8 @@
 enum { WALL_PASSES = 3 };
 static const double WALL_TOLERANCE = 0.01; // of the asked number of cells, before the volume is filled
 
-// Skeletons with all wall curves, those along interfaces divided alike on both sides. Outcome: that of cw_domain_start.
+// Boundaries with all wall curves, those along interfaces divided alike on both sides. Outcome: that of
+// cw_domain_start.
 static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->domains.count; d++) {
@@ -24,10 +25,10 @@ static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   }
   for (int i = 0; i < run->domains.interface_count; i++) {
     const CwDomainInterface *between = &run->domains.interface[i];
-    CW_TRY(cw_couple_rims(&run->domain[between->domain[0]].skeleton, between->patch[0],
-                          &run->domain[between->domain[1]].skeleton, between->patch[1]));
+    CW_TRY(cw_couple_open_edges(&run->domain[between->domain[0]].boundary, between->patch[0],
+                                &run->domain[between->domain[1]].boundary, between->patch[1]));
   }
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_wall_curves(&run->domain[d].skeleton));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_boundary_wall_curves(&run->domain[d].boundary));
 done:
   return status;
 }
@@ -38,25 +39,25 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t count, faces[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) again |= run->most_height[d] != NULL;
+  for (int d = 0; d < run->domains.count; d++) again |= run->most_thickness[d] != NULL;
   CW_TRY(cw_face_tasks(run, 1, &count, &task));
   cw_face_counts(run, faces);
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
-    cw_ledger_part("curves of the walls");
+    cw_profiler_part("curves of the walls");
     CW_TRY_STAGE(start_walls(run, outcome), outcome);
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
-    cw_ledger_part("walls merged");
+    cw_profiler_part("walls merged");
     for (int d = 0; d < run->domains.count; d++) {
-      CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
-      CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].skeleton.surface, run->domain[d].plan.region_count));
+      CW_TRY(cw_boundary_merge_walls(&run->domain[d].boundary, results.bytes[d]));
+      CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].boundary.surface, run->domain[d].plan.region_count));
     }
-    CW_TRY(cw_run_heights(run));
+    CW_TRY(cw_run_thickness(run));
     for (int d = 0; d < run->domains.count; d++) {
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
                    run->domain[d].layer_share);
-      triangles += run->domain[d].skeleton.surface.triangle_count;
+      triangles += run->domain[d].boundary.surface.triangle_count;
     }
     cw_results_free(&results);
     cw_learn_prisms(run, triangles);
@@ -68,8 +69,8 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   }
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
-    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.surface.vertex_count; v++) {
-      domain->heights.target[v] = fmin(domain->heights.target[v], run->most_height[d][v]);
+    for (int32_t v = 0; run->most_thickness[d] && v < domain->boundary.surface.vertex_count; v++) {
+      domain->targets.target[v] = fmin(domain->targets.target[v], run->most_thickness[d][v]);
     }
   }
 done:

@@ -24,21 +24,21 @@ done:
 
 // The layer top: the triangles of the surface mesh over the outer ends of their columns, with the reason why the
 // thinnest of these has not its full thickness.
-static CwStatus write_layers(const CwSkeleton *skeleton, const char *path) {
+static CwStatus write_layers(const CwBoundary *boundary, const char *path) {
   CwStatus status = CW_OK;
-  const CwSurfaceMesh *surface = &skeleton->surface;
+  const CwSurfaceMesh *surface = &boundary->surface;
   int32_t *reason = NULL;
   CW_NEW(reason, surface->triangle_count);
   for (int32_t t = 0; t < surface->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
-      int32_t of = skeleton->layers.reason[surface->triangle[t][k]];
+      int32_t of = boundary->layers.reason[surface->triangle[t][k]];
       if (of > reason[t]) reason[t] = of;
     }
   }
   const CwVtkField field[2] = {{"reason", reason}, {"region", surface->region}};
   const CwVtkTriangles triangles = {.title = "layer top",
                                     .point_count = surface->vertex_count,
-                                    .x = (const double(*)[3])skeleton->layers.front,
+                                    .x = (const double(*)[3])boundary->layers.top,
                                     .triangle_count = surface->triangle_count,
                                     .triangle = (const int32_t(*)[3])surface->triangle,
                                     .field_count = 2,
@@ -51,12 +51,12 @@ done:
 
 static CwStatus write_product(const CwMeshRun *run, int d, CwStage stage) {
   CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = &run->domain[d].skeleton;
+  const CwBoundary *boundary = &run->domain[d].boundary;
   char path[4096];
   snprintf(path, sizeof path, "%s/mesh/%s-%s.vtk", run->run_path, run->domain[d].name, NAMES[stage]);
-  if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&skeleton->surface, path));
-  if (stage == CW_STAGE_LAYERS) CW_TRY(write_layers(skeleton, path));
-  if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&skeleton->interfaces, path));
+  if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&boundary->surface, path));
+  if (stage == CW_STAGE_LAYERS) CW_TRY(write_layers(boundary, path));
+  if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&boundary->interfaces, path));
   cw_log("%s: written", path);
 done:
   return status;

@@ -10,10 +10,10 @@
 #include "mesher/size/size_grid.h"
 #include "mesher/size/size_sources.h"
 
-// Rims are granted edges down to this share of the wanted ones, and no shorter ones at all where they ask for less than
-// LEAST_ASKED of these: there prisms inside have a small determinant too, and edges of micrometres would take all
-// cells.
-static const double LEAST_AT_RIM = 0.4, LEAST_ASKED = 0.28;
+// Open edges are granted edges down to this share of the wanted ones, and no shorter ones at all where they ask for
+// less than LEAST_ASKED of these: there prisms inside have a small determinant too, and edges of micrometres would take
+// all cells.
+static const double LEAST_AT_OPEN_EDGE = 0.4, LEAST_ASKED = 0.28;
 
 struct CwSizeSeeds {
   CwSizeSurface *surface;
@@ -22,12 +22,12 @@ struct CwSizeSeeds {
 
 struct CwSize {
   double scale;
-  CwSizeGrid grid; // to be scaled
-  CwSizeGrid rim;  // m, whatever the scale: what rims of walls allow; no nodes where they ask nothing
-  double rim_asks; // mean along the rims of what they allow over what is wanted at scale 1
+  CwSizeGrid grid;       // to be scaled
+  CwSizeGrid open_edge;  // m, whatever the scale: what open edges of walls allow; no nodes where they ask nothing
+  double open_edge_asks; // mean along the open edges of what they allow over what is wanted at scale 1
   CwScanlines lines;
-  void *block;     // that holds the arrays
-  void *rim_block; // that holds those of rims that joined it
+  void *block;           // that holds the arrays
+  void *open_edge_block; // that holds those of open edges that joined it
 };
 
 static CwStatus check_input(const CwSizeInput *input) {
@@ -178,12 +178,12 @@ done:
 // The plain part of a field; arrays follow it: starts of the lines, crossings, values of both grids.
 typedef struct {
   CwSize plain;
-  size_t starts, crossings, nodes, rim_nodes;
+  size_t starts, crossings, nodes, open_edge_nodes;
 } Packed;
 
 static size_t packed_size(const Packed *head) {
   return sizeof *head + head->starts * sizeof(int64_t) + head->crossings * sizeof(double) +
-         (head->nodes + head->rim_nodes) * sizeof(float);
+         (head->nodes + head->open_edge_nodes) * sizeof(float);
 }
 
 // The plain part with its arrays in the block, which it does not own yet.
@@ -195,16 +195,17 @@ static CwSize arrays_in(const Packed *head, char *block) {
   size.lines.start = head->starts ? start : NULL;
   size.lines.crossing = head->starts ? crossing : NULL;
   size.grid.value = head->nodes ? value : NULL;
-  size.rim.value = head->rim_nodes ? value + head->nodes : NULL;
+  size.open_edge.value = head->open_edge_nodes ? value + head->nodes : NULL;
   return size;
 }
 
-// The plain part of a field as it begins: the seeds' field has lines and their grid, that of the rims its own grid.
+// The plain part of a field as it begins: the seeds' field has lines and their grid, that of the open edges its own
+// grid.
 static Packed packed_head(const CwSizeGrid *grid, const CwScanlines *lines, CwSizePart part) {
   Packed head = {.plain = {.scale = 1}};
-  if (part == CW_SIZE_RIMS) {
-    head.plain.rim = *grid;
-    head.rim_nodes = cw_size_grid_nodes(grid);
+  if (part == CW_SIZE_OPEN_EDGES) {
+    head.plain.open_edge = *grid;
+    head.open_edge_nodes = cw_size_grid_nodes(grid);
     return head;
   }
   head.plain.grid = *grid;
@@ -228,7 +229,7 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
                       const double *patch_size, double base_size, const CwSizeLimits *limits, void *const *seeds,
                       CwSizePart part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
-  const CwSizeInput input = {cad, background, table, patch_size, base_size, limits ? limits->rim : NULL};
+  const CwSizeInput input = {cad, background, table, patch_size, base_size, limits ? limits->open_edge : NULL};
   CwSizeGrid grid;
   char *block = NULL;
   uint8_t *within = NULL;
@@ -239,7 +240,7 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   Packed head = packed_head(&grid, &lines, part);
   CW_NEW_UNSET(block, packed_size(&head));
   CwSize made = arrays_in(&head, block);
-  grid.value = part == CW_SIZE_SEEDS ? made.grid.value : made.rim.value;
+  grid.value = part == CW_SIZE_SEEDS ? made.grid.value : made.open_edge.value;
   cw_size_grid_clear(&grid);
   for (int i = 0; i < lists; i++) cw_size_take_seeds(&grid, seeds[i], longest_of(cad, limits, i));
   CW_TRY(mark_inside(&grid, &lines, &within));
@@ -247,10 +248,10 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
     memcpy(made.lines.start, lines.start, head.starts * sizeof *lines.start);
     memcpy(made.lines.crossing, lines.crossing, head.crossings * sizeof *lines.crossing);
     CW_TRY(cw_size_grid_spread(&grid, table->gradation, within));
-    if (limits) head.plain.rim_asks = cw_size_rims_ask(&input, &grid);
+    if (limits) head.plain.open_edge_asks = cw_size_open_edges_ask(&input, &grid);
   } else {
     cw_size_grid_clear(&grid);
-    cw_size_seed_rims(&input, &grid);
+    cw_size_seed_open_edges(&input, &grid);
     CW_TRY(cw_size_grid_spread(&grid, table->gradation, within));
   }
   memcpy(block, &head, sizeof head);
@@ -277,18 +278,18 @@ done:
   return status;
 }
 
-void cw_size_join(CwSize *size, CwSize **rims) {
-  void **block = (*rims)->rim_block ? &(*rims)->rim_block : &(*rims)->block;
-  size->rim = (*rims)->rim;
-  size->rim_block = *block;
+void cw_size_join(CwSize *size, CwSize **open_edges) {
+  void **block = (*open_edges)->open_edge_block ? &(*open_edges)->open_edge_block : &(*open_edges)->block;
+  size->open_edge = (*open_edges)->open_edge;
+  size->open_edge_block = *block;
   *block = NULL;
-  cw_size_free(rims);
+  cw_size_free(open_edges);
 }
 
 void cw_size_free(CwSize **size) {
   if (!*size) return;
   free((*size)->block);
-  free((*size)->rim_block);
+  free((*size)->open_edge_block);
   free(*size);
   *size = NULL;
 }
@@ -297,17 +298,19 @@ void cw_size_set_scale(CwSize *size, double scale) {
   size->scale = scale;
 }
 
-// The least share of the wanted length that rims are granted.
-static double least_at_rims(const CwSize *field) {
-  double asked = field->rim_asks / field->scale;
-  double refused = (LEAST_AT_RIM - asked) / (LEAST_AT_RIM - LEAST_ASKED);
-  return LEAST_AT_RIM + (1 - LEAST_AT_RIM) * fmin(fmax(refused, 0), 1);
+// The least share of the wanted length that open edges are granted.
+static double least_at_open_edges(const CwSize *field) {
+  double asked = field->open_edge_asks / field->scale;
+  double refused = (LEAST_AT_OPEN_EDGE - asked) / (LEAST_AT_OPEN_EDGE - LEAST_ASKED);
+  return LEAST_AT_OPEN_EDGE + (1 - LEAST_AT_OPEN_EDGE) * fmin(fmax(refused, 0), 1);
 }
 
 double cw_size_at(const void *size, const double x[3]) {
   const CwSize *field = size;
   double wanted = field->scale * cw_size_grid_at(&field->grid, x);
-  return field->rim.value ? fmin(wanted, fmax(cw_size_grid_at(&field->rim, x), least_at_rims(field) * wanted)) : wanted;
+  return field->open_edge.value
+             ? fmin(wanted, fmax(cw_size_grid_at(&field->open_edge, x), least_at_open_edges(field) * wanted))
+             : wanted;
 }
 
 // The inside runs of a line, cut into lengths of about one spacing.

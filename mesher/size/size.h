@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The size field: edge length of the mesh as a function of place, h(x) = scale * min over the surface of
-// (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps; near rims of walls no
+// (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps; near open edges of walls no
 // more than these allow. Kept on a Cartesian grid that also knows which of its nodes lie inside the domain, so that
 // cell counts can be predicted by integration.
 #ifndef CUTWATER_MESHER_SIZE_SIZE_H
@@ -34,23 +34,22 @@ void cw_size_seeds_free(CwSizeSeeds **seeds);
 // Longest edges (m, by patch; only those of walls count): what is left to hold a flat prism falls with the fourth power
 // of height over length.
 typedef struct {
-  const double *rim;  // where a wall meets an open face, and prisms have a side on the boundary; at any scale
-  const double *wall; // all over the walls, at scale 1; NULL: any
+  const double *open_edge; // where a wall meets an open face, and prisms have a side on the boundary; at any scale
+  const double *wall;      // all over the walls, at scale 1; NULL: any
 } CwSizeLimits;
 
 // The field that spreads from all parts of the seeds (seeds[part]) through the domain, within the limits, if given.
-// Rims are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28
-// of it in the mean.
-// Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it. They come in
-// one block of bytes (malloc'd), to travel between ranks.
-typedef enum { CW_SIZE_SEEDS, CW_SIZE_RIMS } CwSizePart;
+// Open edges are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less
+// than 0.28 of it in the mean. Different ranks may make its two parts: the field of the seeds, and that of the open
+// edges, which joins it. They come in one block of bytes (malloc'd), to travel between ranks.
+typedef enum { CW_SIZE_SEEDS, CW_SIZE_OPEN_EDGES } CwSizePart;
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                       const double *patch_size, double base_size, const CwSizeLimits *limits, void *const *seeds,
                       CwSizePart part, void **bytes, int64_t *byte_count);
 // The field in its block, which it takes over (*bytes is NULL after).
 CwStatus cw_size_unpack(void **bytes, CwSize **size);
-// Gives a field the rims of another one, of the rims alone or of both; frees what is left of that.
-void cw_size_join(CwSize *size, CwSize **rims);
+// Gives a field the open edges of another one, of the open edges alone or of both; frees what is left of that.
+void cw_size_join(CwSize *size, CwSize **open_edges);
 void cw_size_free(CwSize **size);
 
 // The factor in front of the whole field; 1 at first.

@@ -122,8 +122,9 @@ static int is_wall(const CwCad *cad, int face) {
   return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
 }
 
-// Walks along the rims: seeds `grid`, and returns the mean share of what is allowed in `wanted`; either may be NULL.
-static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
+// Walks along the open edges: seeds `grid`, and returns the mean share of what is allowed in `wanted`; either may be
+// NULL.
+static double walk_open_edges(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
   const CwCad *cad = input->cad;
   double shares = 0, count = 0;
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
@@ -131,7 +132,7 @@ static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSi
     double t[2], from[3], to[3];
     cw_cad_edge_faces(cad, e, face);
     if (is_wall(cad, face[0]) == is_wall(cad, face[1])) continue;
-    double size = input->rim_size[cw_cad_face_patch(cad, is_wall(cad, face[0]) ? face[0] : face[1])];
+    double size = input->open_edge_size[cw_cad_face_patch(cad, is_wall(cad, face[0]) ? face[0] : face[1])];
     cw_cad_edge_range(cad, e, t);
     cw_cad_edge_point(cad, e, t[0], from, NULL);
     for (int i = 1; i <= MOST_PARTS; i++) {
@@ -150,10 +151,10 @@ static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSi
   return count > 0 ? shares / count : 0;
 }
 
-void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid) {
-  walk_rims(input, NULL, grid);
+void cw_size_seed_open_edges(const CwSizeInput *input, CwSizeGrid *grid) {
+  walk_open_edges(input, NULL, grid);
 }
 
-double cw_size_rims_ask(const CwSizeInput *input, const CwSizeGrid *wanted) {
-  return walk_rims(input, wanted, NULL);
+double cw_size_open_edges_ask(const CwSizeInput *input, const CwSizeGrid *wanted) {
+  return walk_open_edges(input, wanted, NULL);
 }

@@ -18,9 +18,9 @@ typedef struct {
   const CwCad *cad;
   const CwBackground *background;
   const CwMeshTable *table;
-  const double *patch_size; // relative, by patch
-  double base_size;         // m
-  const double *rim_size;   // m, by patch, or NULL: see CwSizeLimits
+  const double *patch_size;     // relative, by patch
+  double base_size;             // m
+  const double *open_edge_size; // m, by patch, or NULL: see CwSizeLimits
 } CwSizeInput;
 
 // No single feature asks for less than this share of the base size: what is smaller is resolved by its edges
@@ -57,10 +57,10 @@ CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid);
 // Lines through the domain, one in each square of the grid's cells across x.
 CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines);
 
-// Seeds `grid` with the sizes that rims of walls allow, along them.
-void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid);
-// The mean along the rims of what they allow over the sizes of `wanted`; 0 without rims.
-double cw_size_rims_ask(const CwSizeInput *input, const CwSizeGrid *wanted);
+// Seeds `grid` with the sizes that open edges of walls allow, along them.
+void cw_size_seed_open_edges(const CwSizeInput *input, CwSizeGrid *grid);
+// The mean along the open edges of what they allow over the sizes of `wanted`; 0 without open edges.
+double cw_size_open_edges_ask(const CwSizeInput *input, const CwSizeGrid *wanted);
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "mesher/common/incident.h"
-#include "mesher/parallel/share.h"
+#include "mesher/parallel/parallel_for.h"
 
 int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
   for (int k = 0; k < 3; k++) {
@@ -56,7 +56,7 @@ CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const i
   }
   CW_TRY(cw_incident_make(point_count, triangle_count, (const int32_t(*)[3])mesh->triangle, &around));
   Edges edges = {mesh, &around, wanted};
-  CW_TRY(cw_share("triangles across edges", triangle_count, sizeof *mesh->near, find_near, &edges, mesh->near));
+  CW_TRY(cw_parallel_for("triangles across edges", triangle_count, sizeof *mesh->near, find_near, &edges, mesh->near));
 done:
   cw_incident_free(&around);
   free(wanted);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which given points of a patch lie on one cut: the inner given edges, followed from one of their ends to the other. A
-// triangle with all corners on a cut lies in the dividing plane, and no column on this plane leaves it.
+// triangle with all corners on a cut lies in the partition plane, and no column on this plane leaves it.
 #ifndef CUTWATER_MESHER_SURFACE_PATCH_CUTS_H
 #define CUTWATER_MESHER_SURFACE_PATCH_CUTS_H
 

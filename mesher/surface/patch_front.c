@@ -197,7 +197,7 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     CW_TRY(cw_patch_insert(work, uv, t, least_room, cap, &inserted));
     if (!inserted) continue;
     CW_TRY(set_row(&front, work->point_count - 1, 1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
-    for (int32_t k = 0; k < work->rim_count; k++) CW_TRY(push_edges(work, &front, work->fresh[k]));
+    for (int32_t k = 0; k < work->border_count; k++) CW_TRY(push_edges(work, &front, work->fresh[k]));
   }
   // What the fronts left open between them: the centres of circles.
   for (int32_t t = 0; t < work->triangle_count; t++) {

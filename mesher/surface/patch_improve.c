@@ -146,20 +146,20 @@ static double height_over(const CwPatchWork *work, int32_t p, int32_t a, int32_t
 }
 
 // Free points too near to another point or a given edge, and those with so few triangles that these are wide.
-static void remove_crowded(CwPatchWork *work) {
+static void remove_too_close(CwPatchWork *work) {
   for (int32_t p = work->given_count; p < work->point_count; p++) {
     if (work->point_triangle[p] < 0) continue;
     Ring r;
     r.count = cw_patch_ring(work, p, r.triangle, r.ring);
-    int crowded = r.count <= 4;
-    for (int k = 0; k < r.count && !crowded; k++) {
+    int too_close = r.count <= 4;
+    for (int k = 0; k < r.count && !too_close; k++) {
       int32_t a = r.ring[k], b = r.ring[(k + 1) % r.count], t = r.triangle[k];
       double limit = short_edge * edge_size(work, p, a);
-      crowded = cw_patch_distance2(work->x[p], work->x[a]) < limit * limit;
+      too_close = cw_patch_distance2(work->x[p], work->x[a]) < limit * limit;
       if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1)
-        crowded |= height_over(work, p, a, b) < least_height * work->size[p];
+        too_close |= height_over(work, p, a, b) < least_height * work->size[p];
     }
-    if (crowded && r.count) cw_patch_remove(work, p, 0.45, 1.5);
+    if (too_close && r.count) cw_patch_remove(work, p, 0.45, 1.5);
   }
 }
 
@@ -393,7 +393,7 @@ CwStatus cw_patch_improve(CwPatchWork *work) {
   CwPatchCuts cuts = {0};
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     cw_patch_delaunay(work, 1);
-    remove_crowded(work);
+    remove_too_close(work);
     CW_TRY(split_long(work));
     cw_patch_delaunay(work, 1);
     // The last sweep keeps what is best for the angles.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Meshes one surface patch in its parameter plane under the metric of the surface and a size field in space.
-// The same code serves CAD faces, caps inside marched rims, and dividing planes (where the map is linear).
+// The same code serves CAD faces, open patches inside marched open edges, and partition planes (where the map is
+// linear).
 //
 //   boundary points and edges in (u,v)  ->  constrained Delaunay (cdt.h)  ->  points in rows (patch_front.h)
 //     ->  flip, split, remove, smooth (patch_improve.h)  ->  triangles

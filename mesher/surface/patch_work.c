@@ -50,8 +50,8 @@ static CwStatus grow_cavity(CwPatchWork *work, int32_t room) {
   if (room <= work->cavity_room) goto done;
   room *= 2;
   GROW(work->cavity, room);
-  GROW(work->rim, room);
-  GROW(work->rim_given, room);
+  GROW(work->border, room);
+  GROW(work->border_given, room);
   GROW(work->fresh, room);
   work->cavity_room = room;
 done:
@@ -120,8 +120,8 @@ void cw_patch_work_close(CwPatchWork *work) {
   free(work->component);
   free(work->mark);
   free(work->cavity);
-  free(work->rim);
-  free(work->rim_given);
+  free(work->border);
+  free(work->border_given);
   free(work->fresh);
   *work = (CwPatchWork){0};
 }
@@ -224,11 +224,11 @@ static CwStatus collect_cavity(CwPatchWork *work, const double p[2], const doubl
   CwStatus status = CW_OK;
   start_marks(work);
   work->cavity_count = seeds;
-  work->rim_count = 0;
+  work->border_count = 0;
   for (int k = 0; k < seeds; k++) work->mark[work->cavity[k]] = work->marker;
   for (int32_t k = 0; k < work->cavity_count; k++) {
     int32_t t = work->cavity[k];
-    CW_TRY(grow_cavity(work, work->cavity_count + work->rim_count + 4));
+    CW_TRY(grow_cavity(work, work->cavity_count + work->border_count + 4));
     for (int i = 0; i < 3; i++) {
       int32_t n = work->neighbour[t][i];
       int given = work->given[t] >> i & 1;
@@ -238,31 +238,31 @@ static CwStatus collect_cavity(CwPatchWork *work, const double p[2], const doubl
         work->cavity[work->cavity_count++] = n;
         continue;
       }
-      int32_t *rim = work->rim[work->rim_count];
-      rim[0] = work->corner[t][(i + 1) % 3];
-      rim[1] = work->corner[t][(i + 2) % 3];
-      rim[2] = n;
-      work->rim_given[work->rim_count++] = (uint8_t)given;
+      int32_t *border = work->border[work->border_count];
+      border[0] = work->corner[t][(i + 1) % 3];
+      border[1] = work->corner[t][(i + 2) % 3];
+      border[2] = n;
+      work->border_given[work->border_count++] = (uint8_t)given;
     }
   }
-  // A triangle that came in late may have been taken for rim before.
+  // A triangle that came in late may have been taken for border before.
   int32_t kept = 0;
-  for (int32_t k = 0; k < work->rim_count; k++) {
-    if (!work->rim_given[k] && work->mark[work->rim[k][2]] == work->marker) continue;
-    memmove(work->rim[kept], work->rim[k], sizeof work->rim[k]);
-    work->rim_given[kept++] = work->rim_given[k];
+  for (int32_t k = 0; k < work->border_count; k++) {
+    if (!work->border_given[k] && work->mark[work->border[k][2]] == work->marker) continue;
+    memmove(work->border[kept], work->border[k], sizeof work->border[k]);
+    work->border_given[kept++] = work->border_given[k];
   }
-  work->rim_count = kept;
+  work->border_count = kept;
 done:
   return status;
 }
 
-// Whether each rim edge sees p with an area that is not lost in rounding, and the cavity has no point inside.
+// Whether each border edge sees p with an area that is not lost in rounding, and the cavity has no point inside.
 static int cavity_is_star(const CwPatchWork *work, const double p[2], const double m[3]) {
   double root = sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0));
-  if (work->rim_count != work->cavity_count + 2) return 0;
-  for (int32_t k = 0; k < work->rim_count; k++) {
-    const double *a = work->uv[work->rim[k][0]], *b = work->uv[work->rim[k][1]];
+  if (work->border_count != work->cavity_count + 2) return 0;
+  for (int32_t k = 0; k < work->border_count; k++) {
+    const double *a = work->uv[work->border[k][0]], *b = work->uv[work->border[k][1]];
     double u = b[0] - a[0], v = b[1] - a[1];
     if (!(root * cw_patch_cross(a, b, p) > 1e-6 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v))) return 0;
   }
@@ -271,13 +271,13 @@ static int cavity_is_star(const CwPatchWork *work, const double p[2], const doub
 
 static int cavity_has_room(const CwPatchWork *work, const double uv[2], const double m[3], double size, double least) {
   double root = sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0));
-  for (int32_t k = 0; k < work->rim_count; k++) {
-    const double *a = work->uv[work->rim[k][0]], *b = work->uv[work->rim[k][1]];
+  for (int32_t k = 0; k < work->border_count; k++) {
+    const double *a = work->uv[work->border[k][0]], *b = work->uv[work->border[k][1]];
     double u = a[0] - uv[0], v = a[1] - uv[1];
     // Beside finer given edges the spacing of these counts.
-    double near = fmin(size, 0.5 * (size + work->size[work->rim[k][0]]));
+    double near = fmin(size, 0.5 * (size + work->size[work->border[k][0]]));
     if (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v < least * least * near * near) return 0;
-    if (!work->rim_given[k]) continue;
+    if (!work->border_given[k]) continue;
     u = b[0] - a[0];
     v = b[1] - a[1];
     double length = sqrt(m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v);
@@ -286,12 +286,12 @@ static int cavity_has_room(const CwPatchWork *work, const double uv[2], const do
   return 1;
 }
 
-// Fills the cavity with triangles from its rim to point p.
+// Fills the cavity with triangles from its border to point p.
 static CwStatus fill_cavity(CwPatchWork *work, int32_t p) {
   CwStatus status = CW_OK;
   int32_t component = work->component[work->cavity[0]];
   CW_TRY(grow_triangles(work, work->triangle_count + 2));
-  for (int32_t k = 0; k < work->rim_count; k++) {
+  for (int32_t k = 0; k < work->border_count; k++) {
     int32_t t;
     if (k < work->cavity_count)
       t = work->cavity[k];
@@ -302,16 +302,16 @@ static CwStatus fill_cavity(CwPatchWork *work, int32_t p) {
       t = work->triangle_count++;
     work->fresh[k] = t;
   }
-  for (int32_t k = 0; k < work->rim_count; k++) {
-    int32_t t = work->fresh[k], a = work->rim[k][0], b = work->rim[k][1], out = work->rim[k][2];
+  for (int32_t k = 0; k < work->border_count; k++) {
+    int32_t t = work->fresh[k], a = work->border[k][0], b = work->border[k][1], out = work->border[k][2];
     set_triangle(work, t, p, a, b, component);
-    work->given[t] = work->rim_given[k];
+    work->given[t] = work->border_given[k];
     work->neighbour[t][0] = out;
     work->point_fresh[a] = t;
     if (out >= 0) work->neighbour[out][edge_from(work, out, b, a)] = t;
   }
-  for (int32_t k = 0; k < work->rim_count; k++) {
-    int32_t t = work->fresh[k], next = work->point_fresh[work->rim[k][1]];
+  for (int32_t k = 0; k < work->border_count; k++) {
+    int32_t t = work->fresh[k], next = work->point_fresh[work->border[k][1]];
     work->neighbour[t][1] = next;
     work->neighbour[next][2] = t;
   }

@@ -36,12 +36,12 @@ typedef struct {
   uint32_t marker;
   int32_t free_slot; // -1: none
   // The cavity of the last insertion; its new triangles after it.
-  int32_t cavity_count, rim_count, cavity_room;
+  int32_t cavity_count, border_count, cavity_room;
   int32_t *cavity;
-  int32_t (*rim)[3]; // from, to, triangle outside
-  uint8_t *rim_given;
+  int32_t (*border)[3]; // from, to, triangle outside
+  uint8_t *border_given;
   int32_t *fresh;
-  int32_t *point_fresh; // per point: the new triangle whose rim edge starts there
+  int32_t *point_fresh; // per point: the new triangle whose border edge starts there
 } CwPatchWork;
 
 // Takes the triangulation over (it may be freed afterwards). `input` must outlive the work.

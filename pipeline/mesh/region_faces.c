@@ -220,7 +220,7 @@ static CwStatus take_single(Match *m, const Side *side) {
   if (side->ref < 0) CW_TRY(fail_at_face(m, side->ref, "is listed as boundary but is no face of a cell"));
   for (int i = 0, count = side_nodes(m->data, side->ref, nodes); i < count; ++i)
     if (nodes[i] >= m->data->shared_count)
-      CW_TRY(fail_at_face(m, side->ref, "is open: not listed as boundary and not on a dividing plane"));
+      CW_TRY(fail_at_face(m, side->ref, "is open: not listed as boundary and not on a partition plane"));
   if (m->faces)
     m->faces->across[side->ref] = CW_ACROSS_OPEN;
   else

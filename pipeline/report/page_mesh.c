@@ -197,7 +197,7 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   json_t *domain[DOMAINS_MOST];
   CW_TRY(all_domains(data, domain));
   fputs("<p>Each domain is divided by planes into regions that are meshed on their own; the mesh is the same for any "
-        "number of ranks. Where passages of the impeller are equal, their regions are turned copies of the first's, "
+        "number of ranks. Where passages of the impeller are equal, their regions are periodic images of the first's, "
         "which takes less time.</p>\n",
         page);
   cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
@@ -246,7 +246,7 @@ static void quality_table(FILE *page, const CwReportData *data, json_t *const *d
              "tetrahedron_aspect_max", 1, 4);
   figure_row(page, data, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
   figure_row(page, data, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
-  inner_row(page, data, "Tetrahedra beside dividing planes: mean ratio, mean", "1 is regular", domain,
+  inner_row(page, data, "Tetrahedra beside partition planes: mean ratio, mean", "1 is regular", domain,
             "tetrahedra_beside_planes", "mean_ratio_mean", 3);
   inner_row(page, data, "Other tetrahedra: mean ratio, mean", "", domain, "tetrahedra_apart", "mean_ratio_mean", 3);
   figure_row(page, data, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);

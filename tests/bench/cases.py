@@ -10,7 +10,7 @@ first   wall faces whose first height is within 10 % of its target, %
 layers  number of prism layers
 even    faces of the layer top across which volumes change by no more than 4, %; in brackets the greatest change
 worst   patch with the fewest of them, of those with 100 faces or more
-beside  how much greater the mean aspect of the tetrahedra beside dividing planes is than that of the others, %
+beside  how much greater the mean aspect of the tetrahedra beside partition planes is than that of the others, %
 
 Every run is removed before the next one begins. With --mesh-only nothing is exported, and checkMesh not asked."""
 import argparse

@@ -172,7 +172,7 @@ static void add_blade(Mesh *mesh, double great, double turn, double edge) {
   surface_free(&ball);
 }
 
-// Open faces of the tetrahedra of a region: the front of its layers, its caps and dividing faces.
+// Open faces of the tetrahedra of a region: its layer top, open patches and faces on partition planes.
 static void region_surface(const char *path, Mesh *mesh) {
   static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   CwRegionMesh region;
@@ -322,7 +322,7 @@ static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const 
   printf("%.3f %.2f %.2f %.3f\n", mean, most, least, ratio);
 }
 
-// Shapes of tetrahedra: all, those with a corner on a dividing plane, the others.
+// Shapes of tetrahedra: all, those with a corner on a partition plane, the others.
 typedef struct {
   int64_t count, aspect_class[8];
   double aspect_sum, aspect_most, dihedral_least, dihedral_greatest, ratio_sum, ratio_least;

@@ -69,7 +69,7 @@ def mesh(arguments, geometry, ranks):
 
 
 def group_sides(cost, own, ranks):
-    """The groups of sides, each with its ranks: the mesher's own rule (cw_sides_group)."""
+    """The groups of sides, each with its ranks: the mesher's own rule (cw_groups_divide)."""
     best, least = None, None
     for groups in range(1, max(2, min(len(cost), ranks // LEAST_RANKS) + 1)):
         sides, work = [[] for _ in range(groups)], [0.0] * groups
@@ -120,7 +120,7 @@ def replay_waiting(tasks, before, ranks):
 
 
 def smaller_neighbours(record):
-    """For each task of the step "regions" but turned copies, in order, those of its neighbours of smaller number. Where
+    """For each task of the step "regions" but periodic images, in order, those of its neighbours of smaller number. Where
     passages are copies of one another none waits."""
     before = []
     for domain in record["results"]["domains"]:
@@ -136,7 +136,7 @@ def smaller_neighbours(record):
 
 
 def of_all(before, tasks):
-    """The same for all tasks of the step: a turned copy waits for its first."""
+    """The same for all tasks of the step: a periodic image waits for its first."""
     firsts = [i for i, task in enumerate(tasks) if task[2] < 0]
     waits = [{task[2]} for task in tasks]
     for first, names in zip(firsts, before):

@@ -6,7 +6,7 @@ numbers, and of Gmsh's own Delaunay method on the surfaces that the serial mesh 
   tests/bench/table1.py [--cells 2M] [--build build] [--case cases/paper/case.yaml] [--algorithm del3d]
 
 The classes are shares of the tetrahedra by longest over shortest edge. `beside` are the tetrahedra with a corner on a
-dividing plane, `apart` the others. Fails where the mean ratio of those beside is worse in the mean than that of the
+partition plane, `apart` the others. Fails where the mean ratio of those beside is worse in the mean than that of the
 others by more than 5 %, or that of the mesh by region numbers worse than that of the serial one by more than 2 %."""
 import argparse
 import shutil
@@ -83,7 +83,7 @@ def main():
             found[domain] = shapes(program, one)["all"], shapes(program, many)
             print_row(f"{domain}, serial", found[domain][0])
             print_row(f"{domain}, {len(many)} regions", found[domain][1]["all"])
-            print_row("  beside dividing planes", found[domain][1]["beside"])
+            print_row("  beside partition planes", found[domain][1]["beside"])
             print_row("  apart from them", found[domain][1]["apart"])
             execute(program, "region", one[0], folder / "surface.msh")
             run, made = run_gmsh(folder, folder / "surface.msh", 1, None, "-3", "-algo", options.algorithm)
@@ -91,7 +91,7 @@ def main():
                 sys.exit(f"table1: Gmsh failed on the {domain}:\n{run.text[-1000:]}")
             print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
             all_of, by_region = found[domain]
-            comparisons = (("beside dividing planes against the others", by_region["beside"], by_region["apart"], 0.05),
+            comparisons = (("beside partition planes against the others", by_region["beside"], by_region["apart"], 0.05),
                            ("by region numbers against the serial mesh", by_region["all"], all_of, 0.02))
             for label, here, there, most in comparisons:
                 aspect, ratio = here[2] / there[2] - 1, 1 - here[6] / there[6]

@@ -292,7 +292,7 @@ static int write_region_file(const char *path, const Domain *d, int region, cons
   return failed ? -1 : 0;
 }
 
-// Numbers the points that lie on a dividing plane and belong to a cell.
+// Numbers the points that lie on a partition plane and belong to a cell.
 static void number_shared(Domain *d) {
   const SyntheticAnnulus *a = d->annulus;
   d->shared = malloc((size_t)d->node_count * sizeof *d->shared);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Counts the cells of a finished run across its narrow places. From the middle of every so many wall triangles of the
-// background a ray goes straight to the wall or cap across; where that is near and faces it, the cells on the way are
-// counted. Prints for each pair of patches: rays, least and median gap (mm), least and median number of cells across,
-// and of tetrahedra. Use: cells_across GEOMETRY_DIR MESH_DIR GREATEST_GAP_MM
+// background a ray goes straight to the wall or open patch across; where that is near and faces it, the cells on the
+// way are counted. Prints for each pair of patches: rays, least and median gap (mm), least and median number of cells
+// across, and of tetrahedra. Use: cells_across GEOMETRY_DIR MESH_DIR GREATEST_GAP_MM
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "mesher/skeleton/skeleton.h"
+#include "mesher/boundary/boundary.h"
 
 enum { PASSAGES = 4, OF_PASSAGE = 16, AROUND = PASSAGES * OF_PASSAGE, RINGS = 10 };
 enum { POINTS = AROUND * (RINGS + 1), TRIANGLES = 2 * AROUND * RINGS };
@@ -47,8 +47,8 @@ static inline void flat_ring(FlatRing *ring) {
   }
 }
 
-static inline CwSkeletonOrbits ring_orbits(FlatRing *ring) {
-  return (CwSkeletonOrbits){
+static inline CwPeriodicImages ring_images(FlatRing *ring) {
+  return (CwPeriodicImages){
       .symmetry = &ring->symmetry, .node_capacity = POINTS, .node_next = ring->next, .node_turns = ring->turns};
 }
 

@@ -15,20 +15,20 @@
 #include "mesher/layers/layers.h"
 #include "surfaces.h"
 
-// Unit normals of the caps and planes that hold a column at x; returns their count.
+// Unit normals of the open patches and planes that hold a column at x; returns their count.
 typedef int (*CaseGuide)(const void *context, const double x[3], double normal[2][3]);
 
 typedef struct {
-  Surface wall, cap;
-  double target, lowest; // lowest: the least height, 0 for none
-  CaseGuide guide;
-  const void *guide_context;
+  Surface wall, open_patch;
+  double target, lowest; // lowest: the least thickness, 0 for none
+  CaseGuide constraint;
+  const void *constraint_context;
   void (*snap)(const void *context, int32_t v, double x[3]);
   CwLayerInput in;
   CwLayers out;
   CwOutcome outcome;
-  double share; // of columns at the asked height
-  double mean;  // of all heights, over the asked one
+  double share; // of columns at the asked thickness
+  double mean;  // of all thicknesses, over the asked one
 } Case;
 
 // Holds the columns at y = 0 and y = depth (the context, a double, m): the ends of what is extruded.
@@ -40,14 +40,14 @@ static inline int case_end_planes(const void *context, const double x[3], double
 
 static inline CwStatus case_make(Case *c) {
   surface_weld(&c->wall);
-  surface_weld(&c->cap);
-  int32_t n = c->wall.point_count, *guide_count = calloc(n, sizeof *guide_count);
+  surface_weld(&c->open_patch);
+  int32_t n = c->wall.point_count, *constraint_count = calloc(n, sizeof *constraint_count);
   double *target = malloc(n * sizeof *target), *lowest = c->lowest > 0 ? malloc(n * sizeof *lowest) : NULL;
-  double(*guide_normal)[2][3] = calloc(n, sizeof *guide_normal);
+  double(*constraint_normal)[2][3] = calloc(n, sizeof *constraint_normal);
   for (int32_t v = 0; v < n; v++) {
     target[v] = c->target;
     if (lowest) lowest[v] = c->lowest;
-    if (c->guide) guide_count[v] = c->guide(c->guide_context, c->wall.x[v], guide_normal[v]);
+    if (c->constraint) constraint_count[v] = c->constraint(c->constraint_context, c->wall.x[v], constraint_normal[v]);
   }
   c->in = (CwLayerInput){.point_count = n,
                          .x = (const double(*)[3])c->wall.x,
@@ -55,24 +55,24 @@ static inline CwStatus case_make(Case *c) {
                          .triangle = (const int32_t(*)[3])c->wall.triangle,
                          .target = target,
                          .least = lowest,
-                         .guide_count = guide_count,
-                         .guide_normal = (const double(*)[2][3])guide_normal,
+                         .constraint_count = constraint_count,
+                         .constraint_normal = (const double(*)[2][3])constraint_normal,
                          .snap = c->snap,
                          .snap_context = c,
-                         .obstacle_point_count = c->cap.point_count,
-                         .obstacle_x = (const double(*)[3])c->cap.x,
-                         .obstacle_triangle_count = c->cap.triangle_count,
-                         .obstacle_triangle = (const int32_t(*)[3])c->cap.triangle};
+                         .obstacle_point_count = c->open_patch.point_count,
+                         .obstacle_x = (const double(*)[3])c->open_patch.x,
+                         .obstacle_triangle_count = c->open_patch.triangle_count,
+                         .obstacle_triangle = (const int32_t(*)[3])c->open_patch.triangle};
   return cw_layers_make(&c->in, &c->out, &c->outcome);
 }
 
 static inline void case_free(Case *c) {
   free((void *)c->in.target);
   free((void *)c->in.least);
-  free((void *)c->in.guide_count);
-  free((void *)c->in.guide_normal);
+  free((void *)c->in.constraint_count);
+  free((void *)c->in.constraint_normal);
   surface_free(&c->wall);
-  surface_free(&c->cap);
+  surface_free(&c->open_patch);
   cw_layers_free(&c->out);
 }
 
@@ -84,7 +84,7 @@ static inline double case_det(const double o[3], const double a[3], const double
 }
 
 static inline void case_at(const Case *c, int32_t v, double fraction, double x[3]) {
-  for (int k = 0; k < 3; k++) x[k] = c->wall.x[v][k] + fraction * (c->out.front[v][k] - c->wall.x[v][k]);
+  for (int k = 0; k < 3; k++) x[k] = c->wall.x[v][k] + fraction * (c->out.top[v][k] - c->wall.x[v][k]);
 }
 
 // Ten sub-layers: every corner tetrahedron of each sub-prism has a positive volume.
@@ -105,27 +105,29 @@ static inline void case_check_prisms(const Case *c) {
   }
 }
 
-// Wall and front together cross nowhere, nor does the front cross a cap except with the columns that run
-// inside one.
-static inline void case_check_front(const Case *c) {
-  int32_t n = c->wall.point_count, m = c->wall.triangle_count, caps = c->cap.triangle_count, count, (*pair)[2];
-  int32_t points = 2 * n + c->cap.point_count;
+// Wall and layer top together cross nowhere, nor does the layer top cross an open patch except with the columns that
+// run inside one.
+static inline void case_check_top(const Case *c) {
+  int32_t n = c->wall.point_count, m = c->wall.triangle_count, open_patches = c->open_patch.triangle_count, count,
+          (*pair)[2];
+  int32_t points = 2 * n + c->open_patch.point_count;
   double(*x)[3] = malloc(points * sizeof *x);
-  int32_t(*t)[3] = malloc((2 * (size_t)m + caps) * sizeof *t);
-  memcpy(x, c->out.front, n * sizeof *x);
+  int32_t(*t)[3] = malloc((2 * (size_t)m + open_patches) * sizeof *t);
+  memcpy(x, c->out.top, n * sizeof *x);
   memcpy(x + n, c->wall.x, n * sizeof *x);
-  if (caps) memcpy(x + 2 * n, c->cap.x, c->cap.point_count * sizeof *x);
+  if (open_patches) memcpy(x + 2 * n, c->open_patch.x, c->open_patch.point_count * sizeof *x);
   for (int32_t f = 0; f < m; f++)
     for (int i = 0; i < 3; i++) t[f][i] = c->wall.triangle[f][i], t[m + f][i] = n + c->wall.triangle[f][i];
-  for (int32_t f = 0; f < caps; f++)
-    for (int i = 0; i < 3; i++) t[2 * m + f][i] = 2 * n + c->cap.triangle[f][i];
+  for (int32_t f = 0; f < open_patches; f++)
+    for (int i = 0; i < 3; i++) t[2 * m + f][i] = 2 * n + c->open_patch.triangle[f][i];
   assert_int_equal(
-      cw_self_intersections(points, (const double(*)[3])x, 2 * m + caps, (const int32_t(*)[3])t, &count, &pair), CW_OK);
+      cw_self_intersections(points, (const double(*)[3])x, 2 * m + open_patches, (const int32_t(*)[3])t, &count, &pair),
+      CW_OK);
   for (int32_t i = 0; i < count; i++) {
     assert_true(pair[i][1] >= 2 * m);
     if (pair[i][0] >= m) continue;
     int held = 0;
-    for (int k = 0; k < 3; k++) held += c->in.guide_count[c->wall.triangle[pair[i][0]][k]];
+    for (int k = 0; k < 3; k++) held += c->in.constraint_count[c->wall.triangle[pair[i][0]][k]];
     assert_true(held > 0);
   }
   free(pair);
@@ -142,10 +144,10 @@ static inline void case_run(Case *c, const char *name) {
   c->mean = 0;
   double least = INFINITY;
   for (int32_t v = 0; v < n; v++) {
-    assert_true(c->out.height[v] > 0);
-    if (c->out.height[v] >= 0.99 * c->target) full++;
-    c->mean += c->out.height[v] / c->target / n;
-    if (c->out.height[v] < least) least = c->out.height[v];
+    assert_true(c->out.thickness[v] > 0);
+    if (c->out.thickness[v] >= 0.99 * c->target) full++;
+    c->mean += c->out.thickness[v] / c->target / n;
+    if (c->out.thickness[v] < least) least = c->out.thickness[v];
     reason[c->out.reason[v]]++;
   }
   assert_int_equal(n - full, c->out.thinned_count);
@@ -155,19 +157,19 @@ static inline void case_run(Case *c, const char *name) {
                 name, c->wall.triangle_count, 100 * c->share, c->target / MM, c->mean, least / MM, reason[CW_LAYER_GAP],
                 reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
   case_check_prisms(c);
-  case_check_front(c);
-  // Guided columns stay in the surfaces that hold them, to first order where those are curved and not put
+  case_check_top(c);
+  // Constrained columns stay in the surfaces that hold them, to first order where those are curved and not put
   // back.
   for (int32_t v = 0; v < n && !c->snap; v++)
-    for (int i = 0; i < c->in.guide_count[v]; i++) {
+    for (int i = 0; i < c->in.constraint_count[v]; i++) {
       double away = 0;
-      for (int k = 0; k < 3; k++) away += (c->out.front[v][k] - c->wall.x[v][k]) * c->in.guide_normal[v][i][k];
+      for (int k = 0; k < 3; k++) away += (c->out.top[v][k] - c->wall.x[v][k]) * c->in.constraint_normal[v][i][k];
       assert_true(fabs(away) < 1e-12);
     }
 }
 
-// Writes a picture (SVG) of wall, layers and front where a plane cuts them: u and v are the unit directions of the page
-// about the point o, `half` (m) of it either way.
+// Writes a picture (SVG) of wall, layers and layer top where a plane cuts them: u and v are the unit directions of the
+// page about the point o, `half` (m) of it either way.
 static inline void case_picture(const Case *c, const char *path, const double o[3], const double u[3],
                                 const double v[3], double half) {
   const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -175,7 +177,7 @@ static inline void case_picture(const Case *c, const char *path, const double o[
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\">\n", PIXELS, PIXELS);
-  fputs("<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n", file);
+  fputs("<rect width=\"100%\" thickness=\"100%\" fill=\"white\"/>\n", file);
   for (int level = 0; level <= LEVELS; level++)
     for (int32_t f = 0; f < c->wall.triangle_count; f++) {
       double at[3][2], page[2][2], x[3][3], away[3];

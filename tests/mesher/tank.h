@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A tank with n equal sides and a hub in its middle, divided by a fan, up to its network of curves.
+// A tank with n equal sides and a hub in its middle, divided into sectors, up to its network of curves.
 #ifndef CUTWATER_TESTS_MESHER_TANK_H
 #define CUTWATER_TESTS_MESHER_TANK_H
 
@@ -21,7 +21,7 @@
 extern "C" {
 #include "mesher/cad/symmetry.h"
 #include "mesher/plan/sector_plan.h"
-#include "mesher/skeleton/skeleton.h"
+#include "mesher/boundary/boundary.h"
 }
 
 #include "solids.h"
@@ -95,7 +95,7 @@ struct Tank {
   std::vector<CwPlanNode> node;
   std::vector<double> none;
   CwPlan plan;
-  CwSkeleton skeleton = {};
+  CwBoundary boundary = {};
   CwOutcome outcome = {};
 
   // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24
@@ -118,15 +118,15 @@ struct Tank {
     }
     none.assign(node.size(), 0);
     plan = {(int)node.size(), 1 + each * count, node.data(), none.data(), none.data(), 1, count, 1, n};
-    skeleton.cad = cad;
-    skeleton.plan = &plan;
-    skeleton.size_at = even_size;
-    check(cw_network_make(cad, &background, inside, &plan, &skeleton.network, &outcome));
+    boundary.cad = cad;
+    boundary.plan = &plan;
+    boundary.size_at = even_size;
+    check(cw_network_make(cad, &background, inside, &plan, &boundary.network, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
-    skeleton.orbits.symmetry = symmetry;
+    boundary.images.symmetry = symmetry;
   }
   ~Tank() {
-    cw_skeleton_free(&skeleton);
+    cw_boundary_free(&boundary);
     cw_symmetry_free(&symmetry);
     cw_inside_free(&inside);
     cw_background_free(&background);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The periodic impeller: turned copies in the shared run, their files as checkpoints, and the way back to the whole
+"""The periodic impeller: periodic images in the shared run, their files as checkpoints, and the way back to the whole
 impeller where the case asks for it or the passages are not equal."""
 import json
 import shutil

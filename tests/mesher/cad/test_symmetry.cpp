@@ -25,16 +25,16 @@ static void turns_are_counted(void **) {
 }
 
 // Each turning face stands for n, the two across the axis for themselves; the first ones have edges in common.
-static void faces_form_orbits(void **) {
+static void faces_form_images(void **) {
   Tank tank(6, 1);
-  const CwOrbits &face = tank.symmetry->face;
+  const CwImages &face = tank.symmetry->face;
   int fixed = 0, firsts = 0;
   for (int f = 0; f < cw_cad_face_count(tank.cad); f++) {
     fixed += face.next[f] == f;
     firsts += face.first[f] == f;
-    assert_int_equal(cw_orbits_turned(&face, face.first[f], face.turns[f]), f);
-    assert_int_equal(cw_orbits_turned(&face, f, 6), f);
-    assert_int_equal(cw_orbits_size(&face, 6, f), face.next[f] == f ? 1 : 6);
+    assert_int_equal(cw_images_turned(&face, face.first[f], face.turns[f]), f);
+    assert_int_equal(cw_images_turned(&face, f, 6), f);
+    assert_int_equal(cw_images_size(&face, 6, f), face.next[f] == f ? 1 : 6);
   }
   assert_int_equal(fixed, 2);
   assert_int_equal(firsts, 5);
@@ -47,14 +47,14 @@ static void faces_form_orbits(void **) {
   assert_int_equal(joints, 4); // water - casing - floor - hub - its top
 }
 
-static void orbits_of_odd_lengths_are_refused(void **) {
-  CwOrbits orbits;
+static void images_of_odd_lengths_are_refused(void **) {
+  CwImages images;
   const auto made = [&](std::vector<int32_t> next, int count, int allow_fixed) {
     int32_t *copy = (int32_t *)malloc(next.size() * sizeof *copy);
     memcpy(copy, next.data(), next.size() * sizeof *copy);
     int whole;
-    assert_int_equal(cw_orbits_make((int32_t)next.size(), copy, count, allow_fixed, &orbits, &whole), CW_OK);
-    if (whole) cw_orbits_free(&orbits);
+    assert_int_equal(cw_images_make((int32_t)next.size(), copy, count, allow_fixed, &images, &whole), CW_OK);
+    if (whole) cw_images_free(&images);
     return whole;
   };
   assert_int_equal(made({1, 2, 0}, 3, 0), 1);
@@ -69,8 +69,8 @@ static void orbits_of_odd_lengths_are_refused(void **) {
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(turns_are_counted),
-      cmocka_unit_test(faces_form_orbits),
-      cmocka_unit_test(orbits_of_odd_lengths_are_refused),
+      cmocka_unit_test(faces_form_images),
+      cmocka_unit_test(images_of_odd_lengths_are_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The envelope on solids whose front is known by hand, and what it refuses.
+// The envelope on solids whose layer top is known by hand, and what it refuses.
 #include "layers_case.h"
 
 static void flat_square(void **state) {
@@ -7,15 +7,15 @@ static void flat_square(void **state) {
   surface_plate(&c.wall, 0.01, 0, 1 * MM, 1);
   case_run(&c, "flat square");
   for (int32_t v = 0; v < c.wall.point_count; v++) {
-    assert_float_equal(c.out.front[v][0], c.wall.x[v][0], 1e-15);
-    assert_float_equal(c.out.front[v][1], c.wall.x[v][1], 1e-15);
-    assert_float_equal(c.out.front[v][2], 0.6 * MM, 1e-15);
+    assert_float_equal(c.out.top[v][0], c.wall.x[v][0], 1e-15);
+    assert_float_equal(c.out.top[v][1], c.wall.x[v][1], 1e-15);
+    assert_float_equal(c.out.top[v][2], 0.6 * MM, 1e-15);
   }
   assert_float_equal(c.share, 1, 0);
   case_free(&c);
 }
 
-// All corners concave: the front is the box smaller by t on each side, exactly, at any mesh size.
+// All corners concave: the layer top is the box smaller by t on each side, exactly, at any mesh size.
 static void inside_of_box(void **state) {
   const double h[3] = {1.25 * MM, 0.5 * MM, 0.2 * MM};
   for (int i = 0; i < 3; i++) {
@@ -27,7 +27,7 @@ static void inside_of_box(void **state) {
     assert_int_equal(c.out.repair_rounds, 0);
     for (int32_t v = 0; v < c.wall.point_count; v++) {
       for (int k = 0; k < 3; k++) {
-        double x = c.wall.x[v][k], y = c.out.front[v][k];
+        double x = c.wall.x[v][k], y = c.out.top[v][k];
         assert_true(y > 0.6 * MM - 1e-12 && y < 9.4 * MM + 1e-12);
         if (x < 1e-9 || x > 0.01 - 1e-9) assert_float_equal(y, x < 1e-9 ? 0.6 * MM : 9.4 * MM, 1e-12);
       }
@@ -36,7 +36,7 @@ static void inside_of_box(void **state) {
   }
 }
 
-// Convex corners of the inner box: its front is the box larger by t, corners included.
+// Convex corners of the inner box: its layer top is the box larger by t, corners included.
 static void box_in_box(void **state) {
   Case c = {.target = 0.6 * MM};
   const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01};
@@ -52,26 +52,27 @@ static void box_in_box(void **state) {
     inner++;
     for (int k = 0; k < 3; k++) {
       double expect = x[k] < 1e-9 ? -0.6 * MM : x[k] > 0.01 - 1e-9 ? 10.6 * MM : x[k];
-      assert_float_equal(c.out.front[v][k], expect, 1e-12);
+      assert_float_equal(c.out.top[v][k], expect, 1e-12);
     }
   }
   assert_int_equal(inner, 6 * 20 * 20 + 2);
   case_free(&c);
 }
 
-// L-shaped channel between two caps: one convex and five concave edges of 90 degrees, full height everywhere.
+// L-shaped channel between two open patches: one convex and five concave edges of 90 degrees, full thickness
+// everywhere.
 static void l_channel(void **state) {
   const double p[6][2] = {{0, 0}, {0.02, 0}, {0.02, 0.008}, {0.008, 0.008}, {0.008, 0.02}, {0, 0.02}};
   const double h[3] = {1 * MM, 0.5 * MM, 0.25 * MM}, depth = 0.01;
   for (int i = 0; i < 3; i++) {
-    Case c = {.target = 0.6 * MM, .guide = case_end_planes, .guide_context = &depth};
+    Case c = {.target = 0.6 * MM, .constraint = case_end_planes, .constraint_context = &depth};
     surface_extrude(&c.wall, 6, p, 1, depth, h[i], 1);
-    surface_ends(&c.cap, 0, 0, 0.02, 0.02, depth);
+    surface_ends(&c.open_patch, 0, 0, 0.02, 0.02, depth);
     case_run(&c, "L-shaped channel");
     assert_float_equal(c.share, 1, 0);
     int convex = 0, concave = 0;
     for (int32_t v = 0; v < c.wall.point_count; v++) {
-      const double *x = c.wall.x[v], *y = c.out.front[v];
+      const double *x = c.wall.x[v], *y = c.out.top[v];
       assert_float_equal(x[1], y[1], 1e-12);
       if (hypot(x[0] - 0.008, x[2] - 0.008) < 1e-9) {
         convex++;
@@ -94,15 +95,15 @@ static void sharp_creases(void **state) {
   const double p[3][2] = {{0, 0}, {0.02, 0}, {0.01, 0.01 * 1.7320508075688772}}, depth = 0.006;
   const double h[4] = {1 * MM, 0.5 * MM, 0.3 * MM, 0.2 * MM};
   for (int i = 0; i < 4; i++) {
-    Case c = {.target = 0.6 * MM, .guide = case_end_planes, .guide_context = &depth};
+    Case c = {.target = 0.6 * MM, .constraint = case_end_planes, .constraint_context = &depth};
     surface_extrude(&c.wall, 3, p, 1, depth, h[i], 1);
-    surface_ends(&c.cap, 0, 0, 0.02, 0.02, depth);
+    surface_ends(&c.open_patch, 0, 0, 0.02, 0.02, depth);
     case_run(&c, "60 degree creases");
     assert_true(c.share > 0.995);
     int on_edge = 0;
     for (int32_t v = 0; v < c.wall.point_count; v++) {
       if (hypot(c.wall.x[v][0], c.wall.x[v][2]) > 1e-9) continue;
-      assert_float_equal(hypot(c.out.front[v][0], c.out.front[v][2]), 2 * c.out.height[v], 1e-12);
+      assert_float_equal(hypot(c.out.top[v][0], c.out.top[v][2]), 2 * c.out.thickness[v], 1e-12);
       on_edge++;
     }
     assert_int_equal(on_edge, lround(depth / h[i]) + 1);
@@ -110,17 +111,17 @@ static void sharp_creases(void **state) {
   }
 }
 
-// Pipe of 120 facets between two cap planes: the front is the polygon whose sides lie t further in.
-static void pipe_between_caps(void **state) {
+// Pipe of 120 facets between two open patch planes: the layer top is the polygon whose sides lie t further in.
+static void pipe_between_open_patches(void **state) {
   const double length = 40 * MM;
-  Case c = {.target = 0.6 * MM, .guide = case_end_planes, .guide_context = &length};
+  Case c = {.target = 0.6 * MM, .constraint = case_end_planes, .constraint_context = &length};
   surface_pipe(&c.wall, 20 * MM, length, 120, 40);
-  surface_ends(&c.cap, -0.03, -0.03, 0.03, 0.03, length);
-  case_run(&c, "pipe between caps");
+  surface_ends(&c.open_patch, -0.03, -0.03, 0.03, 0.03, length);
+  case_run(&c, "pipe between open patches");
   assert_float_equal(c.share, 1, 0);
   for (int32_t v = 0; v < c.wall.point_count; v++) {
-    assert_float_equal(hypot(c.out.front[v][0], c.out.front[v][2]), 0.02 - 0.6 * MM / cos(M_PI / 120), 1e-10);
-    assert_float_equal(c.out.front[v][1], c.wall.x[v][1], 1e-10);
+    assert_float_equal(hypot(c.out.top[v][0], c.out.top[v][2]), 0.02 - 0.6 * MM / cos(M_PI / 120), 1e-10);
+    assert_float_equal(c.out.top[v][1], c.wall.x[v][1], 1e-10);
   }
   case_free(&c);
 }
@@ -149,14 +150,14 @@ static void failures(void **state) {
   print_message("  %s\n", cw_fail_message());
   case_free(&fold);
 
-  // A cap that pierces the floor: no front is clear of it.
+  // An open patch that pierces the floor: no layer top is clear of it.
   Case pierced = {.target = 0.6 * MM};
   const double corner[3][3] = {{0.005, 0.005, -0.002}, {0.005, 0.005, 0.002}, {0.007, 0.006, 0}};
   surface_box(&pierced.wall, low, high, 1 * MM, 63, 0);
-  for (int i = 0; i < 3; i++) surface_point(&pierced.cap, corner[i]);
-  surface_triangle(&pierced.cap, 0, 1, 2);
+  for (int i = 0; i < 3; i++) surface_point(&pierced.open_patch, corner[i]);
+  surface_triangle(&pierced.open_patch, 0, 1, 2);
   assert_int_equal(case_make(&pierced), CW_ERR_MESH);
-  assert_non_null(strstr(cw_fail_message(), "the front crosses a cap"));
+  assert_non_null(strstr(cw_fail_message(), "the layer top crosses an open patch"));
   assert_non_null(strstr(cw_fail_message(), "ask for more cells"));
   print_message("  %s\n", cw_fail_message());
   case_free(&pierced);
@@ -164,13 +165,13 @@ static void failures(void **state) {
   Case zero = {.target = 0};
   surface_box(&zero.wall, low, high, 1 * MM, 63, 0);
   assert_int_equal(case_make(&zero), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "height 0 mm asked at ("));
+  assert_non_null(strstr(cw_fail_message(), "thickness 0 mm asked at ("));
   print_message("  %s\n", cw_fail_message());
   case_free(&zero);
 }
 
 static void same_each_time(void **state) {
-  double *front[2];
+  double *top[2];
   int32_t n = 0;
   for (int i = 0; i < 2; i++) {
     const double p[3][2] = {{0, 0}, {0.02, 0}, {0.01, 0.01 * 1.7320508075688772}};
@@ -178,19 +179,19 @@ static void same_each_time(void **state) {
     surface_extrude(&c.wall, 3, p, 1, 0.006, 0.4 * MM, 1);
     assert_int_equal(case_make(&c), CW_OK);
     n = c.wall.point_count;
-    front[i] = malloc(n * 3 * sizeof(double));
-    memcpy(front[i], c.out.front, n * 3 * sizeof(double));
+    top[i] = malloc(n * 3 * sizeof(double));
+    memcpy(top[i], c.out.top, n * 3 * sizeof(double));
     case_free(&c);
   }
-  assert_memory_equal(front[0], front[1], n * 3 * sizeof(double));
-  free(front[0]);
-  free(front[1]);
+  assert_memory_equal(top[0], top[1], n * 3 * sizeof(double));
+  free(top[0]);
+  free(top[1]);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(flat_square), cmocka_unit_test(inside_of_box),  cmocka_unit_test(box_in_box),
-      cmocka_unit_test(l_channel),   cmocka_unit_test(sharp_creases),  cmocka_unit_test(pipe_between_caps),
+      cmocka_unit_test(l_channel),   cmocka_unit_test(sharp_creases),  cmocka_unit_test(pipe_between_open_patches),
       cmocka_unit_test(failures),    cmocka_unit_test(same_each_time),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

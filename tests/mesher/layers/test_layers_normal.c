@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Directions of columns: free, and held in caps and dividing planes.
+// Directions of columns: free, and held in open patches and partition planes.
 #include "layers_case.h"
 
 #include "mesher/layers/layers_inner.h"
@@ -52,7 +52,7 @@ static void plane_through_box(void **state) {
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 2; j++) {
       double tangent = tan(angle[i] * M_PI / 180);
-      Case c = {.target = 0.6 * MM, .guide = oblique_plane, .guide_context = &tangent};
+      Case c = {.target = 0.6 * MM, .constraint = oblique_plane, .constraint_context = &tangent};
       const double high[3] = {0.02, 0.01, 0.01};
       int n[3] = {(int)lround(high[0] / h[j]), (int)lround(high[1] / h[j]), (int)lround(high[2] / h[j])};
       for (int side = 0; side < 6; side++) {
@@ -70,7 +70,7 @@ static void plane_through_box(void **state) {
       snprintf(name, sizeof name, "plane %g degrees, h %.1f", angle[i], h[j] / MM);
       case_run(&c, name);
       int held = 0;
-      for (int32_t v = 0; v < c.wall.point_count; v++) held += c.in.guide_count[v];
+      for (int32_t v = 0; v < c.wall.point_count; v++) held += c.in.constraint_count[v];
       assert_int_equal(held, 2 * (n[1] + n[2]));
       assert_true(c.share > (angle[i] < 40 ? 0.999 : 0.98));
       case_free(&c);
@@ -90,19 +90,19 @@ static int slanted_ends(const void *context, const double x[3], double normal[2]
   return 1;
 }
 
-// A square channel cut off obliquely by its caps: wedges of 90 - angle degrees between wall and cap.
-static void slanted_caps(void **state) {
+// A square channel cut off obliquely by its open patches: wedges of 90 - angle degrees between wall and open patch.
+static void slanted_open_patches(void **state) {
   const double p[4][2] = {{0, 0}, {0.012, 0}, {0.012, 0.012}, {0, 0.012}}, angle[3] = {15, 30, 45};
   for (int i = 0; i < 6; i++) {
     double h = i % 2 ? 0.3 * MM : 1 * MM;
     Slant slant = {.depth = 0.02, .tangent = tan(angle[i / 2] * M_PI / 180)};
-    Case c = {.target = 0.6 * MM, .guide = slanted_ends, .guide_context = &slant};
+    Case c = {.target = 0.6 * MM, .constraint = slanted_ends, .constraint_context = &slant};
     surface_extrude(&c.wall, 4, p, 1, slant.depth, h, 1);
-    surface_ends(&c.cap, -0.001, -0.001, 0.013, 0.013, slant.depth);
+    surface_ends(&c.open_patch, -0.001, -0.001, 0.013, 0.013, slant.depth);
     for (int32_t v = 0; v < c.wall.point_count; v++) c.wall.x[v][1] += slant.tangent * c.wall.x[v][2];
-    for (int32_t v = 0; v < c.cap.point_count; v++) c.cap.x[v][1] += slant.tangent * c.cap.x[v][2];
-    char name[40];
-    snprintf(name, sizeof name, "cap slanted by %g, h %.1f", angle[i / 2], h / MM);
+    for (int32_t v = 0; v < c.open_patch.point_count; v++) c.open_patch.x[v][1] += slant.tangent * c.open_patch.x[v][2];
+    char name[60];
+    snprintf(name, sizeof name, "open patch slanted by %g, h %.1f", angle[i / 2], h / MM);
     case_run(&c, name);
     assert_true(c.share > 0.99);
     case_free(&c);
@@ -116,23 +116,23 @@ static int plane_with_normal(const void *context, const double x[3], double norm
 }
 
 // A plane that nearly touches the floor of a box holds no column: other planes are wanted. One that stands up does.
-static void guide_along_wall(void **state) {
+static void constraint_along_wall(void **state) {
   const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01}, cosine[2] = {0.04, 0.6};
   for (int i = 0; i < 2; i++) {
     const double normal[3] = {cosine[i], 0, sqrt(1 - cosine[i] * cosine[i])};
-    Case c = {.target = 0.6 * MM, .guide = plane_with_normal, .guide_context = normal};
+    Case c = {.target = 0.6 * MM, .constraint = plane_with_normal, .constraint_context = normal};
     surface_box(&c.wall, low, high, 1 * MM, 63, 0);
     assert_int_equal(case_make(&c), CW_OK);
     assert_int_equal(c.outcome.kind, i == 0 ? CW_OUTCOME_REPLAN : CW_OUTCOME_DONE);
     for (int k = 0; i == 0 && k < 3; k++) assert_true(fabs(c.outcome.place[k] - (k < 2 ? 0.005 : 0)) < 1e-9);
-    // With a cap in its place no other planes help.
+    // With an open patch in its place no other planes help.
     uint8_t *stays = malloc((size_t)c.wall.point_count);
     memset(stays, 1, (size_t)c.wall.point_count);
     cw_layers_free(&c.out);
-    c.in.guide_stays = stays;
+    c.in.constraint_stays = stays;
     c.outcome = (CwOutcome){0};
     assert_int_equal(cw_layers_make(&c.in, &c.out, &c.outcome), i == 0 ? CW_ERR_MESH : CW_OK);
-    if (i == 0) assert_non_null(strstr(cw_fail_message(), "inside the cap at (5.0000, 5.0000, 0.0000) mm"));
+    if (i == 0) assert_non_null(strstr(cw_fail_message(), "inside the open patch at (5.0000, 5.0000, 0.0000) mm"));
     free(stays);
     case_free(&c);
   }
@@ -142,8 +142,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(most_normal_by_hand),
       cmocka_unit_test(plane_through_box),
-      cmocka_unit_test(slanted_caps),
-      cmocka_unit_test(guide_along_wall),
+      cmocka_unit_test(slanted_open_patches),
+      cmocka_unit_test(constraint_along_wall),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

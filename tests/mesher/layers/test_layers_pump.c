@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The hard places of a pump: neck and step behind the interface, cylinder caps, blades on hub and shroud,
+// The hard places of a pump: neck and step behind the interface, cylinder open patches, blades on hub and shroud,
 // bumpy surfaces.
 #include "draw.h"
 #include "layers_case.h"
@@ -29,13 +29,13 @@ static void turn_wall(Surface *s, int count, const double (*p)[2], double a0, do
   }
 }
 
-// Neck of the pump: 8 mm wide from r = 101 to 102 mm, then 12 mm wide; caps at r = 101 and 115 mm and, of a
+// Neck of the pump: 8 mm wide from r = 101 to 102 mm, then 12 mm wide; open patches at r = 101 and 115 mm and, of a
 // sector, its sides.
 static const double lower_neck[4][2] = {
     {101 * MM, -4 * MM}, {102 * MM, -4 * MM}, {102 * MM, -6 * MM}, {115 * MM, -6 * MM}};
 static const double upper_neck[4][2] = {{115 * MM, 6 * MM}, {102 * MM, 6 * MM}, {102 * MM, 4 * MM}, {101 * MM, 4 * MM}};
 
-static int neck_guide(const void *context, const double x[3], double normal[2][3]) {
+static int neck_constraint(const void *context, const double x[3], double normal[2][3]) {
   double sector = *(const double *)context, r = hypot(x[0], x[1]), a = atan2(x[1], x[0]);
   int count = 0;
   if (fabs(r - 101 * MM) < 1e-9 || fabs(r - 115 * MM) < 1e-9) {
@@ -58,14 +58,14 @@ static void to_cylinder(const void *context, int32_t v, double x[3]) {
   x[1] *= r0 / r;
 }
 
-static void cylinder_caps(Surface *cap, double a0, double a1, int m, double width) {
+static void cylinder_open_patches(Surface *open_patch, double a0, double a1, int m, double width) {
   Turn inner = {{{101 * MM, -4 * MM}, {101 * MM, 4 * MM}}, a0, a1};
   Turn outer = {{{115 * MM, -width / 2}, {115 * MM, width / 2}}, a0, a1};
-  surface_grid(cap, turned, &inner, 8, m, 0);
-  surface_grid(cap, turned, &outer, 12, m, 1);
+  surface_grid(open_patch, turned, &inner, 8, m, 0);
+  surface_grid(open_patch, turned, &outer, 12, m, 1);
 }
 
-static void sector_sides(Surface *cap, double sector) {
+static void sector_sides(Surface *open_patch, double sector) {
   for (int side = 0; side < 2; side++) {
     double c = cos(side * sector), s = sin(side * sector), p[4][3];
     const double r[2] = {101 * MM, 115 * MM}, z[2] = {-6 * MM, 6 * MM};
@@ -73,23 +73,23 @@ static void sector_sides(Surface *cap, double sector) {
       double rr = r[i == 1 || i == 2];
       p[i][0] = rr * c, p[i][1] = rr * s, p[i][2] = z[i >= 2];
     }
-    surface_grid(cap, surface_bilinear, p, 1, 1, side);
+    surface_grid(open_patch, surface_bilinear, p, 1, 1, side);
   }
 }
 
 static void check_neck(const Case *c) {
   for (int32_t v = 0; v < c->wall.point_count; v++) {
-    const double *x = c->wall.x[v], *y = c->out.front[v];
-    double r = hypot(x[0], x[1]), front_r = hypot(y[0], y[1]), side = x[2] > 0 ? 1 : -1;
+    const double *x = c->wall.x[v], *y = c->out.top[v];
+    double r = hypot(x[0], x[1]), top_r = hypot(y[0], y[1]), side = x[2] > 0 ? 1 : -1;
     if (fabs(r - 101 * MM) < 1e-9) { // the rim stays on the interface and moves straight inward
-      assert_float_equal(front_r, 101 * MM, 1e-12);
+      assert_float_equal(top_r, 101 * MM, 1e-12);
       assert_float_equal(y[2], side * 3.4 * MM, 1e-12);
     } else if (fabs(r - 102 * MM) < 1e-9 && fabs(fabs(x[2]) - 4 * MM) < 1e-9) { // convex edge
       assert_float_equal(y[2], side * 3.4 * MM, 1e-6);
-      assert_float_equal(front_r, 102.6 * MM, 2e-6);
+      assert_float_equal(top_r, 102.6 * MM, 2e-6);
     } else if (fabs(r - 102 * MM) < 1e-9 && fabs(fabs(x[2]) - 6 * MM) < 1e-9) { // concave edge
       assert_float_equal(y[2], side * 5.4 * MM, 1e-6);
-      assert_float_equal(front_r, 102.6 * MM, 2e-6);
+      assert_float_equal(top_r, 102.6 * MM, 2e-6);
     }
   }
 }
@@ -97,11 +97,11 @@ static void check_neck(const Case *c) {
 static void neck_sector(void **state) {
   const double h[4] = {1 * MM, 0.5 * MM, 0.25 * MM, 0.125 * MM}, sector = 5 * M_PI / 180;
   for (int i = 0; i < 4; i++) {
-    Case c = {.target = 0.6 * MM, .guide = neck_guide, .guide_context = &sector, .snap = to_cylinder};
+    Case c = {.target = 0.6 * MM, .constraint = neck_constraint, .constraint_context = &sector, .snap = to_cylinder};
     turn_wall(&c.wall, 4, lower_neck, 0, sector, h[i]);
     turn_wall(&c.wall, 4, upper_neck, 0, sector, h[i]);
-    cylinder_caps(&c.cap, 0, sector, 10, 12 * MM);
-    sector_sides(&c.cap, sector);
+    cylinder_open_patches(&c.open_patch, 0, sector, 10, 12 * MM);
+    sector_sides(&c.open_patch, sector);
     char name[40];
     snprintf(name, sizeof name, "neck, sector, h %.3f", h[i] / MM);
     case_run(&c, name);
@@ -118,17 +118,17 @@ static void neck_sector(void **state) {
 
 static void neck_ring(void **state) {
   const double whole = 0;
-  Case c = {.target = 0.6 * MM, .guide = neck_guide, .guide_context = &whole, .snap = to_cylinder};
+  Case c = {.target = 0.6 * MM, .constraint = neck_constraint, .constraint_context = &whole, .snap = to_cylinder};
   turn_wall(&c.wall, 4, lower_neck, 0, 2 * M_PI, 1 * MM);
   turn_wall(&c.wall, 4, upper_neck, 0, 2 * M_PI, 1 * MM);
-  cylinder_caps(&c.cap, 0, 2 * M_PI, 360, 12 * MM);
+  cylinder_open_patches(&c.open_patch, 0, 2 * M_PI, 360, 12 * MM);
   case_run(&c, "neck, full ring");
   assert_float_equal(c.share, 1, 0);
   check_neck(&c);
   case_free(&c);
 }
 
-static int rim_guide(const void *context, const double x[3], double normal[2][3]) {
+static int rim_constraint(const void *context, const double x[3], double normal[2][3]) {
   double r = hypot(x[0], x[1]);
   if (fabs(r - 101 * MM) > 1e-9 && fabs(r - 115 * MM) > 1e-9) return 0;
   normal[0][0] = x[0] / r;
@@ -136,14 +136,14 @@ static int rim_guide(const void *context, const double x[3], double normal[2][3]
   return 1;
 }
 
-// Four walls between two cylinder caps. Columns of the side walls run around the cylinder, so they must be
+// Four walls between two cylinder open patches. Columns of the side walls run around the cylinder, so they must be
 // put back on it.
 static void cylinder_rims(void **state) {
   const double h[3] = {1 * MM, 0.5 * MM, 0.25 * MM}, sector = 6 * M_PI / 180;
   const double lower[2][2] = {{101 * MM, -4 * MM}, {115 * MM, -4 * MM}};
   const double upper[2][2] = {{115 * MM, 4 * MM}, {101 * MM, 4 * MM}};
   for (int i = 0; i < 3; i++) {
-    Case c = {.target = 0.6 * MM, .guide = rim_guide, .snap = to_cylinder};
+    Case c = {.target = 0.6 * MM, .constraint = rim_constraint, .snap = to_cylinder};
     turn_wall(&c.wall, 2, lower, 0, sector, h[i]);
     turn_wall(&c.wall, 2, upper, 0, sector, h[i]);
     for (int side = 0; side < 2; side++) {
@@ -154,12 +154,12 @@ static void cylinder_rims(void **state) {
       }
       surface_grid(&c.wall, surface_bilinear, p, (int)lround(14 * MM / h[i]), (int)lround(8 * MM / h[i]), side);
     }
-    cylinder_caps(&c.cap, 0, sector, 12, 8 * MM);
+    cylinder_open_patches(&c.open_patch, 0, sector, 12, 8 * MM);
     case_run(&c, "rims on cylinders");
     assert_true(c.share > 0.995);
     for (int32_t v = 0; v < c.wall.point_count; v++)
-      if (c.in.guide_count[v])
-        assert_float_equal(hypot(c.out.front[v][0], c.out.front[v][1]), hypot(c.wall.x[v][0], c.wall.x[v][1]), 1e-12);
+      if (c.in.constraint_count[v])
+        assert_float_equal(hypot(c.out.top[v][0], c.out.top[v][1]), hypot(c.wall.x[v][0], c.wall.x[v][1]), 1e-12);
     case_free(&c);
   }
 }
@@ -168,15 +168,15 @@ static void cylinder_rims(void **state) {
 typedef struct {
   int count;
   double (*outline)[2], (*around)[2]; // blade, and the box about it, point by point
-  double lean, height;
+  double lean, thickness;
 } Blade;
 
 static void blade_face(const void *context, double u, double v, double x[3]) {
   const Blade *b = context;
   const double *p = b->outline[(int)lround(u * b->count) % b->count];
   x[0] = p[0];
-  x[1] = p[1] + b->lean * v * b->height;
-  x[2] = v * b->height;
+  x[1] = p[1] + b->lean * v * b->thickness;
+  x[2] = v * b->thickness;
 }
 
 static void hub_face(const void *context, double u, double v, double x[3], double z) {
@@ -191,7 +191,7 @@ static void hub(const void *context, double u, double v, double x[3]) {
   hub_face(context, u, v, x, 0);
 }
 static void shroud(const void *context, double u, double v, double x[3]) {
-  hub_face(context, u, v, x, ((const Blade *)context)->height);
+  hub_face(context, u, v, x, ((const Blade *)context)->thickness);
 }
 
 // Walks a closed polygon with steps near h; corners are kept. Returns the count.
@@ -214,7 +214,7 @@ static void blade_wall(Surface *wall, double lean, double h) {
   const double outline[8][2] = {{0, -HALF + BEVEL},      {BEVEL, -HALF},         {LENGTH - BEVEL, -HALF},
                                 {LENGTH, -HALF + BEVEL}, {LENGTH, HALF - BEVEL}, {LENGTH - BEVEL, HALF},
                                 {BEVEL, HALF},           {0, HALF - BEVEL}};
-  Blade b = {.lean = lean, .height = 8 * MM};
+  Blade b = {.lean = lean, .thickness = 8 * MM};
   b.outline = malloc(4096 * sizeof *b.outline);
   b.around = malloc(4096 * sizeof *b.around);
   b.count = walk(8, outline, h, b.outline);
@@ -224,7 +224,7 @@ static void blade_wall(Surface *wall, double lean, double h) {
     for (int m = 0; m < 2; m++) b.around[k][m] = (m ? 0 : centre) + d[m] / r * 7 * MM;
   }
   int rings = (int)lround(5 * MM / h);
-  surface_grid(wall, blade_face, &b, b.count, (int)lround(b.height / h), 1);
+  surface_grid(wall, blade_face, &b, b.count, (int)lround(b.thickness / h), 1);
   surface_grid(wall, hub, &b, b.count, rings, 0);
   surface_grid(wall, shroud, &b, b.count, rings, 1);
   free(b.outline);
@@ -234,10 +234,10 @@ static void blade_wall(Surface *wall, double lean, double h) {
 // Straight and leaning by 30 and 45 degrees (wedges of 60 and 45 degrees on one side).
 static void trailing_edge(void **state) {
   const double lean[3] = {0, tan(30 * M_PI / 180), tan(45 * M_PI / 180)}, h[3] = {0.5 * MM, 0.3 * MM, 0.15 * MM};
-  // Layers 4 times as thick as the mesh is wide and more, in a wedge of 45 degrees, are beyond what a front can do in
-  // full with prisms as round as OpenFOAM wants them and a front without needles; the mesher asks for 3 at most. The
-  // mean height is what is held: the share of columns that are thinner at all hangs on single repairs, which gradation
-  // spreads.
+  // Layers 4 times as thick as the mesh is wide and more, in a wedge of 45 degrees, are beyond what a layer top can do
+  // in full with prisms as round as OpenFOAM wants them and a layer top without needles; the mesher asks for 3 at most.
+  // The mean thickness is what is held: the share of columns that are thinner at all hangs on single repairs, which
+  // gradation spreads.
   const double least[3][3] = {{0.99, 0.99, 0.97}, {0.99, 0.98, 0.96}, {0.96, 0.87, 0.83}};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
@@ -261,9 +261,9 @@ static void trailing_edge(void **state) {
     }
 }
 
-static int32_t count_lower(const Case *c, double height) {
+static int32_t count_lower(const Case *c, double thickness) {
   int32_t count = 0;
-  for (int32_t v = 0; v < c->wall.point_count; v++) count += c->out.height[v] < height;
+  for (int32_t v = 0; v < c->wall.point_count; v++) count += c->out.thickness[v] < thickness;
   return count;
 }
 
@@ -272,21 +272,21 @@ static int32_t count_flatter(const Case *c, double quality) {
   for (int32_t f = 0; f < c->wall.triangle_count; f++) {
     const int32_t *v = c->wall.triangle[f];
     const double *const wall[3] = {c->wall.x[v[0]], c->wall.x[v[1]], c->wall.x[v[2]]};
-    const double *const front[3] = {c->out.front[v[0]], c->out.front[v[1]], c->out.front[v[2]]};
-    count += cw_prism_quality(wall, front) < quality;
+    const double *const top[3] = {c->out.top[v[0]], c->out.top[v[1]], c->out.top[v[2]]};
+    count += cw_prism_quality(wall, top) < quality;
   }
   return count;
 }
 
-// Columns are not thinned below the height that keeps their first one for rounder prisms, only for valid ones; but they
-// are turned for them.
+// Columns are not thinned below the thickness that keeps their first one for rounder prisms, only for valid ones; but
+// they are turned for them.
 static void least_height_of_blade(void **state) {
   const double least = 0.52 * MM, lower = 0.9 * least;
   int32_t count[2], flat[2];
   for (int i = 0; i < 2; i++) {
     Case c = {.target = 0.6 * MM, .lowest = i ? least : 0};
     blade_wall(&c.wall, tan(30 * M_PI / 180), 0.15 * MM);
-    case_run(&c, i ? "blade, least height" : "blade");
+    case_run(&c, i ? "blade, least thickness" : "blade");
     count[i] = count_lower(&c, lower);
     flat[i] = count_flatter(&c, 0.12);
     print_message("  %d columns lower than %.2f mm, %d prisms below 0.12\n", count[i], lower / MM, flat[i]);

@@ -4,25 +4,25 @@
 
 #include "mesher/layers/layers_inner.h"
 
-// A column on a plate leans so far over its neighbour that the prisms are sound and front triangles are not: it is
+// A column on a plate leans so far over its neighbour that the prisms are sound and layer top triangles are not: it is
 // turned back. Where it may not turn, the columns are thinned, but not below what they are asked to keep.
 static void leaning_column(void **state) {
-  const double least_height[3] = {0, 0, 0.55 * MM};
+  const double least_thickness[3] = {0, 0, 0.55 * MM};
   for (int i = 0; i < 3; i++) {
     Case c = {.target = 0.6 * MM};
     surface_plate(&c.wall, 0.01, 0, 1 * MM, 1);
     assert_int_equal(case_make(&c), CW_OK);
     int32_t n = c.wall.point_count, centre = 0, rounds = 0;
-    double(*front)[3] = malloc((size_t)n * sizeof *front), *least = malloc((size_t)n * sizeof *least);
+    double(*top)[3] = malloc((size_t)n * sizeof *top), *least = malloc((size_t)n * sizeof *least);
     for (int32_t v = 0; v < n; v++) {
-      least[v] = least_height[i];
+      least[v] = least_thickness[i];
       if (hypot(c.wall.x[v][0] - 0.005, c.wall.x[v][1] - 0.005) < 1e-9) centre = v;
     }
     for (int32_t v = 0; v < n && i > 0; v++) { // lines on which the columns stand and lean
       const double way = v == centre ? 0.87 : 0, length = hypot(0.6, way);
       const double across[2][3] = {{0, 1, 0}, {0.6 / length, 0, -way / length}};
-      memcpy(((double(*)[2][3])c.in.guide_normal)[v], across, sizeof across);
-      ((int32_t *)c.in.guide_count)[v] = 2;
+      memcpy(((double(*)[2][3])c.in.constraint_normal)[v], across, sizeof across);
+      ((int32_t *)c.in.constraint_count)[v] = 2;
     }
     c.in.least = least; // freed with the case
     CwLayerWork work = {0};
@@ -34,40 +34,41 @@ static void leaning_column(void **state) {
     const double leaning[3] = {0.87 / 0.6, 0, 1};
     memcpy(work.column[centre], leaning, sizeof leaning);
     for (int after = 0; after < 2; after++) {
-      double prism = 1, shape = 1, height = INFINITY;
-      if (after) assert_int_equal(cw_layers_repair(&work, &tree, front, &rounds), CW_OK);
+      double prism = 1, shape = 1, thickness = INFINITY;
+      if (after) assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds), CW_OK);
       for (int32_t v = 0; v < n; v++) {
-        if (!after) cw_layers_place(&work, v, front[v]);
-        height = fmin(height, front[v][2]);
+        if (!after) cw_layers_place(&work, v, top[v]);
+        thickness = fmin(thickness, top[v][2]);
       }
       for (int32_t f = 0; f < c.wall.triangle_count; f++) {
         const int32_t *v = c.wall.triangle[f];
         const double *const a[3] = {c.wall.x[v[0]], c.wall.x[v[1]], c.wall.x[v[2]]};
-        const double *const b[3] = {front[v[0]], front[v[1]], front[v[2]]};
-        shape = fmin(shape, cw_prism_front_quality(a, b));
-        prism = fmin(prism, cw_layers_prism_quality(&work, f, (const double(*)[3])front));
+        const double *const b[3] = {top[v[0]], top[v[1]], top[v[2]]};
+        shape = fmin(shape, cw_prism_top_quality(a, b));
+        prism = fmin(prism, cw_layers_prism_quality(&work, f, (const double(*)[3])top));
       }
-      print_message("  leaning column: prisms %.3f, front %.3f, heights from %.2f mm\n", prism, shape, height / MM);
+      print_message("  leaning column: prisms %.3f, layer top %.3f, thicknesses from %.2f mm\n", prism, shape,
+                    thickness / MM);
       assert_true(prism >= 0.12);
       assert_true(after && i < 2 ? shape >= 0.3 : shape < 0.3);
-      if (!after || i == 0) assert_float_equal(height, c.target, 1e-15);
-      if (after && i == 1) assert_true(height < 0.55 * MM);
-      if (after && i == 2) assert_float_equal(height, 0.55 * MM, 1e-15);
+      if (!after || i == 0) assert_float_equal(thickness, c.target, 1e-15);
+      if (after && i == 1) assert_true(thickness < 0.55 * MM);
+      if (after && i == 2) assert_float_equal(thickness, 0.55 * MM, 1e-15);
     }
     cw_box_tree_free(&tree);
     cw_layers_work_free(&work);
-    free(front);
+    free(top);
     case_free(&c);
   }
 }
 
-// Columns over a flat triangle that lean across its longest edge by 75 degrees: sound prisms on a sound front, but as
-// one layer of small determinant. They are turned up again, at full height, where the number of layers is known.
+// Columns over a flat triangle that lean across its longest edge by 75 degrees: sound prisms on a sound layer top, but
+// as one layer of small determinant. They are turned up again, at full thickness, where the number of layers is known.
 static void sheared_prism(void **state) {
   for (int layers = 0; layers < 2; layers++) {
     Case c = {.target = 0.5 * MM};
     const double lean[3] = {0, tan(75 * M_PI / 180), 1};
-    double front[3][3];
+    double top[3][3];
     int32_t rounds = 0;
     const double x[3][3] = {{0, 0, 0}, {5 * MM, 1 * MM, 0}, {10 * MM, 0, 0}};
     surface_triangle(&c.wall, surface_point(&c.wall, x[0]), surface_point(&c.wall, x[1]), surface_point(&c.wall, x[2]));
@@ -82,15 +83,15 @@ static void sheared_prism(void **state) {
       work.t[v] = c.target;
       memcpy(work.column[v], lean, sizeof lean);
     }
-    assert_int_equal(cw_layers_repair(&work, &tree, front, &rounds), CW_OK);
+    assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds), CW_OK);
     const int32_t *corner = c.wall.triangle[0];
     const double *wall[3], *end[3], whole[3] = {1, 1, 1};
     for (int k = 0; k < 3; k++) {
-      wall[k] = c.wall.x[corner[k]], end[k] = front[corner[k]];
+      wall[k] = c.wall.x[corner[k]], end[k] = top[corner[k]];
       assert_float_equal(end[k][2], c.target, 1e-15);
       if (!layers) assert_true(fabs(end[k][1] - wall[k][1] - c.target * lean[1]) < 1e-12);
     }
-    assert_true(cw_prism_front_quality(wall, end) >= 0.3);
+    assert_true(cw_prism_top_quality(wall, end) >= 0.3);
     print_message("  sheared prism: %.3f of the determinant asked for\n", cw_prism_shear_quality(wall, end, 1, whole));
     assert_true(layers ? cw_prism_shear_quality(wall, end, 1, whole) == 1
                        : cw_prism_shear_quality(wall, end, 1, whole) < 0.1);

@@ -25,16 +25,16 @@ static void prisms_by_hand(void **state) {
 
 // What is left of a triangle that is moved, shrunk, drawn out to twice its height, squashed to a quarter of it, turned
 // upright, turned over.
-static void front_by_hand(void **state) {
+static void top_by_hand(void **state) {
   const double wall[3][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
   const struct {
     double x[3][3], quality;
-  } front[] = {{{{-1, 0, -2}, {1, 0, -2}, {0, 1, -2}}, 1},   {{{-0.5, 0, -2}, {0.5, 0, -2}, {0, 0.5, -2}}, 1},
-               {{{-1, 0, -2}, {1, 0, -2}, {0, 2, -2}}, 0.8}, {{{-1, 0, -2}, {1, 0, -2}, {0, 0.25, -2}}, sqrt(2 / 17.0)},
-               {{{-1, 0, -2}, {1, 0, -2}, {0, 0, -1}}, 0},   {{{-1, 0, -2}, {1, 0, -2}, {0, -1, -2}}, -1}};
-  for (size_t i = 0; i < sizeof front / sizeof *front; i++) {
-    const double *const b[3] = {front[i].x[0], front[i].x[1], front[i].x[2]};
-    assert_float_equal(cw_prism_front_quality(a, b), front[i].quality, 1e-15);
+  } top[] = {{{{-1, 0, -2}, {1, 0, -2}, {0, 1, -2}}, 1},   {{{-0.5, 0, -2}, {0.5, 0, -2}, {0, 0.5, -2}}, 1},
+             {{{-1, 0, -2}, {1, 0, -2}, {0, 2, -2}}, 0.8}, {{{-1, 0, -2}, {1, 0, -2}, {0, 0.25, -2}}, sqrt(2 / 17.0)},
+             {{{-1, 0, -2}, {1, 0, -2}, {0, 0, -1}}, 0},   {{{-1, 0, -2}, {1, 0, -2}, {0, -1, -2}}, -1}};
+  for (size_t i = 0; i < sizeof top / sizeof *top; i++) {
+    const double *const b[3] = {top[i].x[0], top[i].x[1], top[i].x[2]};
+    assert_float_equal(cw_prism_top_quality(a, b), top[i].quality, 1e-15);
   }
 }
 
@@ -73,7 +73,7 @@ static void shear_by_hand(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(prisms_by_hand), cmocka_unit_test(front_by_hand),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(prisms_by_hand), cmocka_unit_test(top_by_hand),
                                      cmocka_unit_test(shear_by_hand)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

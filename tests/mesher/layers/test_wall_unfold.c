@@ -10,17 +10,17 @@
 
 #include "mesher/layers/wall_unfold.h"
 
-// A flat fan about point 0 in which point 5 has slipped past point 1: triangle 0-5-1 lies on its back.
+// A flat smoothing about point 0 in which point 5 has slipped past point 1: triangle 0-5-1 lies on its back.
 static const double X[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0.6, 0.06, 0}};
-static const int32_t FAN[5][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}};
+static const int32_t SMOOTHING[5][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}};
 
 static double up(const int32_t t[3]) {
   const double *a = X[t[0]], *b = X[t[1]], *c = X[t[2]];
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-static void copy_fan(int32_t (*triangle)[3]) {
-  for (int k = 0; k < 15; k++) triangle[k / 3][k % 3] = FAN[k / 3][k % 3];
+static void copy_smoothing(int32_t (*triangle)[3]) {
+  for (int k = 0; k < 15; k++) triangle[k / 3][k % 3] = SMOOTHING[k / 3][k % 3];
 }
 
 static CwStatus unfold(int32_t triangle[5][3], const int64_t *group, int32_t *flips, int32_t *folded) {
@@ -34,7 +34,7 @@ static CwStatus unfold(int32_t triangle[5][3], const int64_t *group, int32_t *fl
 static void a_fold_opens(void **state) {
   const int64_t group[5] = {1, 1, 1, 1, 1};
   int32_t triangle[5][3], flips, folded;
-  copy_fan(triangle);
+  copy_smoothing(triangle);
   assert_true(up(triangle[4]) < 0);
   assert_int_equal(unfold(triangle, group, &flips, &folded), CW_OK);
   assert_int_equal(flips, 1);
@@ -50,11 +50,11 @@ static void a_fold_opens(void **state) {
 static void borders_stay(void **state) {
   const int64_t group[5] = {1, 2, 3, 4, 5};
   int32_t triangle[5][3], flips, folded;
-  copy_fan(triangle);
+  copy_smoothing(triangle);
   assert_int_equal(unfold(triangle, group, &flips, &folded), CW_OK);
   assert_int_equal(flips, 0);
   assert_true(folded >= 1);
-  for (int k = 0; k < 15; k++) assert_int_equal(triangle[k / 3][k % 3], FAN[k / 3][k % 3]);
+  for (int k = 0; k < 15; k++) assert_int_equal(triangle[k / 3][k % 3], SMOOTHING[k / 3][k % 3]);
 }
 
 int main(void) {

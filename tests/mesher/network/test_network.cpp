@@ -10,7 +10,7 @@ extern "C" {
 
 #include "solids.h"
 
-// Half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and one dividing plane.
+// Half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and one partition plane.
 struct Half {
   CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(20, 30, M_PI).Shape());
   CwBackground background;
@@ -63,7 +63,7 @@ static void a_plane_that_grazes_is_refused(void **) {
   assert_near(std::hypot(x, top), 0.02, 1e-9);
   CwPlane plane = {{x / 0.02, top / 0.02, 0}, 0.02 - 1e-7};
   assert_int_equal(half.divide(plane), CW_OUTCOME_REPLAN);
-  assert_non_null(strstr(half.outcome.reason, "dividing plane 0 grazes"));
+  assert_non_null(strstr(half.outcome.reason, "partition plane 0 grazes"));
   assert_near(std::hypot(half.outcome.place[0], half.outcome.place[1]), 0.02, 1e-3);
   char text[CW_OUTCOME_TEXT_SIZE];
   print_message("  %s\n", cw_outcome_text(&half.outcome, 1e3, text));

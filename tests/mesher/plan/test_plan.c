@@ -120,14 +120,14 @@ typedef struct {
   double least, greatest; // work of a region over the mean
   int off;                // regions more than 15 % off the mean
   double angle;           // degrees, the sharpest of all planes to walls
-  int sharp;              // planes under 40 degrees; one for all its turned copies
+  int sharp;              // planes under 40 degrees; one for all its periodic images
 } Figures;
 
 static int is_copy(const CwPlan *plan, int32_t node) {
-  int32_t end = plan->fan_first + plan->fan_count;
-  if (plan->fan_count == 0 || node < plan->fan_first) return 0;
-  return node < end ? node >= plan->fan_first + plan->fan_count / plan->fan_turns
-                    : node >= end + (plan->node_count - end) / plan->fan_turns;
+  int32_t end = plan->sector_first + plan->sector_count;
+  if (plan->sector_count == 0 || node < plan->sector_first) return 0;
+  return node < end ? node >= plan->sector_first + plan->sector_count / plan->sector_turns
+                    : node >= end + (plan->node_count - end) / plan->sector_turns;
 }
 
 static Figures figures_of(const CwPlan *plan) {
@@ -263,7 +263,7 @@ static void plans_that_do_not_fit_give_way(void **state) {
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
   cw_mesh_set_scale(&run, 1.7);
   const double x[3] = {0.05, 0.1, 0.001}, wanted = cw_size_at(domain[1].size, x);
-  CwOutcome why = {.kind = CW_OUTCOME_REPLAN, .domain = 1, .reason = "dividing plane 3 grazes a face"};
+  CwOutcome why = {.kind = CW_OUTCOME_REPLAN, .domain = 1, .reason = "partition plane 3 grazes a face"};
   check(cw_mesh_plan_again(&run, &why));
   CwPlane first = run.domain[1].plan.node[0].plane;
   assert_int_equal(run.domain[1].plan.region_count, 7);
@@ -276,18 +276,18 @@ static void plans_that_do_not_fit_give_way(void **state) {
   assert_true(cw_size_at(domain[1].size, x) == wanted);
   run.tet_factor *= 1e6;
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
-  assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans");
+  assert_string_equal(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans");
   cw_fail_clear();
   run.tet_factor /= 1e6;
   check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 1);
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
-  assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans, undivided too");
+  assert_string_equal(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans, undivided too");
   cw_fail_clear();
   cw_plan_free(&run.domain[1].plan);
 }
 
-// Layers on a face at x, m; 0 on caps.
+// Layers on a face at x, m; 0 on open patches.
 static double layers_at(const CwDomain *of, int face, const double x[3]) {
   int patch = cw_cad_face_patch(of->cad, face);
   const CwLayerTarget *target = &of->patch_layers[patch];
@@ -340,7 +340,7 @@ static int touches(const CwDomain *of, const CwPlan *plan, int32_t node, int edg
 
 typedef struct {
   int filled;   // pieces of lines that the layers at their ends fill
-  int along;    // planes and edges; one for all turned copies of a plane
+  int along;    // planes and edges; one for all periodic images of a plane
   int touching; // likewise, of those that come much nearer
 } Room;
 
@@ -392,7 +392,7 @@ static void judge_room(int32_t regions, double each, int few, int filled, int al
         "%d planes under 40, %d lines filled, %d planes along edges, %d touching\n",
         of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
         figures.off, figures.angle, figures.sharp, room.filled, room.along, room.touching);
-    assert_int_equal(plan.fan_count > 0, way == 1);
+    assert_int_equal(plan.sector_count > 0, way == 1);
     assert_int_equal(figures.off, 0);
     assert_true(figures.sharp <= (way == 2 ? 0 : few) && room.filled <= filled && room.along <= along);
     assert_true(room.touching <= filled);

@@ -226,7 +226,7 @@ static void many_faces_at_one_point(void **state) {
   fails_with(&r, "is listed as boundary but is no face of a cell");
 }
 
-// A copy has the sum of a whole audit, from the faces on dividing planes alone, and its cells are looked at.
+// A copy has the sum of a whole audit, from the faces on partition planes alone, and its cells are looked at.
 static void copies_are_audited_by_what_is_their_own(void **state) {
   CwRegionMesh r = prism_and_tet();
   CwQuality q;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A tank filled by the regions of one pitch and their turned copies.
+// A tank filled by the regions of one pitch and their periodic images.
 extern "C" {
-#include "mesher/network/orbit.h"
+#include "mesher/network/periodic_images.h"
 #include "mesher/region/audit.h"
 #include "mesher/region/region_copy.h"
 #include "mesher/region/region_number.h"
@@ -14,53 +14,53 @@ extern "C" {
 // bit.
 static void fill_the_tank(bool divided) {
   Tank tank(5, 1, divided);
-  CwSkeleton &skeleton = tank.skeleton;
-  const CwSkeletonOrbits &orbits = skeleton.orbits;
+  CwBoundary &boundary = tank.boundary;
+  const CwPeriodicImages &images = boundary.images;
   const int faces = cw_cad_face_count(tank.cad);
-  std::vector<void *> walls(faces, nullptr), caps(faces, nullptr), interfaces;
+  std::vector<void *> walls(faces, nullptr), open_patches(faces, nullptr), interfaces;
   int64_t size;
-  check(cw_orbit_network(&skeleton.network, &skeleton.orbits, &tank.outcome));
-  check(cw_skeleton_wall_curves(&skeleton));
+  check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
+  check(cw_boundary_wall_curves(&boundary));
   for (int f = 0; f < faces; f++) {
-    if (orbits.symmetry->face.first[f] != f) continue;
-    if (cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
+    if (images.symmetry->face.first[f] != f) continue;
+    if (cw_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
   }
-  check(cw_skeleton_merge_walls(&skeleton, walls.data()));
-  check(cw_surface_mesh_audit(&skeleton.surface, tank.plan.region_count));
-  std::vector<double> target(skeleton.surface.vertex_count, 1.5e-3), first(skeleton.surface.vertex_count, 2e-4),
-      growth(skeleton.surface.vertex_count, 1.5);
-  check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), nullptr, nullptr, &tank.outcome));
-  check(cw_skeleton_free_curves(&skeleton, &tank.outcome));
+  check(cw_boundary_merge_walls(&boundary, walls.data()));
+  check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
+  std::vector<double> target(boundary.surface.vertex_count, 1.5e-3), first(boundary.surface.vertex_count, 2e-4),
+      growth(boundary.surface.vertex_count, 1.5);
+  check(cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &tank.outcome));
+  check(cw_boundary_free_curves(&boundary, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
-    if (orbits.symmetry->face.first[f] != f) continue;
-    if (!cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
+    if (images.symmetry->face.first[f] != f) continue;
+    if (!cw_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
   }
-  assert_int_equal(skeleton.interfaces.outline_count, divided ? 30 : 10);
-  interfaces.resize(skeleton.interfaces.outline_count, nullptr);
-  for (int i = 0; i < skeleton.interfaces.outline_count; i++) {
-    if (orbits.outline.first[i] == i) check(cw_skeleton_mesh_interface(&skeleton, i, &interfaces[i], &size));
+  assert_int_equal(boundary.interfaces.outline_count, divided ? 30 : 10);
+  interfaces.resize(boundary.interfaces.outline_count, nullptr);
+  for (int i = 0; i < boundary.interfaces.outline_count; i++) {
+    if (images.outline.first[i] == i) check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
   }
-  check(cw_skeleton_merge_inner(&skeleton, caps.data(), interfaces.data()));
-  check(cw_interfaces_audit(&skeleton.interfaces, tank.plan.region_count));
-  for (int v = 0; v < skeleton.surface.vertex_count; v++) {
-    const int next = cw_orbit_node(&orbits, v, 1);
+  check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data()));
+  check(cw_interfaces_audit(&boundary.interfaces, tank.plan.region_count));
+  for (int v = 0; v < boundary.surface.vertex_count; v++) {
+    const int next = cw_image_node(&images, v, 1);
     if (next < 0) continue;
     double turned[3];
-    cw_symmetry_turn(5, 1, skeleton.layers.front[v], turned);
-    for (int k = 0; k < 3; k++) assert_near(turned[k], skeleton.layers.front[next][k], 1e-15);
-    assert_int_equal(cw_orbit_node(&orbits, v, 5), v);
+    cw_symmetry_turn(5, 1, boundary.layers.top[v], turned);
+    for (int k = 0; k < 3; k++) assert_near(turned[k], boundary.layers.top[next][k], 1e-15);
+    assert_int_equal(cw_image_node(&images, v, 5), v);
   }
 
   const int regions = tank.plan.region_count;
   int pair_count, colours;
   std::vector<int> number(regions);
   int32_t(*pair)[2];
-  check(cw_skeleton_adjacency(&skeleton, &pair_count, &pair));
+  check(cw_boundary_adjacency(&boundary, &pair_count, &pair));
   assert_int_equal(pair_count, divided ? 30 : 10);
   check(cw_region_numbers(regions, pair_count, pair, number.data(), nullptr, &colours));
   CwRegionContext context = {};
-  context.skeleton = &skeleton;
+  context.boundary = &boundary;
   context.domain = "tank";
   context.layer_count = 4;
   context.growth = growth.data();
@@ -99,7 +99,7 @@ static void fill_the_tank(bool divided) {
   cw_region_context_free(&context);
   free(pair);
   for (void *bytes : walls) free(bytes);
-  for (void *bytes : caps) free(bytes);
+  for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);
 }
 

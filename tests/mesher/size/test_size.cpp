@@ -32,7 +32,7 @@ struct Model {
 
   Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
         std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall,
-        const std::vector<double> &rim_size = {}, const std::vector<double> &wall_size = {})
+        const std::vector<double> &open_edge_size = {}, const std::vector<double> &wall_size = {})
       : cad(open_solid(solid, patch_of)) {
     CwMeshTable table = {};
     table.gradation = gradation;
@@ -47,22 +47,22 @@ struct Model {
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
     for (int i = (int)parts.size() - 1; i >= 0; i--) check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
     cw_size_seeds_free(&seeds);
-    const CwSizeLimits limits = {rim_size.data(), wall_size.empty() ? nullptr : wall_size.data()};
-    const CwSizeLimits *rim = rim_size.empty() ? nullptr : &limits;
-    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_SEEDS,
-                       &block, &bytes));
+    const CwSizeLimits limits = {open_edge_size.data(), wall_size.empty() ? nullptr : wall_size.data()};
+    const CwSizeLimits *open_edge = open_edge_size.empty() ? nullptr : &limits;
+    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, open_edge, parts.data(),
+                       CW_SIZE_SEEDS, &block, &bytes));
     check(cw_size_unpack(&block, &size));
     assert_null(block);
-    if (rim) {
-      CwSize *rims = nullptr;
-      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_RIMS,
-                         &block, &bytes));
-      check(cw_size_unpack(&block, &rims));
-      cw_size_join(size, &rims);
-      assert_null(rims);
-      CwSize *again = nullptr; // made once more, as with another gradation, it takes the rims of the first
-      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_SEEDS,
-                         &block, &bytes));
+    if (open_edge) {
+      CwSize *open_edges = nullptr;
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, open_edge, parts.data(),
+                         CW_SIZE_OPEN_EDGES, &block, &bytes));
+      check(cw_size_unpack(&block, &open_edges));
+      cw_size_join(size, &open_edges);
+      assert_null(open_edges);
+      CwSize *again = nullptr; // made once more, as with another gradation, it takes the open edges of the first
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, open_edge, parts.data(),
+                         CW_SIZE_SEEDS, &block, &bytes));
       check(cw_size_unpack(&block, &again));
       cw_size_join(again, &size);
       assert_null(size);
@@ -219,19 +219,20 @@ static void rims_hold_at_any_scale(void **state) {
     return std::string(top ? "top,inlet" : "rest,wall");
   };
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
-  const Model plain(box, 3, 0.5, 1, {1, 1}, open_top), rim(box, 3, 0.5, 1, {1, 1}, open_top, {1e-3, 1e-3});
+  const Model plain(box, 3, 0.5, 1, {1, 1}, open_top), open_edge(box, 3, 0.5, 1, {1, 1}, open_top, {1e-3, 1e-3});
   for (double scale : {0.5, 0.8}) {
     cw_size_set_scale(plain.size, scale);
-    cw_size_set_scale(rim.size, scale);
-    assert_true(rim.at(15, 0, 30) <= 1 + 1e-6);                  // on the rim, no matter the scale
-    assert_near(rim.at(15, 15, 30), plain.at(15, 15, 30), 1e-6); // in the middle of the open face as before
-    assert_true(rim.at(15, 0, 20) <= 1 + gradation * 12);        // down the wall
-    assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);       // far from it as before
+    cw_size_set_scale(open_edge.size, scale);
+    assert_true(open_edge.at(15, 0, 30) <= 1 + 1e-6);                  // on the open edge, no matter the scale
+    assert_near(open_edge.at(15, 15, 30), plain.at(15, 15, 30), 1e-6); // in the middle of the open face as before
+    assert_true(open_edge.at(15, 0, 20) <= 1 + gradation * 12);        // down the wall
+    assert_near(open_edge.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);       // far from it as before
   }
-  cw_size_set_scale(rim.size, 1 / 1.02); // asks 0.34, half-way from 0.4 down to 0.28: gets half-way from 0.4 up to 1
-  assert_near(rim.at(15, 0, 30), 0.7 * 3 / 1.02, 1e-5);
-  cw_size_set_scale(rim.size, 2); // asks a sixth, which is less than 0.28
-  assert_near(rim.at(15, 0, 30), 2 * 3, 1e-5);
+  cw_size_set_scale(open_edge.size,
+                    1 / 1.02); // asks 0.34, half-way from 0.4 down to 0.28: gets half-way from 0.4 up to 1
+  assert_near(open_edge.at(15, 0, 30), 0.7 * 3 / 1.02, 1e-5);
+  cw_size_set_scale(open_edge.size, 2); // asks a sixth, which is less than 0.28
+  assert_near(open_edge.at(15, 0, 30), 2 * 3, 1e-5);
 }
 
 static void walls_hold_their_edges(void **state) {

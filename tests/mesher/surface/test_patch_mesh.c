@@ -461,7 +461,7 @@ static void triangles_follow_a_narrow_nose(void **state) {
 }
 
 // A quarter of a cylinder, as a fillet is one, cut across in two to four edges: no triangle has three points of the cut
-// as corners, for it would lie in the dividing plane.
+// as corners, for it would lie in the partition plane.
 static void no_triangle_lies_in_a_cut(void **state) {
   for (int i = 0; i < 15; i++) {
     const int edges = 2 + i % 3, aside = i / 3 - 2;

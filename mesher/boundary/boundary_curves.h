@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the files of the boundary share: division of curves into mesh edges, outlines of open patches and
+// interfaces, new nodes.
+#ifndef CUTWATER_MESHER_BOUNDARY_BOUNDARY_CURVES_H
+#define CUTWATER_MESHER_BOUNDARY_BOUNDARY_CURVES_H
+
+#include "mesher/network/plane_map.h"
+#include "mesher/boundary/boundary.h"
+#include "mesher/surface/patch_task.h"
+
+// Places (arc lengths) that divide a curve between two lengths so that each edge is as long as the size field asks,
+// as evenly as whole numbers allow; *count includes both ends. Caller frees *place. At least `least` edges.
+CwStatus cw_curve_divide(const CwBoundary *boundary, const CwCurve *curve, double from, double to, int32_t least,
+                         int32_t *count, double **place);
+
+// The outline of an interface in the coordinates of its plane.
+CwStatus cw_boundary_interface_outline(const CwBoundary *boundary, const CwInterfaceOutline *interface,
+                                       const CwPlaneMap *map, CwPatchOutline *outline);
+
+// The outline of an open patch in its (u,v): the marched open edge, and free curves on it.
+CwStatus cw_boundary_open_patch_outline(const CwBoundary *boundary, int32_t face, CwPatchOutline *outline);
+
+CwStatus cw_boundary_add_node(CwBoundary *boundary, const double x[3], int on_plane, int32_t *node);
+
+#endif

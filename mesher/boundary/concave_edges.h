@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Opens narrow concave edges of the layer top: places where two triangles of it stand so narrow over their edge that
+// only flat tetrahedra fit between, though all prisms are sound and no triangle is a needle. They come from the repair,
+// from the choice of columns on the seams of periodic images, or from a flip.
+#ifndef CUTWATER_MESHER_BOUNDARY_CONCAVE_EDGES_H
+#define CUTWATER_MESHER_BOUNDARY_CONCAVE_EDGES_H
+
+#include "mesher/layers/layers.h"
+#include "mesher/boundary/boundary.h"
+
+#define CW_NARROW_EDGE 20.0 // degrees: triangles of the layer top that bound their tetrahedra below that are opened
+
+// Turns columns at narrow concave edges and changes their thicknesses by a tenth, never below `least` of `wall`, each
+// up to eight times where the least bound of the triangles round it rises by that, up to 26 degrees; alike in all
+// periodic images. All stays as it was where the layer top would cross something. *opened: columns that moved, copies
+// not counted. `wall` is that of the boundary. Collective.
+CwStatus cw_open_concave_edges(CwBoundary *boundary, const CwLayerInput *wall, int32_t *opened);
+
+// What the layer top allows a tetrahedron on its triangle t (degrees; triangle_bound.h), or anything not below `least`.
+// start, around: triangles at each wall vertex, as in CwIncident.
+double cw_layer_top_bound(int32_t t, const int32_t (*triangle)[3], const double (*top)[3], const int32_t *start,
+                          const int32_t *around, double least);
+
+#endif

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/boundary/curve_division.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/parallel/schedule.h"
+#include "mesher/surface/chords.h"
+#include "pipeline/log.h"
+
+// Halvings of one edge: then curves touch, and the surface mesh names the place.
+enum { ROUNDS = 16 };
+
+// An edge of a division.
+typedef struct {
+  int32_t curve, edge;
+} Edge;
+
+typedef struct {
+  const CwBoundary *boundary;
+  const CwCurveDivision *division;
+  int32_t face_count, *face; // those to be looked at
+} Faces;
+
+static int32_t first_of(const CwBoundary *boundary, int32_t curve) {
+  return boundary->images.symmetry ? boundary->images.curve.first[curve] : curve;
+}
+
+// Whether the face is meshed, and not a copy.
+static int is_meshed(const CwBoundary *boundary, int32_t face) {
+  const CwSymmetry *symmetry = boundary->images.symmetry;
+  int patch = cw_cad_face_patch(boundary->cad, face);
+  return cw_cad_patch_kind(boundary->cad, patch) == CW_PATCH_WALL && (!symmetry || !symmetry->face.turns[face]);
+}
+
+static int bounds(const CwCurve *curve, int32_t face) {
+  return curve->wall && curve->kind != CW_CURVE_LINE && (curve->face[0] == face || curve->face[1] == face);
+}
+
+// The piece of `curve`, a copy of `first`, from point k of the division on.
+static void make_chord(const CwBoundary *boundary, int32_t face, const CwCurve *curve, const CwCurve *first,
+                       const CwCurveDivision *division, int32_t k, CwChord *chord) {
+  const CwCurvePoint *a = &division->point[k], *b = &division->point[k + 1];
+  double along[3], from[3], beside[3];
+  cw_sub(b->x, a->x, along);
+  double length = cw_norm(along);
+  chord->deviation = 0;
+  chord->given = division->given;
+  for (int i = 0; i < CW_CHORD_SAMPLES; i++) {
+    double s = (double)i / (CW_CHORD_SAMPLES - 1), x[3], parameter[2];
+    if (i == 0 || i == CW_CHORD_SAMPLES - 1) {
+      memcpy(parameter, i ? b->parameter : a->parameter, sizeof parameter);
+      cw_copy(i ? b->x : a->x, x);
+    } else {
+      cw_curve_point(&boundary->network, first, a->place + s * (b->place - a->place), x, parameter);
+    }
+    if (curve->kind == CW_CURVE_EDGE) {
+      cw_cad_edge_uv(boundary->cad, curve->edge, face, parameter[0], chord->uv[i]);
+    } else {
+      memcpy(chord->uv[i], parameter, sizeof parameter);
+    }
+    cw_sub(x, a->x, from);
+    cw_cross(along, from, beside);
+    if (length > 0) chord->deviation = fmax(chord->deviation, cw_norm(beside) / length);
+  }
+}
+
+// The edges of a face that have to be halved, packed: a task.
+static CwStatus judge_face(void *context, int32_t task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Faces *faces = context;
+  const CwBoundary *boundary = faces->boundary;
+  const CwNetwork *network = &boundary->network;
+  int32_t face = faces->face[task], count = 0, found = 0, points = network->corner_count;
+  CwChord *chord = NULL;
+  Edge *edge = NULL;
+  uint8_t *halve = NULL;
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    if (bounds(&network->curve[i], face)) count += faces->division[first_of(boundary, i)].count - 1;
+  }
+  CW_NEW(chord, count);
+  CW_NEW(edge, count);
+  CW_NEW(halve, count);
+  count = 0;
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    const CwCurve *curve = &network->curve[i];
+    if (!bounds(curve, face)) continue;
+    int32_t first = first_of(boundary, i);
+    const CwCurveDivision *division = &faces->division[first];
+    for (int32_t k = 0; k + 1 < division->count; k++) {
+      make_chord(boundary, face, curve, &network->curve[first], division, k, &chord[count]);
+      chord[count].point[0] = k > 0 ? points - 1 : curve->corner[0];
+      chord[count].point[1] = k + 2 < division->count ? points++ : curve->corner[1];
+      edge[count++] = (Edge){first, k};
+    }
+  }
+  CW_TRY(cw_chords_to_halve(count, chord, halve));
+  for (int32_t i = 0; i < count; i++) {
+    if (halve[i]) edge[found++] = edge[i];
+  }
+  if (found) {
+    *bytes = edge;
+    *size = found * (int64_t)sizeof *edge;
+    edge = NULL;
+  }
+done:
+  free(chord);
+  free(edge);
+  free(halve);
+  return status;
+}
+
+static int compare_edges(const void *p, const void *q) {
+  const Edge *a = p, *b = q;
+  if (a->curve != b->curve) return a->curve < b->curve ? -1 : 1;
+  return (a->edge > b->edge) - (a->edge < b->edge);
+}
+
+// Puts a point into the middle of each of the edges, which are in order and all of one curve.
+static CwStatus halve_edges(const CwNetwork *network, int32_t count, const Edge *edge, CwCurveDivision *division) {
+  CwStatus status = CW_OK;
+  const CwCurve *curve = &network->curve[edge[0].curve];
+  CwCurvePoint *point = NULL;
+  int32_t made = 0, next = 0;
+  CW_NEW(point, division->count + count);
+  for (int32_t k = 0; k < division->count; k++) {
+    point[made++] = division->point[k];
+    if (next == count || edge[next].edge != k) continue;
+    CwCurvePoint *middle = &point[made++];
+    middle->place = 0.5 * (division->point[k].place + division->point[k + 1].place);
+    cw_curve_point(network, curve, middle->place, middle->x, middle->parameter);
+    next++;
+  }
+  free(division->point);
+  division->point = point;
+  division->count = made;
+done:
+  return status;
+}
+
+// Gathers what all faces found, each edge once, and halves it. The faces of the curves concerned are left for the next
+// round.
+static CwStatus halve_found(Faces *faces, void *const *bytes, const int64_t *size, CwCurveDivision *division,
+                            int32_t *halved) {
+  CwStatus status = CW_OK;
+  const CwBoundary *boundary = faces->boundary;
+  const CwNetwork *network = &boundary->network;
+  Edge *edge = NULL;
+  uint8_t *changed = NULL;
+  size_t count = 0, kept = 0;
+  for (int32_t i = 0; i < faces->face_count; i++) count += (size_t)size[i] / sizeof *edge;
+  CW_NEW(edge, count);
+  CW_NEW(changed, network->curve_count);
+  count = 0;
+  for (int32_t i = 0; i < faces->face_count; i++) {
+    if (size[i]) memcpy(edge + count, bytes[i], (size_t)size[i]);
+    count += (size_t)size[i] / sizeof *edge;
+  }
+  qsort(edge, count, sizeof *edge, compare_edges);
+  for (size_t i = 0; i < count; i++) {
+    if (!kept || compare_edges(&edge[i], &edge[kept - 1])) edge[kept++] = edge[i];
+  }
+  for (size_t from = 0, to; from < kept; from = to) {
+    for (to = from; to < kept && edge[to].curve == edge[from].curve;) to++;
+    CW_TRY(halve_edges(network, (int32_t)(to - from), edge + from, &division[edge[from].curve]));
+    changed[edge[from].curve] = 1;
+  }
+  int32_t left = 0;
+  for (int32_t f = 0; f < cw_cad_face_count(boundary->cad); f++) {
+    int concerned = 0;
+    if (!is_meshed(boundary, f)) continue;
+    for (int32_t i = 0; i < network->curve_count && !concerned; i++) {
+      concerned = bounds(&network->curve[i], f) && changed[first_of(boundary, i)];
+    }
+    if (concerned) faces->face[left++] = f;
+  }
+  faces->face_count = left;
+  *halved = (int32_t)kept;
+done:
+  free(edge);
+  free(changed);
+  return status;
+}
+
+CwStatus cw_curve_divisions_refine(const CwBoundary *boundary, CwCurveDivision *division) {
+  CwStatus status = CW_OK;
+  Faces faces = {.boundary = boundary, .division = division};
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  int32_t count = 0, all = cw_cad_face_count(boundary->cad), total = 0;
+  CW_NEW(faces.face, all);
+  for (int32_t f = 0; f < all; f++) {
+    if (is_meshed(boundary, f)) faces.face[faces.face_count++] = f;
+  }
+  for (int round = 0; round < ROUNDS && faces.face_count; round++) {
+    int32_t halved;
+    count = faces.face_count;
+    CW_NEW(bytes, count);
+    CW_NEW(size, count);
+    CwSchedule schedule = {
+        .step = "curves of the walls", .count = count, .run = judge_face, .context = &faces, .gather = 1};
+    CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+    CW_TRY(halve_found(&faces, bytes, size, division, &halved));
+    total += halved;
+    for (int32_t i = 0; i < count; i++) free(bytes[i]);
+    free(bytes);
+    free(size);
+    bytes = NULL;
+    size = NULL;
+  }
+  if (total) cw_log_debug("curves of the walls: %d edges halved to lie as their curves do", total);
+done:
+  for (int32_t i = 0; bytes && i < count; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  free(faces.face);
+  return status;
+}

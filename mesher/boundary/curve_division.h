@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The points that divide the wall curves into mesh edges: so many that on each face the edges lie to one another as
+// their curves do (chords.h).
+#ifndef CUTWATER_MESHER_BOUNDARY_CURVE_DIVISION_H
+#define CUTWATER_MESHER_BOUNDARY_CURVE_DIVISION_H
+
+#include "mesher/boundary/boundary.h"
+
+typedef struct {
+  double place; // length along the curve's fine polyline, m
+  double x[3], parameter[2];
+} CwCurvePoint;
+
+// One curve, ends included. Only the first of each image set is divided.
+typedef struct {
+  int32_t count;
+  int given; // 1: shared with another domain, which has the same points
+  CwCurvePoint *point;
+} CwCurveDivision;
+
+// Halves edges of the divisions (of each curve of the network; count 0: none) until on every wall face the edges lie as
+// the curves do. Collective.
+CwStatus cw_curve_divisions_refine(const CwBoundary *boundary, CwCurveDivision *division);
+
+#endif

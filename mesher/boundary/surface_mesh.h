@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The surface mesh of a domain: triangles on its CAD walls, cut at the partition planes, and what holds the columns of
+// the layers on open boundary edges and planes. Of it a rank needs what bounds its regions, and what the layers there
+// feel through gaps.
+#ifndef CUTWATER_MESHER_BOUNDARY_SURFACE_MESH_H
+#define CUTWATER_MESHER_BOUNDARY_SURFACE_MESH_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// The surface or curve that holds the column of a wall vertex on an open edge or on a partition plane.
+typedef enum { CW_CONSTRAINT_NONE, CW_CONSTRAINT_PLANE, CW_CONSTRAINT_PATCH, CW_CONSTRAINT_CURVE } CwConstraintKind;
+
+typedef struct {
+  CwConstraintKind kind;
+  int32_t index; // plan node, CAD face or curve of the network
+} CwConstraint;
+
+typedef struct {
+  int32_t vertex_count, vertex_capacity;
+  double (*x)[3];
+  CwConstraint *constraint;                // of each vertex
+  int32_t *corner_vertex;                  // vertex of each corner of the network, or -1
+  int32_t triangle_count;                  //
+  int32_t (*triangle)[3], *face, *region;  // normal out of the domain; the CAD face and the region of each
+  int32_t *region_start, *region_triangle; // triangles of each region, ascending
+  int32_t *source;                         // the triangle that this one is a copy of, turned; or itself
+} CwSurfaceMesh;
+
+// Checks what every surface mesh holds: corners within the vertices and distinct, each vertex in a triangle, each edge
+// in at most two triangles that run through it in opposite directions, regions that list each of their triangles once,
+// sources that are their own. CW_ERR_MESH with the first that does not hold. regions: their number.
+CwStatus cw_surface_mesh_audit(const CwSurfaceMesh *surface, int32_t regions);
+
+// Writes the triangles as VTK PolyData (cell data face, region), for a look.
+CwStatus cw_surface_mesh_vtk(const CwSurfaceMesh *surface, const char *path);
+
+void cw_surface_mesh_free(CwSurfaceMesh *surface);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The solution of the smoothing in one block and the rows around it.
+#include <stdlib.h>
+
+#include "mesher/common/vertex_heap.h"
+#include "mesher/layers/direction_smoothing.h"
+
+enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
+static const double FADE = 6;   // the opening of the crease is forgotten at this many thicknesses from it
+static const double POOR = 0.2; // prism quality under which a smoothing is widened
+static const double WIDEST = 5;
+static const double SETTLED = 1e-3; // change in one sweep, in thicknesses, that is none
+
+// Projects u onto the directions in which the column of v may lean without changing its normal thickness or
+// leaving its constraints.
+static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
+  const CwLayerInput *in = work->in;
+  int constraints = in->constraint_count ? in->constraint_count[v] : 0;
+  double line[3];
+  if (constraints == 2) {
+    memset(u, 0, 3 * sizeof *u);
+    return;
+  }
+  if (work->crease[v] == CW_CREASE_NONE && constraints == 0) {
+    cw_flatten(u, work->normal[v]);
+    return;
+  }
+  if (work->crease[v] == CW_CREASE_NONE) {
+    cw_cross(work->normal[v], in->constraint_normal[v][0], line);
+  } else {
+    memcpy(line, work->along[v], sizeof line);
+    if (constraints && fabs(cw_dot(line, in->constraint_normal[v][0])) > 0.1) memset(line, 0, sizeof line);
+    if (constraints) cw_flatten(line, in->constraint_normal[v][0]);
+  }
+  cw_unit(line);
+  double h = cw_dot(u, line);
+  for (int k = 0; k < 3; k++) u[k] = h * line[k];
+}
+
+// A vertex in a block.
+typedef struct {
+  double distance, opening, thickness; // to the nearest source, its cot(alpha/2) and thickness
+  double widen;                        // factor on L where the usual one leaves prisms overrun
+  int32_t source;                      // vertex; -1: out of reach
+  double u[3];                         // displacement relative to an undisturbed neighbour on the wall, m
+  double given[3], line[3];            // of a source: what is fixed of it, and the direction of the rest
+} SmoothingAt;
+
+static int32_t source_of(const CwSmoothing *smoothing, int32_t v) {
+  int32_t source = smoothing->reach[v].source;
+  return source < 0 ? -1 : smoothing->source[source].vertex;
+}
+
+static SmoothingAt smoothing_at(const CwSmoothing *smoothing, int32_t v) {
+  const CwSmoothingReach *reach = &smoothing->reach[v];
+  SmoothingAt at = {.distance = reach->distance, .widen = 1, .source = -1};
+  if (reach->source < 0) return at;
+  const CwSmoothingSource *source = &smoothing->source[reach->source];
+  at.opening = source->opening, at.thickness = source->thickness, at.source = source->vertex;
+  if (at.source != v) return at;
+  memcpy(at.u, source->u, sizeof at.u);
+  memcpy(at.given, source->u, sizeof at.given);
+  memcpy(at.line, source->line, sizeof at.line);
+  return at;
+}
+
+static double range(const CwLayerWork *work, int32_t v, const SmoothingAt *smoothing) {
+  double fade = fmax(0, 1 - smoothing->distance / (FADE * smoothing->thickness));
+  return 1.5 * work->t[v] * fmax(0.7, smoothing->opening * fade);
+}
+
+// One block: local numbers are those of its members and the halo, in order of distance, then of the vertices around
+// them, whose displacement stays.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t count, all;
+  int32_t *member;
+  int32_t *outer;             // vertices around: all - count
+  int32_t *near_start, *near; // local numbers of the neighbours of members
+  uint8_t *across;            // neighbour is a convex edge that leans along itself only
+  double *weight, *weights;   // of neighbours; their sum
+  double *area;               // of members
+  double *reach;              // of members, where nothing is widened
+  uint8_t *stirred, *changed; // members to relax; those whose displacement changed since the columns were set
+  uint8_t *touched;           // whose displacement changed at all
+  SmoothingAt *smoothing;     // of all
+  double (*column)[3], (*top)[3];
+  int32_t triangle_count, *triangle; // of the wall, with a member
+  double *quality;                   // of the prisms over them
+  int32_t *local;                    // of the domain's vertices; as in CwSmoothing
+} Part;
+
+static int32_t vertex_of(const Part *part, int32_t i) {
+  return i < part->count ? part->member[i] : part->outer[i - part->count];
+}
+
+static void part_free(Part *part) {
+  for (int32_t i = 0; part->local && i < part->all; i++) part->local[vertex_of(part, i)] = 0;
+  free(part->member);
+  free(part->outer);
+  free(part->near_start);
+  free(part->near);
+  free(part->across);
+  free(part->weight);
+  free(part->weights);
+  free(part->area);
+  free(part->reach);
+  free(part->stirred);
+  free(part->changed);
+  free(part->touched);
+  free(part->quality);
+  free(part->smoothing);
+  free(part->column);
+  free(part->top);
+  free(part->triangle);
+}
+
+static int by_distance(const void *p, const void *q) {
+  const CwHeapItem *a = p, *b = q;
+  return a->key != b->key ? (a->key > b->key) - (a->key < b->key) : (a->v > b->v) - (a->v < b->v);
+}
+
+int32_t cw_smoothing_block_size(const CwSmoothing *smoothing, int32_t block) {
+  int32_t left = smoothing->count - block * CW_SMOOTHING_BLOCK;
+  return left < CW_SMOOTHING_BLOCK ? left : CW_SMOOTHING_BLOCK;
+}
+
+// The members of a block and its halo, in order of distance.
+static CwStatus gather_members(const CwSmoothing *smoothing, int32_t block, Part *part) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = smoothing->work;
+  int32_t capacity = 2 * cw_smoothing_block_size(smoothing, block), ring = 0;
+  CwHeapItem *order = NULL;
+  CW_NEW(part->member, capacity);
+  for (int32_t i = 0; i < cw_smoothing_block_size(smoothing, block); i++) {
+    int32_t v = smoothing->member[block * CW_SMOOTHING_BLOCK + i];
+    part->local[v] = 1;
+    part->member[part->count++] = v;
+  }
+  part->all = part->count;
+  for (int hop = 0; hop < HALO; hop++) {
+    int32_t end = part->count;
+    for (; ring < end; ring++) {
+      int32_t v = part->member[ring];
+      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+        int32_t w = work->near[k];
+        if (smoothing->place[w] < 0 || part->local[w]) continue;
+        CW_GROW(part->member, capacity, part->count + 1);
+        part->local[w] = 1;
+        part->member[part->count++] = w;
+        part->all++;
+      }
+    }
+  }
+  CW_NEW(order, part->count);
+  for (int32_t i = 0; i < part->count; i++) {
+    order[i] = (CwHeapItem){smoothing->reach[part->member[i]].distance, part->member[i]};
+  }
+  qsort(order, (size_t)part->count, sizeof *order, by_distance);
+  for (int32_t i = 0; i < part->count; i++) part->member[i] = order[i].v;
+done:
+  free(order);
+  return status;
+}
+
+static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *local, Part *part) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = smoothing->work;
+  int32_t links = 0, faces = 0;
+  *part = (Part){.work = work, .local = local};
+  CW_TRY(gather_members(smoothing, block, part));
+  int32_t count = part->count;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = part->member[i];
+    local[v] = i + 1;
+    links += work->near_start[v + 1] - work->near_start[v];
+    faces += work->face_start[v + 1] - work->face_start[v];
+  }
+  CW_NEW(part->outer, links);
+  CW_NEW(part->near_start, count + 1);
+  CW_NEW(part->near, links);
+  CW_NEW(part->across, links);
+  CW_NEW(part->weight, links);
+  CW_NEW(part->weights, count);
+  CW_NEW(part->area, count);
+  CW_NEW(part->triangle, faces);
+  CW_NEW(part->quality, faces);
+  CW_NEW(part->stirred, count);
+  CW_NEW(part->changed, count);
+  CW_NEW(part->touched, count);
+  memset(part->stirred, 1, (size_t)count);
+  memset(part->changed, 1, (size_t)count);
+  links = 0;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = part->member[i];
+    cw_layers_weights(work, v, part->weight + links, &part->area[i]);
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++, links++) {
+      int32_t w = work->near[k];
+      if (!local[w]) {
+        part->outer[part->all - count] = w;
+        local[w] = ++part->all;
+      }
+      part->near[links] = local[w] - 1;
+      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && source_of(smoothing, w) != w;
+      part->weights[i] += part->weight[links];
+    }
+    part->near_start[i + 1] = links;
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      const int32_t *corner = work->in->triangle[work->face[k]];
+      int is_first = 1; // of the members of this triangle: the one that lists it
+      for (int c = 0; c < 3; c++) is_first &= corner[c] == v || !local[corner[c]] || local[corner[c]] - 1 >= i;
+      if (is_first) part->triangle[part->triangle_count++] = work->face[k];
+    }
+  }
+  CW_NEW(part->reach, part->all);
+  CW_NEW(part->smoothing, part->all);
+  CW_NEW(part->column, part->all);
+  CW_NEW(part->top, part->all);
+  for (int32_t i = 0; i < part->all; i++) part->smoothing[i] = smoothing_at(smoothing, vertex_of(part, i));
+  for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
+  for (int32_t i = 0; i < part->all; i++) {
+    if (part->smoothing[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->smoothing[i]);
+  }
+done:
+  return status;
+}
+
+// One step of the solution at member i; returns how far its displacement moved, in thicknesses.
+static double relax(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  SmoothingAt *own = &part->smoothing[i];
+  int32_t v = part->member[i];
+  double reach = part->reach[i] * own->widen, l2 = reach * reach, sum[3] = {0}, u[3];
+  for (int32_t k = part->near_start[i]; k < part->near_start[i + 1]; k++) {
+    const double *near = part->smoothing[part->near[k]].u;
+    double weight = part->weight[k];
+    if (part->across[k]) {
+      // A convex edge may lean along itself only; across it the lean of v goes on undisturbed.
+      const double *along = work->along[vertex_of(part, part->near[k])];
+      double h = cw_dot(along, near) - cw_dot(along, own->u);
+      for (int c = 0; c < 3; c++) sum[c] += weight * (own->u[c] + h * along[c]);
+    } else {
+      for (int c = 0; c < 3; c++) sum[c] += weight * near[c];
+    }
+  }
+  double factor = l2 / (part->area[i] + l2 * part->weights[i]);
+  for (int c = 0; c < 3; c++) u[c] = factor * sum[c];
+  if (own->source == v) {
+    double h = cw_dot(own->line, u);
+    for (int c = 0; c < 3; c++) u[c] = own->given[c] + h * own->line[c];
+  } else {
+    allow(work, v, u);
+  }
+  double moved = cw_distance(own->u, u) / work->t[v];
+  memcpy(own->u, u, sizeof u);
+  return moved;
+}
+
+static int is_wide(const SmoothingAt *smoothing) {
+  return smoothing->widen > 1.05;
+}
+
+// Relaxes the members outward and inward by turns: news of a source crosses the whole reach in one sweep. Only those
+// are looked at that are stirred: told to, or beside one that moved. `wide`: those alone where the smoothing was
+// widened; elsewhere the solution stands.
+static void solve(Part *part, int wide, int sweeps) {
+  for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] = is_wide(&part->smoothing[i]);
+  for (int s = 0; s < sweeps; s++) {
+    int32_t stirred = 0;
+    for (int32_t k = 0; k < part->count; k++) {
+      int32_t i = s % 2 ? part->count - 1 - k : k;
+      if (!part->stirred[i]) continue;
+      stirred++;
+      part->stirred[i] = 0;
+      part->changed[i] = 1;
+      if (relax(part, i) < SETTLED) continue;
+      part->stirred[i] = 1;
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        int32_t j = part->near[l];
+        if (j < part->count && (!wide || is_wide(&part->smoothing[j]))) part->stirred[j] = 1;
+      }
+    }
+    if (stirred == 0) break;
+  }
+}
+
+// Sets where the column of i ends; the snap changes too little to matter here.
+static void set_end(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = vertex_of(part, i);
+  for (int k = 0; k < 3; k++) part->top[i][k] = work->in->x[v][k] + work->t[v] * part->column[i][k];
+}
+
+// Leans the column of i as the smoothing asks, but no further than CW_SMOOTHING_LEAST_COSINE allows, and keeps its
+// normal thickness.
+static void lean(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  const SmoothingAt *smoothing = &part->smoothing[i];
+  int32_t v = vertex_of(part, i);
+  double least = fmin(CW_SMOOTHING_LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1, upright[3];
+  cw_layers_upright(work, v, upright);
+  memcpy(part->column[i], upright, sizeof upright);
+  double thickness = cw_layers_least_cosine(work, v, upright);
+  for (int halving = 0; halving < 6; halving++, scale *= 0.5) {
+    double column[3];
+    for (int k = 0; k < 3; k++) {
+      double u = smoothing->u[k] - (smoothing->source == v ? smoothing->given[k] : 0);
+      column[k] = upright[k] + scale * u / work->t[v];
+    }
+    double now = cw_layers_least_cosine(work, v, column);
+    if (now < least * cw_norm(column)) continue;
+    for (int k = 0; k < 3; k++) part->column[i][k] = column[k] * fmin(thickness / now, 1.5);
+    break;
+  }
+  set_end(part, i);
+}
+
+// Widens the smoothing around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's
+// bevel on the hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
+static int32_t widen(Part *part) {
+  const CwLayerWork *work = part->work;
+  const CwLayerInput *in = work->in;
+  int32_t poor = 0;
+  for (int32_t f = 0; f < part->triangle_count; f++) {
+    const int32_t *v = in->triangle[part->triangle[f]];
+    int32_t local[3] = {part->local[v[0]] - 1, part->local[v[1]] - 1, part->local[v[2]] - 1};
+    int changed = 0;
+    for (int k = 0; k < 3; k++) changed |= local[k] < part->count && part->changed[local[k]];
+    if (changed) {
+      const double *wall[3], *top[3];
+      for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], top[k] = part->top[local[k]];
+      part->quality[f] = cw_prism_quality(wall, top);
+    }
+    if (part->quality[f] >= POOR) continue;
+    poor++;
+    for (int k = 0; k < 3; k++) {
+      part->smoothing[local[k]].widen = fmin(part->smoothing[local[k]].widen * 1.4, WIDEST);
+    }
+  }
+  memset(part->changed, 0, (size_t)part->count);
+  // Over about a thickness around, so that the lean stays smooth.
+  for (int pass = 0; pass < 2 && poor; pass++)
+    for (int32_t k = 0; k < part->count; k++) {
+      int32_t i = pass ? part->count - 1 - k : k, v = part->member[i];
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        double there = part->smoothing[part->near[l]].widen;
+        if (there <= part->smoothing[i].widen) continue;
+        double away = cw_distance(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
+        part->smoothing[i].widen = fmax(part->smoothing[i].widen, there * exp(-0.5 * away));
+      }
+    }
+  return poor;
+}
+
+// Whether the thicknesses on and around v are those of the last smoothing.
+static int is_settled(const CwSmoothing *smoothing, int32_t v) {
+  const CwLayerWork *work = smoothing->work;
+  if (smoothing->lean_t[v] != work->t[v]) return 0;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    if (smoothing->lean_t[w] >= 0 && smoothing->lean_t[w] != work->t[w]) return 0;
+  }
+  return 1;
+}
+
+// Whether v has a neighbour in another block.
+static int is_between(const CwSmoothing *smoothing, int32_t v) {
+  for (int32_t k = smoothing->work->near_start[v]; k < smoothing->work->near_start[v + 1]; k++) {
+    int32_t other = smoothing->place[smoothing->work->near[k]];
+    if (other >= 0 && other / CW_SMOOTHING_BLOCK != smoothing->place[v] / CW_SMOOTHING_BLOCK) return 1;
+  }
+  return 0;
+}
+
+// Where the solution at i starts: what the last smoothing found, or what falls off from the nearest source. Around the
+// members it stays so.
+static void start(const CwSmoothing *smoothing, Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = vertex_of(part, i);
+  SmoothingAt *at = &part->smoothing[i];
+  int32_t place = smoothing->place[v];
+  if (place < 0) { // out of reach, or wholly given
+    cw_layers_upright(work, v, part->column[i]);
+    set_end(part, i);
+    return;
+  }
+  if (smoothing->lean) {
+    const CwLean *last = (const CwLean *)smoothing->lean[place / CW_SMOOTHING_BLOCK] + place % CW_SMOOTHING_BLOCK;
+    at->widen = last->widen;
+    for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / smoothing->lean_t[v];
+    if (is_settled(smoothing, v)) {
+      memcpy(part->column[i], last->column, sizeof last->column);
+      if (i < part->count) part->changed[i] = 0, part->stirred[i] = (uint8_t)is_between(smoothing, v);
+      set_end(part, i);
+      return;
+    }
+  } else if (at->source != v) {
+    double fall = exp(-at->distance / part->reach[i]);
+    for (int k = 0; k < 3; k++) at->u[k] = fall * smoothing->source[smoothing->reach[v].source].u[k];
+    allow(work, v, at->u);
+  }
+  if (i >= part->count) lean(part, i);
+}
+
+// Solves one block; gives the columns of its members.
+CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwSmoothing *smoothing = context;
+  Part part = {0};
+  CwLean *lean_of = NULL;
+  int32_t count = cw_smoothing_block_size(smoothing, block);
+  CW_TRY(part_make(smoothing, block, smoothing->local, &part));
+  for (int32_t i = 0; i < part.all; i++) start(smoothing, &part, i);
+  for (int round = 0; round <= WIDENINGS; round++) {
+    solve(&part, round > 0, round ? MORE_SWEEPS : SWEEPS);
+    for (int32_t i = 0; i < part.count; i++) {
+      if (!part.changed[i]) continue;
+      part.touched[i] = 1;
+      lean(&part, i);
+    }
+    if (round == WIDENINGS || widen(&part) == 0) break;
+  }
+  CW_NEW(lean_of, count);
+  for (int32_t k = 0; k < count; k++) {
+    int32_t i = part.local[smoothing->member[block * CW_SMOOTHING_BLOCK + k]] - 1;
+    memcpy(lean_of[k].column, part.column[i], sizeof part.column[i]);
+    memcpy(lean_of[k].u, part.smoothing[i].u, sizeof part.smoothing[i].u);
+    lean_of[k].widen = part.smoothing[i].widen;
+    lean_of[k].changed = part.touched[i];
+  }
+  *size = (int64_t)count * (int64_t)sizeof *lean_of;
+  *bytes = lean_of;
+  lean_of = NULL;
+done:
+  free(lean_of);
+  part_free(&part);
+  return status;
+}

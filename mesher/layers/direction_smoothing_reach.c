@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Distances from the sources of the smoothing along edges, with the source that is nearest: Dijkstra's algorithm in
+// blocks along the curve, each with as much around it as can matter. A wave ends REACH thicknesses of its source from
+// there, and every vertex belongs to the wave that comes first. Let R be the longest way of the waves that can come to
+// a block. A place at the distance D from the block, which some wave has come to after a way d, matters to none that
+// comes to the block where d + D > R: neither that wave nor one that comes there later has way left to go on to the
+// block. So a block without those places has the same bits as if all were one.
+#include <stdlib.h>
+
+#include "mesher/common/vertex_heap.h"
+#include "mesher/layers/direction_smoothing.h"
+#include "mesher/parallel/schedule.h"
+
+enum { BLOCK = 2048 };
+static const double REACH = 6;       // the smoothing ends at this many thicknesses from its source
+static const double ROUNDING = 1e-9; // of a length summed along edges
+
+typedef struct {
+  const CwSmoothing *smoothing;
+  CwSmoothingReach *reach; // scratch of a block: of every vertex of the domain; out of reach in between
+  int32_t *visited;        // those that are not
+} Blocks;
+
+// The layer top of the distances in a block.
+typedef struct {
+  Blocks *blocks;
+  CwBox box;   // of the block
+  double most; // longest way of a wave that can come to it
+  int32_t visited_count;
+  CwHeap heap;
+} Spread;
+
+static double distance_to(const CwBox *box, const double x[3]) {
+  double d[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = x[k] < box->low[k] ? box->low[k] - x[k] : x[k] > box->high[k] ? x[k] - box->high[k] : 0;
+  }
+  return cw_norm(d);
+}
+
+// v has its distance: offers its neighbours a way through it.
+static CwStatus settle(Spread *spread, int32_t v) {
+  CwStatus status = CW_OK;
+  const CwSmoothing *smoothing = spread->blocks->smoothing;
+  const CwLayerWork *work = smoothing->work;
+  CwSmoothingReach *reach = spread->blocks->reach, at = reach[v];
+  double most = REACH * smoothing->source[at.source].thickness;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    if (reach[w].distance <= at.distance) continue;
+    double distance = at.distance + cw_distance(work->in->x[v], work->in->x[w]);
+    if (distance >= reach[w].distance || distance > most) continue;
+    if (distance + distance_to(&spread->box, work->in->x[w]) > spread->most) continue;
+    if (reach[w].source < 0) spread->blocks->visited[spread->visited_count++] = w;
+    reach[w] = (CwSmoothingReach){distance, at.source};
+    CW_TRY(cw_heap_push(&spread->heap, distance, w));
+  }
+done:
+  return status;
+}
+
+// Sets the box of a block's vertices and the longest way of a wave that can come to it: 0 where none can.
+static void measure(Spread *spread, int32_t first, int32_t last) {
+  const CwSmoothing *smoothing = spread->blocks->smoothing;
+  const CwLayerWork *work = smoothing->work;
+  CwBox *box = &spread->box;
+  *box = cw_box_empty();
+  for (int32_t i = first; i < last; i++) cw_box_add_point(box, work->in->x[work->curve[i]]);
+  for (int32_t i = 0; i < smoothing->source_count; i++) {
+    double way = (1 + ROUNDING) * REACH * smoothing->source[i].thickness;
+    if (way > spread->most && distance_to(box, work->in->x[smoothing->source[i].vertex]) <= way) spread->most = way;
+  }
+}
+
+static CwStatus find_block(void *context, int32_t block, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  Blocks *blocks = context;
+  const CwSmoothing *smoothing = blocks->smoothing;
+  const CwLayerWork *work = smoothing->work;
+  int32_t first = block * BLOCK, last = work->n - first < BLOCK ? work->n : first + BLOCK;
+  Spread spread = {.blocks = blocks};
+  CwSmoothingReach *made = NULL;
+  CW_NEW(made, last - first);
+  measure(&spread, first, last);
+  for (int32_t i = 0; spread.most > 0 && i < smoothing->source_count; i++) {
+    int32_t v = smoothing->source[i].vertex;
+    if (distance_to(&spread.box, work->in->x[v]) > spread.most) continue;
+    blocks->reach[v] = (CwSmoothingReach){0, i};
+    blocks->visited[spread.visited_count++] = v;
+  }
+  int32_t sources = spread.visited_count;
+  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, blocks->visited[i])); // nothing is nearer
+  while (spread.heap.count) {
+    CwHeapItem least = cw_heap_pop(&spread.heap);
+    if (least.key == blocks->reach[least.v].distance) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
+  }
+  for (int32_t i = first; i < last; i++) made[i - first] = blocks->reach[work->curve[i]];
+  *size = (int64_t)(last - first) * (int64_t)sizeof *made;
+  *bytes = made;
+  made = NULL;
+done:
+  for (int32_t i = 0; i < spread.visited_count; i++)
+    blocks->reach[blocks->visited[i]] = (CwSmoothingReach){INFINITY, -1};
+  cw_heap_free(&spread.heap);
+  free(made);
+  return status;
+}
+
+CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
+  CwStatus status = CW_OK;
+  int32_t n = smoothing->work->n, count = (n + BLOCK - 1) / BLOCK;
+  Blocks blocks = {.smoothing = smoothing};
+  int64_t *size = NULL;
+  void **bytes = NULL;
+  CW_NEW(blocks.reach, n);
+  CW_NEW(blocks.visited, n);
+  CW_NEW(bytes, count);
+  CW_NEW(size, count);
+  for (int32_t v = 0; v < n; v++) blocks.reach[v] = (CwSmoothingReach){INFINITY, -1};
+  CwSchedule schedule = {
+      .step = "layers: reach of smoothing", .count = count, .run = find_block, .context = &blocks, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t b = 0; b < count; b++) {
+    const CwSmoothingReach *made = bytes[b];
+    int32_t first = b * BLOCK, last = n - first < BLOCK ? n : first + BLOCK;
+    for (int32_t i = first; i < last; i++) smoothing->reach[smoothing->work->curve[i]] = made[i - first];
+  }
+done:
+  for (int32_t b = 0; bytes && b < count; b++) free(bytes[b]);
+  free(bytes);
+  free(size);
+  free(blocks.reach);
+  free(blocks.visited);
+  return status;
+}

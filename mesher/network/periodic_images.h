@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The image sets of a boundary whose solid and plan have a symmetry: of its corners, curves, nodes and interface
+// outlines. Items that turns take to one another form an image set: its first is made, the others are copies of it,
+// turned, with the same numbers on both sides of every seam.
+#ifndef CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
+#define CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
+
+#include "mesher/cad/symmetry.h"
+#include "mesher/network/network.h"
+
+typedef struct {
+  const CwSymmetry *symmetry; // NULL: none, every item stands for itself
+  CwImages corner, curve, outline;
+  // Of each node: where one turn takes it, -1: nowhere (it lies inside of a fixed face); turns from the first.
+  int32_t node_capacity, *node_next, *node_turns;
+} CwPeriodicImages;
+
+// Finds the image sets of corners and curves and makes each the periodic image of its first. Outcome:
+// CW_OUTCOME_ASYMMETRIC where the network is not symmetric: where a plane grazes something, the passages may have been
+// traced differently.
+CwStatus cw_periodic_images_make(CwNetwork *network, CwPeriodicImages *images, CwOutcome *outcome);
+void cw_periodic_images_free(CwPeriodicImages *images);
+
+// Notes that one turn takes `node` to `next`, which is `turns` turns from the first of its image set.
+CwStatus cw_image_link(CwPeriodicImages *images, int32_t node, int32_t next, int32_t turns);
+int32_t cw_image_node(const CwPeriodicImages *images, int32_t node, int32_t turns);
+int32_t cw_image_node_turns(const CwPeriodicImages *images, int32_t node);
+
+// Copies to be made of an item, itself included, and the `turns`-th of them; without symmetry 1 and itself. A copy that
+// is not the first has turns.
+static inline int32_t cw_image_copies(const CwPeriodicImages *images, const CwImages *of, int32_t item) {
+  return images->symmetry ? cw_images_size(of, images->symmetry->count, item) : 1;
+}
+static inline int32_t cw_image_turns(const CwPeriodicImages *images, const CwImages *of, int32_t item) {
+  return images->symmetry ? of->turns[item] : 0;
+}
+int32_t cw_image_face_copies(const CwPeriodicImages *images, int32_t face);
+int32_t cw_image_face(const CwPeriodicImages *images, int32_t face, int32_t turns);
+void cw_image_point(const CwPeriodicImages *images, int32_t turns, const double x[3], double turned[3]);
+int32_t cw_image_region(const CwPeriodicImages *images, const CwPlan *plan, int32_t region, int32_t turns);
+int32_t cw_image_region_first(const CwPeriodicImages *images, const CwPlan *plan, int32_t region);
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Steps in which what every rank does for itself weighs: the ranks go apart in groups, each of which works on some of
+// the items (domains) while the others are on others, and hand what they have made to all. Few ranks stay together, on
+// one item after the other.
+#ifndef CUTWATER_MESHER_PARALLEL_GROUPS_H
+#define CUTWATER_MESHER_PARALLEL_GROUPS_H
+
+#include <stdint.h>
+
+#include "mesher/parallel/outcome.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_GROUPS_MOST = 16 };
+
+// An item while its results are handed over.
+typedef struct {
+  int32_t item;
+  int mine; // this rank has them; else it gets them
+  int from; // rank that gives them
+} CwGroupHand;
+
+typedef struct {
+  const char *step;   // in the profiler
+  int32_t count;      // items
+  const double *cost; // predicted, of each
+  double own;         // the share of the cost that every rank of a group does for itself
+  // Works on an item: collective over the ranks of the group, with the same result and outcome on all of them.
+  CwStatus (*run)(void *context, int32_t item, CwOutcome *outcome);
+  // Gives the results of an item to the ranks that have not run it, by cw_group_give. Collective over all ranks.
+  CwStatus (*hand)(void *context, const CwGroupHand *hand);
+  void *context;
+} CwGroupWork;
+
+// Runs all items; collective. outcome[item], the same on all ranks: that of `run`; an item that is not done is not
+// handed over. Failures end all ranks, or are returned where there is one.
+CwStatus cw_groups_run(const CwGroupWork *work, CwOutcome *outcome);
+
+// Hands over `size` bytes, as many on all ranks. Straight from array to array.
+void cw_group_give(const CwGroupHand *hand, void *data, int64_t size);
+// The same for an array of `count` items, which is allocated where it comes to.
+#define CW_GROUP_ARRAY(hand, pointer, count)                                                                           \
+  do {                                                                                                                 \
+    if (!(hand)->mine) CW_NEW_UNSET(pointer, count);                                                                   \
+    cw_group_give(hand, pointer, (int64_t)(count) * (int64_t)sizeof *(pointer));                                       \
+  } while (0)
+
+// Groups for so many ranks: group_of[item]; ranks_of[group]. An item takes cost * (own + (1 - own) / ranks), a group
+// the sum of its items; so many groups are made, of at least two ranks each, that the longest takes the least time.
+int cw_groups_divide(int32_t count, const double *cost, double own, int ranks, int *group_of, int *ranks_of);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/parallel/parallel_for.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/parallel/schedule.h"
+
+// Blocks enough for dozens of ranks to end together, none so small that to take it is as much work as to do it.
+enum { BLOCKS = 256, LEAST_BLOCK = 64, MOST_BLOCK = 4096 };
+
+typedef struct {
+  CwParallelBody body;
+  void *context;
+  int32_t count;
+  const int32_t *start; // of each item's list; NULL: one each
+  size_t width;
+  int32_t block; // items of one
+} Share;
+
+static int32_t block_of(int32_t count) {
+  int32_t block = count / BLOCKS;
+  return block < LEAST_BLOCK ? LEAST_BLOCK : block > MOST_BLOCK ? MOST_BLOCK : block;
+}
+
+// Where the bytes of an item begin.
+static size_t place_of(const Share *share, int32_t item) {
+  return (size_t)(share->start ? share->start[item] : item) * share->width;
+}
+
+static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Share *share = context;
+  int32_t first = block * share->block, left = share->count - first;
+  int32_t last = left < share->block ? share->count : first + share->block;
+  size_t length = place_of(share, last) - place_of(share, first);
+  char *result = NULL;
+  CW_NEW(result, length);
+  for (int32_t i = first; i < last; i++)
+    CW_TRY(share->body(share->context, i, result + place_of(share, i) - place_of(share, first)));
+  *bytes = result;
+  *size = (int64_t)length;
+  result = NULL;
+done:
+  free(result);
+  return status;
+}
+
+CwStatus cw_parallel_for(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out) {
+  return cw_parallel_for_lists(step, count, NULL, width, body, context, out);
+}
+
+CwStatus cw_parallel_for_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwParallelBody body,
+                               void *context, void *out) {
+  CwStatus status = CW_OK;
+  Share share = {body, context, count, start, width, block_of(count)};
+  int32_t blocks = (count + share.block - 1) / share.block;
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  CW_NEW(bytes, blocks);
+  CW_NEW(size, blocks);
+  CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t i = 0; i < blocks; i++) {
+    if (size[i] > 0) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
+  }
+done:
+  for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  return status;
+}

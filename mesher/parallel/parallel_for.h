@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Work on many small items (vertices, triangles) in blocks over the ranks. The blocks follow from the count alone and
+// each item from itself alone, so that the bits are the same for any number of ranks.
+#ifndef CUTWATER_MESHER_PARALLEL_PARALLEL_FOR_H
+#define CUTWATER_MESHER_PARALLEL_PARALLEL_FOR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Fills the `width` zeroed bytes of one item.
+typedef CwStatus (*CwParallelBody)(void *context, int32_t item, void *out);
+
+// Calls body for the items 0 .. count-1; all ranks get all of `out`. step: in the profiler. Collective.
+CwStatus cw_parallel_for(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out);
+
+// The same where item i has a list: entries start[i] .. start[i + 1] - 1 of `out`, of `width` bytes each.
+CwStatus cw_parallel_for_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwParallelBody body,
+                               void *context, void *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

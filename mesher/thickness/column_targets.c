@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/thickness/column_targets.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/model_unit.h"
+#include "mesher/common/vec.h"
+#include "mesher/thickness/layer_count.h"
+#include "mesher/thickness/layer_thickness.h"
+#include "mesher/layers/thickness_gradation.h"
+#include "mesher/parallel/parallel_for.h"
+
+static const double BEND = 0.94;         // least cosine of the normals about a vertex of a wall as good as flat
+static const double CONCAVE_RISE = 0.25; // least rise of an edge over its length at a bend that is concave
+static const double LITTLE_GROWTH = 1.1;
+static const double KEPT_GROWTH = 0.7; // least in columns thinned for their shape, above CW_LEAST_GROWTH: thinned
+                                       // further, some made angles of 16 degrees where others have 19
+
+// How the wall lies about a vertex.
+typedef struct {
+  double normal[3]; // mean of the triangles, out of the domain
+  double cosine;    // least, of their normals to it
+  double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
+} Bend;
+
+double cw_column_thickness_least(double first, int layer_count) {
+  return CW_EVEN_LAYERS * layer_count * first;
+}
+
+// The column whose last layer is `last` times as tall as a regular tetrahedron on edges of `size`, or the tallest with
+// no layer that grows by more than `growth`. Columns give up growth for it, never the first height.
+static double fair_thickness(double first, int count, double growth, double size, double last) {
+  if (count > 1) growth = fmin(growth, pow(fmax(last * CW_REGULAR_HEIGHT * size / first, 1), 1.0 / (count - 1)));
+  return fmax(cw_column_thickness_least(first, count), cw_layer_thickness(first, count, growth));
+}
+
+double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, double size) {
+  return fmin(layers->thickness, fair_thickness(layers->first_height, layer_count, layers->growth, size, layers->last));
+}
+
+// What the tasks below read.
+typedef struct {
+  const CwBoundary *boundary;
+  const CwIncident *around;
+  const CwColumnTargets *targets;
+  const CwLayerTarget *layers; // of each CAD face
+  const CwLayerTarget *asked;  // of each vertex
+  const double *graded;        // thicknesses
+} Columns;
+
+static double size_at(const CwBoundary *boundary, const double x[3]) {
+  return boundary->size_at(boundary->size, x);
+}
+
+// Unit normal of a triangle, out of the domain.
+static void find_normal(const CwBoundary *boundary, const int32_t corner[3], double normal[3]) {
+  double u[3], v[3];
+  cw_sub(boundary->surface.x[corner[1]], boundary->surface.x[corner[0]], u);
+  cw_sub(boundary->surface.x[corner[2]], boundary->surface.x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+static Bend bend_at(const CwBoundary *boundary, const CwIncident *around, int32_t v) {
+  Bend bend = {.cosine = 1, .rise = -1};
+  const double *x = boundary->surface.x[v];
+  for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+    double normal[3];
+    find_normal(boundary, boundary->surface.triangle[around->triangle[i]], normal);
+    for (int c = 0; c < 3; c++) bend.normal[c] += normal[c];
+  }
+  cw_unit(bend.normal);
+  for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+    const int32_t *corner = boundary->surface.triangle[around->triangle[i]];
+    double normal[3], edge[3];
+    find_normal(boundary, corner, normal);
+    bend.cosine = fmin(bend.cosine, cw_dot(normal, bend.normal));
+    for (int k = 0; k < 3; k++) {
+      if (corner[k] == v) continue;
+      cw_sub(x, boundary->surface.x[corner[k]], edge);
+      cw_unit(edge);
+      bend.rise = fmax(bend.rise, cw_dot(edge, bend.normal));
+    }
+  }
+  return bend;
+}
+
+// The thickness of a column that is fair by the cells around it, or the target where that is less. The tetrahedron on
+// it stands at the end of the column, where the size is another than at the wall: the thickness is reckoned twice.
+// Nowhere grow sizes faster than thicknesses. Periodic images get that of their first: the size field is symmetric only
+// to within its grid.
+static CwStatus find_fair(void *context, int32_t v, void *out) {
+  const Columns *columns = context;
+  const CwBoundary *boundary = columns->boundary;
+  const CwColumnTargets *targets = columns->targets;
+  const double *x = boundary->surface.x[v];
+  if (cw_image_node_turns(&boundary->images, v) > 0) return CW_OK;
+  Bend bend = bend_at(boundary, columns->around, v);
+  double size = size_at(boundary, x), thickness = 0, last = columns->asked[v].last;
+  // In a hollow tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
+  if (bend.cosine < BEND && bend.rise > CONCAVE_RISE) last *= bend.cosine;
+  for (int pass = 0; pass < 2; pass++) {
+    double end[3];
+    for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * bend.normal[k];
+    double above = fmin(fmax(size, size_at(boundary, end)), size + CW_THICKNESS_SLOPE * thickness);
+    thickness = fair_thickness(targets->first_height[v], targets->layer_count, targets->growth[v], above, last);
+  }
+  *(double *)out = fmin(columns->asked[v].thickness, thickness);
+  return CW_OK;
+}
+
+// What the gradation of thicknesses at wall vertices reads.
+typedef struct {
+  const CwBoundary *boundary;
+  const double *thickness;
+  double slope;
+} Slope;
+
+static double most_beside(const void *context, int32_t v, int32_t w) {
+  const Slope *slope = context;
+  return slope->thickness[v] + slope->slope * cw_distance(slope->boundary->surface.x[v], slope->boundary->surface.x[w]);
+}
+
+// Thicknesses rise by no more than `slope` per distance along any edge of the wall. Collective.
+static CwStatus grade(const CwBoundary *boundary, const CwIncident *around, double slope, double *thickness) {
+  return cw_grade_thickness(&(CwGradation){.step = "thicknesses: steep",
+                                           .count = boundary->surface.vertex_count,
+                                           .start = around->start,
+                                           .triangle = around->triangle,
+                                           .corner = (const int32_t(*)[3])boundary->surface.triangle,
+                                           .most = most_beside,
+                                           .context = &(Slope){boundary, thickness, slope},
+                                           .thickness = thickness},
+                            NULL);
+}
+
+// The finer one holds where patches meet.
+static CwStatus find_asked(void *context, int32_t v, void *out) {
+  CwStatus status = CW_OK;
+  const Columns *columns = context;
+  const double *x = columns->boundary->surface.x[v];
+  CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY, .last = INFINITY};
+  int32_t before = -1;
+  for (int32_t i = columns->around->start[v]; i < columns->around->start[v + 1]; i++) {
+    int32_t face = columns->boundary->surface.face[columns->around->triangle[i]];
+    if (face == before) continue;
+    before = face;
+    of.first_height = fmin(of.first_height, columns->layers[face].first_height);
+    of.thickness = fmin(of.thickness, columns->layers[face].thickness);
+    of.growth = fmax(of.growth, columns->layers[face].growth);
+    of.last = fmin(of.last, columns->layers[face].last);
+  }
+  CW_REQUIRE(isfinite(of.thickness), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
+             CW_MM(x));
+  *(CwLayerTarget *)out = of;
+done:
+  return status;
+}
+
+// What the walls ask of each vertex. Away from where patches meet the first height grows no faster than columns whose
+// layers grow a little can.
+static CwStatus take_asked(const CwBoundary *boundary, const CwIncident *around, const CwLayerTarget *layers,
+                           CwColumnTargets *targets, CwLayerTarget *asked) {
+  CwStatus status = CW_OK;
+  Columns columns = {.boundary = boundary, .around = around, .layers = layers};
+  CW_TRY(cw_parallel_for("thicknesses: asked", boundary->surface.vertex_count, sizeof *asked, find_asked, &columns,
+                         asked));
+  for (int32_t v = 0; v < boundary->surface.vertex_count; v++) {
+    targets->first_height[v] = asked[v].first_height;
+    targets->growth[v] = asked[v].growth;
+  }
+  CW_TRY(grade(boundary, around, CW_THICKNESS_SLOPE / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
+               targets->first_height));
+done:
+  return status;
+}
+
+static void turn_copies(const CwPeriodicImages *images, int32_t count, CwColumnTargets *targets) {
+  for (int32_t v = 0; v < count; v++) {
+    if (cw_image_node_turns(images, v) > 0) continue;
+    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+      targets->target[at] = targets->target[v];
+      targets->first_height[at] = targets->first_height[v];
+      targets->growth[at] = targets->growth[v];
+    }
+  }
+}
+
+CwStatus cw_column_targets_make(const CwBoundary *boundary, const CwIncident *around, const CwLayerTarget *layers,
+                                int layer_count, CwColumnTargets *targets) {
+  CwStatus status = CW_OK;
+  CwLayerTarget *asked = NULL;
+  *targets = (CwColumnTargets){.layer_count = layer_count};
+  CW_NEW_UNSET(targets->first_height, boundary->surface.vertex_count);
+  CW_NEW_UNSET(targets->growth, boundary->surface.vertex_count);
+  CW_NEW_UNSET(targets->target, boundary->surface.vertex_count);
+  CW_NEW_UNSET(targets->least, boundary->surface.vertex_count);
+  CW_NEW_UNSET(asked, boundary->surface.vertex_count);
+  CW_TRY(take_asked(boundary, around, layers, targets, asked));
+  Columns columns = {.boundary = boundary, .around = around, .targets = targets, .asked = asked};
+  CW_TRY(cw_parallel_for("thicknesses: fair ones", boundary->surface.vertex_count, sizeof *targets->target, find_fair,
+                         &columns, targets->target));
+  turn_copies(&boundary->images, boundary->surface.vertex_count, targets);
+  double lowest = cw_layer_thickness(1, layer_count, KEPT_GROWTH);
+  for (int32_t v = 0; v < boundary->surface.vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
+done:
+  free(asked);
+  return status;
+}
+
+// What a wall triangle takes of the volume, and what a flat wall would, in cells; with its periodic images.
+typedef struct {
+  double taken, flat;
+} Taken;
+
+static CwStatus find_taken(void *context, int32_t t, void *out) {
+  const Columns *columns = context;
+  const CwBoundary *boundary = columns->boundary;
+  const int32_t *corner = boundary->surface.triangle[t], face = boundary->surface.face[t];
+  double u[3], v[3], normal[3], centre[3], mean = 0;
+  if (boundary->surface.source[t] != t) return CW_OK;
+  for (int k = 0; k < 3; k++) {
+    u[k] = boundary->surface.x[corner[1]][k] - boundary->surface.x[corner[0]][k];
+    v[k] = boundary->surface.x[corner[2]][k] - boundary->surface.x[corner[0]][k];
+    centre[k] = boundary->surface.x[corner[0]][k] + (u[k] + v[k]) / 3;
+    mean += columns->graded[corner[k]] / 3;
+  }
+  cw_cross(u, v, normal);
+  double h = size_at(boundary, centre);
+  double weight = cw_norm(normal) / (h * h * h) * cw_image_face_copies(&boundary->images, face);
+  double flat = cw_column_thickness_flat(&columns->layers[face], columns->targets->layer_count, h);
+  *(Taken *)out = (Taken){weight * mean, weight * flat};
+  return CW_OK;
+}
+
+CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundary *boundary, const CwIncident *around,
+                                 const CwLayerTarget *layers, double *share) {
+  CwStatus status = CW_OK;
+  double *graded = NULL;
+  Taken *of = NULL, sum = {0};
+  CW_NEW_UNSET(graded, boundary->surface.vertex_count);
+  CW_NEW_UNSET(of, boundary->surface.triangle_count);
+  memcpy(graded, targets->target, (size_t)boundary->surface.vertex_count * sizeof *graded);
+  CW_TRY(grade(boundary, around, CW_THICKNESS_SLOPE, graded));
+  Columns columns = {.boundary = boundary, .targets = targets, .layers = layers, .graded = graded};
+  CW_TRY(
+      cw_parallel_for("thicknesses: volume", boundary->surface.triangle_count, sizeof *of, find_taken, &columns, of));
+  for (int32_t t = 0; t < boundary->surface.triangle_count; t++) {
+    sum.taken += of[t].taken;
+    sum.flat += of[t].flat;
+  }
+  *share = sum.flat > 0 ? sum.taken / sum.flat : 1;
+done:
+  free(graded);
+  free(of);
+  return status;
+}
+
+void cw_column_targets_free(CwColumnTargets *targets) {
+  free(targets->first_height);
+  free(targets->first_made);
+  free(targets->growth);
+  free(targets->target);
+  free(targets->least);
+  *targets = (CwColumnTargets){0};
+}

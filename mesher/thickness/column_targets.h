@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How tall the columns of the layers over the wall are asked to be, before gaps and repair have their say: the rules
+// that make of a patch's first height, growth and thickness those of each wall vertex.
+//
+//   meeting patches  the finer first height, the lesser thickness and the larger growth hold
+//   first height     grows away from there no faster than columns whose layers grow by a tenth can follow
+//   fair thickness      the last layer no taller than its share of the tetrahedron above (layer_count.h)
+#ifndef CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
+#define CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
+
+#include "mesher/common/incident.h"
+#include "mesher/thickness/wall_targets.h"
+#include "mesher/boundary/boundary.h"
+
+#define CW_TALLEST_COLUMN 2.5 // of the wanted length at the wall: about what columns come to, for the planes
+
+// Of each wall vertex.
+typedef struct {
+  int layer_count;
+  double *first_height; // m
+  double *first_made;   // the same by which the column is divided, once it stands (even_columns.h), m
+  double *growth;       // largest ratio of neighbouring layers
+  double *target;       // thickness, m
+  double *least;        // thickness down to which a column is thinned for its shape: it has that first height, m
+} CwColumnTargets;
+
+// Thickness below which layers of `first` (m) hardly grow any more: columns are asked to be no shorter.
+double cw_column_thickness_least(double first, int layer_count);
+
+// Thickness of a column over a flat wall where edges are `size` long, m.
+double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, double size);
+
+// Sets first heights, growths, targets and least thicknesses of all wall vertices; layers: of each CAD face; around:
+// the wall's triangles. Periodic images get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has
+// no triangle.
+CwStatus cw_column_targets_make(const CwBoundary *boundary, const CwIncident *around, const CwLayerTarget *layers,
+                                int layer_count, CwColumnTargets *targets);
+
+// Of the volume (counted in cells) that flat walls would give the layers, the share that columns take once their
+// thicknesses are graded. Collective.
+CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundary *boundary, const CwIncident *around,
+                                 const CwLayerTarget *layers, double *share);
+
+void cw_column_targets_free(CwColumnTargets *targets);
+
+#endif

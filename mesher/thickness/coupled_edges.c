@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/thickness/coupled_edges.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+
+enum { SIZE_STEPS = 400 };
+static const double SAME_PLACE = 1e-9; // of the model's unit
+static const double NEAR = 0.15;       // of the size: breaks of the two domains that are nearer share one place
+
+// A place on the edge, as shares of its length in the sense of side 0, for either side.
+typedef struct {
+  double s[2];
+  int own[2]; // a corner of that side's network: its place is fixed
+} Break;
+
+typedef struct {
+  CwBoundary *boundary[2];
+  int32_t edge[2];
+  int reversed; // side 1 runs the other way
+} Pair;
+
+static int on_patch(const CwCad *cad, int32_t edge, const char *patch) {
+  int face[2];
+  cw_cad_edge_faces(cad, edge, face);
+  int first = !strcmp(cw_cad_patch_name(cad, cw_cad_face_patch(cad, face[0])), patch);
+  int second = !strcmp(cw_cad_patch_name(cad, cw_cad_face_patch(cad, face[1])), patch);
+  return first != second;
+}
+
+static double parameter_at(const Pair *pair, int side, double s) {
+  double range[2];
+  cw_cad_edge_range(pair->boundary[side]->cad, pair->edge[side], range);
+  if (side && pair->reversed) s = 1 - s;
+  return range[0] + s * (range[1] - range[0]);
+}
+
+static void point_at(const Pair *pair, int side, double s, double x[3]) {
+  cw_cad_edge_point(pair->boundary[side]->cad, pair->edge[side], parameter_at(pair, side, s), x, NULL);
+}
+
+// Whether the two edges are one curve, in the sense that pair->reversed says.
+static int same_edge(const Pair *pair) {
+  for (int i = 0; i <= 4; i++) {
+    double x[3], y[3];
+    point_at(pair, 0, i / 4.0, x);
+    point_at(pair, 1, i / 4.0, y);
+    if (cw_distance(x, y) > SAME_PLACE) return 0;
+  }
+  return 1;
+}
+
+static double size_at(const Pair *pair, double s) {
+  double x[3], size = INFINITY;
+  point_at(pair, 0, s, x);
+  for (int side = 0; side < 2; side++) {
+    size = fmin(size, pair->boundary[side]->size_at(pair->boundary[side]->size, x));
+  }
+  return size;
+}
+
+static int compare_breaks(const void *p, const void *q) {
+  double a = ((const Break *)p)->s[0], b = ((const Break *)q)->s[0];
+  return (a > b) - (a < b);
+}
+
+static CwStatus find_breaks(const Pair *pair, double length, int *count, Break **breaks) {
+  CwStatus status = CW_OK;
+  int room = 2;
+  for (int side = 0; side < 2; side++) room += pair->boundary[side]->network.corner_count;
+  CW_NEW(*breaks, room);
+  (*breaks)[(*count)++] = (Break){{0, 0}, {1, 1}};
+  for (int side = 0; side < 2; side++) {
+    const CwNetwork *network = &pair->boundary[side]->network;
+    double range[2];
+    cw_cad_edge_range(pair->boundary[side]->cad, pair->edge[side], range);
+    for (int32_t i = 0; i < network->corner_count; i++) {
+      if (network->corner[i].edge != pair->edge[side]) continue;
+      double s = (network->corner[i].t - range[0]) / (range[1] - range[0]);
+      if (side && pair->reversed) s = 1 - s;
+      Break *made = &(*breaks)[(*count)++];
+      *made = (Break){{s, s}, {0, 0}};
+      made->own[side] = 1;
+    }
+  }
+  (*breaks)[(*count)++] = (Break){{1, 1}, {1, 1}};
+  qsort(*breaks + 1, (size_t)*count - 2, sizeof **breaks, compare_breaks);
+  // Where a plane of either domain crosses nearly at one place, each side keeps its own and leaves out the other.
+  int kept = 1;
+  for (int i = 1; i < *count; i++) {
+    Break *last = &(*breaks)[kept - 1];
+    const Break *here = &(*breaks)[i];
+    int apart = (here->s[0] - last->s[0]) * length > NEAR * size_at(pair, here->s[0]);
+    int clash = (here->own[0] && last->own[0]) || (here->own[1] && last->own[1]);
+    if (apart || (clash && i + 1 < *count && kept > 1)) {
+      (*breaks)[kept++] = *here;
+      continue;
+    }
+    for (int side = 0; side < 2; side++) {
+      if (here->own[side] && !last->own[side]) last->s[side] = here->s[side], last->own[side] = 1;
+    }
+    if (i + 1 == *count) (*breaks)[kept++] = *here;
+  }
+  *count = kept;
+done:
+  return status;
+}
+
+// Divides between two breaks as cw_curve_divide does; appends the places within.
+static CwStatus divide(const Pair *pair, double length, double from, double to, int *count, double **places) {
+  CwStatus status = CW_OK;
+  double edges[SIZE_STEPS + 1] = {0};
+  for (int i = 0; i < SIZE_STEPS; i++) {
+    double s = from + (to - from) * (i + 0.5) / SIZE_STEPS;
+    edges[i + 1] = edges[i] + (to - from) * length / SIZE_STEPS / size_at(pair, s);
+  }
+  int whole = (int)floor(edges[SIZE_STEPS] + 0.5), step = 0;
+  if (whole < 2) goto done;
+  double *grown = realloc(*places, (size_t)(*count + whole) * sizeof **places);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places on an open edge", *count + whole);
+  *places = grown;
+  for (int k = 1; k < whole; k++) {
+    double wanted = edges[SIZE_STEPS] * k / whole;
+    while (step < SIZE_STEPS - 1 && edges[step + 1] < wanted) step++;
+    double part = (wanted - edges[step]) / (edges[step + 1] - edges[step]);
+    grown[(*count)++] = from + (to - from) * (step + part) / SIZE_STEPS;
+  }
+done:
+  return status;
+}
+
+static CwStatus add_open_edge(const Pair *pair, int side, int place_count, const double *places, int break_count,
+                              const Break *breaks) {
+  CwStatus status = CW_OK;
+  CwBoundary *boundary = pair->boundary[side];
+  CwDividedEdge *grown = realloc(boundary->open_edge, (size_t)(boundary->open_edge_count + 1) * sizeof *grown);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d open edges", boundary->open_edge_count + 1);
+  boundary->open_edge = grown;
+  CwDividedEdge *open_edge = &grown[boundary->open_edge_count++];
+  *open_edge = (CwDividedEdge){.edge = pair->edge[side]};
+  CW_NEW(open_edge->t, place_count + break_count);
+  for (int i = 0; i < place_count; i++) open_edge->t[open_edge->count++] = parameter_at(pair, side, places[i]);
+  for (int i = 1; i + 1 < break_count; i++) {
+    // The side's own breaks are corners of its network, which its curves begin and end at.
+    if (!breaks[i].own[side]) open_edge->t[open_edge->count++] = parameter_at(pair, side, breaks[i].s[side]);
+  }
+done:
+  return status;
+}
+
+static int compare_doubles(const void *p, const void *q) {
+  double a = *(const double *)p, b = *(const double *)q;
+  return (a > b) - (a < b);
+}
+
+static CwStatus couple_edge(const Pair *pair) {
+  CwStatus status = CW_OK;
+  Break *breaks = NULL;
+  double *places = NULL, length = 0, x[2][3];
+  int break_count = 0, place_count = 0;
+  point_at(pair, 0, 0, x[0]);
+  for (int i = 1; i <= SIZE_STEPS; i++) {
+    point_at(pair, 0, (double)i / SIZE_STEPS, x[i % 2]);
+    length += cw_distance(x[0], x[1]);
+  }
+  CW_TRY(find_breaks(pair, length, &break_count, &breaks));
+  for (int i = 0; i + 1 < break_count; i++) {
+    CW_TRY(divide(pair, length, breaks[i].s[0], breaks[i + 1].s[0], &place_count, &places));
+  }
+  for (int side = 0; side < 2; side++) {
+    CW_TRY(add_open_edge(pair, side, place_count, places, break_count, breaks));
+    CwDividedEdge *open_edge = &pair->boundary[side]->open_edge[pair->boundary[side]->open_edge_count - 1];
+    qsort(open_edge->t, (size_t)open_edge->count, sizeof *open_edge->t, compare_doubles);
+  }
+done:
+  free(breaks);
+  free(places);
+  return status;
+}
+
+CwStatus cw_couple_open_edges(CwBoundary *a, const char *patch_a, CwBoundary *b, const char *patch_b) {
+  CwStatus status = CW_OK;
+  for (int32_t e = 0; e < cw_cad_edge_count(a->cad); e++) {
+    if (!on_patch(a->cad, e, patch_a)) continue;
+    for (int32_t f = 0; f < cw_cad_edge_count(b->cad); f++) {
+      Pair pair = {{a, b}, {e, f}, 0};
+      if (!on_patch(b->cad, f, patch_b)) continue;
+      if (!same_edge(&pair)) pair.reversed = 1;
+      if (same_edge(&pair)) CW_TRY(couple_edge(&pair));
+    }
+  }
+done:
+  return status;
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The open edges of flat interfaces between domains. Two polygons inscribed in one circle with other corners differ by
+// more than the first layer is high, and the coupling's weights there are off. So CAD edges that two domains have in
+// common along an interface are divided once, with the finer of both size fields, at the planes of either domain.
+#ifndef CUTWATER_MESHER_THICKNESS_COUPLED_EDGES_H
+#define CUTWATER_MESHER_THICKNESS_COUPLED_EDGES_H
+
+#include "mesher/boundary/boundary.h"
+
+// Divides the edges along the patches `patch` of both boundaries, whose networks are made, and adds them to their open
+// edges. Edges without a partner on the other side are left alone: those of the cylinder between rotor and stator,
+// whose ends lie in planes that no division moves.
+CwStatus cw_couple_open_edges(CwBoundary *a, const char *patch_a, CwBoundary *b, const char *patch_b);
+
+#endif

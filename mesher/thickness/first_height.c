@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/thickness/first_height.h"
+
+#include <math.h>
+
+#include "mesher/thickness/layer_count.h"
+#include "mesher/thickness/layer_thickness.h"
+#include "mesher/layers/thickness_gradation.h"
+
+double cw_first_height_fitting(double width, int layer_count) {
+  return CW_GAP_SHARE * width / (CW_EVEN_LAYERS * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
+}
+
+CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
+                                     double y_plus_auto) {
+  const CwWalls *walls = &table->walls;
+  double viscosity = table->fluid.kinematic_viscosity;
+  double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
+  double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
+  double fitting = cw_first_height_fitting(flow->width, walls->layer_count);
+  CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
+  if (cw_case_given(group->first_height)) {
+    first.asked = group->first_height;
+  } else if (cw_case_given(group->y_plus)) {
+    first.asked = unit * group->y_plus;
+  } else {
+    double roomy = CW_GAP_SHARE * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, CW_GROWTH_AUTO);
+    first.asked = fmin(unit * y_plus_auto, roomy);
+    first.source = CW_FIRST_AUTO;
+  }
+  int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;
+  first.height = first.asked;
+  if (laminar && !cw_case_given(group->first_height)) {
+    first.height = CW_LAMINAR_SHARE * flow->width;
+    first.source = CW_FIRST_LAMINAR;
+  }
+  if (first.height > fitting) {
+    first.height = fitting;
+    if (first.source != CW_FIRST_LAMINAR) first.source = CW_FIRST_FITTED;
+  }
+  first.y_plus = laminar ? NAN : first.height / unit;
+  return first;
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Sub-division of a column of the layer envelope into layers: fractions of its thickness from first height, count and
+// growth.
+#ifndef CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
+#define CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// First height of a layer for a y+ target (m): y = y+ nu / u_tau, u_tau = U sqrt(Cf/2), Cf = 0.026 Re^(-1/7),
+// Re = U L / nu; twice that where y+ is counted at the cell centre (`at_centre`).
+double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre);
+
+// Total thickness of `count` layers from `first` with growth ratio `growth`, m.
+double cw_layer_thickness(double first, int count, double growth);
+
+// Fractions f[0] = 0 < f[1] < ... < f[count] = 1 of a column of thickness `thickness`. Holds `first` and solves the
+// growth ratio: in columns too short for even layers it is below 1, the outer layers give way. Where it would exceed
+// `growth_max`, or fall below CW_LEAST_GROWTH, it stays there and the first height follows the column. Returns the
+// first height it came to, m.
+#define CW_LEAST_GROWTH 0.6
+#define CW_EVEN_LAYERS 1.05    // of count times first height: columns are asked to be no shorter, and hardly grow there
+enum { CW_LAYERS_MOST = 200 }; // count of layers
+double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

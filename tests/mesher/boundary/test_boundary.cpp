@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A box on its way from curve network to audited regions, with partition planes placed by hand.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Pnt.hxx>
+
+extern "C" {
+#include "mesher/common/vec.h"
+#include "mesher/region/audit.h"
+#include "mesher/region/interface_rule.h"
+#include "mesher/region/region_build.h"
+#include "mesher/region/region_failure.h"
+#include "mesher/region/region_number.h"
+#include "mesher/boundary/boundary.h"
+}
+
+#include "shared_points.h"
+
+static double even_size(const void *, const double *) {
+  return 2.5e-3;
+}
+
+static double finer_size(const void *, const double *) {
+  return 1.7e-3;
+}
+
+// A box of 40 x 30 x 20 mm with inlet at x = 0 and outlet at x = 40. Plane 0: x = 21. Plane 1, behind it: y = 14, a
+// little askew. Plane 2, before it: z = 9, or as given.
+struct Box {
+  CwCad *cad;
+  CwBackground background;
+  CwInside *inside = nullptr;
+  CwPlanNode node[3];
+  double none[4] = {0, 0, 0, 0};
+  CwPlan plan;
+  CwBoundary boundary;
+  CwOutcome outcome = {};
+
+  explicit Box(int nodes, double across = 0.009, const TopoDS_Shape &solid = BRepPrimAPI_MakeBox(40, 30, 20).Shape())
+      : cad(open_solid(solid, [](const TopoDS_Face &face) -> std::string {
+          BRepAdaptor_Surface surface(face);
+          double x = surface.Value(0.5, 0.5).X(), y = surface.Value(0.6, 0.7).X();
+          if (std::fabs(x - y) > 1e-9 || (x > 1e-9 && x < 40 - 1e-9)) return "side,wall";
+          if (std::fabs(x) < 1e-9) return "in,inlet";
+          return "out,outlet";
+        })) {
+    double tilt = 0.1, c = std::cos(tilt), s = std::sin(tilt);
+    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, -2}};
+    node[1] = {{{s, c, 0}, 0.014 * c + 0.030 * s}, 0, {-2, -3}};
+    node[2] = {{{0, 0, 1}, across}, 0, {-1, -4}};
+    if (nodes >= 2) node[0].child[1] = 1;
+    if (nodes >= 3) node[0].child[0] = 2;
+    plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
+    assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
+    assert_int_equal(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
+        CW_OK);
+    boundary = {};
+    boundary.cad = cad;
+    boundary.plan = &plan;
+    boundary.size_at = even_size;
+    check(cw_network_make(cad, &background, inside, &plan, &boundary.network, &outcome));
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
+  }
+  ~Box() {
+    cw_boundary_free(&boundary);
+    cw_inside_free(&inside);
+    cw_background_free(&background);
+    cw_cad_close(&cad);
+  }
+  static void check(CwStatus status) {
+    if (status != CW_OK) fail_msg("%s", cw_fail_message());
+  }
+  int count(CwCurveKind kind) const {
+    int found = 0;
+    for (int i = 0; i < boundary.network.curve_count; i++) found += boundary.network.curve[i].kind == kind;
+    return found;
+  }
+};
+
+// One plane: four edges of the box are cut in two; four cuts. A second plane on one side: two more edges, three cuts of
+// its own, two cuts of the first divided, one line. A third on the other side likewise, and where both lines cross on
+// the first plane each is divided: two pieces of each.
+static void network_of_a_box(void **) {
+  {
+    Box box(1);
+    assert_int_equal(box.count(CW_CURVE_EDGE), 16);
+    assert_int_equal(box.count(CW_CURVE_CUT), 4);
+    assert_int_equal(box.count(CW_CURVE_LINE), 0);
+    assert_int_equal(box.boundary.network.corner_count, 12);
+  }
+  {
+    Box box(2);
+    assert_int_equal(box.count(CW_CURVE_EDGE), 18);
+    assert_int_equal(box.count(CW_CURVE_CUT), 9);
+    assert_int_equal(box.count(CW_CURVE_LINE), 1);
+    assert_int_equal(box.boundary.network.corner_count, 16);
+  }
+  {
+    Box box(3);
+    assert_int_equal(box.count(CW_CURVE_EDGE), 20);
+    assert_int_equal(box.count(CW_CURVE_CUT), 14);
+    assert_int_equal(box.count(CW_CURVE_LINE), 4);
+    assert_int_equal(box.boundary.network.corner_count, 21);
+  }
+}
+
+static void curves_lie_on_their_planes(void **) {
+  Box box(3);
+  for (int i = 0; i < box.boundary.network.curve_count; i++) {
+    const CwCurve &curve = box.boundary.network.curve[i];
+    for (int s = 0; s <= 10; s++) {
+      double x[3], parameter[2];
+      cw_curve_point(&box.boundary.network, &curve, curve.fine_length[curve.fine_count - 1] * s / 10, x, parameter);
+      for (int p : curve.plane) {
+        if (p >= 0) assert_near(cw_plane_distance(&box.node[p].plane, x), 0, 1e-12);
+      }
+    }
+  }
+}
+
+// The rule of region numbers on interfaces that were meshed for a coarser size field than that of the fill.
+static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
+  std::vector<void *> refined(4, nullptr);
+  std::vector<int> inserted(4, 0);
+  int64_t size;
+  CwInterfaceRuleCounts counts;
+  int nodes = boundary.interfaces.nodes.count;
+  boundary.size_at = finer_size;
+  for (int i = 0; i < boundary.interfaces.outline_count; i++) {
+    const int32_t *region = boundary.interfaces.refined.region[boundary.interfaces.outline[i].triangle_start];
+    int owner = cw_interface_owner(&boundary, number, i), other = owner == region[0] ? region[1] : region[0];
+    assert_true(owner == region[0] || owner == region[1]);
+    assert_true(number[owner] < number[other]);
+  }
+  for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&boundary, number, r, "box", &refined[r], &size));
+  Box::check(cw_interface_rule_merge(&boundary, refined.data(), &counts));
+  assert_true(counts.encroached > 20);
+  assert_true(counts.inserted > 20);
+  assert_int_equal(boundary.interfaces.nodes.count, nodes + counts.inserted);
+  assert_int_equal(boundary.interfaces.planned.count, counts.planned);
+  assert_int_equal(boundary.interfaces.refined.count, counts.refined);
+  assert_int_equal(counts.refined, counts.planned + 2 * counts.inserted); // Euler: outlines stay as they are
+  // New nodes lie on the plane of their interface.
+  for (int i = 0; i < boundary.interfaces.outline_count; i++) {
+    const CwInterfaceOutline &interface = boundary.interfaces.outline[i];
+    for (int t = 0; t < interface.refined_count; t++) {
+      for (int node : boundary.interfaces.refined.triangle[interface.refined_start + t]) {
+        assert_near(cw_plane_distance(&boundary.plan->node[interface.node].plane, boundary.interfaces.nodes.x[node]), 0,
+                    1e-12);
+      }
+    }
+  }
+  // No region keeps a candidate in the sphere of an interface triangle.
+  for (int r = 0; r < 4; r++) {
+    int32_t count;
+    double(*x)[3];
+    CwLatticeSite *site;
+    Box::check(cw_interface_rule_points(&boundary, r, "box", &count, &x, &site));
+    assert_true(count > 100);
+    for (int t = 0; t < boundary.interfaces.refined.count; t++) {
+      if (boundary.interfaces.refined.region[t][0] != r && boundary.interfaces.refined.region[t][1] != r) continue;
+      const int32_t *node = boundary.interfaces.refined.triangle[t];
+      double u[3], v[3], uu = 0, vv = 0, uv = 0, square = 0, centre[3];
+      for (int k = 0; k < 3; k++) {
+        u[k] = boundary.interfaces.nodes.x[node[1]][k] - boundary.interfaces.nodes.x[node[0]][k];
+        v[k] = boundary.interfaces.nodes.x[node[2]][k] - boundary.interfaces.nodes.x[node[0]][k];
+        uu += u[k] * u[k], vv += v[k] * v[k], uv += u[k] * v[k];
+      }
+      double det = 2 * (uu * vv - uv * uv), p = vv * (uu - uv) / det, q = uu * (vv - uv) / det;
+      for (int k = 0; k < 3; k++) {
+        double d = p * u[k] + q * v[k];
+        centre[k] = boundary.interfaces.nodes.x[node[0]][k] + d;
+        square += d * d;
+      }
+      square = std::fmin(square, std::fmax(std::fmax(uu, vv), uu + vv - 2 * uv)); // a needle's sphere ends
+      for (int i = 0; i < count; i++) {
+        double distance = 0;
+        for (int k = 0; k < 3; k++) distance += (x[i][k] - centre[k]) * (x[i][k] - centre[k]);
+        assert_true(distance > square);
+      }
+    }
+    free(x);
+    free(site);
+  }
+  for (void *bytes : refined) free(bytes);
+}
+
+// Walls, and layers of 1.5 mm on them.
+static void make_layers(Box &box) {
+  CwBoundary &boundary = box.boundary;
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> walls(faces, nullptr);
+  int64_t size;
+  Box::check(cw_boundary_wall_curves(&boundary));
+  for (int f = 0; f < faces; f++) {
+    if (cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
+  }
+  Box::check(cw_boundary_merge_walls(&boundary, walls.data()));
+  Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
+  std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
+  Box::check(cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  for (void *bytes : walls) free(bytes);
+}
+
+// The line of planes 0 and 2 runs a millimetre above a wall, and the layer top there above the line.
+static void layers_that_cross_a_line_are_found(void **) {
+  Box box(3, 0.001);
+  const CwBoundary &boundary = box.boundary;
+  make_layers(box);
+  Box::check(cw_boundary_free_curves(&box.boundary, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
+  assert_near(box.outcome.place[0], 0.021, 1e-9);
+  assert_true(boundary.interfaces.tight_count > 0);
+  for (int i = 0; i < boundary.interfaces.tight_count; i++) {
+    assert_near(boundary.interfaces.tight[i][0], 0.021, 1e-9);
+    assert_true(boundary.interfaces.tight[i][2] < 1.6e-3);
+  }
+}
+
+// A post 2 mm wide, whose round nose is narrower than the edges wanted on it: along its foot and its head the nose gets
+// three edges all the same, and the layers grow around it.
+static void edges_follow_a_narrow_nose(void **) {
+  TopoDS_Shape solid = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(40, 30, 20).Shape(),
+                                       BRepPrimAPI_MakeBox(gp_Pnt(12, 14, 0), 5, 2, 20).Shape());
+  Box box(1, 0.009,
+          BRepAlgoAPI_Cut(solid, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(12, 15, 0), gp_Dir(0, 0, 1)), 1, 20).Shape()));
+  make_layers(box);
+  int noses = 0;
+  for (int i = 0; i < box.boundary.network.curve_count; i++) {
+    const CwCurve &curve = box.boundary.network.curve[i];
+    if (std::fabs(curve.fine_length[curve.fine_count - 1] - 1e-3 * M_PI) > 1e-5) continue;
+    noses++;
+    assert_int_equal(curve.point_count, 4);
+  }
+  assert_int_equal(noses, 2);
+}
+
+// A half-round bay of radius 8 mm at the box and a post in it that leaves 0.24 mm to the wall of the bay. Three edges
+// are wanted along the half circle, whose chords run 1.07 mm inside of it, through the post: they get as many as they
+// need to run outside of it.
+static void edges_keep_apart_in_a_narrow_gap(void **) {
+  TopoDS_Shape bay =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(10, 30, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)), 8, 20, M_PI).Shape();
+  TopoDS_Shape post = BRepPrimAPI_MakeBox(gp_Pnt(9, 32, 0), 2, 5.7, 20).Shape();
+  Box box(1, 0.009, BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), bay).Shape(), post));
+  CwBoundary &boundary = box.boundary;
+  boundary.size_at = [](const void *, const double *) { return 9e-3; };
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> walls(faces, nullptr);
+  int64_t size;
+  Box::check(cw_boundary_wall_curves(&boundary));
+  for (int f = 0; f < faces; f++) {
+    if (cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
+  }
+  Box::check(cw_boundary_merge_walls(&boundary, walls.data()));
+  Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
+  for (void *bytes : walls) free(bytes);
+  int arcs = 0;
+  for (int i = 0; i < boundary.network.curve_count; i++) {
+    const CwCurve &curve = boundary.network.curve[i];
+    if (std::fabs(curve.fine_length[curve.fine_count - 1] - 8e-3 * M_PI) > 1e-5) continue;
+    arcs++;
+    for (int k = 0; k + 1 < curve.point_count; k++) {
+      const double *a = boundary.surface.x[curve.node[k]], *b = boundary.surface.x[curve.node[k + 1]];
+      if ((a[0] < 0.010) == (b[0] < 0.010) && a[0] != 0.010) continue;
+      double s = (0.010 - a[0]) / (b[0] - a[0]); // above the post's middle
+      assert_true(a[1] + s * (b[1] - a[1]) > 0.0377);
+    }
+  }
+  assert_int_equal(arcs, 2);
+}
+
+// All surfaces of the box, as far as the inner ones.
+static void make_surfaces(Box &box) {
+  CwBoundary &boundary = box.boundary;
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> open_patches(faces, nullptr), interfaces;
+  int64_t size;
+  make_layers(box);
+  for (int v = 0; v < boundary.surface.vertex_count;
+       v++) { // corners and edges of a box keep the asked thickness to the walls
+    for (int k = 1; k < 3; k++) {
+      double side = k == 1 ? 0.030 : 0.020, x = boundary.layers.top[v][k];
+      assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
+    }
+  }
+  Box::check(cw_boundary_free_curves(&boundary, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  for (int f = 0; f < faces; f++) {
+    if (!cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
+  }
+  interfaces.resize(boundary.interfaces.outline_count);
+  for (int i = 0; i < boundary.interfaces.outline_count; i++) {
+    Box::check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
+  }
+  Box::check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data()));
+  Box::check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
+  for (void *bytes : open_patches) free(bytes);
+  for (void *bytes : interfaces) free(bytes);
+}
+
+// Regions of the whole box: audited, together as large as the box, with shared points and faces that agree to the last
+// bit.
+static void fill_the_box(int rule) {
+  Box box(3);
+  CwBoundary &boundary = box.boundary;
+  make_surfaces(box);
+  assert_int_equal(boundary.interfaces.outline_count, 6); // four pieces of plane 0, one of each other
+  std::vector<double> first(boundary.surface.vertex_count, 2e-4);
+  int pair_count, colours, number[4];
+  int32_t(*pair)[2];
+  Box::check(cw_boundary_adjacency(&boundary, &pair_count, &pair));
+  assert_int_equal(pair_count, 6); // all four regions touch one another on plane 0
+  Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
+  if (rule) refine_interfaces(boundary, number);
+  Box::check(cw_interfaces_audit(&boundary.interfaces, 4));
+  CwRegionContext context = {};
+  context.boundary = &boundary;
+  context.domain = "box";
+  context.layer_count = 4;
+  std::vector<double> growth(boundary.surface.vertex_count, 1.5);
+  context.growth = growth.data();
+  context.first_height = first.data();
+  Box::check(cw_region_context_make(&context));
+  double volume = 0;
+  uint64_t open_faces = 0;
+  SharedPoints shared;
+  for (int r = 0; r < 4; r++) {
+    CwRegionMesh mesh;
+    CwQuality quality;
+    Box::check(cw_region_build(&context, r, number[r], &mesh));
+    Box::check(cw_audit_region(&mesh, &quality));
+    assert_int_equal(mesh.prism_count % 4, 0);
+    volume += quality.volume;
+    assert_true(quality.open_faces != 0);
+    assert_true(quality.beside.count > 0 && quality.apart.count > 0);
+    assert_int_equal(quality.beside.count + quality.apart.count, mesh.tetrahedron_count);
+    open_faces += quality.open_faces;
+    shared.add(mesh);
+    cw_region_free(&mesh);
+  }
+  assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
+  assert_int_equal(open_faces, 0);
+  shared.check(context.shared_count);
+
+  cw_region_context_free(&context);
+  free(pair);
+}
+
+static void regions_fill_the_box(void **) {
+  fill_the_box(0);
+}
+
+static void regions_fill_the_box_by_the_rule(void **) {
+  fill_the_box(1);
+}
+
+// A column that stands through the plane x = 21 mm: both regions beside it fail, the place and the patch are told, the
+// boundary is kept, and columns there are thinned and no others.
+static void a_crossing_boundary_is_examined(void **) {
+  Box box(1);
+  CwBoundary &boundary = box.boundary;
+  make_surfaces(box);
+  int best = -1;
+  const double from[3] = {0.0195, 0.015, 0.0185}; // on the layer top under the upper side, before the plane
+  for (int v = 0; v < boundary.surface.vertex_count; v++) {
+    if (boundary.interfaces.nodes.on_plane[v]) continue;
+    if (best < 0 || cw_distance(boundary.layers.top[v], from) < cw_distance(boundary.layers.top[best], from)) best = v;
+  }
+  assert_true(cw_distance(boundary.layers.top[best], from) < 2e-3);
+  const double through[3] = {0.0235, 0.015, 0.010};
+  cw_copy(through, boundary.layers.top[best]);
+  cw_copy(through, boundary.interfaces.nodes.x[best]);
+  std::vector<double> first(boundary.surface.vertex_count, 2e-4);
+  CwRegionContext context = {};
+  context.boundary = &boundary;
+  context.domain = "box";
+  context.layer_count = 4;
+  std::vector<double> growth(boundary.surface.vertex_count, 1.5);
+  context.growth = growth.data();
+  context.first_height = first.data();
+  Box::check(cw_region_context_make(&context));
+  CwRegionMesh mesh;
+  assert_int_equal(cw_region_build(&context, 0, 1, &mesh), CW_ERR_MESH);
+  std::string message = cw_fail_message(), path = "failed-box-0001.vtk";
+  CwRegionFailure failure;
+  Box::check(cw_region_failure_examine(&boundary, 0, message.c_str(), path.c_str(), &failure));
+  assert_int_equal(failure.failed, 1);
+  assert_int_equal(failure.everywhere, 0);
+  assert_string_equal(failure.message, message.c_str());
+  assert_true(!strcmp(failure.patch, "side") || !strcmp(failure.patch, "partition plane"));
+  assert_true(cw_distance(failure.at, through) < 0.012);
+
+  // The file: as many points and triangles as the boundary has, all kinds of surface, some crossing.
+  std::ifstream file(path);
+  std::string word;
+  int points = 0, triangles = 0, of_surface[3] = {0, 0, 0}, crossing = 0;
+  while (file >> word && word != "POINTS") {
+  }
+  file >> points;
+  while (file >> word && word != "POLYGONS") {
+  }
+  file >> triangles;
+  while (file >> word && word != "default") {
+  }
+  for (int t = 0, kind; t < triangles; t++) {
+    file >> kind;
+    assert_true(kind >= 0 && kind < 3);
+    of_surface[kind]++;
+  }
+  while (file >> word && word != "default") {
+  }
+  for (int t = 0, one; t < triangles; t++) {
+    assert_true(bool(file >> one));
+    crossing += one;
+  }
+  CwRegionBoundary inner;
+  Box::check(cw_region_boundary_make(&boundary, 0, 0, &inner));
+  assert_int_equal(points, inner.node_count);
+  assert_int_equal(of_surface[0], inner.wall_count);
+  assert_int_equal(of_surface[1], inner.open_patch_count);
+  assert_int_equal(of_surface[2], inner.interface_count);
+  assert_true(crossing >= 2 && crossing < triangles / 4);
+  cw_region_boundary_free(&inner);
+  std::remove(path.c_str());
+
+  std::vector<double> most(boundary.surface.vertex_count, INFINITY);
+  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
+  int thinned = 0;
+  for (int v = 0; v < boundary.surface.vertex_count; v++) {
+    if (cw_distance(boundary.layers.top[v], failure.at) < 4 * 2.5e-3) {
+      assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
+      thinned++;
+    } else {
+      assert_true(std::isinf(most[v]));
+    }
+  }
+  assert_true(thinned > 3 && thinned < boundary.surface.vertex_count / 2);
+  failure.everywhere = 1;
+  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
+  for (int t = 0; t < boundary.surface.triangle_count; t++) {
+    for (int v : boundary.surface.triangle[t]) {
+      if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
+    }
+  }
+  // A sound boundary: no place is known.
+  cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
+  boundary.layers.top[best][2] -= 1.5e-3;
+  cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
+  Box::check(cw_region_failure_examine(&boundary, 0, "none", path.c_str(), &failure));
+  assert_int_equal(failure.everywhere, 1);
+  cw_region_context_free(&context);
+  std::remove(path.c_str());
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(layers_that_cross_a_line_are_found), cmocka_unit_test(network_of_a_box),
+      cmocka_unit_test(curves_lie_on_their_planes),         cmocka_unit_test(edges_follow_a_narrow_nose),
+      cmocka_unit_test(edges_keep_apart_in_a_narrow_gap),   cmocka_unit_test(regions_fill_the_box),
+      cmocka_unit_test(regions_fill_the_box_by_the_rule),   cmocka_unit_test(a_crossing_boundary_is_examined),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

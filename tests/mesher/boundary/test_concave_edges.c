@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Narrow concave edges in the layer top of a flat ring of four equal passages: in each the columns of one edge are much
+// lower than those beside it, which stand so high that only flat tetrahedra fit between.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "flat_ring.h"
+#include "mesher/common/incident.h"
+#include "mesher/layers/prism_quality.h"
+#include "mesher/boundary/concave_edges.h"
+
+static const double HIGH = 5.5e-3, LOW = 0.5e-3;
+
+typedef struct {
+  FlatRing flat;
+  double top[POINTS][3], thickness[POINTS], target[POINTS], least[POINTS];
+  uint8_t reason[POINTS];
+  CwBoundary boundary;
+  CwLayerInput wall;
+} Ring;
+
+// Columns on the ray `i` of each passage are low at the rings 5 and 6, and least ones are `least` of the others.
+static void make_ring(Ring *ring, int i, double low, double least) {
+  FlatRing *flat = &ring->flat;
+  memset(ring, 0, sizeof *ring);
+  flat_ring(flat);
+  memcpy(ring->top, flat->x, sizeof ring->top);
+  for (int32_t v = 0; v < POINTS; v++) {
+    ring->target[v] = ring->thickness[v] = HIGH;
+    ring->least[v] = least * HIGH;
+  }
+  for (int k = 0; k < PASSAGES; k++)
+    for (int j = 5; j <= 6; j++) ring->thickness[ring_point(k * OF_PASSAGE + i, j)] = low;
+  for (int32_t v = 0; v < POINTS; v++) ring->top[v][2] = ring->thickness[v];
+  ring->boundary = (CwBoundary){.surface.vertex_count = POINTS,
+                                .surface.x = flat->x,
+                                .surface.triangle_count = TRIANGLES,
+                                .surface.triangle = flat->triangle,
+                                .surface.source = flat->source,
+                                .layers.top = ring->top,
+                                .layers.thickness = ring->thickness,
+                                .layers.reason = ring->reason,
+                                .images = ring_images(flat)};
+  ring->wall = (CwLayerInput){.point_count = POINTS,
+                              .x = (const double(*)[3])flat->x,
+                              .triangle_count = TRIANGLES,
+                              .triangle = (const int32_t(*)[3])flat->triangle,
+                              .target = ring->target,
+                              .least = ring->least};
+}
+
+static double least_bound(const Ring *ring) {
+  CwIncident around;
+  double least = 90;
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])ring->flat.triangle;
+  assert_int_equal(cw_incident_make(POINTS, TRIANGLES, triangle, &around), CW_OK);
+  for (int32_t t = 0; t < TRIANGLES; t++) {
+    const double(*top)[3] = (const double(*)[3])ring->top;
+    least = fmin(least, cw_layer_top_bound(t, triangle, top, around.start, around.triangle, 90));
+  }
+  cw_incident_free(&around);
+  return least;
+}
+
+static double least_prism(const Ring *ring) {
+  double least = 1;
+  for (int32_t t = 0; t < TRIANGLES; t++) {
+    const int32_t *v = ring->flat.triangle[t];
+    const double *const wall[3] = {ring->flat.x[v[0]], ring->flat.x[v[1]], ring->flat.x[v[2]]};
+    const double *const top[3] = {ring->top[v[0]], ring->top[v[1]], ring->top[v[2]]};
+    least = fmin(least, cw_prism_quality(wall, top));
+  }
+  return least;
+}
+
+// Inside of the passages, and on their seams.
+static void concave_edges_are_opened(void **state) {
+  static Ring ring;
+  for (int i = 0; i < OF_PASSAGE; i += 7) {
+    int32_t opened;
+    make_ring(&ring, i, LOW, 0.5);
+    double before = least_bound(&ring);
+    assert_true(before < CW_NARROW_EDGE);
+    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &opened), CW_OK);
+    print_message("  narrow concave edge on ray %d: %.1f degrees, then %.1f by %d columns; prisms %.2f\n", i, before,
+                  least_bound(&ring), opened, least_prism(&ring));
+    assert_true(least_bound(&ring) >= CW_NARROW_EDGE);
+    assert_true(least_prism(&ring) >= 0.12);
+    assert_in_range(opened, 1, 16);
+    for (int32_t v = 0; v < POINTS; v++) {
+      const double *end = ring.top[v], *next = ring.top[ring.flat.next[v]]; // a quarter of a turn on
+      assert_float_equal(next[0], -end[1], 1e-15);
+      assert_float_equal(next[1], end[0], 1e-15);
+      assert_float_equal(next[2], end[2], 1e-15);
+      assert_float_equal(ring.thickness[v], end[2], 1e-12);
+      assert_true(ring.thickness[v] >= fmin(ring.least[v], LOW));
+      if (fabs(ring.thickness[v] / HIGH - 1) > 0.02 && ring.thickness[v] != LOW)
+        assert_int_equal(ring.reason[v], CW_LAYER_REPAIR);
+    }
+  }
+  (void)state;
+}
+
+// Two things leave all as it is: no narrow concave edge, and one in which something stands.
+static void others_stay(void **state) {
+  static Ring ring, before;
+  for (int open_patch = 0; open_patch < 2; open_patch++) {
+    int32_t opened;
+    make_ring(&ring, 7, open_patch ? LOW : HIGH, 1);
+    const double angle = 2 * M_PI * 7 / AROUND, *a = ring.flat.x[ring_point(7, 5)];
+    double corner[3][3]; // of a plate that stands in the narrow concave edge
+    const int32_t triangle[1][3] = {{0, 1, 2}};
+    for (int k = 0; k < 3; k++) {
+      double out = 0.3e-3 + 0.2e-3 * k;
+      corner[k][0] = a[0] + out * cos(angle);
+      corner[k][1] = a[1] + out * sin(angle);
+      corner[k][2] = LOW + (k == 1 ? 3e-3 : 0.2e-3);
+    }
+    ring.wall.obstacle_point_count = 3;
+    ring.wall.obstacle_x = (const double(*)[3])corner;
+    ring.wall.obstacle_triangle_count = open_patch;
+    ring.wall.obstacle_triangle = triangle;
+    before = ring;
+    assert_true(open_patch ? least_bound(&ring) < CW_NARROW_EDGE : least_bound(&ring) > 40);
+    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &opened), CW_OK);
+    assert_int_equal(opened, 0);
+    assert_memory_equal(ring.top, before.top, sizeof ring.top);
+    assert_memory_equal(ring.thickness, before.thickness, sizeof ring.thickness);
+    assert_memory_equal(ring.reason, before.reason, sizeof ring.reason);
+  }
+  (void)state;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(concave_edges_are_opened), cmocka_unit_test(others_stay)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Upright columns of two layers over the unit square, whose triangles have an area of 1/2 and 2 + sqrt(2) around.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/thickness/even_columns.h"
+#include "mesher/thickness/layer_thickness.h"
+#include "mesher/layers/thin_prism.h"
+
+#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
+
+// First height made of the four columns of so many layers where `asked` is; corners 0 and 2 are on both triangles.
+static void make(int layers, double asked, const double thickness[4], double made[4]) {
+  double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, top[4][3];
+  double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
+  int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
+  CwBoundary boundary = {.surface.vertex_count = 4,
+                         .surface.x = x,
+                         .surface.triangle_count = 2,
+                         .surface.triangle = triangle,
+                         .surface.source = source,
+                         .layers.top = top,
+                         .layers.thickness = own};
+  CwColumnTargets targets = {.layer_count = layers, .first_height = first, .growth = growth};
+  memcpy(own, thickness, sizeof own);
+  memcpy(top, x, sizeof top);
+  for (int v = 0; v < 4; v++) top[v][2] = thickness[v];
+  assert_int_equal(cw_column_targets_even(&targets, &boundary), CW_OK);
+  memcpy(made, targets.first_made, sizeof own);
+  targets.first_height = targets.growth = NULL;
+  cw_column_targets_free(&targets);
+}
+
+static double determinant(double thickness) {
+  const double base[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  const double top[3][3] = {{0, 0, thickness}, {1, 0, thickness}, {1, 1, thickness}};
+  return cw_prism_determinant(base, top, 0);
+}
+
+static void short_ones_until_none_is_small(void **state) {
+  const double short_one = 0.06, start = short_one / (1 + CW_LEAST_GROWTH);
+  double made[4];
+  assert_true(determinant(CW_LEAST_GROWTH * start) < CW_SMALL_DETERMINANT &&
+              determinant(short_one / 2) > CW_SMALL_DETERMINANT);
+  make(2, 0.05, (double[4]){short_one, short_one, short_one, short_one}, made);
+  for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
+  NEAR(made[0], start * pow(0.95, 4));
+  assert_true(determinant(short_one - made[0]) > CW_SMALL_DETERMINANT);
+  assert_true(determinant(short_one - made[0] / 0.95) < 1.05 * CW_SMALL_DETERMINANT);
+}
+
+static void others_stay(void **state) {
+  double made[4];
+  // Layers grow, or shrink and are high enough, or are so thin that even ones are small too.
+  const double all[3] = {0.105, 0.09, 0.04};
+  assert_true(determinant(0.04) > CW_SMALL_DETERMINANT && determinant(0.02) < CW_SMALL_DETERMINANT);
+  for (int i = 0; i < 3; i++) {
+    make(2, 0.05, (double[4]){all[i], all[i], all[i], all[i]}, made);
+    for (int v = 0; v < 4; v++) NEAR(made[v], 0.05);
+  }
+  // A tall column among short ones keeps its first height.
+  make(2, 0.05, (double[4]){0.06, 0.06, 0.06, 0.11}, made);
+  assert_true(made[1] < 0.06 / (1 + CW_LEAST_GROWTH));
+  NEAR(made[3], 0.05);
+}
+
+// Five layers that grow by 1.2, of which the second is the thinnest of the inner ones. With a greater first height it
+// is thicker, and the last one thinner.
+static void growing_ones_within_a_tenth(void **state) {
+  for (int curable = 0; curable < 2; curable++) {
+    double wanted = (curable ? 0.92 : 0.6) * CW_SMALL_DETERMINANT, second = 0.03, made[4], fraction[6];
+    for (int i = 0; i < 20; i++) second *= pow(wanted / determinant(second), 0.25);
+    double asked = second / 1.2, thickness = cw_layer_thickness(asked, 5, 1.2);
+    make(5, asked, (double[4]){thickness, thickness, thickness, thickness}, made);
+    cw_layer_fractions(thickness, made[0], 5, 1.2, fraction);
+    double now = determinant((fraction[2] - fraction[1]) * thickness);
+    print_message("  determinant %.5f, then %.5f with %.2f of the first height\n", wanted, now, made[0] / asked);
+    for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
+    assert_true(curable ? now > CW_SMALL_DETERMINANT : made[0] == asked);
+    assert_true(made[0] <= 1.09 * asked);
+  }
+  (void)state;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small), cmocka_unit_test(others_stay),
+                                     cmocka_unit_test(growing_ones_within_a_tenth)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
