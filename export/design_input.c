@@ -14,7 +14,7 @@ CwStatus cw_design_read(const char *path, CwDesign *design, CwCase *table) {
           {"interface_radius_m", &design->interface_radius},   {"impeller_tip_speed_m_per_s", &design->tip_speed},
           {"relative_speed_m_per_s", &design->relative_speed}, {"volute_speed_m_per_s", &design->volute_speed},
           {"suction_speed_m_per_s", &design->suction_speed},   {"discharge_speed_m_per_s", &design->discharge_speed},
-          {"predicted_head_m", &design->predicted_head},
+          {"predicted_head_m", &design->predicted_head},       {"blade_count", &design->blade_count},
       },
     where_open[] = {
         {"inlet_diameter_m", &table->impeller.inlet_diameter},

@@ -10,6 +10,7 @@ typedef struct {
   double interface_radius;                                                        // m
   double tip_speed, relative_speed, volute_speed, suction_speed, discharge_speed; // m/s
   double predicted_head;                                                          // m
+  double blade_count;                                                             // without splitters
 } CwDesign;
 
 // Reads the design, and fills the impeller's D1, D2 and b2 of the case from it where the case leaves them open. Fails

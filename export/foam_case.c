@@ -44,7 +44,8 @@ typedef struct {
   const CwAssembly *assembly;
   CwTurbulence inlet, inside;
   double flow_rate, outlet_velocity[3]; // m3/s, m/s
-  int moving;                           // transient: the mesh turns
+  int moving;                           // the mesh turns in time
+  int eddies;                           // large eddy simulation: near walls the wall function of all y+
 } Start;
 
 static void put_wall_velocity(FILE *out, const CwMeshPatch *patch, const Start *start) {
@@ -85,7 +86,7 @@ static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *star
   const CwWalls *walls = &start->table->walls;
   if (patch->kind != CW_KIND_WALL)
     fprintf(out, "        type            %s;\n", patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
-  else if (cw_wall_group(walls, patch->name)->y_plus < CW_Y_PLUS_LAMINAR)
+  else if (start->eddies || cw_wall_group(walls, patch->name)->y_plus < CW_Y_PLUS_LAMINAR)
     fprintf(out, "        type            nutUSpaldingWallFunction;\n");
   else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
     fprintf(out,
@@ -209,13 +210,46 @@ done:
   return status;
 }
 
-// The fields at time 0 of a case, steady or transient (start->moving), into the folder `folder`/0.
-static CwStatus write_fields(const char *folder, const Start *start) {
+static int is_blade(const CwMeshPatch *patch) {
+  return patch->kind == CW_KIND_WALL && strncmp(patch->name, "blade", 5) == 0;
+}
+
+// What the large eddy simulation asks beyond the other cases. A phase is a position of the blades to the tongue: it
+// comes again after a pitch, or where a pitch is no whole number of steps, after a turn.
+static CwStatus set_eddy_values(const CwCase *table, const CwDesign *design, const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  const CwMesh *mesh = a->mesh;
+  const double turn = 2 * M_PI, most = M_PI / 180;
+  // As many steps a turn as the case asks, but of one degree at the most.
+  const double steps = round(turn / fmin(table->operating_point.time_step_angle, most));
+  const double pitch = steps / design->blade_count;
+  CW_TRY(cw_values_set(values, "les_step", "%.9g", turn / steps / table->operating_point.speed));
+  CW_TRY(cw_values_set(values, "les_step_deg", "%.9g", 360 / steps));
+  CW_TRY(cw_values_set(values, "turn_time", "%.9g", turn / table->operating_point.speed));
+  CW_TRY(cw_values_set(values, "phase_steps", "%.0f", pitch == floor(pitch) ? pitch : steps));
+  CW_TRY(cw_values_set(values, "les_model", "Smagorinsky"));
+  CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh, &table->walls) ? "vanDriest" : "cubeRootVol"));
+  CW_TRY(cw_patch_names_set(a, is_blade, " ", "blades", values));
+  int tongue = 0;
+  while (tongue < mesh->patch_count && strcmp(mesh->patches[tongue].name, "tongue")) ++tongue;
+  CW_TRY(cw_values_set(values, "tongue_pressure", "%s",
+                       tongue < mesh->patch_count && cw_patch_is_there(a, tongue)
+                           ? "pressure_tongue\n{\n    $pressure_outlet;\n    name            tongue;\n}\n"
+                           : ""));
+done:
+  return status;
+}
+
+// The fields at time 0 of a case into the folder `folder`/`part`/0.
+static CwStatus write_fields(const char *folder, const char *part, const Start *start) {
   CwStatus status = CW_OK;
   char *path = NULL;
-  CW_REQUIRE(asprintf(&path, "%s/0", folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_REQUIRE(asprintf(&path, "%s/%s/0", folder, part) >= 0, CW_ERR_MEMORY, "out of memory");
   CW_TRY(cw_make_directory(path));
-  for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) CW_TRY(write_field(path, (Field)f, start));
+  for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) {
+    int transported = f == FIELD_K || f == FIELD_EPSILON || f == FIELD_OMEGA;
+    if (!start->eddies || !transported) CW_TRY(write_field(path, (Field)f, start));
+  }
 done:
   free(path);
   return status;
@@ -239,7 +273,7 @@ static Start start_at(double flow, const CwCase *table, const CwDesign *design, 
 // A steady case for each point of the curve, points/NAME: fields of its own, all else is that of the operating point.
 static CwStatus write_points(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
   CwStatus status = CW_OK;
-  static const char *const shared[] = {"constant", "system", "Allrun", "Allclean", "summary"};
+  static const char *const shared[] = {"constant", "system", "Allrun", "run_solver.sh", "Allclean", "summary"};
   char *point = NULL, *link = NULL, name[CW_POINT_NAME_SIZE];
   double flows[CW_LIST_MOST];
   const int count = cw_case_flows(table, flows);
@@ -249,7 +283,7 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwDe
     CW_REQUIRE(asprintf(&point, "%s/points/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
     CW_TRY(cw_make_directory(point));
     const Start start = start_at(flows[k], table, design, a);
-    CW_TRY(write_fields(point, &start));
+    CW_TRY(write_fields(point, ".", &start));
     for (size_t i = 0; i < sizeof shared / sizeof *shared; ++i) {
       char target[32];
       snprintf(target, sizeof target, "../../%s", shared[i]);
@@ -267,17 +301,17 @@ done:
 CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  char *transient = NULL;
   Start start = start_at(table->operating_point.flow_rate, table, design, a);
   CW_TRY(set_values(table, a, &values));
+  CW_TRY(set_eddy_values(table, design, a, &values));
   CW_TRY(cw_templates_write("openfoam/", folder, &values));
-  CW_TRY(write_fields(folder, &start));
+  CW_TRY(write_fields(folder, ".", &start));
   start.moving = 1;
-  CW_REQUIRE(asprintf(&transient, "%s/transient", folder) >= 0, CW_ERR_MEMORY, "out of memory");
-  CW_TRY(write_fields(transient, &start));
+  CW_TRY(write_fields(folder, "transient", &start));
+  start.eddies = 1;
+  CW_TRY(write_fields(folder, "les", &start));
   CW_TRY(write_points(folder, table, design, a));
 done:
-  free(transient);
   cw_values_free(&values);
   return status;
 }

@@ -432,9 +432,10 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
-  root = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
+  root = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
                    "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s", 7.0,
-                   "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0);
+                   "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0,
+                   "blade_count", 6.0);
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   failed |= json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);

@@ -65,6 +65,21 @@ static void log_layer_meshes_take_k_epsilon(void **state) {
   expect("openfoam/transient/0/U", "movingWallVelocity");
 }
 
+// One degree a step, six blades: a phase comes again after 60 steps. Larger steps become one degree.
+static void eddies_are_sampled_by_phase(void **state) {
+  (void)state;
+  export_with("");
+  expect("openfoam/les/constant/turbulenceProperties", "delta           cubeRootVol;");
+  expect("openfoam/les/system/controlDict", "deltaT          0.000114942529;");
+  expect("openfoam/les/system/les_functions", "executeInterval 60;");
+  expect("openfoam/les/0/nut", "nutUSpaldingWallFunction");
+  assert_int_not_equal(stage_shell(output, "test -e '%s/run/export/openfoam/les/0/k'", folder), 0);
+  export_with("s/time_step_deg: 1 /time_step_deg: 7 /");
+  expect("openfoam/les/system/controlDict", "deltaT          0.000114942529;");
+  export_with("s/time_step_deg: 1 /time_step_deg: 0.35 /"); // 1029 steps a turn: no whole number a pitch
+  expect("openfoam/les/system/les_functions", "executeInterval 1029;");
+}
+
 // The points of the curve: at 0.8 times the flow k at the inlet is 0.64 of what it is at the flow.
 static void each_point_of_the_curve_has_its_flow(void **state) {
   (void)state;
@@ -98,6 +113,7 @@ static void resolved_walls_take_k_omega(void **state) {
   expect("openfoam/constant/turbulenceProperties", "RASModel        kOmegaSST;");
   expect("openfoam/0/nut", "blade_pressure\n    {\n        type            nutUSpaldingWallFunction;");
   expect("openfoam/0/nut", "volute\n    {\n        type            nutkWallFunction;");
+  expect("openfoam/les/constant/turbulenceProperties", "delta           vanDriest;");
 }
 
 // The block of `file` that begins with `head` and ends with `end`, in `output`.
@@ -193,7 +209,7 @@ static void a_wrong_number_of_ranks_is_told(void **state) {
   export_with("");
   for (int i = 0; i < 2; i++) {
     assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' two", folder, scripts[i]), 1);
-    assert_string_equal(output, "Allrun: RANKS is 'two'; allowed: a number of ranks from 1 on\n");
+    assert_string_equal(output, "Allrun: RANKS is 'two'; allowed: a number from 1 on\n");
     assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' 0", folder, scripts[i]), 1);
   }
 }
@@ -202,6 +218,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_paper_in_cfx),
       cmocka_unit_test(log_layer_meshes_take_k_epsilon),
+      cmocka_unit_test(eddies_are_sampled_by_phase),
       cmocka_unit_test(each_point_of_the_curve_has_its_flow),
       cmocka_unit_test(rough_walls_take_the_roughness),
       cmocka_unit_test(resolved_walls_take_k_omega),

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# Sourced by the Allrun scripts, whose name it tells errors by.
+: "${WM_PROJECT_DIR:=/usr/share/openfoam}"
+export WM_PROJECT_DIR
+# Open MPI: also as root, and with more ranks than cores.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+
+die() {
+    echo "Allrun: $1" >&2
+    exit 1
+}
+
+require_count() { # $1: what it is, $2: its value
+    case $2 in
+    0* | *[!0-9]*) die "$1 is '$2'; allowed: a number from 1 on" ;;
+    esac
+}
+
+logged() { # runs PROGRAM ARGUMENTS..., its words into log.PROGRAM
+    "$@" > "log.$1" 2>&1 || die "$1 failed: see log.$1"
+}
+
+latest() { # the latest time after 0 of the case folder $1 that has fields; nothing without one
+    for folder in "$1"/[0-9]*; do
+        [ -e "$folder/U" ] && [ "${folder##*/}" != 0 ] && echo "${folder##*/}"
+    done | sort -g | tail -n 1
+}
+
+run_solver() { # $1: the solver, $2: ranks
+    if [ "$2" -gt 1 ]; then
+        foamDictionary -entry numberOfSubdomains -set "$2" system/decomposeParDict > /dev/null || exit 1
+        foamDictionary -entry coeffs/n -set "($2 1 1)" system/decomposeParDict > /dev/null || exit 1
+        logged decomposePar -force -latestTime
+        mpirun -n "$2" "$1" -parallel > "log.$1" 2>&1 || die "$1 failed: see log.$1"
+        logged reconstructPar -latestTime
+    else
+        logged "$1"
+    fi
+}

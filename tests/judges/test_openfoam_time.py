@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""The turning rotor in time before OpenFOAM: the transient case from the steady one, and the large eddy simulation from
+that, on a small mesh, for CUTWATER_STEPS steps of one degree each."""
+import cmath
+import math
+import os
+import re
+import struct
+import unittest
+
+from cutwater import done, execute, fresh
+
+STEPS = int(os.environ.get("CUTWATER_STEPS", 4))
+CELLS = 20000
+TURN = 60 / 1450  # s
+BLADES = 6
+
+
+def points(path):
+    """The points of a binary OpenFOAM file."""
+    data = path.read_bytes()
+    start = data.index(b"}")
+    found = re.search(rb"\n(\d+)\s*\(", data[start:])
+    return list(struct.iter_unpack("<3d", data[start + found.end():][:24 * int(found[1])]))
+
+
+def rows(case, name, file):
+    """The rows of numbers of a function object, of all starts."""
+    for path in sorted((case / "postProcessing" / name).glob(f"*/{file}"), key=lambda path: float(path.parent.name)):
+        for line in path.read_text().splitlines():
+            if not line.startswith("#"):
+                yield [float(word) for word in re.sub("[()]", " ", line).split()]
+
+
+class InTime(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        run = fresh(f"openfoam-time-{STEPS}") / "run"
+        for stage in ("geometry", "mesh", "export"):
+            done(cls(), stage, run, cells=CELLS)
+        cls.case = run / "export/openfoam"
+
+    def runTest(self):  # setUpClass needs an instance
+        pass
+
+    def set(self, folder, **entries):
+        for entry, value in entries.items():
+            result = execute(["foamDictionary", "-entry", entry, "-set", value, "system/controlDict"], folder)
+            self.assertEqual(result.returncode, 0, result.stdout)
+
+    def solve(self, folder, *words):
+        """The case's own script; the last line of a run too short for a report is no failure."""
+        result = execute(["./Allrun", 2, *words], folder, timeout=3500)
+        log = (folder / "log.pimpleFoam").read_text()
+        self.assertNotRegex(log, r"\bnan\b|FOAM FATAL|sigFpe::sigHandler", log[-3000:])
+        self.assertTrue(log.rstrip().endswith("Finalising parallel run"), result.stdout + log[-3000:])
+        return result.stdout
+
+    def latest(self, folder):
+        return max((path for path in folder.iterdir() if re.fullmatch(r"[\d.]+(e-?\d+)?", path.name)),
+                   key=lambda path: float(path.name))
+
+    def turned(self, folder):
+        """Degrees that the rotor's first point has turned since the steady case, and those of the last of the stator."""
+        before, now = points(self.case / "constant/polyMesh/points"), points(self.latest(folder) / "polyMesh/points")
+        self.assertEqual(len(before), len(now))
+        return [math.degrees(cmath.phase(complex(*now[k][:2]) / complex(*before[k][:2]))) % 360 for k in (0, -1)]
+
+    def test_1_transient_then_eddies(self):
+        self.set(self.case, endTime=20, writeInterval=20)
+        self.assertIn("head", execute(["./Allrun", 2], self.case).stdout)
+        transient, les = self.case / "transient", self.case / "les"
+        self.set(transient, endTime=STEPS / 360 * TURN, writeInterval=STEPS // 2)
+        self.assertIn("starts from iteration 20 of the steady run", self.solve(transient))
+        self.assertAlmostEqual(float(self.latest(transient).name) / TURN * 360, STEPS, places=3)
+        self.assertAlmostEqual(self.turned(transient)[0], STEPS % 360, places=2)
+        self.assertAlmostEqual(min(self.turned(transient)[1], 360 - self.turned(transient)[1]), 0, places=6)
+        # The eddies go on where the rotor stands, by as many steps, and once more when called again.
+        script = les / "Allrun"
+        script.write_text(re.sub(r"\$turns \* \S+", f"$turns * {STEPS / 360 * TURN:.10g}", script.read_text()))
+        self.set(les, writeInterval=STEPS // 2)
+        for more in (2, 3):
+            self.solve(les, 1)
+            self.assertAlmostEqual(self.turned(les)[0], more * STEPS % 360, places=2)
+        for name in ("UMean", "UPrime2Mean", "pMean", "pPrime2Mean"):
+            self.assertTrue((self.latest(les) / name).exists(), name)
+        # What comes into each zone goes out of it, at every report; between them the interpolation of AMI is not exact.
+        for ends in (("flowInlet", "flowRotorInterface"), ("flowStatorInterface", "flowOutlet")):
+            for (time, into), (_, out) in zip(*(rows(les, name, "surfaceFieldValue.dat") for name in ends)):
+                self.assertAlmostEqual(-into / out, 1, delta=0.002, msg=f"{ends} at {time} s")
+        if STEPS >= 360:
+            self.passes_the_tongue(les)
+
+    def passes_the_tongue(self, les):
+        """Of the parts of the tongue's pressure in the last turn that come once a turn or oftener, the blades' is the
+        greatest, and the phase averages and planes are there."""
+        pressure = [row[1] for row in rows(les, "pressure_tongue", "surfaceFieldValue.dat")][-360:]
+        part = [abs(sum(p * cmath.exp(-2j * math.pi * k * i / 360) for i, p in enumerate(pressure))) for k in range(1, 31)]
+        self.assertEqual(1 + part.index(max(part)), BLADES, part)
+        self.assertTrue((self.latest(les) / "UPhaseMean").exists())
+        planes = list((les / "postProcessing/planes").glob("*/middle.vtp"))
+        planes += list((les / "postProcessing/planes").glob("*/*middle*.vtk"))
+        self.assertGreaterEqual(len(planes), 2 * 360 // (360 // BLADES) - 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
