@@ -51,11 +51,19 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
   SET(shaft_diameter, value, source);
 }
 
+// D3 over D2 at least, where D3 is given and D2 is not; usual are 1.03 to 1.08.
+static const double LEAST_BASE = 1.02;
+
+static double largest_outlet_diameter(const CwCase *table) {
+  return cw_case_given(table->volute.base_diameter) ? table->volute.base_diameter / LEAST_BASE : INFINITY;
+}
+
 static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
   const CwImpellerTable *given = &table->impeller;
   const char *source;
+  const double largest = largest_outlet_diameter(table);
   double value = CORRELATED(CW_CORRELATED_OUTLET_DIAMETER);
-  TAKE(outlet_diameter, given->outlet_diameter, value, source);
+  TAKE(outlet_diameter, given->outlet_diameter, fmin(value, largest), value > largest ? "D3 / 1.02" : source);
   if (cw_case_given(outlet_diameter))
     SET(outlet_diameter, outlet_diameter, "meets the head with the outlet blade angle");
   const double d2 = design->outlet_diameter, nq = design->specific_speed_nq;
@@ -273,22 +281,13 @@ done:
   return status;
 }
 
-// Solves an open D2 for the head, from the correlation's value on. A design by the head keeps the
-// correlation's D2 where the outlet blade angle that it wants is a usual one.
-static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+// Solves an open D2 for the head, from the correlation's value on, with the given outlet blade angle or NAN.
+static CwStatus outlet_diameter_for_head(const CwCase *table, double fixed, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
-  double fixed = NAN;
-  CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
-  if (design->priority == CW_PRIORITY_HEAD) {
-    if (fabs(design->head_residual) < 1e-6 * design->head && design->outlet_blade_angle >= usual_beta[0] &&
-        design->outlet_blade_angle <= usual_beta[1])
-      goto done;
-    fixed = fmin(usual_beta[1], fmax(usual_beta[0], design->outlet_blade_angle));
-  }
+  const double largest = largest_outlet_diameter(table), correlated = design->outlet_diameter;
   // Twice, since the walls are shaped for a diameter that then changes.
-  const double correlated = design->outlet_diameter;
   for (int pass = 0; pass < 2; pass++) {
-    double low = 0.7 * correlated, high = 3 * correlated;
+    double low = 0.7 * correlated, high = fmin(3 * correlated, largest);
     CW_TRY(impeller(table, design->outlet_diameter, fixed, 1, meridian, design));
     for (int i = 0; i < 50; i++) {
       const double middle = 0.5 * (low + high);
@@ -296,7 +295,37 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
       *(design->predicted_head < design->head ? &low : &high) = middle;
     }
   }
-  CW_REQUIRE(fabs(design->head_residual) < 1e-6 * design->head, CW_ERR_DESIGN,
+done:
+  return status;
+}
+
+static int meets_head(const CwDesign *design) {
+  return fabs(design->head_residual) < 1e-6 * design->head;
+}
+
+// A design by the head keeps the correlation's D2 where the outlet blade angle that it wants is a usual one. The
+// largest D2 that a given D3 leaves may take a greater angle.
+static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double largest = largest_outlet_diameter(table);
+  const int by_head = design->priority == CW_PRIORITY_HEAD;
+  double fixed = NAN;
+  CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
+  if (by_head) {
+    if (meets_head(design) && design->outlet_blade_angle >= usual_beta[0] &&
+        design->outlet_blade_angle <= usual_beta[1])
+      goto done;
+    fixed = fmin(usual_beta[1], fmax(usual_beta[0], design->outlet_blade_angle));
+  }
+  CW_TRY(outlet_diameter_for_head(table, fixed, meridian, design));
+  if (by_head && !meets_head(design) && design->outlet_diameter > (1 - 1e-9) * largest)
+    CW_TRY(impeller(table, largest, NAN, 1, meridian, design));
+  CW_REQUIRE(
+      meets_head(design) || design->outlet_diameter < (1 - 1e-9) * largest, CW_ERR_DESIGN,
+      "a head of %.3f m asks for a larger wheel than D2 = %.2f mm, the most that base_diameter_mm leaves (%.3f m "
+      "with beta2 = %.2f deg): raise base_diameter_mm, or change outlet_width_mm or blade_count",
+      design->head, largest * 1e3, design->predicted_head, design->outlet_blade_angle / degree);
+  CW_REQUIRE(meets_head(design), CW_ERR_DESIGN,
              "no outlet diameter from 0.7 to 3 times the correlation's meets the head of %.3f m with beta2 "
              "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",

@@ -22,6 +22,9 @@ static const double SLACK = 1e-9; // of values that went through other units
 // so far that its edge to the flank has a radius of 0.05 mm (0.4 mm with 35); a smaller one sharpens the kink
 // between outer and side walls (105 degrees with 35 and side walls at 20).
 static const double ARC_HALF_ANGLE = 35 * PI / 180;
+// A flatter arc brings the tongue's tip nearer to the base circle. Where the tongue is given and the tip else lies too
+// far out, the arc is flattened in steps, while kink and side wall keep a corner of at least LEAST_CORNER.
+static const double ARC_STEP = 5 * PI / 180, LEAST_ARC = 5 * PI / 180, LEAST_CORNER = 75 * PI / 180;
 // Angle of the kink line to the tongue's flank where the nose begins, by default and at its limits. The
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
@@ -106,11 +109,11 @@ static double gap_of(const CwVolute *volute) {
 // Places the tongue at the default wedge where the spiral's kink lies at `kink_radius`, by moving the law's start.
 static void place_tongue_at(CwVolute *volute, double kink_radius) {
   const double growth = volute->law_end - volute->law_start, step = 1e-4 * base_radius(volute);
-  const double slope = (cw_volute_law(volute, kink_radius + step, ARC_HALF_ANGLE) -
-                        cw_volute_law(volute, kink_radius - step, ARC_HALF_ANGLE)) /
-                       (2 * step);
+  const double arc = volute->arc_half_angle;
+  const double slope =
+      (cw_volute_law(volute, kink_radius + step, arc) - cw_volute_law(volute, kink_radius - step, arc)) / (2 * step);
   const double angle = DEFAULT_WEDGE + atan(growth / (2 * PI) / slope / kink_radius);
-  volute->law_start = cw_volute_law(volute, kink_radius, ARC_HALF_ANGLE) - growth / (2 * PI) * angle;
+  volute->law_start = cw_volute_law(volute, kink_radius, arc) - growth / (2 * PI) * angle;
   volute->law_end = volute->law_start + growth;
   place_tongue(volute, angle);
 }
@@ -164,7 +167,7 @@ static void choose_tongue(CwVolute *volute) {
 
 // Makes the spiral of a law that grows by `growth` in one turn, with its tongue and throat.
 static void close_spiral(CwVolute *volute, double growth) {
-  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), ARC_HALF_ANGLE);
+  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), volute->arc_half_angle);
   volute->law_end = volute->law_start + growth;
   choose_tongue(volute);
   volute->throat_area = throat_sum(volute, CW_AREA_LAW_VELOCITY);
@@ -307,7 +310,7 @@ static CwStatus check_tongue(const CwVolute *volute) {
   if (!isnan(volute->throat_width))
     cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
                          NULL, NULL);
-  CW_REQUIRE(volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
+  CW_REQUIRE(volute->end_half_angle == volute->arc_half_angle || isnan(volute->throat_width) ||
                  corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
              CW_ERR_DESIGN,
              "volute: %s too little side wall at the throat; lower inlet_width_mm or %s, or take section trapezoid%s",
@@ -356,10 +359,26 @@ done:
 // A slim spiral has no room for a circle that touches both side walls: its arc then ends sooner.
 static CwStatus design_circle(CwVolute *volute) {
   const double touching = volute->end_half_angle;
-  for (; volute->end_half_angle > ARC_HALF_ANGLE; volute->end_half_angle -= PI / 18)
+  for (; volute->end_half_angle > volute->arc_half_angle; volute->end_half_angle -= PI / 18)
     if (design_spiral(volute) == CW_OK) return CW_OK;
   volute->end_half_angle = touching;
   return design_spiral(volute);
+}
+
+// Spiral and tongue with this angle of the arc at the tongue.
+static CwStatus design_with_arc(double arc, CwVolute *volute) {
+  volute->arc_half_angle = volute->end_half_angle = arc;
+  const int circle = volute->input.section == CW_SECTION_CIRCLE;
+  if (circle || cw_volute_has_corners(volute)) volute->end_half_angle = 0.5 * PI + volute->input.side_wall_angle;
+  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), arc);
+  return circle ? design_circle(volute) : design_spiral(volute);
+}
+
+// Whether the tip lies farther from the spiral's start than the given tongue does.
+static int tip_is_beyond(const CwVolute *volute) {
+  const CwVoluteInput *in = &volute->input;
+  return (!isnan(in->tongue_gap) && gap_of(volute) > in->tongue_gap) ||
+         (!isnan(in->tongue_angle) && volute->tip_angle > in->tongue_angle);
 }
 
 CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
@@ -368,14 +387,14 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   volute->input = *input;
   if (input->section == CW_SECTION_RECTANGLE) volute->input.side_wall_angle = 0;
   CW_TRY(check_input(&volute->input));
-  volute->arc_half_angle = volute->end_half_angle = ARC_HALF_ANGLE;
-  if (input->section == CW_SECTION_CIRCLE || cw_volute_has_corners(volute))
-    volute->end_half_angle = 0.5 * PI + volute->input.side_wall_angle;
-  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), ARC_HALF_ANGLE);
-  if (input->section == CW_SECTION_CIRCLE)
-    CW_TRY(design_circle(volute));
-  else
-    CW_TRY(design_spiral(volute));
+  const double least = fmax(LEAST_ARC, LEAST_CORNER - 0.5 * PI + volute->input.side_wall_angle);
+  status = design_with_arc(ARC_HALF_ANGLE, volute);
+  for (double arc = ARC_HALF_ANGLE; status == CW_ERR_DESIGN && arc > least + SLACK && tip_is_beyond(volute);) {
+    cw_fail_clear();
+    arc = fmax(least, arc - ARC_STEP);
+    status = design_with_arc(arc, volute);
+  }
+  CW_TRY(status);
 
   double k = volute->arc_half_angle, centre[2], normal[2];
   volute->side_level = cw_volute_section(volute, volute->start_angle).kink_height;

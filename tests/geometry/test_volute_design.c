@@ -308,6 +308,26 @@ static void free_gap(void **state) {
   }
 }
 
+// A tip nearer to the base circle than an arc of 35 degrees leaves it: the arc is as flat as it has to be in steps of 5
+// degrees, and the law keeps its wedge. A gap that 35 degrees reach keeps them.
+static void slim_gap(void **state) {
+  double before = 35 * degree;
+  for (double gap = 4.6 * mm; gap > 2.4 * mm; gap -= 0.3 * mm) {
+    CwVoluteInput input = paper();
+    input.tongue_gap = gap;
+    const CwVolute volute = designed(&input);
+    const CwVoluteSection s = cw_volute_section(&volute, volute.start_angle);
+    near_to(volute.tip_radius - 0.102, gap, 1e-9);
+    near_to(volute.start_angle - atan(s.kink_slope / s.kink_radius), 26 * degree, 1e-6);
+    near_to(volute.throat_area, 905e-6, 1e-12);
+    near_to(remainder(volute.arc_half_angle, 5 * degree), 0, 1e-12);
+    assert_true(volute.arc_half_angle <= before && volute.arc_half_angle >= 5 * degree - 1e-12);
+    before = volute.arc_half_angle;
+    if (gap > 4.5 * mm) assert_true(before == 35 * degree);
+  }
+  assert_true(before < 34 * degree);
+}
+
 // At nq 8 the tongue is a third as thick as the throat is high. By strips of the cut at y = y_t, each passed at K/r,
 // the throat takes at least 0.98 of Q whatever the tongue; a thin tongue leaves the spiral as the law alone makes it.
 static void throat_passes_the_flow(void **state) {
@@ -416,6 +436,7 @@ int main(void) {
       cmocka_unit_test(diffuser),
       cmocka_unit_test(chosen_gap),
       cmocka_unit_test(free_gap),
+      cmocka_unit_test(slim_gap),
       cmocka_unit_test(throat_passes_the_flow),
       cmocka_unit_test(wrong_input),
       cmocka_unit_test(arc_beyond_axis),
