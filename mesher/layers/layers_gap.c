@@ -105,7 +105,7 @@ static int meet(void *context, int32_t f) {
   } else {
     // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
     if (facing < (ray->constrained ? 0.3 : 0.05)) return 0;
-    ray->best = fmin(ray->best, 0.6 * way / ray->stretch);
+    ray->best = fmin(ray->best, CW_OPEN_SHARE * way / ray->stretch);
   }
   return 0;
 }

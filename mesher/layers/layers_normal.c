@@ -4,7 +4,10 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/layers/layers_inner.h"
 
-static const double LEAST_COSINE = 0.05; // of a column to the normals of the faces around
+static const double BENT = 0.98;             // least cosine of the normals about a vertex of a wall as good as flat
+static const double SHARP = 0.92;            // the same of a convex edge that columns need not slide along
+static const double RISE = 0.3, FOLD = 0.75; // of an edge against the normal where the bend is concave
+static const double LEAST_COSINE = 0.05;     // of a column to the normals of the faces around
 
 // What keeps the best candidate direction.
 typedef struct {
@@ -159,14 +162,20 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
              "least %.2f needed): the wall is folded or has an edge too sharp there",
              CW_MM(x), c, LEAST_COSINE);
   made->normal_cos = c;
-  if (c >= 0.92) goto done;
+  if (c >= BENT) goto done;
   double most = -1;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     double e[3];
     cw_sub(in->x[work->near[k]], x, e);
     most = fmax(most, cw_dot(e, g) / cw_norm(e));
   }
-  made->crease = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
+  // At the fold of two planes the edges of the wall rise by the sine of what its normals lean by, and more or less
+  // along it where the fold is no straight one.
+  if (most > fmin(RISE, FOLD * sqrt(1 - c * c))) {
+    made->crease = CW_CREASE_CONCAVE;
+  } else if (c < SHARP) {
+    made->crease = CW_CREASE_CONVEX;
+  }
 done:
   return status;
 }

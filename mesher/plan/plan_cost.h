@@ -15,4 +15,12 @@ double cw_plan_touch_cost(double touch);
 // may be off, for the planes that divide it will not be even either.
 double cw_plan_unevenness(double work, double wanted, int32_t regions);
 
+// What unevenness weighs where planes across the axis are placed: they have one place to choose where others have
+// directions too, and a slice too large is better than a plane along a wall.
+#define CW_PLAN_SLICES 0.33
+
+// What a slice across the axis costs that is larger than wanted. One too small keeps nobody waiting: what it lacks the
+// others have too much, and they are judged themselves.
+double cw_plan_slice_cost(double work, double wanted);
+
 #endif

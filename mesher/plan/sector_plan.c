@@ -17,15 +17,11 @@
 enum {
   AXIS_SAMPLES = 400,
   STATIONS = 80, // places tried for the plane across the axis
+  REFUSED = 2,   // places to either side of one that are refused with it
   STEPS = 36,    // of equal work in a slice, where planes between slices may stand
   WINDOW = 3,    // slices to either side of its even place in which such a plane is looked for
   ANGLES = 120   // places tried for half-planes in one pitch
 };
-// What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a
-// slice too large is better than a plane along a wall.
-static const double UNEVEN = 0.33;
-static const double OFF_MOST = 0.14, OFF_FAR = 100; // but past that share of its work a slice costs so much more
-static const double OFF_COST = 3;                   // at most
 // Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
 enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
 static const double EVEN = 0.15, SHARP = 0.643; // sine of 40 degrees
@@ -40,21 +36,17 @@ typedef struct {
   CwPlan *plan;
   int32_t count;
   int32_t slices_most;
-  double up;              // 1: z grows from pipe to impeller, -1: it falls
-  double low, nose, high; // along up * z: ends of the domain, end of the fluid on the axis, m
-  CwPlanProfile along;    // the domain along up * z
-  Judged judged[ANGLES];  // half-planes, once they were judged
+  double up;                 // 1: z grows from pipe to impeller, -1: it falls
+  double low, nose, high;    // along up * z: ends of the domain, end of the fluid on the axis, m
+  CwPlanProfile along;       // the domain along up * z
+  uint8_t refused[STATIONS]; // places of the plane across the axis before which no half-planes fit
+  int station;               // that of the present one
+  Judged judged[ANGLES];     // half-planes, once they were judged
   int is_judged;
 } Sectors;
 
 static CwPlane across(const Sectors *sectors, double place) {
   return (CwPlane){{0, 0, sectors->up}, place};
-}
-
-// What a slice costs that is so much larger or smaller than wanted.
-static double slice_cost(double work, double wanted) {
-  double far = fmax(0, fabs(work / wanted - 1) - OFF_MOST);
-  return UNEVEN * cw_plan_unevenness(work, wanted, 1) + fmin(OFF_FAR * far, OFF_COST);
 }
 
 // What a plane across the axis costs.
@@ -127,7 +119,7 @@ static CwStatus find_slices(const Sectors *sectors, int32_t slices, double mean,
   CW_NEW(least, (slices + 1) * (steps + 1));
   CW_NEW(place_cost, steps + 1);
   CW_NEW(uneven, steps + 1);
-  for (int32_t s = 1; s <= steps; s++) uneven[s] = slice_cost(all * s / steps, mean);
+  for (int32_t s = 1; s <= steps; s++) uneven[s] = cw_plan_slice_cost(all * s / steps, mean);
   for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(sectors, step_place(sectors, slices, s), &worst);
   for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
   least[0] = 0;
@@ -185,17 +177,17 @@ static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, C
   for (int i = 1; i < STATIONS; i++) {
     double place = sectors->nose + (sectors->high - sectors->nose) * i / STATIONS;
     double before = cw_profile_below(&sectors->along, place), alone = before * (sectors->count - 1) / all;
-    if (!(before > 0 && before < all) || alone >= best) continue;
+    if (!(before > 0 && before < all) || alone >= best || sectors->refused[i]) continue;
     plan->node[0] = (CwPlanNode){across(sectors, place), -1, {-1, 1}};
     alone += judge_across(sectors, place, &plan->worst_angle[0]);
-    if (regions == 0 && alone < best) best = alone, chosen = place;
+    if (regions == 0 && alone < best) best = alone, chosen = place, sectors->station = i;
     double pitch = (all - before) / sectors->count;
     int32_t few = (int32_t)fmax(1, floor(before / pitch * regions));
     for (int32_t count = few; count <= few + 1 && count <= sectors->slices_most && regions && alone < best; count++) {
       double mean = all / (count + sectors->count * regions);
       CW_TRY(place_slices(sectors, count, mean, &cost));
-      cost += alone + UNEVEN * cw_plan_unevenness(pitch, regions * mean, regions);
-      if (cost < best) best = cost, chosen = place, *slices = count;
+      cost += alone + CW_PLAN_SLICES * cw_plan_unevenness(pitch, regions * mean, regions);
+      if (cost < best) best = cost, chosen = place, *slices = count, sectors->station = i;
     }
   }
   CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no plane across the axis fits");
@@ -240,8 +232,8 @@ done:
   return status;
 }
 
-// The half-planes: `wedges` in each pitch, evenly, where they cost least.
-static CwStatus place_sectors(Sectors *sectors, const CwPlanPart *wheel, int wedges, CwOutcome *outcome) {
+// The half-planes: `wedges` in each pitch, evenly, where they cost least. *fits: 0 where there are none.
+static CwStatus place_sectors(Sectors *sectors, const CwPlanPart *wheel, int wedges, int *fits) {
   CwStatus status = CW_OK;
   CwPlan *plan = sectors->plan;
   const Judged *judged = sectors->judged;
@@ -257,7 +249,8 @@ static CwStatus place_sectors(Sectors *sectors, const CwPlanPart *wheel, int wed
     for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
     if (sum < best) best = sum, chosen = start;
   }
-  CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no half-planes fit");
+  *fits = best < INFINITY;
+  if (!*fits) goto done;
   plan->sector_count = wedges * sectors->count;
   plan->sector_turns = sectors->count;
   plan->node_count += plan->sector_count;
@@ -332,6 +325,27 @@ static void make_sum(CwPlan *plan, int32_t first, int32_t end, double wanted) {
   for (int32_t r = first; r < end; r++) plan->predicted_cells[r] *= wanted / sum;
 }
 
+// Refuses the place of the plane across the axis, and those beside it.
+static void refuse_station(Sectors *sectors) {
+  for (int i = 0; i < STATIONS; i++) sectors->refused[i] |= abs(i - sectors->station) <= REFUSED;
+  sectors->is_judged = 0;
+}
+
+// The plane across the axis, and half-planes that fit the part beyond it, `wheel`.
+static CwStatus place_planes(Sectors *sectors, const CwPlanPart *whole, int32_t regions, int wedges, int32_t *slices,
+                             CwPlanPart *wheel, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  for (int fits = 0; !fits;) {
+    CW_TRY_STAGE(place_root(sectors, regions, slices, outcome), outcome);
+    cw_plan_part_free(wheel);
+    CW_TRY(cw_plan_part_clip(sectors->model, whole, &sectors->plan->node[0].plane, 1, wheel));
+    CW_TRY(place_sectors(sectors, wheel, wedges, &fits));
+    if (!fits) refuse_station(sectors);
+  }
+done:
+  return status;
+}
+
 // The plan with so many regions in one pitch.
 static CwStatus divide(Sectors *sectors, CwPlanModel *model, const CwPlanPart *whole, int32_t regions,
                        CwOutcome *outcome) {
@@ -339,10 +353,8 @@ static CwStatus divide(Sectors *sectors, CwPlanModel *model, const CwPlanPart *w
   CwPlanPart wheel = {0};
   int32_t slices;
   int wedges = sectors->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
-  CW_TRY_STAGE(place_root(sectors, regions, &slices, outcome), outcome);
-  CW_TRY(cw_plan_part_clip(model, whole, &sectors->plan->node[0].plane, 1, &wheel));
+  CW_TRY_STAGE(place_planes(sectors, whole, regions, wedges, &slices, &wheel, outcome), outcome);
   model->mean_work = whole->work / (slices + sectors->count * regions);
-  CW_TRY_STAGE(place_sectors(sectors, &wheel, wedges, outcome), outcome);
   CW_TRY(divide_wedges(sectors, &wheel, wedges, wheel.work / sectors->count / regions));
   // The samples of all pitches together tell the work of one better than its own.
   make_sum(sectors->plan, 0, slices, whole->work - wheel.work);
@@ -358,7 +370,8 @@ static double badness(const CwPlan *plan) {
   double sum = 0, most = 0, worst = 1;
   for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
   for (int32_t r = 0; r < plan->region_count; r++) {
-    most = fmax(most, fabs(plan->predicted_cells[r] / sum * plan->region_count - 1));
+    double off = plan->predicted_cells[r] / sum * plan->region_count - 1;
+    most = fmax(most, r < plan->sector_region ? off : fabs(off)); // a small slice keeps nobody waiting
   }
   for (int32_t n = plan->sector_first; n < plan->node_count; n++) worst = fmin(worst, plan->worst_angle[n]);
   return most + (worst < SHARP ? EVEN + SHARP - worst : 0);
@@ -390,7 +403,7 @@ static double pipe_cost(const Sectors *sectors, int32_t slices, double mean) {
   const CwPlan *plan = sectors->plan;
   double off = 0, worst = 1;
   for (int32_t i = 0; i < slices; i++) {
-    off = fmax(off, fabs(plan->predicted_cells[i] / mean - 1));
+    off = fmax(off, plan->predicted_cells[i] / mean - 1);
     worst = fmin(worst, plan->worst_angle[i]);
   }
   return 30 * fmax(0, off - EVEN) + (worst < SHARP ? 4 + 30 * (SHARP - worst) : 0);

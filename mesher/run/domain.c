@@ -177,7 +177,7 @@ void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needi
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *layers = &domain->patch_layers[sample->patch];
-    double room = CW_GAP_SHARE * domain->patch_target[sample->patch].flow.width / cw_model_unit();
+    double room = cw_column_room(&domain->patch_target[sample->patch].flow) / cw_model_unit();
     int fitting = cw_layer_count_fitting(layers->first_height, layers->growth, room);
     int count = cw_layer_count(layers->first_height, layers->growth, scale * sample->size);
     needing[(int)fmax(fmin(count, fitting), CW_LAYERS_LEAST)] += sample->density * sample->size;

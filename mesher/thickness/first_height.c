@@ -7,8 +7,13 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thickness_gradation.h"
 
-double cw_first_height_fitting(double width, int layer_count) {
-  return CW_GAP_SHARE * width / (CW_EVEN_LAYERS * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
+double cw_column_room(const CwWallFlow *flow) {
+  double across = CW_GAP_SHARE * flow->width;
+  return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
+}
+
+double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
+  return cw_column_room(flow) / (CW_EVEN_LAYERS * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
@@ -17,7 +22,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
   double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
-  double fitting = cw_first_height_fitting(flow->width, walls->layer_count);
+  double fitting = cw_first_height_fitting(flow, walls->layer_count);
   CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
   if (cw_case_given(group->first_height)) {
     first.asked = group->first_height;
@@ -26,6 +31,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   } else {
     double roomy = CW_GAP_SHARE * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, CW_GROWTH_AUTO);
     first.asked = fmin(unit * y_plus_auto, roomy);
+    if (flow->before > 0) first.asked = fmin(first.asked, fitting);
     first.source = CW_FIRST_AUTO;
   }
   int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;

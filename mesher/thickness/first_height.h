@@ -29,6 +29,7 @@ typedef struct {
   double length;   // along which the boundary layer grows, m
   double diameter; // hydraulic, of the passage, m
   double width;    // from wall to wall, where the passage is narrowest, m
+  double before;   // way to an open patch that the wall looks at, m; 0: none
 } CwWallFlow;
 
 typedef enum {
@@ -46,12 +47,14 @@ typedef struct {
   CwFirstSource source;
 } CwFirstHeight;
 
-// The greatest first height that fits a passage of the width `width`: `layer_count` even layers, on both walls, in the
-// share of it that columns may take. 0 layers: CW_LAYERS_LEAST.
-double cw_first_height_fitting(double width, int layer_count);
+// How tall columns may become, m: their share of the passage, or of the way to an open patch.
+double cw_column_room(const CwWallFlow *flow);
+
+// The greatest first height of which `layer_count` even layers fit that. 0 layers: CW_LAYERS_LEAST.
+double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
 
 // y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as
-// CW_LAYER_COUNT_USUAL layers that grow by CW_GROWTH_AUTO fit the passage.
+// CW_LAYER_COUNT_USUAL layers that grow by CW_GROWTH_AUTO fit the passage, and even ones before an open patch.
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
                                      double y_plus_auto);
 

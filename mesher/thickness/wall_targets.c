@@ -16,7 +16,8 @@ static const double BLADE_LENGTH = 1.2, VOLUTE_LENGTH = 3, PIPE_LENGTH = 3;
 // Of design.json, SI.
 typedef struct {
   double relative_speed, volute_speed, suction_speed, throat_speed, discharge_speed;
-  double interface_radius, outlet_width, outlet_throat, inlet_width, inlet_throat, volute_width, throat_area;
+  double interface_radius, impeller_diameter, outlet_width, outlet_throat, inlet_width, inlet_throat, volute_width,
+      throat_area;
   double eye_diameter, shaft_diameter, discharge_diameter;
 } Design;
 
@@ -33,6 +34,7 @@ static CwStatus read_design(const char *path, Design *design) {
                 {"throat_speed_m_per_s", &design->throat_speed},
                 {"discharge_speed_m_per_s", &design->discharge_speed},
                 {"interface_radius_m", &design->interface_radius},
+                {"outlet_diameter_m", &design->impeller_diameter},
                 {"outlet_width_m", &design->outlet_width},
                 {"outlet_throat_width_m", &design->outlet_throat},
                 {"inlet_passage_width_m", &design->inlet_width},
@@ -57,20 +59,23 @@ CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
   double narrow = fmin(fmin(of.outlet_width, of.outlet_throat), fmin(of.inlet_width, of.inlet_throat));
   double throat = sqrt(4 * of.throat_area / M_PI), pipe = of.eye_diameter - of.shaft_diameter;
   // Between two blades: four times the section over its outline.
-  scales->blade = (CwWallFlow){of.relative_speed, BLADE_LENGTH * of.interface_radius,
-                               2 * of.outlet_width * of.outlet_throat / (of.outlet_width + of.outlet_throat), narrow};
+  scales->blade =
+      (CwWallFlow){of.relative_speed, BLADE_LENGTH * of.interface_radius,
+                   2 * of.outlet_width * of.outlet_throat / (of.outlet_width + of.outlet_throat), narrow, 0};
   scales->volute =
-      (CwWallFlow){of.volute_speed, VOLUTE_LENGTH * of.interface_radius, throat, fmin(of.volute_width, throat)};
+      (CwWallFlow){of.volute_speed, VOLUTE_LENGTH * of.interface_radius, throat, fmin(of.volute_width, throat), 0};
+  scales->trailing_edge = scales->blade;
+  scales->trailing_edge.before = of.interface_radius - of.impeller_diameter / 2;
   scales->neck = scales->volute;
   scales->neck.width = fmin(of.outlet_width, throat);
   // A shaft leaves a ring, half as wide.
-  scales->suction =
-      (CwWallFlow){of.suction_speed, PIPE_LENGTH * of.interface_radius, pipe, of.shaft_diameter > 0 ? pipe / 2 : pipe};
+  scales->suction = (CwWallFlow){of.suction_speed, PIPE_LENGTH * of.interface_radius, pipe,
+                                 of.shaft_diameter > 0 ? pipe / 2 : pipe, 0};
   // The diffuser widens like a cone, from throat to discharge: along it the mean of Q / (pi r^2) is Q / (pi r0 r1).
   scales->diffuser = (CwWallFlow){sqrt(of.throat_speed * of.discharge_speed), PIPE_LENGTH * of.interface_radius,
-                                  sqrt(throat * of.discharge_diameter), fmin(throat, of.discharge_diameter)};
-  scales->discharge =
-      (CwWallFlow){of.discharge_speed, PIPE_LENGTH * of.interface_radius, of.discharge_diameter, of.discharge_diameter};
+                                  sqrt(throat * of.discharge_diameter), fmin(throat, of.discharge_diameter), 0};
+  scales->discharge = (CwWallFlow){of.discharge_speed, PIPE_LENGTH * of.interface_radius, of.discharge_diameter,
+                                   of.discharge_diameter, 0};
 done:
   return status;
 }
@@ -110,7 +115,8 @@ void cw_patch_targets(const CwCad *cad, const CwCase *table, const CwFlowScales 
     CwPatchKind kind = cw_cad_patch_kind(cad, p);
     CwPatchTarget of = {.relative_size = mesh->size_volute, .flow = scales->volute};
     if (starts_with(name, "blade")) {
-      of.relative_size = mesh->size_blade, of.flow = scales->blade;
+      of.relative_size = mesh->size_blade;
+      of.flow = !strcmp(name, "blade_trailing_edge") ? scales->trailing_edge : scales->blade;
     } else if (starts_with(name, "hub") || starts_with(name, "shroud")) {
       of.relative_size = mesh->size_hub_shroud, of.flow = scales->blade;
     } else if (is_one_of(name, pipe_interfaces)) {

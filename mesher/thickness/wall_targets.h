@@ -17,7 +17,8 @@ typedef struct {
 
 // The flow along the walls, from geometry/design.json.
 typedef struct {
-  CwWallFlow blade; // blades, hub and shroud: the mean along the blade, in the passage between two blades
+  CwWallFlow blade;         // blades, hub and shroud: the mean along the blade, in the passage between two blades
+  CwWallFlow trailing_edge; // of the blades, before the interface
   CwWallFlow neck, volute, suction, diffuser, discharge;
 } CwFlowScales;
 

@@ -30,6 +30,44 @@ static void most_normal_by_hand(void **state) {
   assert_true(cw_layers_most_normal(2, shut, 0, none, g) < 1e-15);
 }
 
+// The fold of two planes over x = 0 that both rise (or fall) by an angle from it: columns fan out from a concave one,
+// unless it is nearly flat; a convex one is an edge where it is sharper.
+static void folds_by_hand(void **state) {
+  const struct {
+    double degrees;
+    CwCrease crease;
+  } wanted[] = {{8, CW_CREASE_NONE},  {14, CW_CREASE_CONCAVE}, {20, CW_CREASE_CONCAVE}, {45, CW_CREASE_CONCAVE},
+                {-8, CW_CREASE_NONE}, {-20, CW_CREASE_NONE},   {-26, CW_CREASE_CONVEX}, {-45, CW_CREASE_CONVEX}};
+  for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+    double slope = tan(wanted[i].degrees * M_PI / 180), x[9][3], target[9];
+    int32_t triangle[8][3];
+    for (int v = 0; v < 9; v++) {
+      x[v][0] = v % 3 - 1, x[v][1] = v / 3, x[v][2] = slope * fabs(x[v][0]);
+      target[v] = 0.1;
+    }
+    for (int t = 0; t < 8; t++) { // the fluid lies above
+      int32_t a = t / 4 * 3 + t / 2 % 2;
+      triangle[t][0] = a, triangle[t][1] = t % 2 ? a + 4 : a + 3, triangle[t][2] = t % 2 ? a + 1 : a + 4;
+    }
+    CwLayerInput in = {.point_count = 9,
+                       .x = (const double(*)[3])x,
+                       .triangle_count = 8,
+                       .triangle = (const int32_t(*)[3])triangle,
+                       .target = target};
+    CwLayerWork work = {0};
+    CwOutcome outcome = {0};
+    assert_int_equal(cw_layers_topology(&in, &work), CW_OK);
+    assert_int_equal(cw_layers_normals(&work, &outcome), CW_OK);
+    for (int v = 1; v < 9; v += 3) {
+      assert_int_equal(work.crease[v], wanted[i].crease);
+      assert_float_equal(fabs(work.normal[v][2]), 1, 1e-12);
+      if (wanted[i].crease != CW_CREASE_NONE) assert_float_equal(fabs(work.along[v][1]), 1, 1e-12);
+    }
+    for (int v = 0; v < 9; v += 3) assert_int_equal(work.crease[v], CW_CREASE_NONE);
+    cw_layers_work_free(&work);
+  }
+}
+
 static int oblique_plane(const void *context, const double x[3], double normal[2][3]) {
   double tangent = *(const double *)context, c = 1 / sqrt(1 + tangent * tangent);
   if (fabs(x[0] - tangent * (x[2] - 0.005) - 0.01) > 1e-9) return 0;
@@ -140,9 +178,8 @@ static void constraint_along_wall(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(most_normal_by_hand),
-      cmocka_unit_test(plane_through_box),
-      cmocka_unit_test(slanted_open_patches),
+      cmocka_unit_test(most_normal_by_hand),   cmocka_unit_test(folds_by_hand),
+      cmocka_unit_test(plane_through_box),     cmocka_unit_test(slanted_open_patches),
       cmocka_unit_test(constraint_along_wall),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

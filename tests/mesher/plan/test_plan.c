@@ -138,7 +138,8 @@ static Figures figures_of(const CwPlan *plan) {
     double share = plan->predicted_cells[r] / sum * plan->region_count;
     figures.least = fmin(figures.least, share);
     figures.greatest = fmax(figures.greatest, share);
-    figures.off += fabs(share - 1) > 0.15;
+    // A slice before the sectors may be small.
+    figures.off += plan->sector_count > 0 && r < plan->sector_region ? share > 1.15 : fabs(share - 1) > 0.15;
   }
   for (int32_t n = 0; n < plan->node_count; n++) {
     double angle = asin(plan->worst_angle[n]) * 180 / M_PI;

@@ -30,10 +30,20 @@ static void uneven_work_costs(void **) {
   assert_near(cw_plan_unevenness(1.2, 1, 1), 6 * 0.2 + 60 * 0.1 + 60 * 0.06, 1e-9);
 }
 
+// The slice before the impeller may be as small as it likes: then its plane can stand before the blades. 0.33 of
+// 6 x 0.1 past the wanted work; past 0.14 so much more, and at most 3.
+static void only_large_slices_cost(void **) {
+  for (double work : {1e-3, 0.5, 0.9, 1.0}) assert_near(cw_plan_slice_cost(2 * work, 2), 0, 0);
+  assert_near(cw_plan_slice_cost(2.2, 2), 0.33 * 6 * 0.1, 1e-9);
+  assert_near(cw_plan_slice_cost(1.15, 1), 0.33 * cw_plan_unevenness(1.15, 1, 1) + 1, 1e-9);
+  assert_near(cw_plan_slice_cost(1.5, 1), 0.33 * cw_plan_unevenness(1.5, 1, 1) + 3, 1e-9);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(walls_cut_sharply_and_edges_cost),
       cmocka_unit_test(uneven_work_costs),
+      cmocka_unit_test(only_large_slices_cost),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -69,6 +69,25 @@ static void what_does_not_fit_becomes_what_fits(void **state) {
   assert_int_equal(choose(&table, 30).source, CW_FIRST_ASKED);
 }
 
+// A trailing edge 0.2 mm before the interface: three even layers in 0.6 of that.
+static void an_open_face_before_the_wall_leaves_less_room(void **state) {
+  CwCase table = water();
+  CwWallFlow flow = FLOW;
+  flow.before = 0.0002;
+  NEAR(cw_column_room(&FLOW), 0.35 * 0.008);
+  NEAR(cw_column_room(&flow), 0.6 * 0.0002);
+  CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300);
+  NEAR(first.height, 0.6 * 0.0002 / (3 * 1.05));
+  assert_int_equal(first.source, CW_FIRST_AUTO);
+  table.walls.layer_count = 4;
+  table.walls.blade.y_plus = 30; // 0.07 mm
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300);
+  NEAR(first.height, 0.6 * 0.0002 / (4 * 1.05));
+  assert_int_equal(first.source, CW_FIRST_FITTED);
+  flow.before = 0.01; // farther than the other wall
+  NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300).height, 30 * UNIT);
+}
+
 static void laminar_flow_takes_a_share_of_the_passage(void **state) {
   CwCase table = water();
   table.fluid.kinematic_viscosity = 0.1 / 2299; // Re 2299
@@ -96,7 +115,7 @@ static void random_passages(void **state) {
   for (int i = 0; i < 10000; i++) {
     CwCase table = water();
     double width = pow(10, 4.0 * rand() / RAND_MAX - 4);
-    CwWallFlow flow = {0.1 + 30.0 * rand() / RAND_MAX, 10 * width, 1.5 * width, width};
+    CwWallFlow flow = {0.1 + 30.0 * rand() / RAND_MAX, 10 * width, 1.5 * width, width, 0};
     table.fluid.kinematic_viscosity = pow(10, 4.0 * rand() / RAND_MAX - 7);
     table.walls.layer_count = rand() % 41;
     if (rand() % 2) table.walls.blade.y_plus = pow(10, 4.0 * rand() / RAND_MAX - 1);
@@ -109,9 +128,11 @@ static void random_passages(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(asked_by_y_plus_or_height), cmocka_unit_test(open_ones_lie_in_the_log_layer),
-      cmocka_unit_test(what_does_not_fit_becomes_what_fits),
-      cmocka_unit_test(laminar_flow_takes_a_share_of_the_passage), cmocka_unit_test(random_passages)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(asked_by_y_plus_or_height),
+                                     cmocka_unit_test(open_ones_lie_in_the_log_layer),
+                                     cmocka_unit_test(what_does_not_fit_becomes_what_fits),
+                                     cmocka_unit_test(an_open_face_before_the_wall_leaves_less_room),
+                                     cmocka_unit_test(laminar_flow_takes_a_share_of_the_passage),
+                                     cmocka_unit_test(random_passages)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

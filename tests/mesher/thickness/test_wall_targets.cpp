@@ -74,6 +74,27 @@ static std::string volute_or_diffuser(const TopoDS_Face &face) {
   return next++ % 2 ? "diffuser,wall" : "volute,wall";
 }
 
+static std::string blade_or_its_end(const TopoDS_Face &face) {
+  static int next = 0;
+  return next++ % 2 ? "blade_trailing_edge,wall" : "blade_pressure,wall";
+}
+
+// It alone looks at the interface.
+static void the_trailing_edge_of_a_blade(void **state) {
+  CwCase table = water();
+  CwFlowScales scales = {};
+  scales.blade.speed = 1, scales.trailing_edge.speed = 1, scales.trailing_edge.before = 3;
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape(), blade_or_its_end);
+  CwPatchTarget target[2];
+  assert_int_equal(cw_cad_patch_count(cad), 2);
+  cw_patch_targets(cad, &table, &scales, target);
+  int end = std::strcmp(cw_cad_patch_name(cad, 1), "blade_trailing_edge") == 0;
+  assert_near(target[end].flow.before, 3, 0);
+  assert_near(target[!end].flow.before, 0, 0);
+  assert_near(target[end].relative_size, target[!end].relative_size, 0);
+  cw_cad_close(&cad);
+}
+
 static void the_volute_and_its_diffuser(void **state) {
   CwCase table = water();
   CwFlowScales scales = {};
@@ -105,7 +126,8 @@ static CwStatus read_scales(const char *text, CwFlowScales *scales) {
   "\"throat_speed_m_per_s\": 12, \"discharge_speed_m_per_s\": 3, \"interface_radius_m\": 0.1,"                         \
   "\"outlet_width_m\": 0.01, \"outlet_throat_width_m\": 0.03, \"inlet_passage_width_m\": 0.02,"                        \
   "\"inlet_throat_width_m\": 0.008, \"inlet_width_m\": 0.015, \"throat_area_m2\": 3.14159265358979e-4,"                \
-  "\"inlet_diameter_m\": 0.07, \"discharge_diameter_m\": 0.04, \"through_shaft_diameter_m\": " shaft "}"
+  "\"inlet_diameter_m\": 0.07, \"outlet_diameter_m\": 0.196, \"discharge_diameter_m\": 0.04, "                         \
+  "\"through_shaft_diameter_m\": " shaft "}"
 
 static void scales_of_the_design(void **state) {
   CwFlowScales scales;
@@ -114,6 +136,9 @@ static void scales_of_the_design(void **state) {
   assert_near(scales.blade.length, 0.12, 1e-15);
   assert_near(scales.blade.diameter, 0.015, 1e-15); // four times 10 x 30 over 80
   assert_near(scales.blade.width, 0.008, 0);
+  assert_near(scales.blade.before, 0, 0);
+  assert_near(scales.trailing_edge.width, 0.008, 0);
+  assert_near(scales.trailing_edge.before, 0.002, 1e-15); // from 98 to 100 mm
   assert_near(scales.volute.speed, 6, 0);
   assert_near(scales.volute.length, 0.3, 1e-15);
   assert_near(scales.volute.diameter, 0.02, 1e-15); // a throat as large as a circle of 20 mm
@@ -137,6 +162,7 @@ static void scales_of_the_design(void **state) {
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_a_group_gives_goes_first), cmocka_unit_test(each_patch_has_its_group),
-      cmocka_unit_test(the_volute_and_its_diffuser), cmocka_unit_test(scales_of_the_design)};
+      cmocka_unit_test(the_volute_and_its_diffuser), cmocka_unit_test(the_trailing_edge_of_a_blade),
+      cmocka_unit_test(scales_of_the_design)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
