@@ -24,7 +24,11 @@ CwStatus cw_cgns_write_shared(hid_t file, const CwAssembly *assembly);
 // Writes the own points, cells and boundary faces of a region. `data` is that region.
 CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *assembly, int region, const CwRegionData *data);
 
-// Collective.
+// Closes it; collective for an opened one. CW_ERR_IO.
 CwStatus cw_cgns_close(hid_t file);
+
+// Whether a file could not be closed on this rank. HDF5 then ends in a segmentation fault within MPI_Finalize: the
+// process has to end without it.
+int cw_cgns_stuck(void);
 
 #endif

@@ -234,6 +234,10 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d));
 done:
   if (base >= 0) H5Gclose(base);
-  if (file >= 0 && H5Fclose(file) < 0 && status == CW_OK) status = CW_FAIL(CW_ERR_IO, "%s: cannot be written", path);
+  if (status == CW_ERR_IO) status = CW_FAIL(status, "%s: %s (is the disk full?)", path, cw_fail_message());
+  if (file >= 0) {
+    CwStatus closed = cw_cgns_close(file);
+    if (status == CW_OK) status = closed;
+  }
   return status;
 }
