@@ -19,10 +19,10 @@ CwPolicy cw_policy = {
 typedef struct {
   const char *name;
   size_t offset;
-  int is_double; // else int32_t
+  int is_double; // else int64_t
 } Number;
 
-#define IS_DOUBLE(type) _Generic((type)0, double : 1, int32_t : 0)
+#define IS_DOUBLE(type) _Generic((type)0, double : 1, int64_t : 0)
 #define NUMBER(type, name, value, off, unit, meaning) {#name, offsetof(CwPolicy, name), IS_DOUBLE(type)},
 static const Number number[] = {
 #include "mesher/policy_table.h"
@@ -49,13 +49,13 @@ CwStatus cw_policy_read(FILE *file, const char *path, CwPolicy *policy) {
     CW_REQUIRE(one, CW_ERR_INPUT, "%s:%d: there is no number `%s`; the first one is `%s`", path, at, name,
                number[0].name);
     double read = strtod(value, &end);
-    CW_REQUIRE(!*end && read == read && (one->is_double || read == (double)(int32_t)read), CW_ERR_INPUT,
+    CW_REQUIRE(!*end && read == read && (one->is_double || read == (double)(int64_t)read), CW_ERR_INPUT,
                "%s:%d: `%s` is not a %s for `%s`", path, at, value, one->is_double ? "number" : "whole number", name);
     char *field = (char *)policy + one->offset;
     if (one->is_double)
       memcpy(field, &read, sizeof read);
     else
-      memcpy(field, &(int32_t){(int32_t)read}, sizeof(int32_t));
+      memcpy(field, &(int64_t){(int64_t)read}, sizeof(int64_t));
   }
 done:
   return status;

@@ -14,7 +14,7 @@
 #include "mesher/fill/offset_points.h"
 #include "mesher/policy.h"
 
-enum { DEPTH = 19 };
+enum { DEPTH = 19, COARSE = 2 }; // levels of the octree; lattice cells along one with a list of its own
 
 // A box in finest cells of the octree, both ends in it: 20 bits an axis, and a guard over each, so that one subtraction
 // compares all three.
@@ -88,7 +88,7 @@ static Box pack_box(const Tree *tree, const CwReachBox *box) {
 static Box reach_of_offset(const Tree *tree, int32_t p) {
   const CwOffsetPoint *place = &tree->items.offset[p];
   CwReachBox box =
-      cw_reach_box(place->x, fmax(cw_policy.offset_apart, cw_policy.offset_clear) * place->spacing);
+      cw_reach_box(place->x, cw_policy.offset_apart * place->spacing);
   return pack_box(tree, &box);
 }
 
@@ -146,18 +146,16 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
   const CwFillInput *input = tree->input;
   const int32_t *list = tree->list.item + reached->list;
   uint64_t place = pack(tree, x[0], x[1], x[2]);
-  double apart = is_offset ? cw_policy.offset_apart : cw_policy.offset_clear;
   int32_t near = find_near(tree, list + reached->triangles, reached->count - reached->triangles, place);
   for (int32_t k = 0; k < near; k++) {
     const CwOffsetPoint *point = &tree->items.offset[tree->items.near[k] - input->triangle_count];
-    double nearest = apart * point->spacing;
+    double nearest = cw_policy.offset_apart * point->spacing;
     if (distance_square(x, point->x) < nearest * nearest) return 1;
   }
   near = find_near(tree, list, reached->triangles, place);
   int32_t first_open = input->triangle_count - input->open_count;
-  for (int32_t k = 0; k < near && (is_offset || tree->items.near[k] < first_open); k++) {
-    double share = is_offset && tree->items.near[k] < first_open ? cw_policy.offset_ball : 1.0;
-    if (cw_reach_in_ball(&tree->items.ball[tree->items.near[k]], share, x)) return 1;
+  for (int32_t k = 0; k < near && !is_offset && tree->items.near[k] < first_open; k++) {
+    if (cw_reach_in_ball(&tree->items.ball[tree->items.near[k]], x)) return 1;
   }
   double h = near ? tree->clearance * size_at(input, x) : 0.0;
   for (int32_t k = 0; k < near; k++) {
@@ -266,7 +264,7 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
   int inside;
   centre_of(tree, at, level, centre);
   CW_TRY(cw_lattice_size(tree->input, centre, &size));
-  if (list_count == 0 || level == 0 || edge <= cw_policy.coarse_cell * CW_LATTICE_CONSTANT * size) {
+  if (list_count == 0 || level == 0 || edge <= COARSE * CW_LATTICE_CONSTANT * size) {
     CW_TRY(test_inside(tree, centre, &inside));
     if (list_count || inside) CW_TRY(add_cell(tree, at, level, list, list_count, inside));
     goto done;

@@ -33,9 +33,9 @@ static inline int cw_reach_holds(const CwReachBox *box, const float p[3]) {
 int cw_reach_is_near(const double a[3], const double b[3], const double c[3], const CwReachBall *ball, double h,
                      double clearance, const double x[3]);
 // Whether it is in the sphere, whose radius has its square times `share`, 1 at most.
-static inline int cw_reach_in_ball(const CwReachBall *ball, double share, const double x[3]) {
+static inline int cw_reach_in_ball(const CwReachBall *ball, const double x[3]) {
   double u = x[0] - ball->centre[0], v = x[1] - ball->centre[1], w = x[2] - ball->centre[2];
-  return u * u + v * v + w * w < share * ball->square;
+  return u * u + v * v + w * w < ball->square;
 }
 
 #ifdef __cplusplus

@@ -232,16 +232,6 @@ done:
   return status;
 }
 
-CwStatus cw_fill_on_planes(const CwFillInput *input, int32_t count, uint8_t **on_plane) {
-  CwStatus status = CW_OK;
-  CW_NEW(*on_plane, count);
-  for (int32_t t = input->triangle_count - input->interface_count; t < input->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) (*on_plane)[input->triangle[t][k]] = 1;
-  }
-done:
-  return status;
-}
-
 CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   int32_t(*neighbour)[4] = NULL, *queue = NULL, *renumber = NULL;

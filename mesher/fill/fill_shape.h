@@ -19,10 +19,6 @@ CwStatus cw_fill_check_closed(const CwFillInput *input);
 // face.
 CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill);
 
-// Of the first `count` points of a mesh, those of the boundary before others: 1 where it lies on a partition plane.
-// Caller frees *on_plane.
-CwStatus cw_fill_on_planes(const CwFillInput *input, int32_t count, uint8_t **on_plane);
-
 // Neighbours of tetrahedra: neighbour[t][i] = 4 * other + its face at the face opposite corner i of t, -1
 // where there is none. Fails with CW_ERR_MESH where a face has more than two.
 CwStatus cw_tet_neighbours(int32_t point_count, int32_t tetrahedron_count, const int32_t (*tetrahedron)[4],

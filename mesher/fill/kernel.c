@@ -174,7 +174,6 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   CwFacets facets = {0};
   CwTetChanges changes;
   CwFillRecovery recovery = {0};
-  uint8_t *on_plane = NULL;
   int32_t count = 0;
   memset(fill, 0, sizeof *fill);
   *outcome = CW_KERNEL_NOT_RECOVERED;
@@ -189,19 +188,16 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   CW_TRY(keep_inside(input, &facets, &mesh));
   cw_facets_free(&facets);
   give_back();
-  CW_TRY(cw_fill_on_planes(input, core.fixed_count, &on_plane));
-  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &changes));
+  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &changes));
   CW_TRY(cw_fill_from_mesh(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
   *outcome = CW_KERNEL_FILLED;
   cw_log_debug("%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
-               "removed, %d added, least "
-               "sine %.3g to %.3g",
+               "added, least sine %.3g to %.3g",
                input->name, fill->tetrahedron_count, core.tet_count, changes.edges_removed, changes.faces_removed,
-               changes.points_moved, changes.points_removed, changes.points_added, changes.least_before,
+               changes.points_moved, changes.points_added, changes.least_before,
                changes.least_after);
 done:
-  free(on_plane);
   cw_facets_free(&facets);
   cw_kernel_core_free(&core);
   cw_tet_mesh_free(&mesh);

@@ -157,7 +157,7 @@ static CwStatus recover_edge(Recovery *r, int32_t a, int32_t b, int *found) {
   r->flips.crossing = face_crosses_edge;
   r->flips.slack = 0;
   for (int stuck = 0; stuck < cw_policy.recover_tries; stuck++) {
-    for (int held = 0, moved = 1; held < cw_policy.recover_hold && moved; held += moved == 1) {
+    for (int held = 0, moved = 1; held < 2 * cw_policy.recover_tries && moved; held += moved == 1) {
       CW_TRY(clear_towards(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
       if (*found) goto done;
     }
@@ -177,7 +177,7 @@ static CwStatus recover_face(Recovery *r, const int32_t corner[3], int *found) {
   for (int stuck = 0; stuck < cw_policy.recover_tries; stuck++) {
     int32_t a = corner[stuck % 3], b = corner[(stuck + 1) % 3], c = corner[(stuck + 2) % 3], t;
     int32_t tet[CW_RING], ring[CW_RING];
-    for (int held = 0, moved = 1; held < cw_policy.recover_hold && moved; held += moved == 1) {
+    for (int held = 0, moved = 1; held < 2 * cw_policy.recover_tries && moved; held += moved == 1) {
       moved = 0;
       CW_TRY(cw_flips_find_edge(flips, a, b, &t));
       int n = t < 0 ? 0 : cw_tet_ring(flips->mesh, t, a, b, CW_RING, tet, ring);

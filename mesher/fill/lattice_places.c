@@ -11,6 +11,9 @@
 #include "mesher/policy.h"
 
 enum { ROUNDS = 9, SEEN = 13 };
+static const double FIT = 0.01; // log of cells found over cells wanted: nearer than that the spacing fits
+// Of a cell: points leave common spheres by up to this, far more than rounding and far less than their distances.
+static const double JITTER = 1e-3;
 
 // What the field asks for in a cell and in its children: asked once, for all rounds of the fit; 0: not yet.
 typedef struct {
@@ -116,7 +119,7 @@ done:
 static CwStatus fit_spacing(Lattice *lattice, int32_t count, const CwLatticeCell *cell) {
   CwStatus status = CW_OK;
   double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
-  for (int round = 0; round < ROUNDS && best_error >= cw_policy.lattice_fit; round++) {
+  for (int round = 0; round < ROUNDS && best_error >= FIT; round++) {
     CW_TRY(cut_all(lattice, count, cell, 0));
     if (!(lattice->wanted > 0.0)) break;
     double ratio = lattice->found / lattice->wanted, error = fabs(log(ratio));
@@ -176,5 +179,5 @@ void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]) {
 void cw_lattice_point(const CwLatticeFrame *frame, const CwRadix *place, double x[3]) {
   cw_lattice_fixed(frame, place->key, x);
   for (int i = 0; i < 3; i++)
-    x[i] += frame->unit * cw_policy.lattice_jitter * (double)(1 << place->tag) * shake(place->key, i);
+    x[i] += frame->unit * JITTER * (double)(1 << place->tag) * shake(place->key, i);
 }

@@ -23,8 +23,7 @@ CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t) {
   for (int i = 0; i < 3; i++) place.x[i] = (a[i] + b[i] + c[i]) / 3.0;
   double edge = sqrt(2.0 * (cw_dot(u, u) + cw_dot(v, v) - cw_dot(u, v)) / 3.0);
   double wanted = input->size(input->size_context, place.x);
-  place.spacing =
-      fmin(fmin(sqrt(edge * wanted), cbrt(edge * wanted * wanted)), cw_policy.offset_spacing_most * edge);
+  place.spacing = fmin(sqrt(edge * wanted), cbrt(edge * wanted * wanted));
   for (int i = 0; i < 3; i++) place.x[i] -= cw_policy.offset_height * place.spacing * normal[i];
   place.along = cw_dot(line, place.x);
   return place;

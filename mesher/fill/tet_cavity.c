@@ -6,6 +6,10 @@
 
 #include "mesher/policy.h"
 
+// Pattern search (R. Hooke, T. Jeeves, 1961): steps of this share of the distance to a corner, then half and a quarter.
+enum { STEPS = 3 };
+static const double FIRST_STEP = 0.2;
+
 #define D 0.57735026918962573
 const double cw_tet_direction[14][3] = {{1, 0, 0},  {-1, 0, 0},  {0, 1, 0},   {0, -1, 0},  {0, 0, 1},
                                         {0, 0, -1}, {D, D, D},   {-D, D, D},  {D, -D, D},  {-D, -D, D},
@@ -46,8 +50,8 @@ double cw_cavity_best(CwCavity *cavity, double p[3], double start) {
     memcpy(p, mean, sizeof mean);
   }
   int last = 0;
-  for (double step = cw_policy.move_step * sqrt(square), end = cw_policy.move_step_last * step; step > end;
-       step *= 0.5) {
+  double step = FIRST_STEP * sqrt(square);
+  for (int halvings = 0; halvings < STEPS; halvings++, step *= 0.5) {
     for (int tries = 0, k = last; tries < 14; tries++, k = (k + 1) % 14) {
       double there[3];
       for (int i = 0; i < 3; i++) there[i] = p[i] + step * cw_tet_direction[k][i];

@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 typedef struct {
-  int32_t edges_removed, faces_removed, points_moved, points_removed, points_added, search_tries, patches_changed;
+  int32_t edges_removed, faces_removed, points_moved, points_added, search_tries, patches_changed;
   double least_before, least_after; // least quality, as cw_tet_quality; the limit where none is below
 } CwTetChanges;
 

@@ -45,9 +45,8 @@ CW_INLINE void find_extremes(const Cw8f square[6], Cw8f *least, Cw8f *most) {
 }
 
 // What each corner is to have, by corner and coordinate: the weighted displacement and the weight.
-CW_INLINE void find_centres(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
+CW_INLINE void find_centres(const Group *g, Cw8f part[4][4]) {
   Cw8f edge[6][3], l[6], bc[3], ca[3], ab[3];
-  (void)own;
   find_edges(g, edge, l);
   cw_8f_cross(g->arm[1], g->arm[2], bc);
   cw_8f_cross(g->arm[2], g->arm[0], ca);
@@ -62,12 +61,12 @@ CW_INLINE void find_centres(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
   for (int m = 0; m < 4; m++) part[m][3] = weight;
 }
 
-CW_INLINE void find_pulls(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
+CW_INLINE void find_pulls(const Group *g, Cw8f part[4][4]) {
   Cw8f edge[6][3], square[6], step[6], pull[6], least, most;
   find_edges(g, edge, square);
   find_extremes(square, &least, &most);
   Cw8fMask sound = least > (float)CW_TET_FLAT * most;
-  Cw8f in = cw_8f_if(sound, *own / cw_8f_sqrt(least * most));
+  Cw8f in = cw_8f_if(sound, 1.0f / cw_8f_sqrt(least * most));
   Cw8f out = cw_8f_if(sound, in * most / least);
   for (int e = 0; e < 6; e++) step[e] = cw_8f_if(square[e] == most, in) - cw_8f_if(square[e] == least, out);
   for (int i = 0; i < 3; i++) {
@@ -80,7 +79,7 @@ CW_INLINE void find_pulls(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
   part[0][3] = part[1][3] = part[2][3] = part[3][3] = 0.5f * (in + out);
 }
 
-typedef void Find(const Group *g, const Cw8f *own, Cw8f part[4][4]);
+typedef void Find(const Group *g, Cw8f part[4][4]);
 
 CW_INLINE void add_sums(const CwTetMesh *mesh, const int32_t *list, int32_t count, const Cw4f *place, Find *find,
                         Cw4f *sum) {
@@ -88,10 +87,9 @@ CW_INLINE void add_sums(const CwTetMesh *mesh, const int32_t *list, int32_t coun
     const int32_t *its = list + from;
     int some = count - from < GROUP ? count - from : GROUP;
     Group group;
-    Cw8f own, part[4][4];
-    for (int k = 0; k < GROUP; k++) own[k] = (float)mesh->tet[its[k]].weight;
+    Cw8f part[4][4];
     take_group(mesh, its, place, &group);
-    find(&group, &own, part);
+    find(&group, part);
     for (int c = 0; c < 4; c++) cw_8f_transpose(part[c]);
     for (int k = 0; k < HALF && k < some; k++) {
       for (int c = 0; c < 4; c++) sum[mesh->tet[its[k]].corner[c]] += cw_8f_low(part[c][k]);

@@ -25,7 +25,7 @@ enum { CW_TET_GROUP = 8 };
 // nothing for flat ones, whose spheres are anywhere.
 void cw_tet_add_centres(const CwTetMesh *mesh, const int32_t *list, int32_t count, const Cw4f *place, Cw4f *sum);
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart:
-// down the gradient of their ratio, so that slender ones count for more. Its own weight counts, too.
+// down the gradient of their ratio, so that slender ones count for more.
 void cw_tet_add_pulls(const CwTetMesh *mesh, const int32_t *list, int32_t count, const Cw4f *place, Cw4f *sum);
 
 // Of a group of tetrahedra: as cw_tet_quality, but for rounding where that is above 0.1 or so, and what is less, or not

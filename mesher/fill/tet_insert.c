@@ -7,7 +7,7 @@
 #include "mesher/fill/tet_cavity.h"
 #include "mesher/policy.h"
 
-enum { MOST_CLEARED = 64, SIDES = CW_CAVITY, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
+enum { MOST_CLEARED = 64, SIDES = CW_CAVITY, AGAIN = 3, SHELLS = 5, AIMS = 3, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
 
 // Tetrahedra to be taken away, and the faces of their hull, as 4 * tetrahedron + face.
 typedef struct {
@@ -112,7 +112,7 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
   for (int k = 0; k < 14 * SHELLS; k++, count++) {
     const double *direction = cw_tet_direction[k % 14];
-    double radius = cw_policy.insert_shell * edge * (double)(k / 14 + 1);
+    double radius = edge * (double)(k / 14 + 1) / SHELLS;
     for (int i = 0; i < 3; i++)
       place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * direction[i];
   }
@@ -176,17 +176,17 @@ CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double
 
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
-  const double aim[4] = {cw_policy.insert_aim_high, cw_policy.insert_aim, cw_policy.insert_aim_low, 0.0};
   double place[PLACES][3], least = w->mesh->tet[t].quality + cw_policy.insert_gain, best = least, p[3];
   int tries = candidates(w, t, place);
   Cleared chosen = {0};
   Grown grown[PLACES];
   *done_it = 0;
-  for (int a = 0; a < 4; a++) {
+  for (int a = AIMS; a >= 0; a--) { // thresholds for the growth of a cavity, the highest first
+    double aim = cw_policy.improve_below * a / AIMS;
     for (int k = 0; k < tries; k++) {
-      double enough = fmax(aim[a], best);
-      if (a == 0 || enough < grown[k].crossed || enough >= grown[k].kept) // else it would end as before
-        best = best_from(w, t, place[k], aim[a], best, &chosen, p, &grown[k]);
+      double enough = fmax(aim, best);
+      if (a == AIMS || enough < grown[k].crossed || enough >= grown[k].kept) // else it would end as before
+        best = best_from(w, t, place[k], aim, best, &chosen, p, &grown[k]);
     }
   }
   if (best <= least) goto done;

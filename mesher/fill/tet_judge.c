@@ -21,9 +21,8 @@ void cw_tet_shapes_free(CwTetShapes *shapes) {
   memset(shapes, 0, sizeof *shapes);
 }
 
-double cw_tet_slender_square(const CwTetShapes *shapes) {
-  double aspect = shapes->many_slender ? cw_policy.slender_aspect_many : cw_policy.slender_aspect;
-  return aspect * aspect;
+double cw_tet_slender_square(void) {
+  return cw_policy.slender_aspect * cw_policy.slender_aspect;
 }
 
 static inline Cw4f place_of(const CwTetShapes *shapes, const double x[3]) {
@@ -85,7 +84,7 @@ static inline void note_shapes(const CwTetMesh *mesh, CwTetShapes *shapes, const
 
 CwStatus cw_tet_judge(CwTetWork *w, CwTetShapes *shapes, const int32_t *list, int32_t count, CwTetList *spoilt) {
   CwStatus status = CW_OK;
-  const float slender_square = (float)cw_tet_slender_square(shapes);
+  const float slender_square = (float)cw_tet_slender_square();
   CW_GROW(shapes->slender.tet, shapes->slender.space, shapes->slender.count + count + 1);
   for (int32_t from = 0; from < count; from += CW_TET_GROUP) {
     float quality[CW_TET_GROUP];

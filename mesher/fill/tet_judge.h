@@ -13,9 +13,7 @@ extern "C" {
 
 // The shapes that relaxing and the changes for the aspect go by.
 typedef struct {
-  const uint8_t *on_plane; // of the fixed points: 1 on a partition plane; or NULL
   double floor;            // quality below which none becomes worse for the sake of the aspect
-  int many_slender;        // very many tetrahedra are slender: more of them are called so
   CwTetList slender;       // of those judged last
   int32_t tet_count;       // without free places, when all were judged last
   uint8_t *irregular; // by point, where relaxing is to follow: 1 where one round it is not as in a lattice; or NULL
@@ -30,7 +28,7 @@ enum { CW_TET_PAD = 7 }; // room behind a list of tetrahedra that are judged by 
 void cw_tet_shapes_free(CwTetShapes *shapes);
 
 // Longest over shortest edge, squared, above which a tetrahedron is slender.
-double cw_tet_slender_square(const CwTetShapes *shapes);
+double cw_tet_slender_square(void);
 
 // Places of all points for single precision; cw_tet_goal gives what a place has become in double precision.
 CwStatus cw_tet_set_places(CwTetWork *w, CwTetShapes *shapes);

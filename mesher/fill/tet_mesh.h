@@ -32,9 +32,9 @@ typedef struct {
       };
     };
     struct {
-      double quality;                 // while tetrahedra are improved
-      uint32_t star;                  // the last star or cavity that it was in, by the mesh's count of these
-      unsigned pass : 30, weight : 2; // the list that it was put into last; what it counts when edges are made even
+      double quality; // while tetrahedra are improved
+      uint32_t star;  // the last star or cavity that it was in, by the mesh's count of these
+      unsigned pass;  // the list that it was put into last
     };
   };
   int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place

@@ -10,16 +10,12 @@
 extern "C" {
 #endif
 
-// Towards even spacing first, where `centres` is set, then in `evenings` steps towards even edges, of which the first
-// goes `pull` of an edge and each further one less, and those beside partition planes in `beside` more.
-typedef struct {
-  int centres, evenings, beside;
-  double pull;
-} CwTetMoves;
+// Which moves: towards even spacing; then towards even edges, in `even_steps` ever shorter steps (policy_table.h).
+enum { CW_TET_CENTRES = 1, CW_TET_EDGES = 2 };
 
 // Moves all inner points but those that are as in a lattice, where nothing is left worse below the floor; then every
 // tetrahedron below the limit is in the list, and every slender one in that of the shapes.
-CwStatus cw_tet_relax(CwTetWork *w, CwTetShapes *shapes, CwTetMoves moves);
+CwStatus cw_tet_relax(CwTetWork *w, CwTetShapes *shapes, int moves);
 
 #ifdef __cplusplus
 }

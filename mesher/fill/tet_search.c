@@ -17,7 +17,8 @@
 
 static const CwPolicy *const policy = &cw_policy;
 static const double small_determinant = 1e-3; // checkMesh calls it so below
-enum { PLACES = 6 };                          // of a mesh that are searched
+enum { PLACES = 6, CHANGES = 3 };             // of a mesh that are searched; of one disturbance, at most
+static const double SHAKEN = 0.3;             // edges: farthest that points are moved by a disturbance
 
 typedef struct {
   double least, sine, deficit; // least judged, and least sine; what all lack, the worst by far the most
@@ -40,7 +41,6 @@ typedef struct {
   double begin;     // least sine below which a search begins
   double again;     // and begins again
   int determinants; // count too
-  int mixed;        // all kinds of disturbances, though an angle is below search_again
 } Search;
 
 // In [0, 1).
@@ -86,7 +86,7 @@ static Rated rate(const Search *s, const CwTetMesh *mesh) {
   Rated rated = {INFINITY, INFINITY, 0.0};
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     if (mesh->tet[t].corner[0] < 0) continue;
-    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / policy->search_counted);
+    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / policy->improve_hard);
     rated.least = fmin(rated.least, judged);
     rated.sine = fmin(rated.sine, sine);
     rated.deficit += lack * lack * lack * lack * lack * lack;
@@ -94,17 +94,16 @@ static Rated rate(const Search *s, const CwTetMesh *mesh) {
   return rated;
 }
 
-// One of the tetrahedra that are about as bad as the worst, or of what lies a face or two beside it.
-static int32_t choose_tet(Search *s, double least) {
+// One of the tetrahedra that count, or of what lies a face or two beside it.
+static int32_t choose_tet(Search *s) {
   int32_t count = 0, chosen = 0;
   for (int32_t t = 0; t < s->trial.tet_count; t++) {
     double sine;
     if (s->trial.tet[t].corner[0] >= 0 &&
-        judge(s, &s->trial, t, &sine) < fmin(policy->search_counted, least + policy->search_alike) &&
-        choose(s, ++count) == 0)
+        judge(s, &s->trial, t, &sine) < policy->improve_hard && choose(s, ++count) == 0)
       chosen = t;
   }
-  for (int steps = choose(s, policy->search_away + 1); steps > 0; steps--) {
+  for (int steps = choose(s, 3); steps > 0; steps--) {
     int32_t next = s->trial.tet[chosen].neighbour[choose(s, 4)];
     chosen = next < 0 ? chosen : next / 4;
   }
@@ -116,7 +115,7 @@ static int32_t choose_tet(Search *s, double least) {
 static CwStatus contract(Search *s, int32_t t) {
   CwStatus status = CW_OK;
   int32_t star[CW_STAR], made[CW_STAR][4], point = -1, to = -1;
-  double quality[CW_STAR], best = policy->search_sound;
+  double quality[CW_STAR], best = policy->sound_quality;
   int count = 0, first = choose(s, 4);
   for (int k = 0; k < 20 && point < 0; k++) { // t, then its neighbours
     int32_t near = k < 4 ? 4 * t : s->trial.tet[t].neighbour[k / 4 - 1];
@@ -159,13 +158,13 @@ static CwStatus insert(Search *s, int32_t t) {
     place[i] = edge * (2.0 * next_random(s) - 1.0);
     for (int k = 0; k < 4; k++) place[i] += 0.25 * s->trial.point[s->trial.tet[t].corner[k]].x[i];
   }
-  return cw_tet_insert_at(&s->work, t, place, policy->search_aim * next_random(s), policy->search_sound);
+  return cw_tet_insert_at(&s->work, t, place, policy->improve_below * next_random(s), policy->sound_quality);
 }
 
 // Moves about half of the free points, where no tetrahedron turns over.
 static void shake(Search *s) {
   CwTetMesh *mesh = &s->trial;
-  double reach = policy->search_shaken * next_random(s), old[3];
+  double reach = SHAKEN * next_random(s), old[3];
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     int32_t star[CW_STAR];
     if (mesh->tet[t].corner[0] < 0 || choose(s, 2)) continue;
@@ -177,18 +176,18 @@ static void shake(Search *s) {
     for (int i = 0; i < 3; i++) mesh->point[p].x[i] += reach * edge * (2.0 * next_random(s) - 1.0);
     for (int k = 0; k < n && good; k++) {
       const int32_t *c = mesh->tet[star[k]].corner;
-      good = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]) > policy->search_sound;
+      good = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]) > policy->sound_quality;
     }
     if (!good) memcpy(mesh->point[p].x, old, sizeof old);
   }
 }
 
-static CwStatus try_disturbed(Search *s, double least, Rated *result) {
+static CwStatus try_disturbed(Search *s, Rated *result) {
   CwStatus status = CW_OK;
   CW_TRY(cw_tet_patch_copy_mesh(&s->now.patch.mesh, &s->trial));
-  for (int changes = 1 + choose(s, policy->search_changes); changes > 0; changes--) {
-    int32_t t = choose_tet(s, least), kind = choose(s, 3);
-    if (kind == 0 || (least < policy->search_again && !s->mixed)) // in the worst corners a point more is what helps
+  for (int changes = 1 + choose(s, CHANGES); changes > 0; changes--) {
+    int32_t t = choose_tet(s), kind = choose(s, 3);
+    if (kind == 0)
       CW_TRY(insert(s, t));
     else if (kind == 1)
       CW_TRY(contract(s, t));
@@ -197,7 +196,7 @@ static CwStatus try_disturbed(Search *s, double least, Rated *result) {
   }
   s->work.next.count = 0;
   CW_TRY(cw_tet_judge_all(&s->work, &s->shapes));
-  CW_TRY(cw_tet_improve_list(&s->work, policy->search_passes, 1));
+  CW_TRY(cw_tet_improve_list(&s->work, policy->improve_passes, 1));
   *result = rate(s, &s->trial);
 done:
   return status;
@@ -226,26 +225,23 @@ done:
 
 // Goes on from the best that was found (iterated local search; H. Lourenco, O. Martin and T. Stuetzle, in: Handbook of
 // Metaheuristics, 2003).
-static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
+static CwStatus search_patch(Search *s, int32_t t) {
   CwStatus status = CW_OK;
   Rated trial, *best = &s->now.rated;
-  CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
+  CW_TRY(cw_tet_patch_take(s->whole->mesh, t, policy->search_patch, s->whole->fixed_count, &s->now.patch));
   *best = rate(s, &s->now.patch.mesh);
   s->now.gain = best->deficit;
-  double allowed = fmin(policy->search_kept * best->sine, policy->search_wanted);
-  for (int k = 0, idle = 0; best->least < s->begin + policy->search_beyond && k < policy->search_tries &&
-                            idle < policy->search_idle && s->tries > 0;
-       k++, idle++) {
+  double allowed = fmin(best->sine, policy->search_wanted);
+  for (int k = 0; best->least < s->begin && k < policy->search_tries && s->tries > 0; k++) {
     s->tries--;
     s->whole->count.search_tries++;
-    CW_TRY(try_disturbed(s, best->least, &trial));
+    CW_TRY(try_disturbed(s, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
     if (trial.sine < allowed) continue;
     CwTetMesh swap = s->now.patch.mesh;
     s->now.patch.mesh = s->trial;
     s->trial = swap;
     *best = trial;
-    idle = 0;
   }
   s->now.gain -= best->deficit;
 done:
@@ -255,9 +251,8 @@ done:
 // What leads nowhere from one beginning may do from another.
 static CwStatus search_place(Search *s, int32_t t) {
   CwStatus status = CW_OK;
-  for (int k = 0; k < policy->search_beginnings && (k == 0 || s->best.rated.least < s->again); k++) {
-    s->mixed = k % policy->search_mixed == policy->search_mixed - 1;
-    CW_TRY(search_patch(s, t, k % 2 ? policy->search_patch_small : policy->search_patch));
+  for (int k = 0; s->tries > 0 && (k == 0 || s->best.rated.least < s->again); k++) {
+    CW_TRY(search_patch(s, t));
     double more = s->now.rated.least - s->best.rated.least;
     if (k == 0 || more > 0.0 || (more == 0.0 && s->now.gain > s->best.gain)) {
       Found swap = s->best;
@@ -294,8 +289,8 @@ static int32_t count_bad(const CwTetWork *w) {
   return count;
 }
 
-// The sine of the least angle of a place of this mesh for which more than one search is worthwhile.
-static CwStatus least_worthwhile(const CwTetMesh *mesh, double *sine) {
+// The sine of the least angle that the boundary of this mesh allows.
+static CwStatus sine_allowed(const CwTetMesh *mesh, double *sine) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, allowed;
   int32_t(*triangle)[3] = NULL, count = 0, worst;
@@ -322,7 +317,7 @@ static CwStatus least_worthwhile(const CwTetMesh *mesh, double *sine) {
                           .triangle_count = count,
                           .triangle = (const int32_t(*)[3])triangle};
   CW_TRY(cw_tet_bound(&boundary, &allowed, &worst));
-  *sine = sin(policy->search_worthwhile * allowed * CW_DEGREE);
+  *sine = sin(allowed * CW_DEGREE);
 done:
   free(triangle);
   free(x);
@@ -339,7 +334,7 @@ static int32_t find_worst(const Search *s, int count, const double (*place)[3], 
     if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= (s->determinants ? policy->search_wanted : *least))
       continue;
     double sine, judged = judge(s, w->mesh, t, &sine);
-    if (judged < *least && judged > policy->search_sound && !is_near(w, t, count, place, reach))
+    if (judged < *least && judged > policy->sound_quality && !is_near(w, t, count, place, reach))
       *least = judged, worst = t;
   }
   return worst;
@@ -361,20 +356,19 @@ done:
 
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
-  Search s = {.whole = w, .begin = policy->search_wanted, .work = {.limit = policy->search_counted, .fixed_count = 1}};
-  double least, worth = 0.0;
+  Search s = {.whole = w, .begin = policy->search_wanted, .work = {.limit = policy->improve_hard, .fixed_count = 1}};
+  double least, allowed = 0.0;
   s.work.mesh = &s.trial;
   s.work.source_count = 1;
-  if (count_bad(w) > w->mesh->tet_count / policy->search_few) goto done;
   s.tries = w->mesh->tet_count > policy->search_share * policy->search_fewest
                 ? w->mesh->tet_count / policy->search_share
                 : policy->search_fewest;
+  if (count_bad(w) > w->mesh->tet_count / policy->search_few) goto done;
   if (find_worst(&s, 0, NULL, NULL, &least) >= 0) {
-    CW_TRY(least_worthwhile(w->mesh, &worth));
-    s.again = fmin(policy->search_again, worth);
-    s.begin = fmin(policy->search_wanted, fmax(policy->search_bad, worth));
+    CW_TRY(sine_allowed(w->mesh, &allowed));
+    s.again = fmin(policy->search_bad, allowed);
+    s.begin = fmin(policy->search_wanted, fmax(policy->search_bad, allowed));
     s.work.insert = s.work.insert_round = s.begin;
-    if (least >= policy->search_bad) s.tries = policy->search_mild;
     CW_TRY(search_places(&s));
   }
   // After the angles, with tries of its own.

@@ -10,8 +10,8 @@
 
 enum { RING = 4 }; // tetrahedra round an edge, at most: of removals with five one in fifteen would help
 
-// Removes the edge a-b of t, whose square is given.
-static CwStatus remove_edge(CwTetWork *w, double floor, int32_t t, int32_t a, int32_t b, double square) {
+// Removes the edge a-b of t.
+static CwStatus remove_edge(CwTetWork *w, double floor, int32_t t, int32_t a, int32_t b) {
   CwStatus status = CW_OK;
   int32_t old[RING], ring[RING], made[RING][4];
   double before = 0.0, after = 0.0, least = floor;
@@ -19,7 +19,6 @@ static CwStatus remove_edge(CwTetWork *w, double floor, int32_t t, int32_t a, in
   if (n < 3) goto done;
   if (n == 4) { // the shorter one of the two edges that may come
     double one = cw_tet_square_of(w, ring[0], ring[2]), other = cw_tet_square_of(w, ring[1], ring[3]);
-    if (one >= cw_policy.shorten_longer * square && other >= cw_policy.shorten_longer * square) goto done;
     first = other < one;
   }
   for (int k = 0; k < n; k++) {
@@ -31,28 +30,10 @@ static CwStatus remove_edge(CwTetWork *w, double floor, int32_t t, int32_t a, in
     memcpy(made[k], k % 2 ? (int32_t[4]){p, r, q, a} : (int32_t[4]){p, q, r, b}, sizeof *made);
     after += cw_tet_excess(w, made[k]);
   }
-  if (!(after < before - cw_policy.shorten_gain)) goto done;
+  if (!(after < before)) goto done;
   CW_TRY(cw_tet_replace_sound(w, n, old, count, (const int32_t(*)[4])made, least, &w->count.edges_removed));
 done:
   return status;
-}
-
-// Whether the dihedral angle at the longest edge is so wide that three or four tetrahedra may close round it. To
-// walk round it takes longer, and of four one has a right angle at least.
-static int is_wide(const CwTetWork *w, const int32_t corner[4], const CwTetEnds *ends) {
-  const double *x = cw_tet_at(w, ends->far[0]), *side[2] = {x, x};
-  double edge[3], one[3], other[3];
-  int sides = 0;
-  for (int i = 0; i < 4 && sides < 2; i++) {
-    if (corner[i] != ends->far[0] && corner[i] != ends->far[1]) side[sides++] = cw_tet_at(w, corner[i]);
-  }
-  cw_sub(cw_tet_at(w, ends->far[1]), x, edge);
-  cw_sub(side[0], x, one);
-  cw_sub(side[1], x, other);
-  double along = cw_dot(edge, one), beyond = cw_dot(edge, other), square = ends->longest;
-  double cosine = cw_dot(one, other) * square - along * beyond;
-  double scale = (cw_dot(one, one) * square - along * along) * (cw_dot(other, other) * square - beyond * beyond);
-  return cosine < 0.0 || cosine * cosine < cw_policy.shorten_cosine * cw_policy.shorten_cosine * scale;
 }
 
 // Prefetches the corners of one that comes a little later in the list.
@@ -65,7 +46,7 @@ static inline __attribute__((always_inline)) void prefetch_corners(const CwTetWo
 
 CwStatus cw_tet_shorten(CwTetWork *w, const CwTetShapes *shapes) {
   CwStatus status = CW_OK;
-  const double slender_square = cw_tet_slender_square(shapes);
+  const double slender_square = cw_tet_slender_square();
   for (int32_t k = 0; k < shapes->slender.count; k++) {
     int32_t t = shapes->slender.tet[k];
     cw_tet_prefetch_list(w, shapes->slender.tet, shapes->slender.count, k);
@@ -73,9 +54,8 @@ CwStatus cw_tet_shorten(CwTetWork *w, const CwTetShapes *shapes) {
     const int32_t *c = w->mesh->tet[t].corner;
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
-    if (ends.longest > slender_square * ends.shortest && cw_tet_ring_is_short(w->mesh, t, ends.far[0], ends.far[1]) &&
-        is_wide(w, c, &ends))
-      CW_TRY(remove_edge(w, shapes->floor, t, ends.far[0], ends.far[1], ends.longest));
+    if (ends.longest > slender_square * ends.shortest && cw_tet_ring_is_short(w->mesh, t, ends.far[0], ends.far[1]))
+      CW_TRY(remove_edge(w, shapes->floor, t, ends.far[0], ends.far[1]));
   }
 done:
   return status;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The improvement of tetrahedra: its state and the list of what is to be improved. Operators (tet_reconnect, tet_move,
-// tet_insert, tet_shorten, tet_collapse, tet_relax) change the mesh through it, so that qualities and list stay true.
+// tet_insert, tet_shorten, tet_relax) change the mesh through it, so that qualities and list stay true.
 #ifndef CUTWATER_MESHER_FILL_TET_WORK_H
 #define CUTWATER_MESHER_FILL_TET_WORK_H
 

@@ -194,7 +194,6 @@ done:
 CwStatus cw_tetgen_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwTetChanges changes;
-  uint8_t *on_plane = nullptr;
   CwFillInput away = *input;
   away.inner = nullptr;
   away.open_count = away.offset_count = 0;
@@ -206,19 +205,17 @@ CwStatus cw_tetgen_fill(const CwFillInput *input, CwFill *fill) {
     char first[600];
     snprintf(first, sizeof first, "%s", cw_fail_message());
     // Points further away leave recovery more room.
-    status = try_fill(&away, cw_policy.tetgen_clearance, fill);
+    status = try_fill(&away, 2.0, fill);
     if (status == CW_ERR_MESH) status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }
   if (status != CW_OK) goto done;
-  CW_TRY(cw_fill_on_planes(input, input->point_count, &on_plane));
-  CW_TRY(cw_tet_improve(input->point_count, on_plane, fill, &changes));
+  CW_TRY(cw_tet_improve(input->point_count, fill, &changes));
   fill->recovery.tetgen = 1;
-  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d removed, %d added, least sine "
+  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine "
                "%.3g to %.3g",
                input->name, fill->tetrahedron_count, changes.edges_removed, changes.faces_removed, changes.points_moved,
-               changes.points_removed, changes.points_added, changes.least_before, changes.least_after);
+               changes.points_added, changes.least_before, changes.least_after);
 done:
-  free(on_plane);
   if (status != CW_OK) cw_fill_free(fill);
   return status;
 }

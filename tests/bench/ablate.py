@@ -72,7 +72,7 @@ def moved(number, factor):
     there = value * factor
     if off is not None and min(value, there) <= off <= max(value, there):
         there = off
-    if kind == "int32_t":
+    if kind == "int64_t":
         there = round(there)
         if there == value and value != off:
             there = value + (1 if factor > 1 else -1)

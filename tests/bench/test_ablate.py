@@ -63,8 +63,8 @@ class Effects(unittest.TestCase):
 
 class Moves(unittest.TestCase):
     def test_numbers_are_read_as_they_stand(self):
-        text = 'NUMBER(double, one, 0.5, none, "h",\n       "a thing")\nNUMBER(int32_t, two, 3, 0, "1", "x")'
-        self.assertEqual(policy_numbers(text), {"one": ("double", 0.5, None), "two": ("int32_t", 3, 0)})
+        text = 'NUMBER(double, one, 0.5, none, "h",\n       "a thing")\nNUMBER(int64_t, two, 3, 0, "1", "x")'
+        self.assertEqual(policy_numbers(text), {"one": ("double", 0.5, None), "two": ("int64_t", 3, 0)})
 
     def test_every_number_of_the_mesher_is_read(self):
         text = (SOURCE / "mesher/policy_table.h").read_text()
@@ -77,11 +77,11 @@ class Moves(unittest.TestCase):
         self.assertEqual(moved(("double", 0.95, 0), 1.25), 0.95 * 1.25)
 
     def test_whole_numbers_move_by_one_at_least(self):
-        self.assertEqual([moved(("int32_t", 2, 0), factor) for factor in (1.25, 1 / 1.25)], [3, 1])
-        self.assertEqual([moved(("int32_t", 100, None), factor) for factor in (1.25, 1 / 1.25)], [125, 80])
+        self.assertEqual([moved(("int64_t", 2, 0), factor) for factor in (1.25, 1 / 1.25)], [3, 1])
+        self.assertEqual([moved(("int64_t", 100, None), factor) for factor in (1.25, 1 / 1.25)], [125, 80])
 
     def test_singly_each_number_is_moved_and_taken_away(self):
-        numbers = {"one": ("double", 0.5, None), "two": ("int32_t", 3, 0)}
+        numbers = {"one": ("double", 0.5, None), "two": ("int64_t", 3, 0)}
         single, rows = settings_of(numbers, argparse.Namespace(singly=True, factor=2))
         self.assertIsNone(rows)
         self.assertEqual(dict(single), {"as it is": {}, "one/down": {"one": 0.25}, "one/up": {"one": 1},

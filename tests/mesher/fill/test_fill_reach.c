@@ -23,10 +23,8 @@ static void sphere_is_the_smallest_through_the_corners(void **unused) {
   NEAR(ball.centre[2], 0);
   NEAR(ball.square, 0.5);
   NEAR(ball.edge, sqrt(4.0 / 3.0));
-  assert_true(cw_reach_in_ball(&ball, 1, (double[3]){0.5, 0.5, 0.7}));
-  assert_false(cw_reach_in_ball(&ball, 1, (double[3]){0.5, 0.5, 0.71}));
-  assert_true(cw_reach_in_ball(&ball, 0.5, (double[3]){0.5, 0.5, 0.49}));
-  assert_false(cw_reach_in_ball(&ball, 0.5, (double[3]){0.5, 0.5, 0.51}));
+  assert_true(cw_reach_in_ball(&ball, (double[3]){0.5, 0.5, 0.7}));
+  assert_false(cw_reach_in_ball(&ball, (double[3]){0.5, 0.5, 0.71}));
   cw_reach_of_triangle(A, B, C, 10, 2, &box, &ball);
   NEAR(ball.square, 2);
 }
@@ -68,7 +66,7 @@ static void box_holds_all_that_is_forbidden(void **unused) {
   for (int k = 0; k < 40 * 40 * 40; k++) {
     double x[3] = {-1 + 0.075 * (k % 40), -1 + 0.075 * (k / 40 % 40), -1.5 + 0.075 * (k / 1600)};
     float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
-    if (!cw_reach_in_ball(&ball, 1, x) && !cw_reach_is_near(A, B, C, &ball, 0.6, 1.2, x)) continue;
+    if (!cw_reach_in_ball(&ball, x) && !cw_reach_is_near(A, B, C, &ball, 0.6, 1.2, x)) continue;
     assert_true(cw_reach_holds(&box, p));
     forbidden++;
   }

@@ -129,7 +129,7 @@ static void improvement_raises_the_least(void **unused) {
   assert_int_equal(cw_delaunay_make(1000, (const double(*)[3])x, &mesh), CW_OK);
   double six = joined_volume6(&mesh);
   int32_t sources = 1000;
-  assert_int_equal(cw_tet_improve_mesh(&mesh, 100, NULL, &sources, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve_mesh(&mesh, 100, &sources, &changes), CW_OK);
   assert_true(fabs(joined_volume6(&mesh) / six - 1.0) < 1e-12);
   assert_true(changes.least_after > changes.least_before);
   assert_true(changes.edges_removed > 100 && changes.points_moved > 100);

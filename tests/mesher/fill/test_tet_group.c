@@ -58,7 +58,6 @@ static void make(Shaken *s, double shake) {
     int enclosing = c[0] < CW_ENCLOSING_POINTS;
     for (int i = 1; i < 4; i++) enclosing |= c[i] < CW_ENCLOSING_POINTS;
     if (enclosing || !is_sure(&s->mesh, c)) continue;
-    s->mesh.tet[t].weight = 1 + (t % 3 == 0);
     s->list[s->count++] = t;
   }
   s->count -= s->count % GROUP == 0 ? 1 : 0;
@@ -114,7 +113,7 @@ static void want_even(const CwTet *tet, const double x[4][3], double way[4][3], 
     near = square[e] < square[near] ? e : near;
     far = square[e] > square[far] ? e : far;
   }
-  double in = tet->weight / sqrt(square[near] * square[far]), out = in * square[far] / square[near];
+  double in = 1 / sqrt(square[near] * square[far]), out = in * square[far] / square[near];
   for (int i = 0; i < 3; i++) {
     double longest = x[edge_of[far][1]][i] - x[edge_of[far][0]][i];
     double shortest = x[edge_of[near][1]][i] - x[edge_of[near][0]][i];

@@ -76,7 +76,7 @@ static void octahedron_gets_its_best_diagonal(void **state) {
   assert_true(least[worst] < 0.4 && best > least[worst] + 0.1);
   CwFill fill = fill_of(6, x, 4, (const int32_t(*)[4])tets[worst]);
   CwTetChanges changes;
-  assert_int_equal(cw_tet_improve(6, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve(6, &fill, &changes), CW_OK);
   assert_int_equal(changes.edges_removed, 1);
   assert_int_equal(fill.tetrahedron_count, 4);
   NEAR(least_of(&fill, &got_volume), best, 1e-14);
@@ -103,11 +103,11 @@ static void two_become_three_and_three_two(void **state) {
   CwTetChanges changes;
   // Apexes close to one another: compare the two cuts and expect the better of them, from either side.
   double best = fmax(least_two, least_three);
-  assert_int_equal(cw_tet_improve(5, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve(5, &fill, &changes), CW_OK);
   assert_true(least_of(&fill, &volume) >= best - 1e-14); // a new point may go further
   NEAR(volume, other_volume, 1e-15);
   assert_int_equal(changes.faces_removed + changes.edges_removed, least_three > least_two);
-  assert_int_equal(cw_tet_improve(5, NULL, &other, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve(5, &other, &changes), CW_OK);
   assert_true(least_of(&other, &volume) >= best - 1e-14);
   NEAR(volume, other_volume, 1e-15);
   assert_int_equal(changes.edges_removed + changes.faces_removed, least_two > least_three);
@@ -120,7 +120,7 @@ static void two_become_three_and_three_two(void **state) {
   least_two = least_of(&fill, &volume);
   least_three = least_of(&other, &volume);
   assert_true(least_three > least_two);
-  assert_int_equal(cw_tet_improve(5, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve(5, &fill, &changes), CW_OK);
   assert_int_equal(changes.faces_removed, 1);
   assert_true(least_of(&fill, &volume) >= least_three - 1e-14);
   free_fill(&fill);
@@ -146,7 +146,7 @@ static void inner_point_is_smoothed(void **state) {
   assert_true(before > 0.0 && before < 0.2);
   NEAR(whole, enclosed, 1e-14);
   CwTetChanges changes;
-  assert_int_equal(cw_tet_improve(12, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve(12, &fill, &changes), CW_OK);
   assert_true(changes.points_moved + changes.edges_removed + changes.faces_removed > 0);
   assert_true(least_of(&fill, &volume) > 0.454);
   NEAR(volume, enclosed, 1e-14);
@@ -171,7 +171,7 @@ static void points_go_into_a_ball(void **state) {
   CwTetChanges changes;
   assert_true(least_of(&fill, &volume) < 0.4);
   NEAR(volume, surface_volume(&s), 1e-14);
-  assert_int_equal(cw_tet_improve(42, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(cw_tet_improve(42, &fill, &changes), CW_OK);
   assert_true(changes.points_added > 0 && fill.point_count > 42);
   assert_true(least_of(&fill, &volume) > 0.4226);
   NEAR(volume, surface_volume(&s), 1e-13);

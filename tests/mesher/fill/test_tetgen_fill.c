@@ -314,23 +314,8 @@ static void size_field_with_a_hole_is_an_error(void **state) {
   surface_free(&s);
 }
 
-static void points_on_planes_are_those_of_the_last_triangles(void **state) {
-  const int32_t triangle[3][3] = {{0, 1, 2}, {1, 4, 2}, {2, 4, 3}};
-  static const uint8_t two[7] = {0, 1, 1, 1, 1, 0, 0}, none[7] = {0};
-  uint8_t *on_plane;
-  CwFillInput input = {.point_count = 5, .triangle_count = 3, .triangle = triangle, .interface_count = 2};
-  assert_int_equal(cw_fill_on_planes(&input, 7, &on_plane), CW_OK);
-  assert_memory_equal(on_plane, two, sizeof two);
-  free(on_plane);
-  input.interface_count = 0;
-  assert_int_equal(cw_fill_on_planes(&input, 7, &on_plane), CW_OK);
-  assert_memory_equal(on_plane, none, sizeof none);
-  free(on_plane);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(points_on_planes_are_those_of_the_last_triangles),
       cmocka_unit_test(cube),
       cmocka_unit_test(sphere),
       cmocka_unit_test(coarse_shapes_without_inner_points),
