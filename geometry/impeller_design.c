@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/impeller_design.h"
+
+#include <math.h>
+
+#include "geometry/blade.h"
+#include "geometry/correlations.h"
+#include "geometry/design_source.h"
+#include "geometry/meridian_passage.h"
+#include "geometry/meridian_shape.h"
+#include "geometry/velocity_triangles.h"
+
+static const double gravity = 9.80665;
+static const double degree = M_PI / 180;
+
+// The family's value of a quantity with the design so far.
+#define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
+
+// D3 over D2 at least, where D3 is given and D2 is not; usual are 1.03 to 1.08.
+static const double LEAST_BASE = 1.02;
+
+static double largest_outlet_diameter(const CwCase *table) {
+  return cw_case_given(table->volute.base_diameter) ? table->volute.base_diameter / LEAST_BASE : INFINITY;
+}
+
+static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
+  const CwImpellerTable *given = &table->impeller;
+  const char *source;
+  const double largest = largest_outlet_diameter(table);
+  double value = CORRELATED(CW_CORRELATED_OUTLET_DIAMETER);
+  TAKE(outlet_diameter, given->outlet_diameter, fmin(value, largest), value > largest ? "D3 / 1.02" : source);
+  if (cw_case_given(outlet_diameter))
+    SET(outlet_diameter, outlet_diameter, "meets the head with the outlet blade angle");
+  const double d2 = design->outlet_diameter, nq = design->specific_speed_nq;
+  value = CORRELATED(CW_CORRELATED_HUB_DIAMETER);
+  if (value < given->through_shaft_diameter) {
+    value = given->through_shaft_diameter;
+    source = "that of the shaft through the inlet";
+  }
+  TAKE(hub_diameter, given->hub_diameter, value, source);
+  value = CORRELATED(CW_CORRELATED_OUTLET_WIDTH);
+  TAKE(outlet_width, given->outlet_width, value, source);
+  SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
+  SET(head_coefficient, 2 * gravity * design->water_head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
+  value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
+  TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
+  const double d1 = design->inlet_diameter;
+  TAKE(axial_length, given->axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Guelich: (D2 - D1) (nq/74)^1.07");
+  // A shaft as thick as the hub leaves no nut.
+  const double shaft = given->through_shaft_diameter;
+  SET(through_shaft_diameter, fmin(shaft, design->hub_diameter), shaft > 0 ? "case" : "none");
+  if (shaft > 0 && shaft > (1 - 1e-9) * design->hub_diameter) {
+    SET(nut_length, 0, "none: the shaft is as thick as the hub");
+    SET(nut_disk_radius, design->hub_diameter / 2, "the shaft's");
+  } else {
+    TAKE(nut_length, given->nut_length, 7.0 / 12 * (design->hub_diameter - shaft),
+         shaft > 0 ? "7/12 of the hub's diameter over the shaft's" : "7/12 hub diameter");
+    TAKE(nut_disk_radius, shaft > 0 ? shaft / 2 : given->nut_flat_diameter / 2, 0.145 * design->hub_diameter,
+         "0.145 hub diameter");
+  }
+  SET(root_fillet_radius, given->root_fillet_radius, "case or its default");
+  value = CORRELATED(CW_CORRELATED_BLADE_COUNT);
+  design->blade_count = given->blade_count ? given->blade_count : (int)value;
+  design->blade_count_source = given->blade_count ? "case" : source;
+  value = CORRELATED(CW_CORRELATED_BLADE_THICKNESS);
+  TAKE(blade_thickness, given->blade_thickness, value, source);
+  TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness, "0.70 of the largest");
+  TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness, "0.50 of the largest");
+  TAKE(suction_pipe_length, given->suction_pipe_length,
+       fmax(d1 / 3,
+            1.2 * design->nut_length - design->outlet_width + (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
+       "D1 / 3, past the nut");
+  value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
+  TAKE(base_diameter, table->volute.base_diameter, value, source);
+  value = CORRELATED(CW_CORRELATED_INLET_WIDTH);
+  TAKE(inlet_width, table->volute.inlet_width, value, source);
+  const int splitters = cw_case_given(given->splitter_start);
+  SET(splitter_start, splitters ? given->splitter_start : 0, splitters ? "case" : "none");
+  SET(splitter_position, given->splitter_position, "case or its default");
+  SET(leading_edge_ratio, given->leading_edge_ratio, "case or its default");
+  SET(thickest_at, given->thickest_at, "case or its default");
+  SET(lean_angle, given->lean_angle, "case or its default");
+  TAKE(wrap_angle, given->wrap_angle, 1.2 * 2 * M_PI / design->blade_count, "overlap 1.2");
+  SET(wrap_spread, 0, "none");
+  SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
+}
+
+static const double EYE_SHARE = 0.05; // of the eye's height: least distance of the leading edge from the eye's plane
+
+// The leading edge on the shroud: outside the eye at low specific speed, and drawn into it above nq = 25, where the
+// wheel turns mixed-flow and the blades would else become too short.
+// A cylindrical blade stays outside, where the shroud has turned to the radius and the blade stands on it.
+static void leading_edge_shroud(const CwImpellerTable *given, CwDesign *design) {
+  const double drawn_in =
+      design->blade_form == CW_BLADE_CYLINDRICAL ? 0 : fmin(1, fmax(0, (design->specific_speed_nq - 25) / 35));
+  const double share = 0.635 - 0.105 * drawn_in;
+  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share * design->inlet_diameter,
+       share < 0.635 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
+}
+
+// A leading edge that is given at the eye's radius or inside it begins just behind the plane where the wall begins,
+// which is parallel to the axis there.
+static void keep_behind_eye(const CwMeridianCurve *wall, double height, const char *source, double *radius,
+                            const char **radius_source) {
+  double x[2], begin[2];
+  double low = 0, high = 1;
+  cw_meridian_point(wall, 0, begin, NULL);
+  for (int i = 0; i < 50; i++) {
+    const double middle = 0.5 * (low + high);
+    cw_meridian_point(wall, middle, x, NULL);
+    *(hypot(x[0] - begin[0], x[1] - begin[1]) < EYE_SHARE * height ? &low : &high) = middle;
+  }
+  cw_meridian_point(wall, high, x, NULL);
+  if (*radius >= x[0]) return;
+  *radius = x[0];
+  *radius_source = source;
+}
+
+// On the hub: where a line square to the flow leads to from the shroud, but not so near to the axis that the blade
+// would stand too steep there. The passage's height is that of the line.
+static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
+  CwMeridianCurve hub, shroud;
+  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub,
+                    &shroud);
+  const double height = 0.5 * (design->inlet_diameter - design->hub_diameter);
+  static const char *const at_eye = "at the eye: 0.05 of its height behind its plane";
+  keep_behind_eye(&shroud, height, at_eye, &design->leading_edge_radius_shroud,
+                  &design->source[CW_DESIGN_leading_edge_radius_shroud]);
+  const CwPassageStation edge = cw_meridian_passage_at(&hub, &shroud, design->leading_edge_radius_shroud);
+  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
+       fmax(edge.hub[0], fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
+       "square to the flow from the shroud's, at least 0.56 hub diameters and 0.55 of the shroud's");
+  keep_behind_eye(&hub, height, at_eye, &design->leading_edge_radius_hub,
+                  &design->source[CW_DESIGN_leading_edge_radius_hub]);
+  SET(inlet_passage_width, edge.height, "square to the flow from the shroud's leading edge");
+}
+
+// The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan
+// beta.
+static double spiral_angle(const CwMeridian *meridian, double wrap) {
+  const double beta[3] = {M_PI / 4, M_PI / 4, M_PI / 4};
+  return atan(cw_blade_wrap(meridian, 0.5, beta) / wrap);
+}
+
+static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDesign *design) {
+  double x[2];
+  cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
+  const double r = x[0], u = design->angular_speed * r, z = design->blade_count;
+  const double cm = design->water_flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
+  SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
+  SET(inlet_meridional_speed, cm, "Q / area");
+  // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
+  // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
+  const int wrapped = design->priority == CW_PRIORITY_WRAP;
+  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) : 0;
+  const char *source, *incidence_source;
+  const double usual = CORRELATED(CW_CORRELATED_INCIDENCE), asked = table->impeller.incidence;
+  const double incidence = cw_case_given(asked) ? asked : usual;
+  incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
+  source = incidence_source;
+  // On the shroud, at a greater radius, the angle is less; 12 degrees are the least.
+  const double least = fmax(13 * degree, atan(tan(12.05 * degree) * design->leading_edge_radius_shroud / r));
+  double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
+  for (int i = 0; i < 50; i++) {
+    tau = cw_blockage(z, design->leading_edge_thickness, r, beta);
+    flow = atan2(cm * tau, u);
+    if (!cw_case_given(given)) beta = fmax(flow + incidence, least);
+    if (!cw_case_given(given) && wrapped) beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
+  }
+  if (wrapped && beta == spiral - 4 * degree) source = "4 deg under the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral + 2 * degree) source = "2 deg over the logarithmic spiral of the wrap";
+  TAKE(inlet_blade_angle, given, beta, source);
+  SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
+  SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
+  SET(incidence, beta - flow, "beta1 - flow angle");
+  SET(inlet_relative_speed, hypot(u, cm * tau), "inlet triangle");
+}
+
+// Wrap of the straight law beta1 to beta2 at mid-span.
+static double straight_wrap(const CwMeridian *meridian, double beta1, double beta2) {
+  const double beta[3] = {beta1, 0.5 * (beta1 + beta2), beta2};
+  return cw_blade_wrap(meridian, 0.5, beta);
+}
+
+// Range of a computed beta2 where D2 is open, and so can meet the head instead.
+static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
+
+// Sets beta2 and the wrap by the priority. `fixed`: the outlet blade angle where D2 meets the head, or NAN.
+static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
+  const double table_wrap = table->impeller.wrap_angle, least = 12 * degree, largest = 60 * degree;
+  double low = least, high = largest;
+  if (design->priority == CW_PRIORITY_BETA) {
+    TAKE(outlet_blade_angle, given, 25 * degree, "25 deg: middle of the usual 18 to 32");
+    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
+  } else if (design->priority == CW_PRIORITY_HEAD) {
+    for (int i = 0; i < 60; i++) {
+      design->outlet_blade_angle = 0.5 * (low + high);
+      cw_outlet_triangle(meridian, design);
+      if (design->predicted_head < design->head)
+        low = design->outlet_blade_angle;
+      else
+        high = design->outlet_blade_angle;
+    }
+    SET(outlet_blade_angle, cw_case_given(fixed) ? fixed : 0.5 * (low + high),
+        cw_case_given(fixed) ? "limit of the usual 18 to 32 deg; D2 meets the head" : "solved for the head");
+    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
+  } else {
+    for (int i = 0; i < 60; i++) {
+      const double middle = 0.5 * (low + high);
+      if (straight_wrap(meridian, beta1, middle) > design->wrap_angle)
+        low = middle;
+      else
+        high = middle;
+    }
+    const double solved = 0.5 * (low + high);
+    TAKE(outlet_blade_angle, given, solved, "straight law beta1 to beta2 closes the wrap");
+    CW_REQUIRE(cw_case_given(given) || (solved > least + 1e-6 && solved < largest - 1e-6), CW_ERR_DESIGN,
+               "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 "
+               "deg: change wrap_angle_deg, inlet_blade_angle_deg or the leading edge radii",
+               design->wrap_angle / degree, beta1 / degree);
+  }
+  SET(wrap_residual, cw_case_given(table_wrap) ? design->wrap_angle - table_wrap : 0, "wrap - table's wrap");
+  SET(outlet_angle_residual, cw_case_given(given) ? design->outlet_blade_angle - given : 0, "beta2 - table's beta2");
+  SET(overlap, design->blade_count * design->wrap_angle / (2 * M_PI), "z wrap / 360 deg");
+  cw_outlet_triangle(meridian, design);
+done:
+  return status;
+}
+
+// Everything up to the predicted head, with the given outlet diameter and outlet blade angle or NAN for each. The walls
+// of the meridian are shaped anew where `shape` is set, and else keep their shares.
+static CwStatus impeller(const CwCase *table, double outlet_diameter, double fixed, int shape, CwMeridian *meridian,
+                         CwDesign *design) {
+  CwStatus status = CW_OK;
+  main_dimensions(table, outlet_diameter, design);
+  CW_REQUIRE(
+      design->blade_count * design->leading_edge_thickness < 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
+      CW_ERR_DESIGN, "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
+      design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
+  leading_edge_shroud(&table->impeller, design);
+  if (shape) cw_meridian_shape(&table->impeller, design);
+  leading_edge_hub(&table->impeller, design);
+  CW_TRY(cw_meridian_make(design, meridian));
+  inlet_triangle(table, meridian, design);
+  CW_TRY(outlet_angle(table, meridian, fixed, design));
+done:
+  return status;
+}
+
+// Solves an open D2 for the head, from the correlation's value on, with the given outlet blade angle or NAN.
+static CwStatus outlet_diameter_for_head(const CwCase *table, double fixed, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double largest = largest_outlet_diameter(table), correlated = design->outlet_diameter;
+  // Twice, since the walls are shaped for a diameter that then changes.
+  for (int pass = 0; pass < 2; pass++) {
+    double low = 0.7 * correlated, high = fmin(3 * correlated, largest);
+    CW_TRY(impeller(table, design->outlet_diameter, fixed, 1, meridian, design));
+    for (int i = 0; i < 50; i++) {
+      const double middle = 0.5 * (low + high);
+      CW_TRY(impeller(table, middle, fixed, 0, meridian, design));
+      *(design->predicted_head < design->head ? &low : &high) = middle;
+    }
+  }
+done:
+  return status;
+}
+
+static int meets_head(const CwDesign *design) {
+  return fabs(design->head_residual) < 1e-6 * design->head;
+}
+
+// A design by the head keeps the correlation's D2 where the outlet blade angle that it wants is a usual one. The
+// largest D2 that a given D3 leaves may take a greater angle.
+static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double largest = largest_outlet_diameter(table);
+  const int by_head = design->priority == CW_PRIORITY_HEAD;
+  double fixed = NAN;
+  CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
+  if (by_head) {
+    if (meets_head(design) && design->outlet_blade_angle >= usual_beta[0] &&
+        design->outlet_blade_angle <= usual_beta[1])
+      goto done;
+    fixed = fmin(usual_beta[1], fmax(usual_beta[0], design->outlet_blade_angle));
+  }
+  CW_TRY(outlet_diameter_for_head(table, fixed, meridian, design));
+  if (by_head && !meets_head(design) && design->outlet_diameter > (1 - 1e-9) * largest)
+    CW_TRY(impeller(table, largest, NAN, 1, meridian, design));
+  CW_REQUIRE(
+      meets_head(design) || design->outlet_diameter < (1 - 1e-9) * largest, CW_ERR_DESIGN,
+      "a head of %.3f m asks for a larger wheel than D2 = %.2f mm, the most that base_diameter_mm leaves (%.3f m "
+      "with beta2 = %.2f deg): raise base_diameter_mm, or change outlet_width_mm or blade_count",
+      design->head, largest * 1e3, design->predicted_head, design->outlet_blade_angle / degree);
+  CW_REQUIRE(meets_head(design), CW_ERR_DESIGN,
+             "no outlet diameter from 0.7 to 3 times the correlation's meets the head of %.3f m with beta2 "
+             "= %.2f deg "
+             "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
+             design->head, design->outlet_blade_angle / degree, design->predicted_head, design->outlet_diameter * 1e3);
+done:
+  return status;
+}
+
+// Of an open b2 over the correlation's, or under it, where D2 is given and b2 has to meet the head.
+static const double LARGEST_WIDENING = 1.5;
+
+static CwStatus with_outlet_width(const CwCase *table, double width, double fixed, int shape, CwMeridian *meridian,
+                                  CwDesign *design) {
+  CwCase trial = *table;
+  trial.impeller.outlet_width = width;
+  return impeller(&trial, NAN, fixed, shape, meridian, design);
+}
+
+// A given D2 that no outlet blade angle from 12 to 60 degrees brings to the head leaves it to an open b2, with the
+// limit of the usual angles, or, where b2 would be too unusual, with the angle that is then left.
+static CwStatus solve_outlet_width(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
+  if (design->priority != CW_PRIORITY_HEAD || cw_case_given(table->impeller.outlet_width) || meets_head(design))
+    goto done;
+  const int more = design->head_residual < 0;
+  const double usual = design->outlet_width, fixed = usual_beta[more];
+  double low = more ? usual : usual / LARGEST_WIDENING, high = more ? usual * LARGEST_WIDENING : usual;
+  CW_TRY(with_outlet_width(table, more ? high : low, fixed, 1, meridian, design));
+  const int within = more ? design->head_residual > 0 : design->head_residual < 0;
+  if (within) {
+    for (int i = 0; i < 50; i++) {
+      const double middle = 0.5 * (low + high);
+      CW_TRY(with_outlet_width(table, middle, fixed, 1, meridian, design));
+      *(design->predicted_head < design->head ? &low : &high) = middle;
+    }
+    design->source[CW_DESIGN_outlet_blade_angle] = "limit of the usual 18 to 32 deg; b2 meets the head";
+  } else {
+    CW_TRY(with_outlet_width(table, more ? high : low, NAN, 1, meridian, design));
+  }
+  design->source[CW_DESIGN_outlet_width] = "meets the head with the outlet blade angle";
+done:
+  return status;
+}
+
+// The dimensions of the wheel for its head.
+static CwStatus solve_wheel(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  if (cw_case_given(table->impeller.outlet_diameter))
+    CW_TRY(solve_outlet_width(table, meridian, design));
+  else
+    CW_TRY(solve_outlet_diameter(table, meridian, design));
+  CW_REQUIRE(design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
+             "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
+             "change outlet_diameter_mm, outlet_width_mm or the priority",
+             design->head, design->predicted_head);
+done:
+  return status;
+}
+
+// Least angle at which a cylindrical blade stands on hub and shroud. It is parallel to the axis, as is the shroud in
+// the eye: there it would leave the shroud at its own blade angle, in a wedge that nobody can cast and no layer can
+// fill.
+static const double LEAST_STANDING = 50 * M_PI / 180;
+// How far out an open leading edge is moved for that: of the way from 0.635 D1 to D2, and its steps.
+static const double FARTHEST_EDGE = 0.6;
+enum { EDGE_STEPS = 12 };
+
+CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  double angle;
+  CW_TRY(solve_wheel(table, meridian, design));
+  if (design->blade_form != CW_BLADE_CYLINDRICAL || cw_case_given(table->impeller.leading_edge_radius_shroud))
+    goto done;
+  CwCase trial = *table;
+  const double first = design->leading_edge_radius_shroud;
+  for (int i = 1; i <= EDGE_STEPS; i++) {
+    CW_TRY(cw_blade_wall_angle(design, meridian, &angle));
+    if (angle >= LEAST_STANDING) break;
+    trial.impeller.leading_edge_radius_shroud =
+        first + FARTHEST_EDGE * i / EDGE_STEPS * (design->outlet_diameter / 2 - first);
+    CW_TRY(solve_wheel(&trial, meridian, design));
+    design->source[CW_DESIGN_leading_edge_radius_shroud] =
+        "as far out as cylindrical blades stand at 50 deg on the walls";
+  }
+done:
+  return status;
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "geometry/blade.h"
+#include "geometry/hydraulic_design.h"
+#include "geometry/impeller_design.h"
+#include "geometry/meridian.h"
+#include "pipeline/case.h"
+#include "tests/geometry/paper_rotor.h"
+
+static const double degree = M_PI / 180;
+
+static CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) {
+  CwCase table;
+  cw_case_defaults(&table);
+  table.operating_point.flow_rate = cubic_metres_per_hour / 3600;
+  table.operating_point.head = head;
+  table.operating_point.speed = rpm * M_PI / 30;
+  return table;
+}
+
+// A given D3 bounds an open D2: 1.02 D2 at most, and more outlet angle makes up for the head, which is met all the
+// same.
+static void open_outlet_diameter_stays_within_the_volute(void **state) {
+  CwCase table = duty_point(54, 20, 1800);
+  const double open = design_of(&table).outlet_diameter;
+  table.volute.base_diameter = 1.1 * open;
+  near_to(design_of(&table).outlet_diameter, open, 1e-9);
+  table.volute.base_diameter = 1.01 * open;
+  const CwDesign design = design_of(&table);
+  near_to(design.outlet_diameter, table.volute.base_diameter / 1.02, 1e-9);
+  near_to(design.predicted_head, 20, 1e-4);
+  assert_true(design.outlet_blade_angle > 18 * degree);
+  CwDesign refused;
+  table.volute.base_diameter = 0.6 * open;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "raise base_diameter_mm"));
+  cw_fail_clear();
+}
+
+// A given wheel somewhat too small or too large for its head at any outlet blade angle: b2 meets the head. A given b2
+// leaves nothing open.
+static void open_outlet_width_meets_the_head_of_a_given_wheel(void **state) {
+  CwCase table = duty_point(54, 20, 1800);
+  const CwDesign open = design_of(&table);
+  int wider = 0, narrower = 0;
+  for (int way = -1; way <= 1; way += 2) {
+    CwDesign design;
+    for (int i = 1;; i++) {
+      table.impeller.outlet_diameter = (1 + 0.01 * way * i) * open.outlet_diameter;
+      if (cw_hydraulic_design(&table, &design) != CW_OK) break;
+      near_to(design.predicted_head, 20, 0.02);
+      near_to(design.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
+      wider += way < 0 && design.outlet_width > 1.001 * open.outlet_width;
+      narrower += way > 0 && design.outlet_width < 0.999 * open.outlet_width;
+    }
+    cw_fail_clear();
+  }
+  assert_true(wider > 0 && narrower > 0);
+  table.impeller.outlet_width = open.outlet_width;
+  table.impeller.outlet_diameter = 0.8 * open.outlet_diameter;
+  CwDesign refused;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "change outlet_diameter_mm"));
+  cw_fail_clear();
+}
+
+// Cylindrical blades stand at 50 degrees or more on hub and shroud, also of wheels that draw twisted ones into the eye.
+static void cylindrical_blades_stand_on_the_walls(void **state) {
+  static const double duty[][3] = {{345.21, 1.1954, 268.54}, {28.578, 3.2085, 1141.8}, {54, 20, 1800}, {15, 20, 2900}};
+  for (int i = 0; i < 4; i++) {
+    CwCase table = duty_point(duty[i][0], duty[i][1], duty[i][2]);
+    table.impeller.blade_form = CW_BLADE_CYLINDRICAL;
+    const CwDesign design = design_of(&table);
+    CwMeridian meridian;
+    double angle;
+    assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+    assert_int_equal(cw_blade_wall_angle(&design, &meridian, &angle), CW_OK);
+    assert_true(angle >= 50 * degree);
+    near_to(design.predicted_head, duty[i][1], 1e-3 * duty[i][1]);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(open_outlet_diameter_stays_within_the_volute),
+      cmocka_unit_test(open_outlet_width_meets_the_head_of_a_given_wheel),
+      cmocka_unit_test(cylindrical_blades_stand_on_the_walls),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
