@@ -12,10 +12,10 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/boundary/periodic_boundary.h"
 #include "mesher/boundary/wall_part.h"
+#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 enum { PASSES = 8, THICKNESSES = 2 };
-static const double OPEN = 26;                        // degrees: bound up to which more is better
 static const double FACTOR[THICKNESSES] = {1.1, 0.9}; // of the present one, tried
 static const double MUCH = 200;                       // more than any bound or quality
 
@@ -59,8 +59,8 @@ static double bound_in(const CwLayerWork *work, int32_t t, const double (*top)[3
 // How good the column of v is: until its prisms are good by them, and then by the least bound of the triangles that its
 // end is a corner or an apex of.
 static double judge(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first) {
-  double quality = cw_layers_around(work, v, top, -INFINITY, first), least = OPEN;
-  if (quality < CW_LAYER_GOOD) return quality - MUCH;
+  double quality = cw_layers_around(work, v, top, -INFINITY, first), least = cw_policy.top_open;
+  if (quality < cw_policy.prism_good) return quality - MUCH;
   for (int32_t i = work->face_start[v]; i < work->face_start[v + 1] && least > floor; i++) {
     int32_t t = work->face[i], apex;
     least = fmin(least, bound_in(work, t, top, least));
@@ -110,8 +110,9 @@ static CwStatus find_narrow(void *context, int32_t t, void *out) {
   if (boundary->surface.source[t] != t) return CW_OK;
   const int32_t(*triangle)[3] = (const int32_t(*)[3])boundary->surface.triangle;
   const double(*top)[3] = (const double(*)[3])boundary->layers.top;
-  double bound = cw_layer_top_bound(t, triangle, top, concave->around.start, concave->around.triangle, CW_NARROW_EDGE);
-  *(uint8_t *)out = bound < CW_NARROW_EDGE;
+  double bound =
+      cw_layer_top_bound(t, triangle, top, concave->around.start, concave->around.triangle, cw_policy.top_narrow);
+  *(uint8_t *)out = bound < cw_policy.top_narrow;
   return CW_OK;
 }
 
@@ -223,7 +224,7 @@ static CwStatus check(const CwBoundary *boundary, const CwLayerInput *wall, cons
   for (int32_t t = 0; t < wall->triangle_count && *fits; t++) {
     const int32_t *corner = wall->triangle[t];
     if (!moved[corner[0]] && !moved[corner[1]] && !moved[corner[2]]) continue;
-    double least = fmin(CW_LAYER_GOOD, cw_layers_prism_quality(&work, t, before));
+    double least = fmin(cw_policy.prism_good, cw_layers_prism_quality(&work, t, before));
     *fits = cw_layers_prism_quality(&work, t, top) >= least;
   }
   if (!*fits) goto done;

@@ -8,8 +8,6 @@
 #include "mesher/layers/layers.h"
 #include "mesher/boundary/boundary.h"
 
-#define CW_NARROW_EDGE 20.0 // degrees: triangles of the layer top that bound their tetrahedra below that are opened
-
 // Turns columns at narrow concave edges and changes their thicknesses by a tenth, never below `least` of `wall`, each
 // up to eight times where the least bound of the triangles round it rises by that, up to 26 degrees; alike in all
 // periodic images. All stays as it was where the layer top would cross something. *opened: columns that moved, copies

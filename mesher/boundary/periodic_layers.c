@@ -12,14 +12,12 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/boundary/periodic_boundary.h"
 #include "mesher/boundary/wall_part.h"
+#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 enum { ROUNDS = 20, SWEEPS = 2 }; // of thinning; over the seams, to choose their columns
 static const double REACH = 4;    // thicknesses: how far the layers feel one another through gaps and gradation
-static const double FAIR = 0.05, VALID = 0.02; // least prism quality, and where half the rounds did not bring it
-static const double THIN = 0.8;                // what a column keeps where the copies do not fit one another
-static const double SLOPE = 0.3; // thicknesses change by no more per distance, as where they are graded (layers_gap)
-static const double SAME = 1e-9; // of the model's unit: layer tops that differ less are the same
+static const double SAME = 1e-9;  // of the model's unit: layer tops that differ less are the same
 
 // The part of the wall that the first ones and what stands near them make up.
 typedef struct {
@@ -340,7 +338,7 @@ static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
   uint8_t *lowered = NULL;
   CW_NEW(lowered, whole->point_count);
   for (int32_t v = 0; v < whole->point_count; v++) {
-    if (bad[v] && !lowered[v]) lower(part, v, THIN * layers->thickness[v], layers, lowered);
+    if (bad[v] && !lowered[v]) lower(part, v, cw_policy.column_kept * layers->thickness[v], layers, lowered);
   }
   for (int again = 1; again;) {
     again = 0;
@@ -349,7 +347,7 @@ static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
       for (int k = 0; k < 6; k++) { // either way along each edge
         int32_t v = part->wall.global[corner[k / 2]], w = part->wall.global[corner[(k / 2 + 1 + k % 2) % 3]];
         if (!lowered[v]) continue;
-        double most = layers->thickness[v] + SLOPE * cw_distance(whole->x[v], whole->x[w]);
+        double most = layers->thickness[v] + cw_policy.thickness_slope * cw_distance(whole->x[v], whole->x[w]);
         if (layers->thickness[w] <= most) continue;
         lower(part, w, most, layers, lowered);
         again = 1;
@@ -382,7 +380,8 @@ CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, 
   layers->thinned_count = made.thinned_count;
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
-    CW_TRY(check(&part, &made, layers, round < ROUNDS / 2 ? FAIR : VALID, bad, &bad_count));
+    CW_TRY(check(&part, &made, layers, round < ROUNDS / 2 ? cw_policy.prism_fair : cw_policy.prism_valid, bad,
+                 &bad_count));
     if (!bad_count) break;
     int32_t first = 0;
     while (!bad[first]) first++;

@@ -10,6 +10,7 @@
 
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/policy.h"
 
 // Displacement of v without any smoothing, m.
 static void plain(const CwLayerWork *work, int32_t v, const double direction[3], double cosine, double d[3]) {
@@ -55,7 +56,7 @@ static CwStatus find_sources(CwSmoothing *smoothing) {
     if (!is_source(work, v)) continue;
     CwSmoothingSource *source = &smoothing->source[smoothing->source_count++];
     double cosine = work->crease[v] == CW_CREASE_CONCAVE ? work->base_cos[v] : cw_dot(work->base[v], work->normal[v]);
-    cosine = fmin(fmax(cosine, CW_SMOOTHING_LEAST_COSINE), 1);
+    cosine = fmin(fmax(cosine, cw_policy.column_least_cosine), 1);
     source->vertex = v;
     source->opening = sqrt(1 - cosine * cosine) / cosine;
     sliding_direction(work, v, source->line);

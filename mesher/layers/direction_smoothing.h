@@ -8,9 +8,6 @@
 
 enum { CW_SMOOTHING_BLOCK = 4096 }; // vertices
 
-// Of a direction that a column may lean in.
-#define CW_SMOOTHING_LEAST_COSINE 0.3
-
 // Of every vertex: the nearest source along edges.
 typedef struct {
   double distance;

@@ -4,11 +4,9 @@
 
 #include "mesher/common/vertex_heap.h"
 #include "mesher/layers/direction_smoothing.h"
+#include "mesher/policy.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
-static const double FADE = 6;   // the opening of the crease is forgotten at this many thicknesses from it
-static const double POOR = 0.2; // prism quality under which a smoothing is widened
-static const double WIDEST = 5;
 static const double SETTLED = 1e-3; // change in one sweep, in thicknesses, that is none
 
 // Projects u onto the directions in which the column of v may lean without changing its normal thickness or
@@ -65,7 +63,7 @@ static SmoothingAt smoothing_at(const CwSmoothing *smoothing, int32_t v) {
 }
 
 static double range(const CwLayerWork *work, int32_t v, const SmoothingAt *smoothing) {
-  double fade = fmax(0, 1 - smoothing->distance / (FADE * smoothing->thickness));
+  double fade = fmax(0, 1 - smoothing->distance / (cw_policy.smoothing_reach * smoothing->thickness));
   return 1.5 * work->t[v] * fmax(0.7, smoothing->opening * fade);
 }
 
@@ -291,13 +289,13 @@ static void set_end(Part *part, int32_t i) {
   for (int k = 0; k < 3; k++) part->top[i][k] = work->in->x[v][k] + work->t[v] * part->column[i][k];
 }
 
-// Leans the column of i as the smoothing asks, but no further than CW_SMOOTHING_LEAST_COSINE allows, and keeps its
+// Leans the column of i as the smoothing asks, but no further than column_least_cosine allows, and keeps its
 // normal thickness.
 static void lean(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   const SmoothingAt *smoothing = &part->smoothing[i];
   int32_t v = vertex_of(part, i);
-  double least = fmin(CW_SMOOTHING_LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1, upright[3];
+  double least = fmin(cw_policy.column_least_cosine, 0.6 * work->base_cos[v]), scale = 1, upright[3];
   cw_layers_upright(work, v, upright);
   memcpy(part->column[i], upright, sizeof upright);
   double thickness = cw_layers_least_cosine(work, v, upright);
@@ -331,10 +329,10 @@ static int32_t widen(Part *part) {
       for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], top[k] = part->top[local[k]];
       part->quality[f] = cw_prism_quality(wall, top);
     }
-    if (part->quality[f] >= POOR) continue;
+    if (part->quality[f] >= cw_policy.smoothing_poor) continue;
     poor++;
     for (int k = 0; k < 3; k++) {
-      part->smoothing[local[k]].widen = fmin(part->smoothing[local[k]].widen * 1.4, WIDEST);
+      part->smoothing[local[k]].widen = fmin(part->smoothing[local[k]].widen * 1.4, cw_policy.smoothing_widest);
     }
   }
   memset(part->changed, 0, (size_t)part->count);

@@ -10,9 +10,9 @@
 #include "mesher/common/vertex_heap.h"
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/policy.h"
 
 enum { BLOCK = 2048 };
-static const double REACH = 6;       // the smoothing ends at this many thicknesses from its source
 static const double ROUNDING = 1e-9; // of a length summed along edges
 
 typedef struct {
@@ -44,7 +44,7 @@ static CwStatus settle(Spread *spread, int32_t v) {
   const CwSmoothing *smoothing = spread->blocks->smoothing;
   const CwLayerWork *work = smoothing->work;
   CwSmoothingReach *reach = spread->blocks->reach, at = reach[v];
-  double most = REACH * smoothing->source[at.source].thickness;
+  double most = cw_policy.smoothing_reach * smoothing->source[at.source].thickness;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
     if (reach[w].distance <= at.distance) continue;
@@ -67,7 +67,7 @@ static void measure(Spread *spread, int32_t first, int32_t last) {
   *box = cw_box_empty();
   for (int32_t i = first; i < last; i++) cw_box_add_point(box, work->in->x[work->curve[i]]);
   for (int32_t i = 0; i < smoothing->source_count; i++) {
-    double way = (1 + ROUNDING) * REACH * smoothing->source[i].thickness;
+    double way = (1 + ROUNDING) * cw_policy.smoothing_reach * smoothing->source[i].thickness;
     if (way > spread->most && distance_to(box, work->in->x[smoothing->source[i].vertex]) <= way) spread->most = way;
   }
 }

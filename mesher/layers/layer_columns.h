@@ -41,7 +41,6 @@ double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double d
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 
 // layers_turn.c
-#define CW_LAYER_GOOD 0.12 // quality of prisms and their layer tops that is asked for
 // Quality (prism_quality.h) of the prism over triangle f with column ends `top`.
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
 // How good the column of v is: by the worst prism around it, and where all are good by their layer top and shear too;

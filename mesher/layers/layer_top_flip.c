@@ -6,13 +6,9 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
+#include "mesher/policy.h"
 
 enum { SWEEPS = 12 };
-static const double GAIN = 1.1;         // least factor by which a flip raises the least angle of the layer top
-static const double FLAT = 0.9;         // cosine between the normals of a pair that may be turned
-static const double WALL_SHARE = 0.6;   // of its least angle the wall keeps
-static const double FAIR_ANGLE = 0.35;  // rad: a wall triangle with angles above it is fair in any case
-static const double VALID_PRISM = 0.02; // scaled Jacobian of a prism, least
 
 // Least angle of a triangle: the one across from its shortest edge.
 static double least_angle(const double (*x)[3], int32_t a, int32_t b, int32_t c) {
@@ -64,23 +60,23 @@ static int flat_pair(const double (*x)[3], const int32_t p[3], const int32_t q[3
   double n[3], m[3];
   unit_normal(x, p[0], p[1], p[2], n);
   unit_normal(x, q[0], q[1], q[2], m);
-  return cw_dot(n, m) > FLAT;
+  return cw_dot(n, m) > cw_policy.top_flip_flat;
 }
 
 // Whether the edge a-b between c (left) and d is better as c-d; `before`: least angle of the layer top now.
 static int flip_helps(const double (*wall)[3], const double (*top)[3], double before, int32_t a, int32_t b, int32_t c,
                       int32_t d) {
   double after = fmin(least_angle(top, c, d, b), least_angle(top, d, c, a));
-  if (after < GAIN * before) return 0;
+  if (after < cw_policy.top_flip_gain * before) return 0;
   double wall_before = fmin(least_angle(wall, a, b, c), least_angle(wall, b, a, d));
   double wall_after = fmin(least_angle(wall, c, d, b), least_angle(wall, d, c, a));
-  if (wall_after < FAIR_ANGLE && wall_after < WALL_SHARE * wall_before) return 0;
+  if (wall_after < cw_policy.top_flip_fair && wall_after < cw_policy.top_flip_wall * wall_before) return 0;
   const int32_t old[2][3] = {{a, b, c}, {b, a, d}}, new[2][3] = {{c, d, b}, {d, c, a}};
   if (!flat_pair(top, old[0], old[1]) || !flat_pair(top, new[0], new[1])) return 0;
   if (!flat_pair(wall, old[0], old[1]) || !flat_pair(wall, new[0], new[1])) return 0;
   for (int k = 0; k < 2; k++) {
     if (!flat_pair(top, old[0], new[k]) || !flat_pair(wall, old[0], new[k])) return 0;
-    if (prism_quality(wall, top, new[k][0], new[k][1], new[k][2]) < VALID_PRISM) return 0;
+    if (prism_quality(wall, top, new[k][0], new[k][1], new[k][2]) < cw_policy.prism_valid) return 0;
   }
   return 1;
 }

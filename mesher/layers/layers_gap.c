@@ -3,8 +3,7 @@
 
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/layers/layers_inner.h"
-
-static const double LEAST_APART = 0.25; // of the wall's edge: distance of columns that nearly meet
+#include "mesher/policy.h"
 
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
@@ -101,7 +100,7 @@ static int meet(void *context, int32_t f) {
   if (way <= ray->offset || way > ray->far) return 0;
   if (wall) {
     if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
-    ray->best = fmin(ray->best, CW_GAP_SHARE * way / ray->stretch);
+    ray->best = fmin(ray->best, cw_policy.gap_share * way / ray->stretch);
   } else {
     // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
     if (facing < (ray->constrained ? 0.3 : 0.05)) return 0;
@@ -128,7 +127,7 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
-  ray.far = in->target[v] * ray.stretch / CW_GAP_SHARE;
+  ray.far = in->target[v] * ray.stretch / cw_policy.gap_share;
   cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
   *(double *)out = ray.best;
   return CW_OK;
@@ -204,7 +203,7 @@ static double most_beside(const void *context, int32_t v, int32_t w) {
   cw_sub(work->in->x[w], work->in->x[v], e);
   for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
   double wall = cw_norm(e);
-  return work->t[v] + CW_THICKNESS_SLOPE * fmin(wall, fmax(cw_norm(d), LEAST_APART * wall));
+  return work->t[v] + cw_policy.thickness_slope * fmin(wall, fmax(cw_norm(d), cw_policy.columns_apart * wall));
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {

@@ -55,7 +55,7 @@ CwStatus cw_layers_limit_by_concavity(CwLayerWork *work);
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 
 // layers_turn.c: what the layer top over triangle f counts beside its prism; and its shear, where its quality is
-// `prism`: CW_LAYER_GOOD where no determinant is small.
+// `prism`: prism_good where no determinant is small.
 double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
 double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism);
 

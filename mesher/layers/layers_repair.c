@@ -5,14 +5,12 @@
 #include "mesher/layers/layers_crossing.h"
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/policy.h"
 
 enum { ROUNDS = 40, TURNS = 4, RESMOOTH = 3 };
 enum { TOGETHER = 16 };                 // columns at least that are turned in one task
 enum { MANY = 2048 };                   // prisms that are worth handing round the ranks
 enum { FOR_SHAPE = 1, FOR_SOUNDNESS };  // what a column is turned and thinned for
-static const double FAIR = 0.05;        // least prism quality, where CW_LAYER_GOOD cannot be had
-static const double KEPT = 0.08;        // the same where columns would have to give up their first height for more
-static const double THIN = 0.8;         // what a thinned column keeps
 static const double LEAST_SHARE = 0.01; // of its target: a column this thin that still crosses will not get clear
 
 typedef struct {
@@ -36,19 +34,20 @@ static double least_thickness(const CwLayerWork *work, int32_t v) {
 }
 
 // The layer top, and rounder prisms, count as long as one of the columns can still give way. What is good but for its
-// shear is CW_LAYER_GOOD: such columns are turned once more at the end, but never thinned.
+// shear is prism_good: such columns are turned once more at the end, but never thinned.
 static double judge(const Repair *repair, int32_t f) {
   const CwLayerWork *work = repair->work;
   const double(*top)[3] = (const double(*)[3])repair->top;
-  double prism = cw_layers_prism_quality(work, f, top), quality = prism < KEPT ? prism : CW_LAYER_GOOD;
+  double prism = cw_layers_prism_quality(work, f, top),
+         quality = prism < cw_policy.prism_kept ? prism : cw_policy.prism_good;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
     if (work->t[v] <= least_thickness(work, v)) continue;
     quality = fmin(prism, cw_layers_top_quality(work, f, top));
     break;
   }
-  if (quality <= CW_LAYER_GOOD) return quality;
-  return cw_layers_shear_quality(work, f, top, prism) < CW_LAYER_GOOD ? CW_LAYER_GOOD : quality;
+  if (quality <= cw_policy.prism_good) return quality;
+  return cw_layers_shear_quality(work, f, top, prism) < cw_policy.prism_good ? cw_policy.prism_good : quality;
 }
 
 static CwStatus judge_stale(void *context, int32_t i, void *out) {
@@ -96,7 +95,8 @@ static CwStatus find_bad(Repair *repair) {
   memset(repair->mark, 0, (size_t)work->n);
   for (int32_t i = 0; i < kept; i++) {
     int32_t f = repair->bad[i];
-    int sound = cw_layers_prism_quality(work, f, (const double(*)[3])repair->top) >= fmin(KEPT, repair->limit);
+    int sound =
+        cw_layers_prism_quality(work, f, (const double(*)[3])repair->top) >= fmin(cw_policy.prism_kept, repair->limit);
     for (int k = 0; k < 3; k++) {
       uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
       if (*mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
@@ -129,7 +129,7 @@ static CwStatus thin_marked(Repair *repair) {
   for (int32_t v = 0; v < work->n; v++) {
     double least = repair->mark[v] == FOR_SHAPE ? least_thickness(work, v) : 0;
     if (!repair->mark[v] || work->t[v] <= least) continue;
-    work->t[v] = fmax(THIN * work->t[v], least);
+    work->t[v] = fmax(cw_policy.column_kept * work->t[v], least);
     work->reason[v] = CW_LAYER_REPAIR;
   }
   CW_TRY(cw_layers_grade(work, repair->mark));
@@ -320,10 +320,10 @@ static CwStatus turn_kept(Repair *repair, int *turned) {
     int marked = 0;
     memset(repair->mark, 0, (size_t)work->n);
     for (int32_t f = 0; f < work->in->triangle_count; f++) {
-      if (repair->quality[f] != CW_LAYER_GOOD) continue;
+      if (repair->quality[f] != cw_policy.prism_good) continue;
       double prism = cw_layers_prism_quality(work, f, top);
       double shape = fmin(prism, cw_layers_top_quality(work, f, top));
-      if (fmin(shape, cw_layers_shear_quality(work, f, top, prism)) >= CW_LAYER_GOOD) continue;
+      if (fmin(shape, cw_layers_shear_quality(work, f, top, prism)) >= cw_policy.prism_good) continue;
       for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[f][k]] = FOR_SHAPE;
       marked = 1;
     }
@@ -359,7 +359,7 @@ static CwStatus start(Repair *repair, CwBoxTree *tree) {
   for (int32_t f = 0; f < triangles; f++) repair->stale[f] = f;
   CW_TRY(cw_parallel_for("layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair, repair->quality));
   for (int32_t f = 0; f < triangles; f++) {
-    if (repair->quality[f] < CW_LAYER_GOOD) repair->bad[repair->bad_count++] = f;
+    if (repair->quality[f] < cw_policy.prism_good) repair->bad[repair->bad_count++] = f;
   }
 done:
   return status;
@@ -414,7 +414,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
   CW_TRY(start(&repair, tree));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
-    repair.limit = *rounds < ROUNDS / 2 ? CW_LAYER_GOOD : FAIR;
+    repair.limit = *rounds < ROUNDS / 2 ? cw_policy.prism_good : cw_policy.prism_fair;
     CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
       CW_TRY(turn_bad(&repair));

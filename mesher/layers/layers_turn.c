@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How good the prisms round a column are, and the search for a better direction of it.
 #include "mesher/layers/layers_inner.h"
+#include "mesher/policy.h"
 
-static const double TOP = 0.4;          // what the quality of the layer top counts beside that of prisms: 0.3 is good
-static const double UPRIGHT = 0.5;      // prism quality from which on columns lean too little to shear prisms much
-static const double MUCH = 100;         // more than any quality
-static const double LEAST_COSINE = 0.3; // of a direction that the search may choose
+static const double MUCH = 100; // more than any quality
 
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   const int32_t *v = work->in->triangle[f];
@@ -18,7 +16,7 @@ double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*
   const int32_t *v = work->in->triangle[f];
   const double(*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {top[v[0]], top[v[1]], top[v[2]]};
-  return TOP * cw_prism_top_quality(wall, end);
+  return cw_policy.turn_top * cw_prism_top_quality(wall, end);
 }
 
 double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism) {
@@ -26,7 +24,7 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
   const double(*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {top[v[0]], top[v[1]], top[v[2]]};
   const CwLayerDivision *division = &work->in->division;
-  if (division->count < 1 || prism > UPRIGHT) return CW_LAYER_GOOD;
+  if (division->count < 1 || prism > cw_policy.turn_upright) return cw_policy.prism_good;
   double last[3], normal[3], column[3];
   cw_normal(wall[0], wall[1], wall[2], normal);
   cw_unit(normal);
@@ -35,7 +33,7 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
     last[k] =
         division->last ? division->last(division->context, v[k], fabs(cw_dot(column, normal))) : 1.0 / division->count;
   }
-  return CW_LAYER_GOOD * cw_prism_shear_quality(wall, end, division->count, last);
+  return cw_policy.prism_good * cw_prism_shear_quality(wall, end, division->count, last);
 }
 
 double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first) {
@@ -45,12 +43,12 @@ double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[
     int32_t at = (*first + i) % count, f = work->face[start + at];
     double q = cw_layers_prism_quality(work, f, top), before = quality;
     if (q < prism) prism = q;
-    if (prism < CW_LAYER_GOOD) {
+    if (prism < cw_policy.prism_good) {
       quality = prism - MUCH;
     } else {
       double shear = cw_layers_shear_quality(work, f, top, q);
       q = cw_layers_top_quality(work, f, top);
-      if (shear < CW_LAYER_GOOD) q = fmin(q, shear);
+      if (shear < cw_policy.prism_good) q = fmin(q, shear);
       if (q < end) end = q;
       quality = end < prism ? end : prism;
     }
@@ -67,7 +65,7 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge
   if (constraints == 2) return;
   int32_t first = 0;
   double best = judge(work, v, (const double(*)[3])top, -INFINITY, &first), kept[3], column[3];
-  double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
+  double least_cosine = fmin(cw_policy.column_least_cosine, 0.9 * work->base_cos[v]);
   memcpy(kept, top[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
   for (int s = 0; s < 2; s++) {
@@ -92,7 +90,7 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge
       cw_unit(trial);
       double cosine = cw_layers_least_cosine(work, v, trial);
       if (cosine < least_cosine) continue;
-      for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
+      for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, cw_policy.column_least_cosine);
       cw_layers_place(work, v, top[v]);
       double quality = judge(work, v, (const double(*)[3])top, best, &first);
       if (quality > best) {

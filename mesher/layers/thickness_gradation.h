@@ -8,9 +8,7 @@
 
 #include "pipeline/status.h"
 
-#define CW_THICKNESS_SLOPE 0.3 // thicknesses of columns change by no more per distance between them
-#define CW_GAP_SHARE 0.35      // of the gap to another wall, the most that a column takes
-#define CW_OPEN_SHARE 0.6      // of the way to an open patch, which has no layers
+#define CW_OPEN_SHARE 0.6 // of the way to an open patch, which has no layers
 
 typedef struct {
   const char *step;                                          // in the profiler

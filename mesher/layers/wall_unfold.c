@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/layers/wall_unfold.h"
+#include "mesher/policy.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +9,6 @@
 #include "mesher/layers/layers_inner.h" // most normal directions
 
 enum { SWEEPS = 8 };
-static const double OPEN = 0.2;      // cosine of a vertex that needs no help
 static const double GAIN = 0.02;     // in the cosine, that is worth a flip
 static const double FLATTEST = 0.02; // thickness over base of a triangle that a flip may make
 
@@ -139,7 +139,7 @@ CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t trian
     for (int32_t v = 0; v < point_count; v++) {
       if (wall.stale[v]) wall.open[v] = openness(&wall, v);
       wall.stale[v] = 0;
-      if (wall.open[v] >= OPEN) continue;
+      if (wall.open[v] >= cw_policy.unfold_open) continue;
       ++*folded;
       int turned = 0;
       for (int way = 0; way < 2 && !turned; way++) {

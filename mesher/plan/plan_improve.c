@@ -6,15 +6,13 @@
 #include "mesher/common/vec.h"
 #include "mesher/plan/plan_cost.h"
 #include "mesher/plan/plan_lines.h"
+#include "mesher/policy.h"
 
 enum {
   REGIONS_MOST = 12, // of a subtree whose plane is moved: all below it is weighed for each move
   MOVES = 27         // each of shift and two turns forth, not at all and back; the first is no move
 };
-// Cosines of a line to the normal of a wall where it ends. Columns on walls that meet a line of less than the first
-// came out so crooked that cells had small determinants (the paper's pump of 100 million cells: 42, and 11 degrees);
-// from the second on nothing is gained.
-static const double LEANING = 0.42, UPRIGHT = 0.55;
+static const double UPRIGHT = 0.55;                      // cosine from which on nothing is gained
 static const double LEANING_COST = 20;                   // of a cosine less by 1 than the second
 static const double FIRST_STEP = 0.08, LAST_STEP = 0.01; // of a plane, over the cube root of its cell's volume
 static const double WORTH = 0.05;                        // least gain of a step
@@ -126,7 +124,7 @@ static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPl
   CwPlane *plane = &plan->node[node].plane;
   double centre[3], reach, size = cbrt(part->volume);
   Worth least = *worth, tried;
-  if (least.cosine > LEANING) goto done;
+  if (least.cosine > cw_policy.plan_improve_leaning) goto done;
   *moves = 1;
   for (double step = FIRST_STEP * size; step > LAST_STEP * size;) {
     CwPlane best = *plane;

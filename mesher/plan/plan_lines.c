@@ -6,21 +6,13 @@
 
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, HITS_MOST = 64 };
 static const double LINE_STEP = 0.5; // base sizes between samples of a line
-static const double ROOM = 1.5;      // thicknesses of the layers: lines of two planes start behind the layers
-// Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
-// have room.
-static const double SAME_LINE = 1, APART = 3;
-static const double NEIGHBOUR_REACH = 5; // base sizes: planes farther from a line do not matter to it
-static const double SAME_POINT = 1e-9;   // of the model's unit
-static const double LEANING = 0.55;      // cosine of a line to a wall's normal: columns that lean more are lower
-static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
-static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
-static const double CONCAVE_WALL = 0.8;  // share of the layers that a line in them leaves behind where the wall bends
-static const double SAME_WALL = 0.9;     // least cosine between triangles of one wall
-static const double BESIDE_SHARE = 0.3;  // of a line that may run beside another
+static const double SAME_LINE = 1;   // edge length between two lines on one interface: nearer than that they are one
+static const double NEIGHBOUR_REACH = 5;         // base sizes: planes farther from a line do not matter to it
+static const double SAME_POINT = 1e-9;           // of the model's unit
 static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
 static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one with hardly any besides
 static const double HARDLY = 0.8;                // shortage of room from which on a line has hardly any
@@ -156,8 +148,9 @@ static double judge_crossings(const Line *line, double from, double to, Lines *l
     cw_copy(x, back);
     if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
     if (!cw_plan_in_cell(line->plan, near->node, back, 2 * SAME_POINT, NULL, 0)) continue;
-    CwPlanWall wall = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest);
-    if (wall.thickness > 0) worst = fmax(worst, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    CwPlanWall wall = cw_plan_wall_near(line->model, x, cw_policy.plan_line_room * line->model->thickest);
+    if (wall.thickness > 0)
+      worst = fmax(worst, shortage(wall.distance, wall.thickness, cw_policy.plan_line_room * wall.thickness));
     if (wall.distance < wall.thickness) lines->impossible = 1;
   }
   return worst;
@@ -179,21 +172,22 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end, Line
   double thickness = model->thickness[end->triangle], cramped = near_an_edge(line, part, x);
   // Columns keep the height normal to the wall, but for those that lean too much.
   end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
-  end->layers = thickness / fmax(end->cosine, LEANING);
+  end->layers = thickness / fmax(end->cosine, cw_policy.plan_line_upright);
   if (thickness == 0) return cramped;
   lines->cosine = fmin(lines->cosine, end->cosine);
-  if (end->cosine < TANGENT) lines->impossible = 1;
-  cramped = fmax(cramped, shortage(end->cosine, LEANING_MOST, LEANING));
-  return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
+  if (end->cosine < cw_policy.plan_line_tangent) lines->impossible = 1;
+  cramped = fmax(cramped, shortage(end->cosine, cw_policy.plan_line_leaning, cw_policy.plan_line_upright));
+  return fmax(cramped, shortage(plane_near(line, x, cw_policy.plan_line_room * thickness), thickness / 2,
+                                cw_policy.plan_line_room * thickness));
 }
 
 // How far the line ought to be from this wall, over the thickness of its layers: less beside an end where the line
 // comes to the same wall.
 static double wanted_of(const Line *line, const End *end, double place, int32_t triangle) {
   const CwPlanModel *model = line->model;
-  if (end->triangle < 0 || fabs(place - end->place) > 2 * ROOM * end->layers) return 1;
-  if (cw_dot(model->normal[end->triangle], model->normal[triangle]) < SAME_WALL) return 1;
-  return CONCAVE_WALL * fmin(1, end->cosine / LEANING);
+  if (end->triangle < 0 || fabs(place - end->place) > 2 * cw_policy.plan_line_room * end->layers) return 1;
+  if (cw_dot(model->normal[end->triangle], model->normal[triangle]) < cw_policy.plan_same_wall) return 1;
+  return cw_policy.plan_line_concave * fmin(1, end->cosine / cw_policy.plan_line_upright);
 }
 
 // A run of the line through the domain.
@@ -206,23 +200,24 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   if (run < taken) lines->impossible = 1;
   if (lines->impossible) return;
   cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
-  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
+  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, cw_policy.plan_line_room * taken));
   int samples = (int)fmin(fmax(ceil(run / (LINE_STEP * model->base_size)), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
   double step = run / samples;
   for (int i = 0; i < samples && !lines->impossible; i++) {
     double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
-    double h = cw_size_at(model->size, x), near = plane_near(line, x, APART * h);
+    double h = cw_size_at(model->size, x), near = plane_near(line, x, cw_policy.plan_lines_apart * h);
     if (near < SAME_LINE * h) beside += step;
-    cramped = fmax(cramped, shortage(near, SAME_LINE * h, APART * h));
+    cramped = fmax(cramped, shortage(near, SAME_LINE * h, cw_policy.plan_lines_apart * h));
     if (s - from->place < from->layers || to->place - s < to->layers) continue;
-    CwPlanWall wall = cw_plan_wall_near(model, x, ROOM * model->thickest);
+    CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_line_room * model->thickest);
     if (wall.thickness == 0) continue;
     double wanted = fmin(wanted_of(line, from, s, wall.triangle), wanted_of(line, to, s, wall.triangle));
-    if (wanted == 1) cramped = fmax(cramped, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    if (wanted == 1)
+      cramped = fmax(cramped, shortage(wall.distance, wall.thickness, cw_policy.plan_line_room * wall.thickness));
     if (wall.distance < wanted * wall.thickness) lines->impossible = 1;
   }
-  if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
+  if (beside > cw_policy.plan_line_beside * run && beside > 2 * step) lines->impossible = 1;
   lines->cramped += cramped;
   lines->blocked += cramped >= HARDLY;
 }

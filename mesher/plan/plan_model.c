@@ -7,6 +7,7 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
+#include "mesher/policy.h"
 
 enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
 enum {
@@ -14,12 +15,7 @@ enum {
   TOGETHER = 8,             // places of the size field in one sample, at most
   PARTS_ALONG = 4           // parts of a place along each side, at most
 };
-static const double EDGE_STEP = 0.25;     // base sizes between points along CAD edges
-static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
-// Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
-// want a cell between them; beside a smooth edge only the surface triangles do.
-static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
-static const double TOUCH_ROOM = 0.5; // between a cut and an edge beside it, in wanted lengths
+static const double EDGE_STEP = 0.25; // base sizes between points along CAD edges
 // Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the layer top (the paper's pump from
 // 1 to 20 million cells, by region).
 static const double LATTICE = 8.4;   // per volume / h^3
@@ -37,7 +33,7 @@ int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
     cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
     cw_cad_face_normal(cad, face[s], uv, normal[s]);
   }
-  return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
+  return cw_dot(normal[0], normal[1]) > cw_policy.plan_smooth_cosine;
 }
 
 static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2], double step) {
@@ -72,14 +68,14 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
     if (room == 0) continue; // between two open patches
     int smooth = cw_plan_edge_is_smooth(cad, e);
-    room *= smooth ? SMOOTH_ROOM : EDGE_ROOM;
+    room *= smooth ? cw_policy.plan_smooth_room : cw_policy.plan_edge_room;
     int32_t points = points_of_edge(cad, e, range, step);
     for (int32_t i = 0; i < points; i++) {
       int32_t at = model->edge_count++;
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
                         model->edge_tangent[at]);
       cw_unit(model->edge_tangent[at]);
-      model->edge_touch[at] = TOUCH_ROOM * cw_size_at(model->size, model->edge_x[at]);
+      model->edge_touch[at] = cw_policy.plan_touch_room * cw_size_at(model->size, model->edge_x[at]);
       model->edge_room[at] = room;
       model->edge_sharp[at] = (uint8_t)!smooth;
       model->edge_end[at] = i == 0 || i == points - 1;

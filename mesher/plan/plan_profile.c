@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
-
-static const double END_WEIGHT = 6;    // of an end of a CAD edge, in points along it
-static const double ALONG_EDGE = 0.35; // sine of the least angle between a plane and a CAD edge that it crosses
+#include "mesher/policy.h"
 
 int cw_profile_bin(const CwPlanProfile *profile, double place) {
   double bin = (place - profile->low) / profile->width;
@@ -88,7 +86,7 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
 
 // Whether a plane with normal n runs along the edge at one of its points, or comes near its end.
 static int may_graze(const CwPlanModel *model, int32_t e, const double n[3]) {
-  return model->edge_end[e] || fabs(cw_dot(n, model->edge_tangent[e])) < ALONG_EDGE;
+  return model->edge_end[e] || fabs(cw_dot(n, model->edge_tangent[e])) < cw_policy.plan_along_edge;
 }
 
 // Full weight within half of the room, then less and less.
@@ -105,7 +103,7 @@ static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const do
     int last = cw_profile_bin(profile, place + room);
     for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
       double near = nearness(fabs(profile->low + (b + 0.5) * profile->width - place), room);
-      profile->grazed[b] += (model->edge_end[e] ? END_WEIGHT : 1) * near;
+      profile->grazed[b] += (model->edge_end[e] ? cw_policy.plan_end_weight : 1) * near;
       if (model->edge_sharp[e] && near > profile->cut[b]) profile->cut[b] = near;
     }
   }
@@ -187,7 +185,7 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
     double room = model->edge_room[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
     if (near == 0 || !may_graze(model, e, plane->normal)) continue;
     if (end && cw_plane_distance(end, model->edge_x[e]) < -room) continue;
-    place.grazed += (model->edge_end[e] ? END_WEIGHT : 1) * near;
+    place.grazed += (model->edge_end[e] ? cw_policy.plan_end_weight : 1) * near;
     if (model->edge_sharp[e]) place.cut = fmax(place.cut, near);
   }
   return place;
@@ -199,7 +197,7 @@ double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwP
     int32_t e = part->edge[i];
     double room = model->edge_touch[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
     if (near <= most || (end && cw_plane_distance(end, model->edge_x[e]) < -room)) continue;
-    double along = 1 - fabs(cw_dot(plane->normal, model->edge_tangent[e])) / ALONG_EDGE;
+    double along = 1 - fabs(cw_dot(plane->normal, model->edge_tangent[e])) / cw_policy.plan_along_edge;
     most = fmax(most, near * along);
   }
   return most;

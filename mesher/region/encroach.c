@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/region/encroach.h"
 
 #include <math.h>
@@ -8,9 +9,6 @@
 #include "mesher/common/vec.h"
 #include "mesher/surface/cdt.h"
 
-static const double SPHERE = 1.05;         // radius over that of the circumscribed circle
-static const double LEAST_DISTANCE = 0.62; // of the wanted length: as far apart as candidates keep from the boundary
-static const double LEAST_HEIGHT = 0.4;    // of the same, over edges of the outline, as everywhere on surfaces
 enum { ROUNDS = 40 };
 
 typedef struct {
@@ -74,7 +72,7 @@ int cw_encroach_circle(const double a[2], const double b[2], const double c[2], 
   centre[0] = a[0] + x;
   centre[1] = a[1] + y;
   double longest = fmax(fmax(uu, vv), square(c[0] - b[0], c[1] - b[1]));
-  *radius = SPHERE * sqrt(fmin(square(x, y), longest));
+  *radius = cw_policy.interface_sphere * sqrt(fmin(square(x, y), longest));
   return 1;
 }
 
@@ -172,8 +170,9 @@ static CwStatus add_centres(Growing *growing, const CwCdt *cdt, const CwBeside *
     ++*encroached;
     growing->input.surface(growing->input.surface_context, middle, x, NULL, NULL);
     double wanted = growing->input.size(growing->input.size_context, x);
-    if (sqrt(square(middle[0] - growing->uv[p[0]][0], middle[1] - growing->uv[p[0]][1])) < LEAST_DISTANCE * wanted ||
-        !has_room(&growing->input, middle, LEAST_HEIGHT * wanted))
+    if (sqrt(square(middle[0] - growing->uv[p[0]][0], middle[1] - growing->uv[p[0]][1])) <
+            cw_policy.interface_least_distance * wanted ||
+        !has_room(&growing->input, middle, cw_policy.surface_least_height * wanted))
       continue;
     centre[count++] = (Centre){{middle[0], middle[1]}, radius / wanted, t};
   }
@@ -182,7 +181,7 @@ static CwStatus add_centres(Growing *growing, const CwCdt *cdt, const CwBeside *
     double x[3];
     growing->input.surface(growing->input.surface_context, centre[k].uv, x, NULL, NULL);
     double wanted = growing->input.size(growing->input.size_context, x);
-    if (!keeps_distance(&growing->input, centre[k].uv, LEAST_DISTANCE * wanted)) continue;
+    if (!keeps_distance(&growing->input, centre[k].uv, cw_policy.interface_least_distance * wanted)) continue;
     CW_TRY(add_point(growing, centre[k].uv));
     ++*added;
   }

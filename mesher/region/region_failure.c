@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/region/region_failure.h"
 
 #include <math.h>
@@ -9,8 +10,6 @@
 #include "mesher/common/intersect.h"
 #include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
-
-static const double THINNER = 0.7;
 
 static CwStatus write_boundary(const CwRegionBoundary *inner, const int32_t *crossing, const char *name,
                                const char *path) {
@@ -83,7 +82,7 @@ void cw_region_failure_thin(const CwBoundary *boundary, int32_t region, const Cw
       int32_t v = boundary->surface.triangle[t][k];
       int near = failure->everywhere ? boundary->surface.region[t] == region
                                      : cw_distance(boundary->layers.top[v], failure->at) < distance;
-      if (near) most[v] = fmin(most[v], THINNER * boundary->layers.thickness[v]);
+      if (near) most[v] = fmin(most[v], cw_policy.thinner * boundary->layers.thickness[v]);
     }
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
 
 #include <math.h>
@@ -88,7 +89,7 @@ static void set_layers(CwMeshRun *run, int count, double y_plus_auto) {
 // rounds therefore end at the least number that is enough.
 void cw_mesh_solve_layers(CwMeshRun *run) {
   const CwWalls *walls = &run->table->walls;
-  double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : CW_GROWTH_AUTO;
+  double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : cw_policy.growth_auto;
   int given = walls->layer_count > 0;
   set_layers(run, given ? walls->layer_count : CW_LAYERS_LEAST, CW_LOG_LAYER_Y_PLUS);
   for (;;) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/run/domain.h"
 
 #include <math.h>
@@ -20,13 +21,7 @@
 #include "pipeline/wall_group.h"
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
-static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
-// What `least_regions` asks beyond FREE_REGIONS has at least so many cells: planes through fewer meet in too few edges.
-static const double FREE_REGIONS = 4, FEWEST_CELLS = 5000;
-static const double LONGEST_AT_OPEN_EDGE = 16; // of first heights: there prisms have a side on the boundary
-static const double LONGEST_ON_WALL = 30;      // of second heights: inside, prisms of the second layer are the thinnest
-static const double LARGEST_ON_WALL = 40;      // the same of an equilateral triangle as large as any may be
-static const double SAMPLE_STEP = 1.02;        // ratio of sizes of wall that count together
+static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
 static const double SEED_AREA = 0.25;       // of base sizes squared, that takes as long to seed as a triangle by itself
 static const double MORE_SEEDS = 0.12;      // of the triangles: as many take as long as edges or lines
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -253,7 +248,7 @@ done:
 // Longer edges make prisms of small determinant.
 static double longest_on_wall(const CwDomain *domain, int patch) {
   const CwLayerTarget *layers = &domain->patch_layers[patch];
-  return LONGEST_ON_WALL * layers->growth * layers->first_height;
+  return cw_policy.prism_longest * layers->growth * layers->first_height;
 }
 
 void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, double *asked) {
@@ -277,7 +272,7 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double
   CW_NEW(open_edge, patches);
   if (wall_scale > 0) CW_NEW(wall, patches);
   for (int p = 0; p < patches; p++) {
-    open_edge[p] = LONGEST_AT_OPEN_EDGE * domain->patch_layers[p].first_height;
+    open_edge[p] = cw_policy.prism_longest_open * domain->patch_layers[p].first_height;
     if (wall) wall[p] = longest_on_wall(domain, p) / wall_scale;
   }
   CwSizeLimits limits = {open_edge, wall};
@@ -320,7 +315,7 @@ done:
 // beside the tongue, while memory never asks for so many.
 static double cells_per_region(const CwCase *table) {
   if (table->mesh.cells_per_region > 0) return (double)table->mesh.cells_per_region;
-  return fmax(LEAST_REGION_CELLS, (double)table->mesh.cells / MOST_REGIONS);
+  return fmax(cw_policy.region_cells, (double)table->mesh.cells / cw_policy.regions_most);
 }
 
 // True where all faces that turns bring to themselves lie on the side of the pipe: regions of the sectors are copied
@@ -337,7 +332,8 @@ static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
 }
 
 int cw_domain_least_regions(const CwCase *table, double cells) {
-  return (int)fmin(table->mesh.least_regions, fmax(FREE_REGIONS, floor(cells / FEWEST_CELLS)));
+  return (int)fmin(table->mesh.least_regions,
+                   fmax(cw_policy.regions_free, floor(cells / cw_policy.region_cells_fewest)));
 }
 
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome) {
@@ -356,7 +352,7 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                                domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + domain->more_regions,
                            .thickness = thickness,
                            .least_thickness = least,
-                           .tallest = CW_TALLEST_COLUMN,
+                           .tallest = cw_policy.tallest_column,
                            .base_size = domain->base_size,
                            .prism_factor = prism_factor};
   status = domain->symmetry
@@ -387,7 +383,7 @@ CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome) {
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(boundary->largest, patches);
   for (int p = 0; p < patches; p++)
-    boundary->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
+    boundary->largest[p] = cw_policy.prism_largest / cw_policy.prism_longest * longest_on_wall(domain, p);
   CW_TRY_STAGE(
       cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &boundary->network, outcome),
       outcome);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/run/mesh_plan.h"
 
 #include <math.h>
@@ -23,8 +24,6 @@ static const double DEFLECTION = 2e-4;
 // million cells has such edges.
 static const double BASE_SIZE = 0.01875;
 static const double GRADATION_TOLERANCE = 0.05; // over that of the case
-static const double MOST_ASKED = 2;             // by walls, of the prisms they have without their limits
-static const double MOST_GREATER = 1.5;         // scale that walls are limited at, of that without limits
 static const double OWN_PLAN = 0.15;            // of the work on a plan, what every rank does for itself
 static const double PERIODIC_PLAN =
     0.5; // of equal passages, over that of others: 0.55 to 0.6 from 3 to 21 million cells
@@ -138,7 +137,7 @@ static int walls_limit(const CwMeshRun *run, double scale) {
   double wanted = 0, asked = 0;
   for (int d = 0; d < run->domains.count; d++) cw_domain_walls_ask(&run->domain[d], scale, &wanted, &asked);
   cw_log_debug("size field: walls ask for %.2f times as many prisms", asked / wanted);
-  return asked <= MOST_ASKED * wanted;
+  return asked <= cw_policy.prisms_asked * wanted;
 }
 
 // The scale multiplies the field with its growth, and with the edges on walls. Where meshes are so coarse that the
@@ -157,7 +156,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
     double growth = run->scale * run->gradation / allowed;
     if (growth <= 1 + GRADATION_TOLERANCE || round == GRADATION_ROUNDS) break;
     made_for = run->scale * pow(growth, round == 0 ? 0.25 : 1);
-    if (round == 0) greatest = MOST_GREATER * made_for;
+    if (round == 0) greatest = cw_policy.scale_greater * made_for;
     run->gradation = allowed / made_for;
     if (round == 0 ? walls_limit(run, made_for) : run->wall_scale > 0)
       run->wall_scale = fmin(made_for, greatest) * (1 + GRADATION_TOLERANCE);

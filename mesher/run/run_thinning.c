@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/run/run_thinning.h"
 
 #include <math.h>
@@ -9,8 +10,7 @@
 #include "mesher/common/model_unit.h"
 #include "pipeline/log.h"
 
-enum { ATTEMPTS = 3 };               // on one plan
-static const double FIRST_REACH = 4; // wanted lengths about a failure in which layers are thinned; doubled each time
+enum { ATTEMPTS = 3 }; // on one plan
 
 // Gives all periodic images of a column the least thickness of them.
 static void thin_alike(const CwBoundary *boundary, double *most_thickness) {
@@ -115,7 +115,7 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
     if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
     CW_TRY(start_thinning(run, d));
     cw_region_failure_thin(&run->domain[d].boundary, place->region, &place->failure,
-                           FIRST_REACH * (double)(1 << attempt), run->most_thickness[d]);
+                           cw_policy.thin_reach * (double)(1 << attempt), run->most_thickness[d]);
   }
   for (int d = 0; d < run->domains.count; d++) {
     if (run->most_thickness[d]) thin_alike(&run->domain[d].boundary, run->most_thickness[d]);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/size/size.h"
 
 #include <math.h>
@@ -9,11 +10,6 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/size/size_grid.h"
 #include "mesher/size/size_sources.h"
-
-// Open edges are granted edges down to this share of the wanted ones, and no shorter ones at all where they ask for
-// less than LEAST_ASKED of these: there prisms inside have a small determinant too, and edges of micrometres would take
-// all cells.
-static const double LEAST_AT_OPEN_EDGE = 0.4, LEAST_ASKED = 0.28;
 
 struct CwSizeSeeds {
   CwSizeSurface *surface;
@@ -301,8 +297,8 @@ void cw_size_set_scale(CwSize *size, double scale) {
 // The least share of the wanted length that open edges are granted.
 static double least_at_open_edges(const CwSize *field) {
   double asked = field->open_edge_asks / field->scale;
-  double refused = (LEAST_AT_OPEN_EDGE - asked) / (LEAST_AT_OPEN_EDGE - LEAST_ASKED);
-  return LEAST_AT_OPEN_EDGE + (1 - LEAST_AT_OPEN_EDGE) * fmin(fmax(refused, 0), 1);
+  double refused = (cw_policy.size_least_open - asked) / (cw_policy.size_least_open - cw_policy.size_least_asked);
+  return cw_policy.size_least_open + (1 - cw_policy.size_least_open) * fmin(fmax(refused, 0), 1);
 }
 
 double cw_size_at(const void *size, const double x[3]) {

@@ -3,9 +3,8 @@
 #include <stdlib.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "mesher/size/size_sources.h"
-
-static const double crease_angle_cosine = 0.94; // 20 degrees between the normals of the two faces
 
 enum { LEAST_PARTS = 4, MOST_PARTS = 200 };
 
@@ -46,7 +45,7 @@ static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
     cw_cad_edge_point(cad, edge, at, line->x[i], NULL);
     face_normal(cad, edge, line->face[0], at, n);
     face_normal(cad, edge, line->face[1], at, m);
-    line->crease[i] = cw_dot(n, m) < crease_angle_cosine;
+    line->crease[i] = cw_dot(n, m) < cw_policy.crease_cosine;
     line->width[i] = INFINITY;
   }
 done:
@@ -81,7 +80,7 @@ static void measure_between(Polyline *line, const Polyline *other) {
 }
 
 static void seed_line(const CwSizeInput *input, const Polyline *line, CwSizeGrid *grid) {
-  double floor_size = cw_size_least_share * input->base_size;
+  double floor_size = cw_policy.size_least_share * input->base_size;
   for (int i = 0; i + 1 < line->count; i++) {
     if (!line->crease[i] && !line->crease[i + 1]) continue;
     double size = fmax(fmin(line->length, fmin(line->width[i], line->width[i + 1])), floor_size);

@@ -23,10 +23,6 @@ typedef struct {
   const double *open_edge_size; // m, by patch, or NULL: see CwSizeLimits
 } CwSizeInput;
 
-// No single feature asks for less than this share of the base size: what is smaller is resolved by its edges
-// alone.
-static const double cw_size_least_share = 0.15;
-
 // What the seeds of all faces follow from: rays through the domain, its creases, and a grid to seed one face at
 // a time on.
 typedef struct CwSizeSurface CwSizeSurface;

@@ -7,14 +7,11 @@
 #include "mesher/common/box.h"
 #include "mesher/common/cubes.h"
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "mesher/size/size_sources.h"
 
 static const double spacing_share = 0.6; // of the base size
 static const int64_t node_limit = 6000000;
-static const double least_curvature_share = 0.4; // of the patch size
-static const double least_facing = 0.7;          // cosine of the angle between a ray and the wall it meets
-static const double parallel_facing = 0.95;      // from here on no crease can be the cause
-static const double crease_angle_cosine = 0.94;  // 20 degrees between normals
 
 enum { PIECE_STACK = 128 };
 
@@ -78,7 +75,7 @@ static CwStatus find_creases(Surface *surface) {
       double n[3], m[3], facet[3], away[3];
       edge_normal(&surface->input, t, k, n);
       edge_normal(&surface->input, other, side, m);
-      if (cw_dot(n, m) > crease_angle_cosine) continue;
+      if (cw_dot(n, m) > cw_policy.crease_cosine) continue;
       cw_background_normal(b, t, facet);
       const double *from = b->x[b->triangle[t][k]], *apex = b->x[b->triangle[other][(side + 2) % 3]];
       for (int i = 0; i < 3; i++) away[i] = apex[i] - from[i];
@@ -128,13 +125,13 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   double met[3];
   cw_background_normal(b, hit, met);
   double facing = cw_dot(inward, met);
-  if (facing < least_facing) return INFINITY;
-  if (facing < parallel_facing) {
+  if (facing < cw_policy.size_facing) return INFINITY;
+  if (facing < cw_policy.size_parallel) {
     // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
     double meeting = distance * facing / sqrt(1 - facing * facing);
     if (crease_within(surface, x, fmax(2 * patch_size, 1.2 * meeting))) return INFINITY;
   }
-  return fmax(distance / cells, cw_size_least_share * input->base_size);
+  return fmax(distance / cells, cw_policy.size_least_share * input->base_size);
 }
 
 static void centre_of(const Piece *piece, double x[3], double *curvature) {
@@ -183,7 +180,7 @@ static void seed_piece(Surface *surface, const Piece *whole, double size, double
     double x[3], curvature;
     centre_of(&piece, x, &curvature);
     double turn = curvature > 0 ? surface->input.table->curvature_angle / curvature : INFINITY;
-    cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, least_curvature_share * patch_size)));
+    cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, cw_policy.size_least_curvature * patch_size)));
   }
 }
 

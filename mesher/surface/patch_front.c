@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/surface/patch_front.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-// A triangle whose circle is smaller than this times the wanted length is done; equilateral: 0.577.
-static const double done_radius = 0.74;
-// A new point keeps this share of the wanted length free around it.
-static const double least_room = 0.65;
-// Sizes grow at most this fast away from short given edges.
-static const double growth = 0.3;
 
 // Edges of the front: triangle t, not done, lies to the left of a -> b; on the right is a given edge or a
 // done triangle. They wait in queues by the sum of the rows of a and b, given points being row 0, so that a
@@ -125,7 +119,7 @@ static double mean_size(const CwPatchWork *work, int32_t t) {
 static int is_done(const CwPatchWork *work, int32_t t) {
   Shape shape;
   if (!shape_of(work, t, 0, &shape)) return 1;
-  double limit = done_radius * mean_size(work, t);
+  double limit = cw_policy.front_done_radius * mean_size(work, t);
   return shape.radius2 <= limit * limit;
 }
 
@@ -193,8 +187,8 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     while (i < 3 && !(work->corner[t][(i + 1) % 3] == a && work->corner[t][(i + 2) % 3] == b)) i++;
     if (i == 3 || is_done(work, t) || !place_point(work, t, i, uv)) continue;
     double cap = fmin(work->size[a], work->size[b]);
-    cap += growth * cap;
-    CW_TRY(cw_patch_insert(work, uv, t, least_room, cap, &inserted));
+    cap += cw_policy.front_growth * cap;
+    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.front_least_room, cap, &inserted));
     if (!inserted) continue;
     CW_TRY(set_row(&front, work->point_count - 1, 1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
     for (int32_t k = 0; k < work->border_count; k++) CW_TRY(push_edges(work, &front, work->fresh[k]));
@@ -205,7 +199,8 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     if (is_done(work, t) || !shape_of(work, t, 0, &shape)) continue;
     int32_t a = work->corner[t][1], b = work->corner[t][2];
     for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]) + shape.centre * shape.square[k];
-    CW_TRY(cw_patch_insert(work, uv, t, least_room, size_cap(work, t) * (1 + 2 * growth), &inserted));
+    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.front_least_room,
+                           size_cap(work, t) * (1 + 2 * cw_policy.front_growth), &inserted));
   }
 done:
   free(front.entry);

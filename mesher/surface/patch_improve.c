@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/surface/patch_improve.h"
 
 #include <math.h>
@@ -7,19 +8,6 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/surface/patch_cuts.h"
-
-// Edges longer or shorter than these shares of the wanted length are split or drawn together.
-static const double long_edge = 1.45, short_edge = 0.62;
-
-// Free points keep this share of their wanted length from given edges.
-static const double least_height = 0.4;
-
-// A triangle whose normal is farther than 60 degrees from the surface's at a corner is split; the new points keep this
-// share of their wanted length free around them.
-static const double steep_cosine = 0.5, steep_room = 0.3;
-
-// Triangles are too large only where edges are wanted that are shorter than this share of the longest.
-static const double clearly_less = 0.9;
 
 static double edge_size(const CwPatchWork *work, int32_t a, int32_t b) {
   return 0.5 * (work->size[a] + work->size[b]);
@@ -45,7 +33,7 @@ static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, co
       // Height over the edge from the area, which the quality holds.
       double l = cw_patch_distance2(work->x[a], work->x[b]);
       double sum = l + cw_patch_distance2(x, work->x[a]) + cw_patch_distance2(x, work->x[b]);
-      double height = quality * sum / (2 * sqrt(3) * sqrt(l)), limit = least_height * work->size[p];
+      double height = quality * sum / (2 * sqrt(3) * sqrt(l)), limit = cw_policy.surface_least_height * work->size[p];
       if (height < limit && quality > 0) worst = fmin(worst, 0.5 * height / limit);
     }
   }
@@ -130,7 +118,7 @@ static CwStatus split_long(CwPatchWork *work) {
     if (longest < 0 || work->given[t] >> longest & 1) continue;
     int32_t a = work->corner[t][(longest + 1) % 3], b = work->corner[t][(longest + 2) % 3];
     double size = edge_size(work, a, b);
-    if (most < long_edge * long_edge * size * size) continue;
+    if (most < cw_policy.surface_long_edge * cw_policy.surface_long_edge * size * size) continue;
     double uv[2] = {0.5 * (work->uv[a][0] + work->uv[b][0]), 0.5 * (work->uv[a][1] + work->uv[b][1])};
     CW_TRY(cw_patch_insert(work, uv, t, 0.55, size * 1.1, &inserted));
   }
@@ -154,10 +142,10 @@ static void remove_too_close(CwPatchWork *work) {
     int too_close = r.count <= 4;
     for (int k = 0; k < r.count && !too_close; k++) {
       int32_t a = r.ring[k], b = r.ring[(k + 1) % r.count], t = r.triangle[k];
-      double limit = short_edge * edge_size(work, p, a);
+      double limit = cw_policy.surface_short_edge * edge_size(work, p, a);
       too_close = cw_patch_distance2(work->x[p], work->x[a]) < limit * limit;
       if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1)
-        too_close |= height_over(work, p, a, b) < least_height * work->size[p];
+        too_close |= height_over(work, p, a, b) < cw_policy.surface_least_height * work->size[p];
     }
     if (too_close && r.count) cw_patch_remove(work, p, 0.45, 1.5);
   }
@@ -349,7 +337,9 @@ static int flip_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int32_t t) {
 static int is_too_large(const CwPatchWork *work, int32_t t) {
   const int32_t *c = work->corner[t];
   double most = work->input->largest, e[3], f[3], n[3];
-  if (most == 0 || (work->size[c[0]] + work->size[c[1]] + work->size[c[2]]) / 3 >= clearly_less * most) return 0;
+  if (most == 0 ||
+      (work->size[c[0]] + work->size[c[1]] + work->size[c[2]]) / 3 >= cw_policy.surface_clearly_less * most)
+    return 0;
   cw_sub(work->x[c[1]], work->x[c[0]], e);
   cw_sub(work->x[c[2]], work->x[c[0]], f);
   cw_cross(e, f, n);
@@ -365,7 +355,7 @@ static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *
   int inserted;
   for (int32_t t = 0; t < count; t++) {
     if (work->corner[t][0] < 0) continue;
-    int steep = cw_patch_cuts_hold(cuts, work->corner[t]) || least_cosine(work, t) < steep_cosine;
+    int steep = cw_patch_cuts_hold(cuts, work->corner[t]) || least_cosine(work, t) < cw_policy.surface_steep_cosine;
     if (steep && flip_unfit(work, cuts, t)) {
       ++*changes;
       continue;
@@ -380,7 +370,7 @@ static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *
       for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);
     }
     if (most == 0) continue;
-    CW_TRY(cw_patch_insert(work, uv, t, steep_room, 0.5 * sqrt(most), &inserted));
+    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.surface_steep_room, 0.5 * sqrt(most), &inserted));
     *changes += inserted;
   }
 done:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/thickness/column_targets.h"
 
 #include <math.h>
@@ -12,11 +13,8 @@
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/parallel/parallel_for.h"
 
-static const double BEND = 0.94;         // least cosine of the normals about a vertex of a wall as good as flat
-static const double CONCAVE_RISE = 0.25; // least rise of an edge over its length at a bend that is concave
 static const double LITTLE_GROWTH = 1.1;
-static const double KEPT_GROWTH = 0.7; // least in columns thinned for their shape, above CW_LEAST_GROWTH: thinned
-                                       // further, some made angles of 16 degrees where others have 19
+// further, some made angles of 16 degrees where others have 19
 
 // How the wall lies about a vertex.
 typedef struct {
@@ -26,7 +24,7 @@ typedef struct {
 } Bend;
 
 double cw_column_thickness_least(double first, int layer_count) {
-  return CW_EVEN_LAYERS * layer_count * first;
+  return cw_policy.even_layers * layer_count * first;
 }
 
 // The column whose last layer is `last` times as tall as a regular tetrahedron on edges of `size`, or the tallest with
@@ -100,11 +98,11 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   Bend bend = bend_at(boundary, columns->around, v);
   double size = size_at(boundary, x), thickness = 0, last = columns->asked[v].last;
   // In a hollow tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
-  if (bend.cosine < BEND && bend.rise > CONCAVE_RISE) last *= bend.cosine;
+  if (bend.cosine < cw_policy.wall_flat_cosine && bend.rise > cw_policy.wall_concave_rise) last *= bend.cosine;
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * bend.normal[k];
-    double above = fmin(fmax(size, size_at(boundary, end)), size + CW_THICKNESS_SLOPE * thickness);
+    double above = fmin(fmax(size, size_at(boundary, end)), size + cw_policy.thickness_slope * thickness);
     thickness = fair_thickness(targets->first_height[v], targets->layer_count, targets->growth[v], above, last);
   }
   *(double *)out = fmin(columns->asked[v].thickness, thickness);
@@ -171,7 +169,7 @@ static CwStatus take_asked(const CwBoundary *boundary, const CwIncident *around,
     targets->first_height[v] = asked[v].first_height;
     targets->growth[v] = asked[v].growth;
   }
-  CW_TRY(grade(boundary, around, CW_THICKNESS_SLOPE / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
+  CW_TRY(grade(boundary, around, cw_policy.thickness_slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
                targets->first_height));
 done:
   return status;
@@ -203,7 +201,7 @@ CwStatus cw_column_targets_make(const CwBoundary *boundary, const CwIncident *ar
   CW_TRY(cw_parallel_for("thicknesses: fair ones", boundary->surface.vertex_count, sizeof *targets->target, find_fair,
                          &columns, targets->target));
   turn_copies(&boundary->images, boundary->surface.vertex_count, targets);
-  double lowest = cw_layer_thickness(1, layer_count, KEPT_GROWTH);
+  double lowest = cw_layer_thickness(1, layer_count, cw_policy.kept_growth);
   for (int32_t v = 0; v < boundary->surface.vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
 done:
   free(asked);
@@ -243,7 +241,7 @@ CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundar
   CW_NEW_UNSET(graded, boundary->surface.vertex_count);
   CW_NEW_UNSET(of, boundary->surface.triangle_count);
   memcpy(graded, targets->target, (size_t)boundary->surface.vertex_count * sizeof *graded);
-  CW_TRY(grade(boundary, around, CW_THICKNESS_SLOPE, graded));
+  CW_TRY(grade(boundary, around, cw_policy.thickness_slope, graded));
   Columns columns = {.boundary = boundary, .targets = targets, .layers = layers, .graded = graded};
   CW_TRY(
       cw_parallel_for("thicknesses: volume", boundary->surface.triangle_count, sizeof *of, find_taken, &columns, of));

@@ -12,8 +12,6 @@
 #include "mesher/thickness/wall_targets.h"
 #include "mesher/boundary/boundary.h"
 
-#define CW_TALLEST_COLUMN 2.5 // of the wanted length at the wall: about what columns come to, for the planes
-
 // Of each wall vertex.
 typedef struct {
   int layer_count;

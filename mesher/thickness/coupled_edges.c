@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/thickness/coupled_edges.h"
 
 #include <math.h>
@@ -9,7 +10,6 @@
 
 enum { SIZE_STEPS = 400 };
 static const double SAME_PLACE = 1e-9; // of the model's unit
-static const double NEAR = 0.15;       // of the size: breaks of the two domains that are nearer share one place
 
 // A place on the edge, as shares of its length in the sense of side 0, for either side.
 typedef struct {
@@ -93,7 +93,7 @@ static CwStatus find_breaks(const Pair *pair, double length, int *count, Break *
   for (int i = 1; i < *count; i++) {
     Break *last = &(*breaks)[kept - 1];
     const Break *here = &(*breaks)[i];
-    int apart = (here->s[0] - last->s[0]) * length > NEAR * size_at(pair, here->s[0]);
+    int apart = (here->s[0] - last->s[0]) * length > cw_policy.coupled_near * size_at(pair, here->s[0]);
     int clash = (here->own[0] && last->own[0]) || (here->own[1] && last->own[1]);
     if (apart || (clash && i + 1 < *count && kept > 1)) {
       (*breaks)[kept++] = *here;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/thickness/first_height.h"
 
 #include <math.h>
@@ -8,12 +9,12 @@
 #include "mesher/layers/thickness_gradation.h"
 
 double cw_column_room(const CwWallFlow *flow) {
-  double across = CW_GAP_SHARE * flow->width;
+  double across = cw_policy.gap_share * flow->width;
   return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
 }
 
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
-  return cw_column_room(flow) / (CW_EVEN_LAYERS * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
+  return cw_column_room(flow) / (cw_policy.even_layers * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
@@ -29,7 +30,8 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   } else if (cw_case_given(group->y_plus)) {
     first.asked = unit * group->y_plus;
   } else {
-    double roomy = CW_GAP_SHARE * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, CW_GROWTH_AUTO);
+    double roomy =
+        cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, cw_policy.growth_auto);
     first.asked = fmin(unit * y_plus_auto, roomy);
     if (flow->before > 0) first.asked = fmin(first.asked, fitting);
     first.source = CW_FIRST_AUTO;

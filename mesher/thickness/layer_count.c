@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/thickness/layer_count.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ int cw_layer_count_for(const double needing[CW_LAYER_COUNT_MOST + 1]) {
   for (int n = 1; n <= CW_LAYER_COUNT_MOST; n++) all += needing[n];
   for (int n = 1; n < CW_LAYER_COUNT_MOST; n++) {
     enough += needing[n];
-    if (enough >= CW_LAYER_COUNT_SHARE * all) return n;
+    if (enough >= cw_policy.layer_count_share * all) return n;
   }
   return CW_LAYER_COUNT_MOST;
 }

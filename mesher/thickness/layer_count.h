@@ -17,8 +17,6 @@ extern "C" {
 #define CW_LAST_LAYER_ENOUGH (1.0 / 9)
 #define CW_LAST_LAYER_GIVEN 1.0
 #define CW_REGULAR_HEIGHT 0.81649658092772603273 // of a regular tetrahedron over its edge: sqrt(2/3)
-#define CW_GROWTH_AUTO 1.3                       // policy: greatest ratio of neighbouring layers
-#define CW_LAYER_COUNT_SHARE 0.95                // policy: of the wall faces, have layers enough
 
 enum { CW_LAYER_COUNT_MOST = 40 }; // that the case file allows
 // Policy: of an automatic y+ and an automatic number of layers the number grows first, up to this, then y+ up to the
@@ -32,7 +30,7 @@ int cw_layer_count(double first, double growth, double size);
 // The most layers, at least 1, that grow so from the first and together are no taller than `thickness` (m).
 int cw_layer_count_fitting(double first, double growth, double thickness);
 
-// The least number of layers that is enough for CW_LAYER_COUNT_SHARE of the faces; needing[n]: faces that need n.
+// The least number of layers that is enough for layer_count_share of the faces; needing[n]: faces that need n.
 int cw_layer_count_for(const double needing[CW_LAYER_COUNT_MOST + 1]);
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/thickness/layer_thickness.h"
 
 #include <math.h>
@@ -45,7 +46,7 @@ static double solve_growth(int count, double wanted, double low, double high) {
 }
 
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction) {
-  double growth = fmax(growth_max, 1.0), least = CW_LEAST_GROWTH;
+  double growth = fmax(growth_max, 1.0), least = cw_policy.least_growth;
   double most_sum = geometric_sum(count, growth, NULL), least_sum = geometric_sum(count, least, NULL);
   double start = first;
   if (thickness >= first * most_sum) {

@@ -15,13 +15,12 @@ double cw_first_height(double y_plus, double velocity, double length, double kin
 // Total thickness of `count` layers from `first` with growth ratio `growth`, m.
 double cw_layer_thickness(double first, int count, double growth);
 
+enum { CW_LAYERS_MOST = 200 }; // count of layers
+
 // Fractions f[0] = 0 < f[1] < ... < f[count] = 1 of a column of thickness `thickness`. Holds `first` and solves the
 // growth ratio: in columns too short for even layers it is below 1, the outer layers give way. Where it would exceed
-// `growth_max`, or fall below CW_LEAST_GROWTH, it stays there and the first height follows the column. Returns the
+// `growth_max`, or fall below least_growth, it stays there and the first height follows the column. Returns the
 // first height it came to, m.
-#define CW_LEAST_GROWTH 0.6
-#define CW_EVEN_LAYERS 1.05    // of count times first height: columns are asked to be no shorter, and hardly grow there
-enum { CW_LAYERS_MOST = 200 }; // count of layers
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction);
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
 #include "mesher/thickness/wall_targets.h"
 
 #include <math.h>
@@ -89,7 +90,7 @@ CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, dou
   double growth = cw_case_given(group->growth_ratio) ? group->growth_ratio : walls->growth_ratio;
   CwLayerTarget target = {.first_height = first_height, .growth = growth, .last = CW_LAST_LAYER_GIVEN};
   if (!cw_case_given(growth)) {
-    target.growth = CW_GROWTH_AUTO;
+    target.growth = cw_policy.growth_auto;
     target.last = CW_LAST_LAYER;
   }
   // More than this would raise the first height.

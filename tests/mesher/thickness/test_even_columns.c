@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "mesher/policy.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thin_prism.h"
@@ -43,9 +44,9 @@ static double determinant(double thickness) {
 }
 
 static void short_ones_until_none_is_small(void **state) {
-  const double short_one = 0.06, start = short_one / (1 + CW_LEAST_GROWTH);
+  const double short_one = 0.06, start = short_one / (1 + cw_policy.least_growth);
   double made[4];
-  assert_true(determinant(CW_LEAST_GROWTH * start) < CW_SMALL_DETERMINANT &&
+  assert_true(determinant(cw_policy.least_growth * start) < CW_SMALL_DETERMINANT &&
               determinant(short_one / 2) > CW_SMALL_DETERMINANT);
   make(2, 0.05, (double[4]){short_one, short_one, short_one, short_one}, made);
   for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
@@ -65,7 +66,7 @@ static void others_stay(void **state) {
   }
   // A tall column among short ones keeps its first height.
   make(2, 0.05, (double[4]){0.06, 0.06, 0.06, 0.11}, made);
-  assert_true(made[1] < 0.06 / (1 + CW_LEAST_GROWTH));
+  assert_true(made[1] < 0.06 / (1 + cw_policy.least_growth));
   NEAR(made[3], 0.05);
 }
 

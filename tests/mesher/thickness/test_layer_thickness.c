@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include "mesher/policy.h"
 #include "mesher/thickness/layer_thickness.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
@@ -79,12 +80,12 @@ static void fractions_hold_their_rules_at_all_thickness(void **state) {
       double first = cw_layer_fractions(thickness, 3e-6, count, 1.25, f);
       NEAR(f[1] * thickness, first, 1e-12 * thickness);
       double ratio = (f[2] - f[1]) / f[1];
-      assert_true(ratio <= 1.25 * (1 + 1e-9) && ratio >= CW_LEAST_GROWTH - 1e-9);
+      assert_true(ratio <= 1.25 * (1 + 1e-9) && ratio >= cw_policy.least_growth - 1e-9);
       for (int k = 1; k < count; k++) {
         assert_true(f[k + 1] > f[k]);
         NEAR((f[k + 1] - f[k]) / (f[k] - f[k - 1]), ratio, 1e-6);
       }
-      if (ratio < 1.25 * (1 - 1e-9) && ratio > CW_LEAST_GROWTH * (1 + 1e-9)) NEAR(first, 3e-6, 1e-20);
+      if (ratio < 1.25 * (1 - 1e-9) && ratio > cw_policy.least_growth * (1 + 1e-9)) NEAR(first, 3e-6, 1e-20);
     }
   }
 }
