@@ -6,8 +6,8 @@
 //   direction  most normal to the faces around (the least cosine is greatest), inside the sliding constraints
 //   length     t / max(cosine, 0.3 on concave edges, 0.55 elsewhere): normal thickness t on every face around
 //   smoothing  beside concave edges and columns tilted by a constraint the columns lean away, at the same thickness
-//   thickness  least of target, 0.6 of where the columns of a concave place meet, 0.35 gap to a wall, 0.6 gap to an
-//              open patch, 0.3 x distance more than any neighbour
+//   thickness  least of target, 0.6 of where the columns of a concave place meet, 0.35 gap to a wall, less where
+//              that leaves no room for a tetrahedron, 0.6 gap to an open patch, 0.3 x distance more than any neighbour
 //   repair     poor prisms and those with a poor layer top are turned, then thinned by 0.8, until nothing is inverted,
 //              nothing crosses, and no triangle of the layer top is a needle or turned away that was none on the wall
 //

@@ -5,6 +5,8 @@
 #include "mesher/layers/layers_inner.h"
 #include "mesher/policy.h"
 
+enum { BISECTIONS = 20 };
+
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
   for (int i = 0; i < 3; i++)
@@ -90,7 +92,41 @@ typedef struct {
   int32_t v;
   int constrained;
   double g[3], stretch, offset, best, far;
+  double core; // between two layer tops, that a tetrahedron fits in, m
 } Ray;
+
+// The mean length of the wall's edges at v, m.
+static double mean_edge(const CwLayerWork *work, int32_t v) {
+  double sum = 0;
+  int32_t count = work->near_start[v + 1] - work->near_start[v];
+  for (int32_t k = 0; k < count; k++)
+    sum += cw_distance(work->in->x[work->near[work->near_start[v] + k]], work->in->x[v]) / count;
+  return sum;
+}
+
+// By how much a tetrahedron across what columns of the thickness t leave of the way has more volume than it may have on
+// their last prism: a prism of its base and a third of its height is as large.
+static double excess(const CwLayerWork *work, int32_t v, double way, double t) {
+  const CwLayerDivision *division = &work->in->division;
+  double last = division->last ? division->last(division->context, v, t) : 1.0 / fmax(division->count, 1);
+  return way - 2 * t - 3 * cw_policy.core_ratio * last * t;
+}
+
+double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core) {
+  double share = cw_policy.gap_share * way, left = (way - core) / 2, high = share;
+  double low = fmin(share, fmax(left, work->in->least ? work->in->least[v] : 0));
+  if (left >= share || excess(work, v, way, low) <= 0) return low;
+  if (excess(work, v, way, high) >= 0) return high;
+  for (int i = 0; i < BISECTIONS; i++) {
+    double middle = (low + high) / 2;
+    if (excess(work, v, way, middle) > 0) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
 
 static int meet(void *context, int32_t f) {
   Ray *ray = context;
@@ -100,7 +136,8 @@ static int meet(void *context, int32_t f) {
   if (way <= ray->offset || way > ray->far) return 0;
   if (wall) {
     if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
-    ray->best = fmin(ray->best, cw_policy.gap_share * way / ray->stretch);
+    double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
+    ray->best = fmin(ray->best, cw_layers_room(ray->work, ray->v, way / ray->stretch, core / ray->stretch));
   } else {
     // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
     if (facing < (ray->constrained ? 0.3 : 0.05)) return 0;
@@ -127,7 +164,9 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
-  ray.far = in->target[v] * ray.stretch / cw_policy.gap_share;
+  ray.core = cw_policy.core_height * mean_edge(work, v);
+  ray.far = in->target[v] * ray.stretch;
+  ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
   cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
   *(double *)out = ray.best;
   return CW_OK;

@@ -45,7 +45,11 @@ void cw_smoothing_free(struct CwSmoothing **smoothing);
 // layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`.
 // Collective.
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
-// t = min(most, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
+// How thick the column of v may be where another wall stands `way` before it, m: gap_share of the way, and no more
+// than leaves `core` (m) to the tetrahedra between both layer tops; but as much as makes its last prism no smaller than
+// 1 / core_ratio of a tetrahedron across what is left, and as much as keeps the first layer.
+double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core);
+// t = min(most, room before walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a concave place, where columns side by side lean to one another, 0.6 of the thickness
 // at which they would meet. Beside a concave crease the smoothing keeps them apart, and nothing is limited. Collective.

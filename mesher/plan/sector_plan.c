@@ -167,6 +167,11 @@ done:
   return status;
 }
 
+// A place tried for the plane across the axis.
+static double station_place(const Sectors *sectors, int station) {
+  return sectors->nose + (sectors->high - sectors->nose) * station / STATIONS;
+}
+
 // The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
 // slices that are as large as the regions of a pitch (0: one slice as it comes).
 static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, CwOutcome *outcome) {
@@ -175,7 +180,7 @@ static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, C
   double all = sectors->along.below[CW_PROFILE_BINS], chosen = 0, best = INFINITY, cost;
   *slices = 1;
   for (int i = 1; i < STATIONS; i++) {
-    double place = sectors->nose + (sectors->high - sectors->nose) * i / STATIONS;
+    double place = station_place(sectors, i);
     double before = cw_profile_below(&sectors->along, place), alone = before * (sectors->count - 1) / all;
     if (!(before > 0 && before < all) || alone >= best || sectors->refused[i]) continue;
     plan->node[0] = (CwPlanNode){across(sectors, place), -1, {-1, 1}};
@@ -325,9 +330,16 @@ static void make_sum(CwPlan *plan, int32_t first, int32_t end, double wanted) {
   for (int32_t r = first; r < end; r++) plan->predicted_cells[r] *= wanted / sum;
 }
 
-// Refuses the place of the plane across the axis, and those beside it.
+static double station_cut(const Sectors *sectors, int station) {
+  return sectors->along.cut[cw_profile_bin(&sectors->along, station_place(sectors, station))];
+}
+
+// Refuses the place of the plane across the axis, those beside it, and those where the plane would cut more of the
+// layers along edges: then the domain had better be meshed whole.
 static void refuse_station(Sectors *sectors) {
-  for (int i = 0; i < STATIONS; i++) sectors->refused[i] |= abs(i - sectors->station) <= REFUSED;
+  double cut = station_cut(sectors, sectors->station);
+  for (int i = 0; i < STATIONS; i++)
+    sectors->refused[i] |= abs(i - sectors->station) <= REFUSED || station_cut(sectors, i) > cut;
   sectors->is_judged = 0;
 }
 

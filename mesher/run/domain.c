@@ -161,7 +161,7 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
     if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
     const CwWallGroup *group = cw_wall_group(&table->walls, cw_cad_patch_name(domain->cad, p));
     CwPatchTarget *target = &domain->patch_target[p];
-    target->first = cw_first_height_choose(table, group, &target->flow, y_plus_auto);
+    target->first = cw_first_height_choose(table, group, &target->flow, y_plus_auto, layer_count);
     domain->patch_layers[p] = cw_layer_target(table, group, target->first.height, layer_count);
     domain->patch_layers[p].first_height /= cw_model_unit();
     domain->patch_layers[p].thickness /= cw_model_unit();

@@ -18,7 +18,7 @@ double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
-                                     double y_plus_auto) {
+                                     double y_plus_auto, int layer_count) {
   const CwWalls *walls = &table->walls;
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
@@ -33,7 +33,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
     double roomy =
         cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, cw_policy.growth_auto);
     first.asked = fmin(unit * y_plus_auto, roomy);
-    if (flow->before > 0) first.asked = fmin(first.asked, fitting);
+    if (flow->before > 0) first.asked = fmin(first.asked, cw_first_height_fitting(flow, layer_count));
     first.source = CW_FIRST_AUTO;
   }
   int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;

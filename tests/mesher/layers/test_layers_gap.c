@@ -4,17 +4,50 @@
 
 #include "mesher/layers/layers_inner.h"
 
-// Two plates 1 mm apart: 0.35 of the gap.
+// Two plates 1 mm apart: 0.35 of the gap, where edges are so short that tetrahedra fit what is left.
 static void thin_gap(void **state) {
   Case c = {.target = 0.6 * MM};
-  surface_plate(&c.wall, 0.01, 0, 0.5 * MM, 1);
-  surface_plate(&c.wall, 0.01, 1 * MM, 0.5 * MM, 0);
+  surface_plate(&c.wall, 0.01, 0, 0.25 * MM, 1);
+  surface_plate(&c.wall, 0.01, 1 * MM, 0.25 * MM, 0);
   case_run(&c, "plates 1 mm apart");
   for (int32_t v = 0; v < c.wall.point_count; v++) {
     assert_float_equal(c.out.thickness[v], 0.35 * MM, 1e-12);
     assert_int_equal(c.out.reason[v], CW_LAYER_GAP);
   }
   case_free(&c);
+}
+
+// Plates 1 mm apart with edges of about 1 mm: 0.65 of these is left between the layers.
+static void coarse_gap(void **state) {
+  Case c = {.target = 0.6 * MM};
+  surface_plate(&c.wall, 0.01, 0, 1 * MM, 1);
+  surface_plate(&c.wall, 0.01, 1 * MM, 1 * MM, 0);
+  case_run(&c, "plates 1 mm apart, edges of 1 mm");
+  for (int32_t v = 0; v < c.wall.point_count; v++) {
+    assert_true(1 * MM - 2 * c.out.thickness[v] > 0.64 * MM);
+    assert_int_equal(c.out.reason[v], CW_LAYER_GAP);
+  }
+  case_free(&c);
+}
+
+// A wall 10 before the column, in five even layers. Tetrahedra across what is left have 8 times the volume of the last
+// prism at most: 10 - 2 t = 24 t / 5 at t = 10 / 6.8.
+static void room_by_hand(void **state) {
+  double least = 0;
+  CwLayerInput in = {.division.count = 5, .least = &least};
+  CwLayerWork work = {.in = &in, .n = 1};
+  assert_float_equal(cw_layers_room(&work, 0, 10, 0), 3.5, 1e-12);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 3), 3.5, 1e-12);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 6), 2, 1e-12);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 10 / 6.8, 1e-5);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 20), 10 / 6.8, 1e-5);
+  least = 1.7;
+  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 1.7, 1e-12);
+  least = 4; // more than its share
+  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
+  least = 0;
+  in.division.count = 100; // thin ones: nothing is enough
+  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
 }
 
 // A plate 0.5 mm before an open patch: 0.6 of the gap.
@@ -108,8 +141,9 @@ static void low_crease(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(thin_gap), cmocka_unit_test(gap_to_open_patch), cmocka_unit_test(gradation),
-      cmocka_unit_test(hollow),   cmocka_unit_test(low_crease),
+      cmocka_unit_test(thin_gap),          cmocka_unit_test(coarse_gap), cmocka_unit_test(room_by_hand),
+      cmocka_unit_test(gap_to_open_patch), cmocka_unit_test(gradation),  cmocka_unit_test(hollow),
+      cmocka_unit_test(low_crease),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

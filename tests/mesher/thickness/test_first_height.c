@@ -26,7 +26,7 @@ static CwCase water(void) {
 }
 
 static CwFirstHeight choose(const CwCase *table, double y_plus_auto) {
-  return cw_first_height_choose(table, &table->walls.blade, &FLOW, y_plus_auto);
+  return cw_first_height_choose(table, &table->walls.blade, &FLOW, y_plus_auto, 6);
 }
 
 static void asked_by_y_plus_or_height(void **state) {
@@ -69,23 +69,23 @@ static void what_does_not_fit_becomes_what_fits(void **state) {
   assert_int_equal(choose(&table, 30).source, CW_FIRST_ASKED);
 }
 
-// A trailing edge 0.2 mm before the interface: three even layers in 0.6 of that.
+// A trailing edge 0.2 mm before the interface: six even layers in 0.6 of that, or as many as the case asks for.
 static void an_open_face_before_the_wall_leaves_less_room(void **state) {
   CwCase table = water();
   CwWallFlow flow = FLOW;
   flow.before = 0.0002;
   NEAR(cw_column_room(&FLOW), 0.35 * 0.008);
   NEAR(cw_column_room(&flow), 0.6 * 0.0002);
-  CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300);
-  NEAR(first.height, 0.6 * 0.0002 / (3 * 1.05));
+  CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  NEAR(first.height, 0.6 * 0.0002 / (6 * 1.05));
   assert_int_equal(first.source, CW_FIRST_AUTO);
   table.walls.layer_count = 4;
   table.walls.blade.y_plus = 30; // 0.07 mm
-  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300);
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
   NEAR(first.height, 0.6 * 0.0002 / (4 * 1.05));
   assert_int_equal(first.source, CW_FIRST_FITTED);
   flow.before = 0.01; // farther than the other wall
-  NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300).height, 30 * UNIT);
+  NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6).height, 30 * UNIT);
 }
 
 static void laminar_flow_takes_a_share_of_the_passage(void **state) {
@@ -119,7 +119,7 @@ static void random_passages(void **state) {
     table.fluid.kinematic_viscosity = pow(10, 4.0 * rand() / RAND_MAX - 7);
     table.walls.layer_count = rand() % 41;
     if (rand() % 2) table.walls.blade.y_plus = pow(10, 4.0 * rand() / RAND_MAX - 1);
-    CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 30 + 270.0 * rand() / RAND_MAX);
+    CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 30 + 270.0 * rand() / RAND_MAX, 6);
     int layers = table.walls.layer_count > 0 ? table.walls.layer_count : CW_LAYERS_LEAST;
     assert_true(first.height > 0 && first.height <= first.asked * (first.source == CW_FIRST_LAMINAR ? 1e9 : 1));
     assert_true(2 * layers * first.height <= 0.7 * width);
