@@ -77,7 +77,7 @@ void add_faces(const Handle(XCAFDoc_ShapeTool) & shapes, const CwSolid &solid) {
   }
 }
 
-CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const char *temporary_path) {
+CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const CwAtomicFile &file) {
   Document document;
   const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
   for (int i = 0; i < count; i++) {
@@ -101,8 +101,8 @@ CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const c
   header.SetName(new TCollection_HAsciiString("pump"));
   header.SetTimeStamp(new TCollection_HAsciiString("2000-01-01T00:00:00"));
   header.SetOriginatingSystem(new TCollection_HAsciiString("Cutwater"));
-  if (writer.Write(temporary_path) != IFSelect_RetDone)
-    return CW_FAIL(CW_ERR_IO, "%s: cannot be written (is the disk full?)", temporary_path);
+  if (writer.Write(file.temporary_path) != IFSelect_RetDone)
+    return CW_FAIL(CW_ERR_IO, "%s: cannot be written (is the disk full?)", file.final_path);
   return CW_OK;
 }
 
@@ -148,7 +148,7 @@ static CwStatus write_whole(const CwSolid *const *solids, int count, bool with_f
   CwAtomicFile file = {};
   try {
     CW_TRY(cw_atomic_file_name(path, &file));
-    CW_TRY(write(solids, count, with_faces, file.temporary_path));
+    CW_TRY(write(solids, count, with_faces, file));
     CW_TRY(cw_atomic_file_commit(&file));
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());

@@ -74,8 +74,11 @@ void cw_outline_free(CwPatchOutline *outline) {
   memset(outline, 0, sizeof *outline);
 }
 
-// The label of each component: that of the place on the surface amid its largest triangle. The flat triangle itself may
-// lie in the plane that cuts the component off.
+// Of the way from the middle of a flat triangle to the surface.
+static const double TOWARDS_SURFACE = 0.01;
+
+// The label of each component: that of the middle of its largest triangle. Where that triangle lies in the plane that
+// cuts the component off, the side on which the surface lies decides.
 static CwStatus component_labels(const CwPatchMesh *mesh, CwSurfaceAt surface, const void *surface_context,
                                  CwLabelAt label, const void *context, int32_t *result) {
   CwStatus status = CW_OK;
@@ -93,6 +96,10 @@ static CwStatus component_labels(const CwPatchMesh *mesh, CwSurfaceAt surface, c
     largest[component] = area;
     for (int k = 0; k < 2; k++) uv[k] = (mesh->uv[corner[0]][k] + mesh->uv[corner[1]][k] + mesh->uv[corner[2]][k]) / 3;
     surface(surface_context, uv, middle, NULL, NULL);
+    for (int k = 0; k < 3; k++) {
+      double flat = (mesh->x[corner[0]][k] + mesh->x[corner[1]][k] + mesh->x[corner[2]][k]) / 3;
+      middle[k] = flat + TOWARDS_SURFACE * (middle[k] - flat);
+    }
     result[component] = label(context, middle);
   }
 done:

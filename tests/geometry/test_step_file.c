@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -124,12 +126,32 @@ static void unwritable_place_is_refused(void **state) {
   cw_fail_clear();
 }
 
+// Where files may not grow, as on a full disk, the message names the file that was asked for.
+static void short_disk_names_the_file(void **state) {
+  const CwSolid *const solids[] = {rotor};
+  char path[64];
+  struct rlimit before, small;
+  snprintf(path, sizeof path, "%s/pump.step", folder);
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  small = before;
+  small.rlim_cur = 4096;
+  signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  CwStatus status = cw_step_write(solids, 1, path);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+  assert_int_equal(status, CW_ERR_IO);
+  assert_int_equal(strncmp(cw_fail_message(), path, strlen(path)), 0);
+  assert_int_not_equal(access(path, F_OK), 0);
+  cw_fail_clear();
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(names_and_volume_survive),
       cmocka_unit_test(files_are_the_same_each_time),
       cmocka_unit_test(faces_table),
       cmocka_unit_test(unwritable_place_is_refused),
+      cmocka_unit_test(short_disk_names_the_file),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

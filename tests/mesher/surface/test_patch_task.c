@@ -22,15 +22,19 @@ static double coarse(const void *context, const double x[3]) {
   return 10;
 }
 
+// Of the plane z = level.
 static int32_t side_of_plane(const void *context, const double x[3]) {
-  return x[2] > 0 ? 1 : -1;
+  return x[2] > *(const double *)context ? 1 : -1;
 }
 
-// Meshed by its four corners alone, its triangles lie in the plane: the label is that of the surface, above or below.
+// Meshed by its four corners alone, its triangles lie in the plane: the label is that of the surface, above or below. A
+// plane between triangles and surface leaves them on their side.
 static void the_label_is_that_of_the_surface(void **state) {
   static const double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (int below = 0; below < 2; below++) {
-    double height = below ? -0.1 : 0.1;
+  for (int i = 0; i < 4; i++) {
+    int below = i % 2;
+    double height = below ? -0.1 : 0.1, level = i < 2 ? 0 : height / 8;
+    int wanted = (i < 2) != below ? 1 : -1;
     CwPatchOutline outline;
     int32_t local[4];
     assert_int_equal(cw_outline_start(&outline, 4), CW_OK);
@@ -43,11 +47,12 @@ static void the_label_is_that_of_the_surface(void **state) {
     void *bytes = NULL;
     int64_t size;
     assert_int_equal(
-        cw_patch_task(&outline, arch, &height, coarse, NULL, 0, 0, side_of_plane, NULL, "arch", &bytes, &size), CW_OK);
+        cw_patch_task(&outline, arch, &height, coarse, NULL, 0, 0, side_of_plane, &level, "arch", &bytes, &size),
+        CW_OK);
     CwPatchBlock block;
     cw_patch_block(bytes, &block);
     assert_int_equal(block.triangle_count, 2);
-    for (int32_t t = 0; t < block.triangle_count; t++) assert_int_equal(block.label[t], below ? -1 : 1);
+    for (int32_t t = 0; t < block.triangle_count; t++) assert_int_equal(block.label[t], wanted);
     free(bytes);
     cw_outline_free(&outline);
   }
