@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// All tuned numbers of the mesher, by room:
+// The tuned numbers of the mesher, by room:
 //
 //   NUMBER(type, name, value, off, unit, meaning and evidence)
 //
@@ -7,7 +7,9 @@
 // switches off what the number rules; `none` where no value does. Units: `1` of ratios and counts, `h` the wanted edge
 // length at the place, `edge` that of the triangle or tetrahedron, `quality` that of cw_tet_quality, mostly the sine of
 // the least dihedral angle. What is not here is mathematics, a constant of physics or of a format, a bound of rounding,
-// or a resolution that only costs time. tests/bench/ablate.py measures what each number does.
+// a resolution that only costs time, or one of those that still stand in their sources: the weights in the score of
+// planes (plan/), what the first pass counts cells by (run/cell_count.c), predicted times of tasks (run/), and factors
+// in the expressions of surface/ and layers/. tests/bench/ablate.py measures what each number of the table does.
 
 // Filling a region (fill/): inner points.
 NUMBER(double, wall_distance, 0.5, none, "edge",

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/region/encroach.h"
 
 #include <math.h>
@@ -7,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "mesher/surface/cdt.h"
 
 enum { ROUNDS = 40 };

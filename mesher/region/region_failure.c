@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/region/region_failure.h"
 
 #include <math.h>
@@ -10,6 +9,7 @@
 #include "mesher/common/intersect.h"
 #include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
+#include "mesher/policy.h"
 
 static CwStatus write_boundary(const CwRegionBoundary *inner, const int32_t *crossing, const char *name,
                                const char *path) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/run/domain.h"
 
 #include <math.h>
@@ -17,6 +16,7 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
+#include "mesher/policy.h"
 #include "mesher/region/region_number.h"
 #include "pipeline/wall_group.h"
 

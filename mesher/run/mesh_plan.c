@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/run/mesh_plan.h"
 
 #include <math.h>
@@ -9,6 +8,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/parallel/profiler.h"
 #include "mesher/parallel/groups.h"
+#include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"

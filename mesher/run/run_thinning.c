@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/run/run_thinning.h"
 
 #include <math.h>
@@ -8,6 +7,7 @@
 #include <string.h>
 
 #include "mesher/common/model_unit.h"
+#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 enum { ATTEMPTS = 3 }; // on one plan

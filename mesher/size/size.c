@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/size/size.h"
 
 #include <math.h>
@@ -8,6 +7,7 @@
 
 #include "mesher/cad/scanlines.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/policy.h"
 #include "mesher/size/size_grid.h"
 #include "mesher/size/size_sources.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/surface/patch_front.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+#include "mesher/policy.h"
 
 // Edges of the front: triangle t, not done, lies to the left of a -> b; on the right is a given edge or a
 // done triangle. They wait in queues by the sum of the rows of a and b, given points being row 0, so that a

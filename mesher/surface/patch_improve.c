@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/surface/patch_improve.h"
 
 #include <math.h>
@@ -7,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "mesher/surface/patch_cuts.h"
 
 static double edge_size(const CwPatchWork *work, int32_t a, int32_t b) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/thickness/column_targets.h"
 
 #include <math.h>
@@ -12,6 +11,7 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/parallel/parallel_for.h"
+#include "mesher/policy.h"
 
 static const double LITTLE_GROWTH = 1.1;
 // further, some made angles of 16 degrees where others have 19

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/thickness/coupled_edges.h"
 
 #include <math.h>
@@ -7,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 
 enum { SIZE_STEPS = 400 };
 static const double SAME_PLACE = 1e-9; // of the model's unit

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/thickness/first_height.h"
 
 #include <math.h>
@@ -7,6 +6,7 @@
 #include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thickness_gradation.h"
+#include "mesher/policy.h"
 
 double cw_column_room(const CwWallFlow *flow) {
   double across = cw_policy.gap_share * flow->width;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/thickness/layer_count.h"
 
 #include <math.h>
 
+#include "mesher/policy.h"
 #include "mesher/thickness/layer_thickness.h"
 
 int cw_layer_count(double first, double growth, double size) {

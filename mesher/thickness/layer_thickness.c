@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/thickness/layer_thickness.h"
 
 #include <math.h>
 #include <stddef.h>
+
+#include "mesher/policy.h"
 
 double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre) {
   double reynolds = velocity * length / kinematic_viscosity;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/policy.h"
 #include "mesher/thickness/wall_targets.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "mesher/policy.h"
 #include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/json_read.h"
