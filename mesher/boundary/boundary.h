@@ -35,7 +35,7 @@ typedef struct {
   const void *size;
   double *largest; // m, by patch: wall triangles larger than with such edges are halved (patch_mesh.h); NULL: none
 
-  CwSurfaceMesh surface;   // cw_boundary_wall_curves, cw_boundary_merge_walls; cw_boundary_grow flips edges
+  CwSurfaceMesh surface;   // cw_boundary_wall_curves, cw_boundary_merge_walls
   CwLayers layers;         // cw_boundary_grow
   CwInterfaces interfaces; // cw_boundary_free_curves, cw_boundary_merge_inner, cw_interface_rule_merge
 } CwBoundary;
@@ -57,8 +57,8 @@ CwStatus cw_boundary_merge_walls(CwBoundary *boundary, void *const *bytes);
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
 // Collective: all ranks work on it and have the same result. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
 // top is found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
-CwStatus cw_boundary_grow(CwBoundary *boundary, const CwBackground *background, const double *target,
-                          const double *least, const CwLayerDivision *division, CwOutcome *outcome);
+CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *background, const double *target,
+                          const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 // Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in boundary->interfaces.tight;

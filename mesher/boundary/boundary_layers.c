@@ -121,13 +121,13 @@ done:
   return status;
 }
 
-static CwStatus unfold_wall(CwBoundary *boundary, const int64_t *group, CwFlipMesh *mesh) {
+static CwStatus unfold_wall(const CwBoundary *boundary, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips, folded;
   CW_TRY(cw_flip_neighbours(boundary->surface.vertex_count, boundary->surface.triangle_count, group, mesh));
   CW_TRY(cw_wall_unfold(boundary->surface.vertex_count, (const double(*)[3])boundary->surface.x,
                         boundary->surface.triangle_count, mesh, group, &flips, &folded));
-  cw_image_copy_triangles(boundary);
+  cw_image_copy_triangles(boundary, mesh->triangle);
   if (flips && boundary->images.symmetry) { // copies have followed
     CW_TRY(cw_flip_neighbours(boundary->surface.vertex_count, boundary->surface.triangle_count, group, mesh));
   }
@@ -137,12 +137,12 @@ done:
   return status;
 }
 
-static CwStatus flip_top(CwBoundary *boundary, const int64_t *group, CwFlipMesh *mesh) {
+static CwStatus flip_top(const CwBoundary *boundary, const double (*top)[3], const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips;
-  CW_TRY(cw_layer_top_flip((const double(*)[3])boundary->surface.x, (const double(*)[3])boundary->layers.top,
-                           boundary->surface.triangle_count, mesh, group, &flips));
-  cw_image_copy_triangles(boundary);
+  CW_TRY(cw_layer_top_flip((const double(*)[3])boundary->surface.x, top, boundary->surface.triangle_count, mesh, group,
+                           &flips));
+  cw_image_copy_triangles(boundary, mesh->triangle);
   cw_log_debug("%d edges of wall and layer top flipped", flips);
 done:
   return status;
@@ -183,18 +183,20 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_grow(CwBoundary *boundary, const CwBackground *background, const double *target,
-                          const double *least, const CwLayerDivision *division, CwOutcome *outcome) {
+CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *background, const double *target,
+                          const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  int32_t n = boundary->surface.vertex_count, open_patches = 0, opened;
+  int32_t n = boundary->surface.vertex_count, triangles = boundary->surface.triangle_count, open_patches = 0, opened;
   int32_t *constraint_count = NULL, (*open_patch_triangle)[3] = NULL;
   double(*constraint_normal)[2][3] = NULL;
   uint8_t *constraint_stays = NULL;
   Snap snapping = {boundary, NULL};
-  CwLayers layers = {0};
-  CwFlipMesh mesh = {.triangle = boundary->surface.triangle};
+  CwFlipMesh mesh = {0};
   int64_t *group = NULL;
+  *layers = (CwLayers){0};
   cw_profiler_part("layers: wall unfolded");
+  CW_NEW_UNSET(mesh.triangle, triangles);
+  memcpy(mesh.triangle, boundary->surface.triangle, (size_t)triangles * sizeof *mesh.triangle);
   CW_TRY(make_groups(boundary, &group));
   CW_TRY(unfold_wall(boundary, group, &mesh));
   CW_NEW(constraint_count, n);
@@ -210,8 +212,8 @@ CwStatus cw_boundary_grow(CwBoundary *boundary, const CwBackground *background, 
   }
   CwLayerInput input = {.point_count = n,
                         .x = (const double(*)[3])boundary->surface.x,
-                        .triangle_count = boundary->surface.triangle_count,
-                        .triangle = (const int32_t(*)[3])boundary->surface.triangle,
+                        .triangle_count = triangles,
+                        .triangle = (const int32_t(*)[3])mesh.triangle,
                         .target = target,
                         .least = least,
                         .division = division ? *division : (CwLayerDivision){0},
@@ -224,19 +226,21 @@ CwStatus cw_boundary_grow(CwBoundary *boundary, const CwBackground *background, 
                         .obstacle_x = (const double(*)[3])background->x,
                         .obstacle_triangle_count = open_patches,
                         .obstacle_triangle = (const int32_t(*)[3])open_patch_triangle};
-  CW_TRY_STAGE(boundary->images.symmetry ? cw_image_layers(boundary, &input, &layers, outcome)
-                                         : cw_layers_make(&input, &layers, outcome),
+  CW_TRY_STAGE(boundary->images.symmetry ? cw_image_layers(boundary, &input, layers, outcome)
+                                         : cw_layers_make(&input, layers, outcome),
                outcome);
-  boundary->layers = layers;
-  layers = (CwLayers){0};
   cw_profiler_part("layers: layer top flipped");
-  CW_TRY(flip_top(boundary, group, &mesh));
+  CW_TRY(flip_top(boundary, (const double(*)[3])layers->top, group, &mesh));
   cw_profiler_part("layers: narrow concave edges");
-  CW_TRY(cw_open_concave_edges(boundary, &input, &opened));
+  CW_TRY(cw_open_concave_edges(boundary, &input, layers, &opened));
+  layers->triangle_count = triangles;
+  layers->triangle = mesh.triangle;
+  mesh.triangle = NULL;
 done:
+  free(mesh.triangle);
   free(mesh.near);
   free(group);
-  cw_layers_free(&layers);
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_layers_free(layers);
   free(constraint_count);
   free(constraint_normal);
   free(constraint_stays);

@@ -95,7 +95,9 @@ static void stretch(CwLayerWork *work, int32_t v, double (*top)[3]) {
 
 // A wall and its columns.
 typedef struct {
-  CwBoundary *boundary;
+  const CwBoundary *boundary;
+  const CwLayerInput *wall;
+  CwLayers *layers;
   CwIncident around; // of the whole wall
   uint8_t *is_first; // of each vertex: on a triangle that is no periodic image
   uint8_t *turning;  // of each vertex: the column to try, once for all its copies
@@ -108,8 +110,8 @@ static CwStatus find_narrow(void *context, int32_t t, void *out) {
   const ConcaveEdges *concave = context;
   const CwBoundary *boundary = concave->boundary;
   if (boundary->surface.source[t] != t) return CW_OK;
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])boundary->surface.triangle;
-  const double(*top)[3] = (const double(*)[3])boundary->layers.top;
+  const int32_t(*triangle)[3] = concave->wall->triangle;
+  const double(*top)[3] = (const double(*)[3])concave->layers->top;
   double bound =
       cw_layer_top_bound(t, triangle, top, concave->around.start, concave->around.triangle, cw_policy.top_narrow);
   *(uint8_t *)out = bound < cw_policy.top_narrow;
@@ -119,7 +121,7 @@ static CwStatus find_narrow(void *context, int32_t t, void *out) {
 // Marks the columns at a narrow triangle and at those beside it.
 static void mark_columns(ConcaveEdges *concave, int32_t t) {
   const CwBoundary *boundary = concave->boundary;
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])boundary->surface.triangle, *corner = triangle[t];
+  const int32_t(*triangle)[3] = concave->wall->triangle, *corner = triangle[t];
   for (int k = 0; k < 3; k++) {
     int32_t apex = corner[k];
     across(t, corner[k], corner[(k + 1) % 3], triangle, concave->around.start, concave->around.triangle, &apex);
@@ -130,9 +132,10 @@ static void mark_columns(ConcaveEdges *concave, int32_t t) {
   }
 }
 
-static CwStatus make_part(ConcaveEdges *concave, const CwLayerInput *wall) {
+static CwStatus make_part(ConcaveEdges *concave) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = concave->boundary;
+  const CwLayerInput *wall = concave->wall;
+  const CwLayers *layers = concave->layers;
   CwLayerWork *work = &concave->work;
   uint8_t *near = NULL;
   CW_NEW(near, wall->point_count);
@@ -146,10 +149,9 @@ static CwStatus make_part(ConcaveEdges *concave, const CwLayerInput *wall) {
   CW_NEW_UNSET(concave->top, work->n);
   for (int32_t i = 0; i < work->n; i++) {
     int32_t v = concave->part.global[i];
-    memcpy(concave->top[i], boundary->layers.top[v], sizeof *concave->top);
-    work->t[i] = boundary->layers.thickness[v];
-    for (int k = 0; k < 3; k++)
-      work->column[i][k] = (boundary->layers.top[v][k] - boundary->surface.x[v][k]) / work->t[i];
+    memcpy(concave->top[i], layers->top[v], sizeof *concave->top);
+    work->t[i] = layers->thickness[v];
+    for (int k = 0; k < 3; k++) work->column[i][k] = (layers->top[v][k] - wall->x[v][k]) / work->t[i];
     work->base_cos[i] = cw_layers_least_cosine(work, i, work->column[i]) / cw_norm(work->column[i]);
   }
 done:
@@ -193,19 +195,20 @@ static void open_columns(ConcaveEdges *concave) {
 
 // Gives all copies of the columns that moved their new ends, thicknesses and reasons; marks them.
 static void spread(ConcaveEdges *concave, uint8_t *moved, int32_t *opened) {
-  CwBoundary *boundary = concave->boundary;
+  const CwBoundary *boundary = concave->boundary;
+  CwLayers *layers = concave->layers;
   for (int32_t v = 0; v < boundary->surface.vertex_count; v++) {
-    const double *end = concave->turning[v] ? concave->top[concave->part.local[v]] : boundary->layers.top[v];
-    if (memcmp(end, boundary->layers.top[v], sizeof *boundary->layers.top) == 0) continue;
+    const double *end = concave->turning[v] ? concave->top[concave->part.local[v]] : layers->top[v];
+    if (memcmp(end, layers->top[v], sizeof *layers->top) == 0) continue;
     int32_t local = concave->part.local[v], at = v, turns = 0;
     double column[3];
     cw_sub(end, boundary->surface.x[v], column);
     double thickness = cw_layers_least_cosine(&concave->work, local, column);
-    int same = fabs(thickness - boundary->layers.thickness[v]) < 0.01 * thickness;
+    int same = fabs(thickness - layers->thickness[v]) < 0.01 * thickness;
     do {
-      cw_image_point(&boundary->images, turns++, end, boundary->layers.top[at]);
-      boundary->layers.thickness[at] = thickness;
-      if (!same) boundary->layers.reason[at] = CW_LAYER_REPAIR;
+      cw_image_point(&boundary->images, turns++, end, layers->top[at]);
+      layers->thickness[at] = thickness;
+      if (!same) layers->reason[at] = CW_LAYER_REPAIR;
       moved[at] = 1;
       at = cw_image_node(&boundary->images, at, 1);
     } while (at >= 0 && at != v);
@@ -214,12 +217,11 @@ static void spread(ConcaveEdges *concave, uint8_t *moved, int32_t *opened) {
 }
 
 // Whether all prisms about what moved are sound, or no worse than with the columns as they were, and cross nothing.
-static CwStatus check(const CwBoundary *boundary, const CwLayerInput *wall, const double (*before)[3],
-                      const uint8_t *moved, int *fits) {
+static CwStatus check(const double (*top)[3], const CwLayerInput *wall, const double (*before)[3], const uint8_t *moved,
+                      int *fits) {
   CwStatus status = CW_OK;
   CwLayerWork work = {.in = wall, .n = wall->point_count};
   CwLayerCrossing crossing = {0};
-  const double(*top)[3] = (const double(*)[3])boundary->layers.top;
   *fits = 1;
   for (int32_t t = 0; t < wall->triangle_count && *fits; t++) {
     const int32_t *corner = wall->triangle[t];
@@ -238,9 +240,10 @@ done:
   return status;
 }
 
-CwStatus cw_open_concave_edges(CwBoundary *boundary, const CwLayerInput *wall, int32_t *opened) {
+CwStatus cw_open_concave_edges(const CwBoundary *boundary, const CwLayerInput *wall, CwLayers *layers,
+                               int32_t *opened) {
   CwStatus status = CW_OK;
-  ConcaveEdges concave = {.boundary = boundary};
+  ConcaveEdges concave = {.boundary = boundary, .wall = wall, .layers = layers};
   int32_t count = boundary->surface.triangle_count, found = 0;
   size_t n = (size_t)boundary->surface.vertex_count;
   uint8_t *narrow = NULL, *moved = NULL, *reason = NULL;
@@ -259,22 +262,22 @@ CwStatus cw_open_concave_edges(CwBoundary *boundary, const CwLayerInput *wall, i
   for (int32_t t = 0; t < count; t++) {
     if (narrow[t]) mark_columns(&concave, t);
   }
-  CW_TRY(make_part(&concave, wall));
+  CW_TRY(make_part(&concave));
   open_columns(&concave);
   CW_NEW_UNSET(top, n);
   CW_NEW_UNSET(thickness, n);
   CW_NEW_UNSET(reason, n);
   CW_NEW(moved, n);
-  memcpy(top, boundary->layers.top, n * sizeof *top);
-  memcpy(thickness, boundary->layers.thickness, n * sizeof *thickness);
-  memcpy(reason, boundary->layers.reason, n);
+  memcpy(top, layers->top, n * sizeof *top);
+  memcpy(thickness, layers->thickness, n * sizeof *thickness);
+  memcpy(reason, layers->reason, n);
   spread(&concave, moved, opened);
   int fits = 1;
-  if (*opened) CW_TRY(check(boundary, wall, (const double(*)[3])top, moved, &fits));
+  if (*opened) CW_TRY(check((const double(*)[3])layers->top, wall, (const double(*)[3])top, moved, &fits));
   if (!fits) {
-    memcpy(boundary->layers.top, top, n * sizeof *top);
-    memcpy(boundary->layers.thickness, thickness, n * sizeof *thickness);
-    memcpy(boundary->layers.reason, reason, n);
+    memcpy(layers->top, top, n * sizeof *top);
+    memcpy(layers->thickness, thickness, n * sizeof *thickness);
+    memcpy(layers->reason, reason, n);
     *opened = 0;
   }
   cw_log_debug("%d triangles of the layer top in narrow concave edges: %d columns %s", found, *opened,

@@ -91,14 +91,14 @@ done:
   return status;
 }
 
-void cw_image_copy_triangles(CwBoundary *boundary) {
+void cw_image_copy_triangles(const CwBoundary *boundary, int32_t (*triangle)[3]) {
   const CwPeriodicImages *images = &boundary->images;
   for (int32_t t = 0; t < boundary->surface.triangle_count; t++) {
     int32_t source = boundary->surface.source[t];
     if (source == t) continue;
     int32_t turns = images->symmetry->face.turns[boundary->surface.face[t]];
     for (int k = 0; k < 3; k++) {
-      boundary->surface.triangle[t][k] = cw_image_node(images, boundary->surface.triangle[source][k], turns);
+      triangle[t][k] = cw_image_node(images, triangle[source][k], turns);
     }
   }
 }

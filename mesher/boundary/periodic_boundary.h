@@ -23,7 +23,7 @@ CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, 
 // The least of the members of the image set of wall vertex v that are on first faces (is_first), -1 where none is.
 int32_t cw_image_first_member(const CwPeriodicImages *images, const uint8_t *is_first, int32_t v);
 
-// Makes the wall triangles that are copies anew, from those that they are copies of.
-void cw_image_copy_triangles(CwBoundary *boundary);
+// Makes those of the wall triangles that are copies anew, from those that they are copies of.
+void cw_image_copy_triangles(const CwBoundary *boundary, int32_t (*triangle)[3]);
 
 #endif

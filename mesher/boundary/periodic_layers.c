@@ -366,6 +366,7 @@ CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, 
   uint8_t *bad = NULL;
   const double *near = input->x[0];
   memset(layers, 0, sizeof *layers);
+  layers->column_count = input->point_count;
   CW_NEW(layers->top, input->point_count);
   CW_NEW(layers->thickness, input->point_count);
   CW_NEW(layers->reason, input->point_count);

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "mesher/common/model_unit.h"
+#include "mesher/common/vtk.h"
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/profiler.h"
 
@@ -27,6 +29,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
   memset(layers, 0, sizeof *layers);
   cw_profiler_part("layers: neighbours");
   CW_TRY(cw_layers_topology(input, &work));
+  layers->column_count = work.n;
   CW_NEW(layers->top, work.n);
   CW_NEW(layers->thickness, work.n);
   CW_NEW(layers->reason, work.n);
@@ -62,7 +65,57 @@ done:
   return status;
 }
 
+CwStatus cw_layers_audit(const CwLayers *layers, const double (*x)[3]) {
+  CwStatus status = CW_OK;
+  for (int32_t v = 0; v < layers->column_count; v++) {
+    CW_REQUIRE(layers->thickness[v] > 0, CW_ERR_MESH, "layers: the column at (%.3f, %.3f, %.3f) mm is %g mm thick",
+               CW_MM(x[v]), cw_mm(layers->thickness[v]));
+  }
+  for (int32_t t = 0; t < layers->triangle_count; t++) {
+    const int32_t *corner = layers->triangle[t];
+    const double *wall[3], *top[3];
+    for (int k = 0; k < 3; k++) {
+      CW_REQUIRE(corner[k] >= 0 && corner[k] < layers->column_count && corner[k] != corner[(k + 1) % 3], CW_ERR_MESH,
+                 "layers: triangle %d has the corners %d, %d, %d of %d columns", t, corner[0], corner[1], corner[2],
+                 layers->column_count);
+      wall[k] = x[corner[k]];
+      top[k] = layers->top[corner[k]];
+    }
+    double quality = cw_prism_quality(wall, top);
+    CW_REQUIRE(quality > 0, CW_ERR_MESH,
+               "layers: the prism over triangle %d at (%.3f, %.3f, %.3f) mm has a quality of %g", t, CW_MM(wall[0]),
+               quality);
+  }
+done:
+  return status;
+}
+
+CwStatus cw_layers_vtk(const CwLayers *layers, const int32_t *region, const char *path) {
+  CwStatus status = CW_OK;
+  int32_t *reason = NULL;
+  CW_NEW(reason, layers->triangle_count);
+  for (int32_t t = 0; t < layers->triangle_count; t++) {
+    for (int k = 0; k < 3; k++) {
+      int32_t of = layers->reason[layers->triangle[t][k]];
+      if (of > reason[t]) reason[t] = of;
+    }
+  }
+  const CwVtkField field[2] = {{"reason", reason}, {"region", region}};
+  const CwVtkTriangles triangles = {.title = "layer top",
+                                    .point_count = layers->column_count,
+                                    .x = (const double(*)[3])layers->top,
+                                    .triangle_count = layers->triangle_count,
+                                    .triangle = (const int32_t(*)[3])layers->triangle,
+                                    .field_count = 2,
+                                    .field = field};
+  CW_TRY(cw_vtk_write(path, &triangles));
+done:
+  free(reason);
+  return status;
+}
+
 void cw_layers_free(CwLayers *layers) {
+  free(layers->triangle);
   free(layers->top);
   free(layers->thickness);
   free(layers->reason);

@@ -66,10 +66,14 @@ typedef struct {
   const int32_t (*obstacle_triangle)[3];
 } CwLayerInput;
 
+// The product: one column over each wall vertex. What reads it needs the columns about its own regions.
 typedef struct {
-  double (*top)[3];  // outer end of each column
-  double *thickness; // normal thickness of each column: the least over the faces around, m
-  uint8_t *reason;   // CwLayerReason
+  int32_t column_count, triangle_count;
+  int32_t (*triangle)[3]; // wall triangles that they stand on, normal out of the domain: those of the surface mesh,
+                          // some edges flipped between two of one face and region; NULL from cw_layers_make
+  double (*top)[3];       // outer end of each column
+  double *thickness;      // normal thickness of each column: the least over the faces around, m
+  uint8_t *reason;        // CwLayerReason
   int32_t repair_rounds;
   int32_t thinned_count; // columns below 0.99 of the target
 } CwLayers;
@@ -81,6 +85,15 @@ typedef struct {
 // bits. Collective.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
 void cw_layers_free(CwLayers *layers);
+
+// Checks what finished layers hold: corners of triangles within the columns and distinct, thicknesses above 0, and no
+// prism between the wall (x: its vertices) and the layer top turned inside out. CW_ERR_MESH with the first that does
+// not hold.
+CwStatus cw_layers_audit(const CwLayers *layers, const double (*x)[3]);
+
+// Writes the layer top as VTK PolyData, for a look (cell data reason: why the thinnest column of a triangle is thinner
+// than asked; region, as given for each triangle).
+CwStatus cw_layers_vtk(const CwLayers *layers, const int32_t *region, const char *path);
 
 #ifdef __cplusplus
 }

@@ -53,7 +53,7 @@ CwStatus cw_region_boundary_make(const CwBoundary *boundary, int32_t region, int
   memset(gathering.local, -1, (size_t)boundary->interfaces.nodes.count * sizeof *gathering.local);
   for (int32_t i = wall_start; i < wall_end; i++) {
     int32_t t = boundary->surface.region_triangle[i];
-    add(&gathering, &inner->wall_count, boundary->surface.triangle[t], 0, t);
+    add(&gathering, &inner->wall_count, boundary->layers.triangle[t], 0, t);
   }
   for (int32_t t = 0; t < boundary->interfaces.open_patch.count; t++) {
     if (boundary->interfaces.open_patch.region[t] == region)

@@ -101,7 +101,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
     int32_t t = boundary->surface.region_triangle[i];
     cw_hash_bytes(&hash, &boundary->surface.face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->surface.triangle[t][k];
+      int32_t v = boundary->layers.triangle[t][k];
       cw_hash_bytes(&hash, boundary->surface.x[v], sizeof(double[3]));
       cw_hash_bytes(&hash, boundary->layers.top[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));

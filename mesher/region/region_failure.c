@@ -79,7 +79,7 @@ void cw_region_failure_thin(const CwBoundary *boundary, int32_t region, const Cw
   double distance = reach * boundary->size_at(boundary->size, failure->at);
   for (int32_t t = 0; t < boundary->surface.triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->surface.triangle[t][k];
+      int32_t v = boundary->layers.triangle[t][k];
       int near = failure->everywhere ? boundary->surface.region[t] == region
                                      : cw_distance(boundary->layers.top[v], failure->at) < distance;
       if (near) most[v] = fmin(most[v], cw_policy.thinner * boundary->layers.thickness[v]);

@@ -436,7 +436,7 @@ done:
 
 // Adds the prisms over a wall triangle that are thin for their length, or sheared: of small determinants.
 static void count_thin(const CwBoundary *boundary, int32_t t, const CwColumnTargets *targets, CwLayerCoverage *of) {
-  const int32_t *corner = boundary->surface.triangle[t];
+  const int32_t *corner = boundary->layers.triangle[t];
   double determinant[CW_LAYERS_MOST], first[3];
   for (int k = 0; k < 3; k++) first[k] = targets->first_made[corner[k]];
   cw_column_determinants(targets, boundary, t, first, determinant);
@@ -461,7 +461,7 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
     CwLayerCoverage *of = &coverage[patch];
     int full = 1, met = 1, worst = 0;
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->surface.triangle[t][k];
+      int32_t v = boundary->layers.triangle[t][k];
       double thickness = boundary->layers.thickness[v];
       double wanted = targets->first_height[v];
       double first =

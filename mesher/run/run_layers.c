@@ -73,8 +73,9 @@ static CwStatus grow(void *context, int32_t d, CwOutcome *outcome) {
   CwDomain *domain = &run->domain[d];
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->targets};
   CW_TRY_STAGE(cw_boundary_grow(&domain->boundary, &domain->background, domain->targets.target, domain->targets.least,
-                                &division, outcome),
+                                &division, &domain->boundary.layers, outcome),
                outcome);
+  CW_AUDIT(cw_layers_audit(&domain->boundary.layers, (const double(*)[3])domain->boundary.surface.x));
   cw_profiler_part("layers: small prisms");
   CW_TRY(cw_column_targets_even(&domain->targets, &domain->boundary));
 done:
@@ -86,9 +87,9 @@ static CwStatus hand_layers(void *context, const CwGroupHand *hand) {
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[hand->item];
   CwBoundary *boundary = &domain->boundary;
-  int32_t n = boundary->surface.vertex_count;
-  cw_group_give(hand, boundary->surface.triangle,
-                boundary->surface.triangle_count * (int64_t)sizeof *boundary->surface.triangle);
+  int32_t n = boundary->layers.column_count = boundary->surface.vertex_count;
+  boundary->layers.triangle_count = boundary->surface.triangle_count;
+  CW_GROUP_ARRAY(hand, boundary->layers.triangle, boundary->layers.triangle_count);
   CW_GROUP_ARRAY(hand, boundary->layers.top, n);
   CW_GROUP_ARRAY(hand, boundary->layers.thickness, n);
   CW_GROUP_ARRAY(hand, boundary->layers.reason, n);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/vtk.h"
 #include "pipeline/log.h"
 
 static const char *const NAMES[CW_STAGE_COUNT] = {"", "surface", "layers", "interfaces"};
@@ -22,40 +21,13 @@ done:
   return status;
 }
 
-// The layer top: the triangles of the surface mesh over the outer ends of their columns, with the reason why the
-// thinnest of these has not its full thickness.
-static CwStatus write_layers(const CwBoundary *boundary, const char *path) {
-  CwStatus status = CW_OK;
-  const CwSurfaceMesh *surface = &boundary->surface;
-  int32_t *reason = NULL;
-  CW_NEW(reason, surface->triangle_count);
-  for (int32_t t = 0; t < surface->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) {
-      int32_t of = boundary->layers.reason[surface->triangle[t][k]];
-      if (of > reason[t]) reason[t] = of;
-    }
-  }
-  const CwVtkField field[2] = {{"reason", reason}, {"region", surface->region}};
-  const CwVtkTriangles triangles = {.title = "layer top",
-                                    .point_count = surface->vertex_count,
-                                    .x = (const double(*)[3])boundary->layers.top,
-                                    .triangle_count = surface->triangle_count,
-                                    .triangle = (const int32_t(*)[3])surface->triangle,
-                                    .field_count = 2,
-                                    .field = field};
-  CW_TRY(cw_vtk_write(path, &triangles));
-done:
-  free(reason);
-  return status;
-}
-
 static CwStatus write_product(const CwMeshRun *run, int d, CwStage stage) {
   CwStatus status = CW_OK;
   const CwBoundary *boundary = &run->domain[d].boundary;
   char path[4096];
   snprintf(path, sizeof path, "%s/mesh/%s-%s.vtk", run->run_path, run->domain[d].name, NAMES[stage]);
   if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&boundary->surface, path));
-  if (stage == CW_STAGE_LAYERS) CW_TRY(write_layers(boundary, path));
+  if (stage == CW_STAGE_LAYERS) CW_TRY(cw_layers_vtk(&boundary->layers, boundary->surface.region, path));
   if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&boundary->interfaces, path));
   cw_log("%s: written", path);
 done:

@@ -24,11 +24,11 @@ static double divide(const CwColumnTargets *targets, const CwBoundary *boundary,
 void cw_column_determinants(const CwColumnTargets *targets, const CwBoundary *boundary, int32_t t,
                             const double first[3], double *determinant) {
   double fraction[3][CW_LAYERS_MOST + 1], x[2][3][3];
-  for (int k = 0; k < 3; k++) divide(targets, boundary, boundary->surface.triangle[t][k], first[k], fraction[k]);
+  for (int k = 0; k < 3; k++) divide(targets, boundary, boundary->layers.triangle[t][k], first[k], fraction[k]);
   for (int level = 0; level <= targets->layer_count; level++) {
     double(*base)[3] = x[(level + 1) % 2], (*top)[3] = x[level % 2];
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->surface.triangle[t][k];
+      int32_t v = boundary->layers.triangle[t][k];
       cw_lerp(boundary->surface.x[v], boundary->layers.top[v], fraction[k][level], top[k]);
     }
     if (level > 0)
@@ -65,7 +65,7 @@ static double least_determinant(const Columns *columns, int32_t t, const double 
 static int is_thick(const Columns *columns, int32_t t) {
   const CwColumnTargets *targets = columns->targets;
   const CwBoundary *boundary = columns->boundary;
-  const int32_t *corner = boundary->surface.triangle[t];
+  const int32_t *corner = boundary->layers.triangle[t];
   double first = INFINITY, base[3][3], top[3][3], normal[3];
   for (int k = 0; k < 3; k++) {
     if (boundary->layers.thickness[corner[k]] < targets->layer_count * targets->first_height[corner[k]]) return 0;
@@ -86,7 +86,7 @@ static CwStatus judge(void *context, int32_t i, void *out) {
   const CwBoundary *boundary = columns->boundary;
   uint8_t *made = out;
   int32_t t = columns->triangle ? columns->triangle[i] : i;
-  const int32_t *corner = boundary->surface.triangle[t];
+  const int32_t *corner = boundary->layers.triangle[t];
   double first[3];
   if (boundary->surface.source[t] != t) return CW_OK;
   if (is_thick(columns, t)) return CW_OK;
@@ -141,7 +141,7 @@ CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwBoundary *boun
   do {
     memset(mark, 0, (size_t)boundary->surface.vertex_count);
     for (int32_t i = 0; i < kept; i++) {
-      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[boundary->surface.triangle[list[i]][k]] = 1;
+      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[boundary->layers.triangle[list[i]][k]] = 1;
     }
     changed = even_marked(&columns, mark, targets->first_made);
     if (changed)

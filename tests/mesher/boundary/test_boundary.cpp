@@ -209,8 +209,9 @@ static void make_layers(Box &box) {
   Box::check(cw_boundary_merge_walls(&boundary, walls.data()));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  Box::check(cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &box.outcome));
+  Box::check(cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
   for (void *bytes : walls) free(bytes);
 }
 
@@ -451,7 +452,7 @@ static void a_crossing_boundary_is_examined(void **) {
   failure.everywhere = 1;
   cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
   for (int t = 0; t < boundary.surface.triangle_count; t++) {
-    for (int v : boundary.surface.triangle[t]) {
+    for (int v : boundary.layers.triangle[t]) {
       if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
     }
   }

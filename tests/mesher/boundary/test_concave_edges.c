@@ -24,6 +24,7 @@ typedef struct {
   double top[POINTS][3], thickness[POINTS], target[POINTS], least[POINTS];
   uint8_t reason[POINTS];
   CwBoundary boundary;
+  CwLayers layers;
   CwLayerInput wall;
 } Ring;
 
@@ -45,10 +46,9 @@ static void make_ring(Ring *ring, int i, double low, double least) {
                                 .surface.triangle_count = TRIANGLES,
                                 .surface.triangle = flat->triangle,
                                 .surface.source = flat->source,
-                                .layers.top = ring->top,
-                                .layers.thickness = ring->thickness,
-                                .layers.reason = ring->reason,
                                 .images = ring_images(flat)};
+  ring->layers =
+      (CwLayers){.column_count = POINTS, .top = ring->top, .thickness = ring->thickness, .reason = ring->reason};
   ring->wall = (CwLayerInput){.point_count = POINTS,
                               .x = (const double(*)[3])flat->x,
                               .triangle_count = TRIANGLES,
@@ -89,7 +89,7 @@ static void concave_edges_are_opened(void **state) {
     make_ring(&ring, i, LOW, 0.5);
     double before = least_bound(&ring);
     assert_true(before < cw_policy.top_narrow);
-    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &opened), CW_OK);
+    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &ring.layers, &opened), CW_OK);
     print_message("  narrow concave edge on ray %d: %.1f degrees, then %.1f by %d columns; prisms %.2f\n", i, before,
                   least_bound(&ring), opened, least_prism(&ring));
     assert_true(least_bound(&ring) >= cw_policy.top_narrow);
@@ -130,7 +130,7 @@ static void others_stay(void **state) {
     ring.wall.obstacle_triangle = triangle;
     before = ring;
     assert_true(open_patch ? least_bound(&ring) < cw_policy.top_narrow : least_bound(&ring) > 40);
-    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &opened), CW_OK);
+    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &ring.layers, &opened), CW_OK);
     assert_int_equal(opened, 0);
     assert_memory_equal(ring.top, before.top, sizeof ring.top);
     assert_memory_equal(ring.thickness, before.thickness, sizeof ring.thickness);

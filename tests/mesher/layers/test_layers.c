@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The envelope on solids whose layer top is known by hand, and what it refuses.
+#include <unistd.h>
+
 #include "layers_case.h"
 
 static void flat_square(void **state) {
@@ -188,11 +190,83 @@ static void same_each_time(void **state) {
   free(top[1]);
 }
 
+// Columns over a square of two triangles.
+typedef struct {
+  CwLayers layers;
+  double x[4][3], top[4][3], thickness[4];
+  int32_t triangle[2][3], region[2];
+  uint8_t reason[4];
+} Square;
+
+static void square(Square *made) {
+  static const Square plain = {.x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                               .top = {{0, 0, -0.1}, {1, 0, -0.1}, {1, 1, -0.2}, {0, 1, -0.1}},
+                               .thickness = {0.1, 0.1, 0.2, 0.1},
+                               .triangle = {{0, 1, 2}, {0, 2, 3}},
+                               .region = {3, 4},
+                               .reason = {CW_LAYER_FULL, CW_LAYER_GAP, CW_LAYER_FULL, CW_LAYER_REPAIR}};
+  *made = plain;
+  made->layers = (CwLayers){.column_count = 4,
+                            .triangle_count = 2,
+                            .triangle = made->triangle,
+                            .top = made->top,
+                            .thickness = made->thickness,
+                            .reason = made->reason};
+}
+
+static void told(Square *of, const char *message) {
+  assert_int_equal(cw_layers_audit(&of->layers, (const double(*)[3])of->x), CW_ERR_MESH);
+  if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
+  square(of);
+}
+
+static void spoiled_layers_are_told(void **state) {
+  Square of;
+  (void)state;
+  square(&of);
+  assert_int_equal(cw_layers_audit(&of.layers, (const double(*)[3])of.x), CW_OK);
+  of.thickness[2] = 0;
+  told(&of, "the column at (1000.000, 1000.000, 0.000) mm is 0 mm thick");
+  of.triangle[1][2] = 4;
+  told(&of, "triangle 1 has the corners 0, 2, 4 of 4 columns");
+  of.triangle[0][1] = 0;
+  told(&of, "triangle 0 has the corners 0, 0, 2");
+  of.top[3][2] = 0.1; // out of the domain
+  told(&of, "the prism over triangle 1");
+}
+
+static void vtk_has_the_layer_top(void **state) {
+  char path[] = "cutwater-test-XXXXXX.vtk", text[4000] = {0};
+  Square of;
+  (void)state;
+  square(&of);
+  int file = mkstemps(path, 4);
+  assert_true(file >= 0);
+  close(file);
+  assert_int_equal(cw_layers_vtk(&of.layers, of.region, path), CW_OK);
+  FILE *stream = fopen(path, "r");
+  assert_non_null(stream);
+  assert_true(fread(text, 1, sizeof text - 1, stream) > 0);
+  fclose(stream);
+  remove(path);
+  assert_non_null(strstr(text, "POINTS 4 double\n0 0 -0.1"));
+  assert_non_null(strstr(text, "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\n"));
+  assert_non_null(strstr(text, "SCALARS reason int 1\nLOOKUP_TABLE default\n1\n3\n")); // of its thinnest column
+  assert_non_null(strstr(text, "SCALARS region int 1\nLOOKUP_TABLE default\n3\n4\n"));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(flat_square), cmocka_unit_test(inside_of_box),  cmocka_unit_test(box_in_box),
-      cmocka_unit_test(l_channel),   cmocka_unit_test(sharp_creases),  cmocka_unit_test(pipe_between_open_patches),
-      cmocka_unit_test(failures),    cmocka_unit_test(same_each_time),
+      cmocka_unit_test(flat_square),
+      cmocka_unit_test(inside_of_box),
+      cmocka_unit_test(box_in_box),
+      cmocka_unit_test(l_channel),
+      cmocka_unit_test(sharp_creases),
+      cmocka_unit_test(pipe_between_open_patches),
+      cmocka_unit_test(failures),
+      cmocka_unit_test(same_each_time),
+      cmocka_unit_test(spoiled_layers_are_told),
+      cmocka_unit_test(vtk_has_the_layer_top),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void fill_the_tank(bool divided) {
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3), first(boundary.surface.vertex_count, 2e-4),
       growth(boundary.surface.vertex_count, 1.5);
-  check(cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &tank.outcome));
+  check(cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &boundary.layers, &tank.outcome));
   check(cw_boundary_free_curves(&boundary, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {

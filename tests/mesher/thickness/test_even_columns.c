@@ -23,7 +23,7 @@ static void make(int layers, double asked, const double thickness[4], double mad
   CwBoundary boundary = {.surface.vertex_count = 4,
                          .surface.x = x,
                          .surface.triangle_count = 2,
-                         .surface.triangle = triangle,
+                         .layers.triangle = triangle,
                          .surface.source = source,
                          .layers.top = top,
                          .layers.thickness = own};
