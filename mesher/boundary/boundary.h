@@ -35,23 +35,23 @@ typedef struct {
   const void *size;
   double *largest; // m, by patch: wall triangles larger than with such edges are halved (patch_mesh.h); NULL: none
 
-  CwSurfaceMesh surface;   // cw_boundary_wall_curves, cw_boundary_merge_walls
-  CwLayers layers;         // cw_boundary_grow
-  CwInterfaces interfaces; // cw_boundary_free_curves, cw_boundary_merge_inner, cw_interface_rule_merge
+  CwWallCurves wall_curves; // cw_wall_curves_make
+  CwSurfaceMesh surface;    // cw_surface_mesh_make
+  CwLayers layers;          // cw_boundary_grow
+  CwInterfaces interfaces;  // cw_boundary_free_curves, cw_boundary_merge_inner, cw_interface_rule_merge
 } CwBoundary;
 
 // Where the solid has a symmetry that the plan has too, each set of periodic images of faces, curves, open patches and
 // interfaces is meshed once and copied (periodic_images.h): tasks are only the first of each image set, and the results
 // of the others are NULL.
 
-// Discretises all wall curves; makes their vertices. The network must be made, and the open edges be coupled.
-// Collective.
-CwStatus cw_boundary_wall_curves(CwBoundary *boundary);
+// Divides all wall curves. The network must be made, and the open edges be coupled. Collective.
+CwStatus cw_wall_curves_make(const CwBoundary *boundary, CwWallCurves *curves);
 
-// Meshes the wall face `face` (any rank); the result is a byte buffer for cw_boundary_merge_walls.
+// Meshes the wall face `face` (any rank); the result is a byte buffer for cw_surface_mesh_make.
 CwStatus cw_boundary_mesh_wall(const CwBoundary *boundary, int32_t face, void **bytes, int64_t *size);
 // Joins the meshes of all wall faces (bytes[face]; NULL for open patches). Collective.
-CwStatus cw_boundary_merge_walls(CwBoundary *boundary, void *const *bytes);
+CwStatus cw_surface_mesh_make(const CwBoundary *boundary, void *const *bytes, CwSurfaceMesh *surface);
 
 // Grows the layer envelope to `target` thicknesses (m, per wall vertex) and sets the layer top; for its shape columns
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
@@ -61,14 +61,15 @@ CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *backgr
                           const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
-// Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in boundary->interfaces.tight;
+// Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in interfaces->tight;
 // CW_OUTCOME_ASYMMETRIC where the polygons are not symmetric.
-CwStatus cw_boundary_free_curves(CwBoundary *boundary, CwOutcome *outcome);
+CwStatus cw_boundary_free_curves(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome);
 
 // Meshes open patch or interface outline `index`; results for cw_boundary_merge_inner.
 CwStatus cw_boundary_mesh_open_patch(const CwBoundary *boundary, int32_t face, void **bytes, int64_t *size);
 CwStatus cw_boundary_mesh_interface(const CwBoundary *boundary, int32_t outline, void **bytes, int64_t *size);
-CwStatus cw_boundary_merge_inner(CwBoundary *boundary, void *const *open_patch_bytes, void *const *interface_bytes);
+CwStatus cw_boundary_merge_inner(const CwBoundary *boundary, void *const *open_patch_bytes,
+                                 void *const *interface_bytes, CwInterfaces *interfaces);
 
 void cw_boundary_free(CwBoundary *boundary);
 

@@ -18,8 +18,11 @@ CwStatus cw_boundary_interface_outline(const CwBoundary *boundary, const CwInter
                                        const CwPlaneMap *map, CwPatchOutline *outline);
 
 // The outline of an open patch in its (u,v): the marched open edge, and free curves on it.
-CwStatus cw_boundary_open_patch_outline(const CwBoundary *boundary, int32_t face, CwPatchOutline *outline);
+CwStatus cw_boundary_open_patch_outline(const CwBoundary *boundary, const CwInterfaces *interfaces, int32_t face,
+                                        CwPatchOutline *outline);
 
-CwStatus cw_boundary_add_node(CwBoundary *boundary, const double x[3], int on_plane, int32_t *node);
+// Links the nodes inside curve `first` and inside its periodic images, which are divided alike.
+CwStatus cw_image_link_curves(const CwPeriodicImages *images, int32_t first, const CwCurveNodes *curve,
+                              CwNodeImages *nodes);
 
 #endif

@@ -12,51 +12,35 @@
 
 static const double BESIDE = 1e-7; // of the model's unit: where the two regions beside an interface are asked for
 
-CwStatus cw_boundary_add_node(CwBoundary *boundary, const double x[3], int on_plane, int32_t *node) {
-  CwStatus status = CW_OK;
-  if (boundary->interfaces.nodes.count == boundary->interfaces.nodes.capacity) {
-    int32_t capacity = 2 * boundary->interfaces.nodes.capacity;
-    void *xs = realloc(boundary->interfaces.nodes.x, (size_t)capacity * sizeof *boundary->interfaces.nodes.x);
-    if (xs) boundary->interfaces.nodes.x = xs;
-    void *flags = realloc(boundary->interfaces.nodes.on_plane, (size_t)capacity);
-    if (flags) boundary->interfaces.nodes.on_plane = flags;
-    CW_REQUIRE(xs && flags, CW_ERR_MEMORY, "out of memory: %d nodes", capacity);
-    boundary->interfaces.nodes.capacity = capacity;
-  }
-  cw_copy(x, boundary->interfaces.nodes.x[boundary->interfaces.nodes.count]);
-  boundary->interfaces.nodes.on_plane[boundary->interfaces.nodes.count] = (uint8_t)on_plane;
-  *node = boundary->interfaces.nodes.count++;
-done:
-  return status;
-}
-
 // Nodes 0 .. wall_count-1: the layer top. Corners off the wall get nodes of their own.
-static CwStatus start_nodes(CwBoundary *boundary) {
+static CwStatus start_nodes(const CwBoundary *boundary, CwInterfaces *interfaces) {
   CwStatus status = CW_OK;
   const CwNetwork *network = &boundary->network;
-  boundary->interfaces.nodes.capacity = boundary->surface.vertex_count + 4096;
-  boundary->interfaces.nodes.count = boundary->surface.vertex_count;
-  CW_NEW(boundary->interfaces.nodes.x, boundary->interfaces.nodes.capacity);
-  CW_NEW(boundary->interfaces.nodes.on_plane, boundary->interfaces.nodes.capacity);
-  memcpy(boundary->interfaces.nodes.x, boundary->layers.top,
-         (size_t)boundary->surface.vertex_count * sizeof *boundary->interfaces.nodes.x);
-  CW_NEW(boundary->interfaces.corner_node, network->corner_count);
+  interfaces->nodes.capacity = boundary->surface.vertex_count + 4096;
+  interfaces->nodes.count = boundary->surface.vertex_count;
+  CW_NEW(interfaces->nodes.x, interfaces->nodes.capacity);
+  CW_NEW(interfaces->nodes.on_plane, interfaces->nodes.capacity);
+  memcpy(interfaces->nodes.x, boundary->layers.top,
+         (size_t)boundary->surface.vertex_count * sizeof *interfaces->nodes.x);
+  CW_NEW(interfaces->corner_node, network->corner_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
     if (!curve->wall || curve->kind != CW_CURVE_CUT) continue;
-    for (int32_t k = 0; k < curve->point_count; k++) boundary->interfaces.nodes.on_plane[curve->node[k]] = 1;
+    const CwCurveNodes *nodes = &boundary->wall_curves.curve[i];
+    for (int32_t k = 0; k < nodes->count; k++) interfaces->nodes.on_plane[nodes->node[k]] = 1;
   }
   for (int32_t i = 0; i < network->corner_count; i++) {
     const CwCorner *corner = &network->corner[i];
-    boundary->interfaces.corner_node[i] = boundary->surface.corner_vertex[i];
+    interfaces->corner_node[i] = boundary->wall_curves.corner_vertex[i];
     if (corner->on_wall) continue;
-    CW_TRY(cw_boundary_add_node(boundary, corner->x, corner->plane[0] >= 0, &boundary->interfaces.corner_node[i]));
+    CW_TRY(cw_interfaces_add_node(interfaces, corner->x, corner->plane[0] >= 0, &interfaces->corner_node[i]));
   }
-  CwPeriodicImages *images = &boundary->images;
+  const CwPeriodicImages *images = &boundary->images;
+  CW_TRY(cw_node_images_copy(&boundary->surface.images, &interfaces->images));
   for (int32_t i = 0; images->symmetry && i < network->corner_count; i++) {
     if (network->corner[i].on_wall) continue;
     int32_t next = images->corner.next[i];
-    CW_TRY(cw_image_link(images, boundary->interfaces.corner_node[i], boundary->interfaces.corner_node[next],
+    CW_TRY(cw_image_link(&interfaces->images, interfaces->corner_node[i], interfaces->corner_node[next],
                          images->corner.turns[next]));
   }
 done:
@@ -64,59 +48,69 @@ done:
 }
 
 // Arc length of an end of a free curve: where the layers end, or the end of the curve itself.
-static double free_end(const CwBoundary *boundary, const CwCurve *curve, int end) {
+static double free_end(const CwBoundary *boundary, const CwInterfaces *interfaces, const CwCurve *curve, int end) {
   int32_t corner = curve->corner[end];
-  if (boundary->surface.corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
-  return cw_curve_nearest(curve, boundary->interfaces.nodes.x[boundary->interfaces.corner_node[corner]]);
+  if (boundary->wall_curves.corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
+  return cw_curve_nearest(curve, interfaces->nodes.x[interfaces->corner_node[corner]]);
 }
 
-static CwStatus add_tight(CwBoundary *boundary, const double x[3]) {
+static CwStatus add_tight(CwInterfaces *interfaces, const double x[3]) {
   CwStatus status = CW_OK;
-  void *grown = realloc(boundary->interfaces.tight,
-                        (size_t)(boundary->interfaces.tight_count + 1) * sizeof *boundary->interfaces.tight);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", boundary->interfaces.tight_count);
-  boundary->interfaces.tight = grown;
-  memcpy(boundary->interfaces.tight[boundary->interfaces.tight_count++], x, sizeof *boundary->interfaces.tight);
+  void *grown = realloc(interfaces->tight, (size_t)(interfaces->tight_count + 1) * sizeof *interfaces->tight);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", interfaces->tight_count);
+  interfaces->tight = grown;
+  memcpy(interfaces->tight[interfaces->tight_count++], x, sizeof *interfaces->tight);
 done:
   return status;
 }
 
-static CwStatus divide_free_curve(CwBoundary *boundary, CwCurve *curve) {
+// Divides the free curve `first`, and its periodic images alike.
+static CwStatus divide_free_curve(const CwBoundary *boundary, int32_t first, CwInterfaces *interfaces) {
   CwStatus status = CW_OK;
+  const CwPeriodicImages *images = &boundary->images;
+  const CwCurve *curve = &boundary->network.curve[first];
   double *place = NULL;
-  double from = free_end(boundary, curve, 0), to = free_end(boundary, curve, 1);
+  double from = free_end(boundary, interfaces, curve, 0), to = free_end(boundary, interfaces, curve, 1);
   int closed = curve->corner[0] == curve->corner[1], on_plane = curve->kind != CW_CURVE_EDGE;
+  int32_t count, copies = cw_image_copies(images, &images->curve, first), index = first;
   if (closed) from = 0, to = curve->fine_length[curve->fine_count - 1];
   if (!(from < to)) {
     for (int end = 0; end < 2; end++) {
-      CW_TRY(add_tight(boundary, boundary->interfaces.nodes.x[boundary->interfaces.corner_node[curve->corner[end]]]));
+      CW_TRY(add_tight(interfaces, interfaces->nodes.x[interfaces->corner_node[curve->corner[end]]]));
     }
     goto done;
   }
-  CW_TRY(cw_curve_divide(boundary, curve, from, to, closed ? 3 : 1, &curve->point_count, &place));
-  CW_NEW(curve->node, curve->point_count);
-  CW_NEW(curve->parameter, curve->point_count);
-  for (int32_t k = 0; k < curve->point_count; k++) {
-    double x[3];
-    cw_curve_point(&boundary->network, curve, place[k], x, curve->parameter[k]);
-    if (k == 0 || k == curve->point_count - 1) {
-      curve->node[k] = boundary->interfaces.corner_node[curve->corner[k > 0]];
-    } else {
-      CW_TRY(cw_boundary_add_node(boundary, x, on_plane, &curve->node[k]));
+  CW_TRY(cw_curve_divide(boundary, curve, from, to, closed ? 3 : 1, &count, &place));
+  for (int32_t turns = 0; turns < copies; turns++) {
+    CwCurveNodes *nodes = &interfaces->curve[index];
+    CW_TRY(cw_curve_nodes_make(count, nodes));
+    for (int32_t k = 0; k < count; k++) {
+      double x[3];
+      cw_curve_point(&boundary->network, curve, place[k], x, nodes->parameter[k]);
+      if (k == 0 || k == count - 1) {
+        nodes->node[k] = interfaces->corner_node[boundary->network.curve[index].corner[k > 0]];
+        continue;
+      }
+      cw_image_point(images, turns, x, x);
+      CW_TRY(cw_interfaces_add_node(interfaces, x, on_plane, &nodes->node[k]));
     }
+    if (copies > 1) index = images->curve.next[index];
   }
+  CW_TRY(cw_image_link_curves(images, first, interfaces->curve, &interfaces->images));
 done:
   free(place);
   return status;
 }
 
-static CwStatus add_curve_node(CwBoundary *boundary, const CwCurve *curve, const double x[3], int32_t *node) {
-  return cw_boundary_add_node(boundary, x, curve->kind != CW_CURVE_EDGE, node);
+// Nodes along a curve: a wall curve, or a divided free one.
+static const CwCurveNodes *nodes_of(const CwBoundary *boundary, const CwInterfaces *interfaces, int32_t curve) {
+  return boundary->network.curve[curve].wall ? &boundary->wall_curves.curve[curve] : &interfaces->curve[curve];
 }
 
 // All edges of the network on one plane. A cut of a wall, a cut of an open patch and the line with an ancestor bound
 // the interface; the line with a plane below only divides it. The outline is started, and may hold another plane's.
-static CwStatus plane_outline(const CwBoundary *boundary, int32_t node, CwPatchOutline *outline) {
+static CwStatus plane_outline(const CwBoundary *boundary, const CwInterfaces *interfaces, int32_t node,
+                              CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[node].plane);
   cw_outline_clear(outline);
@@ -124,12 +118,13 @@ static CwStatus plane_outline(const CwBoundary *boundary, int32_t node, CwPatchO
     const CwCurve *curve = &boundary->network.curve[i];
     if (curve->plane[0] != node && curve->plane[1] != node) continue;
     int bounds = curve->kind == CW_CURVE_CUT || curve->plane[1] == node;
+    const CwCurveNodes *nodes = nodes_of(boundary, interfaces, i);
     int32_t previous = -1, local;
-    for (int32_t k = 0; k < curve->point_count; k++) {
+    for (int32_t k = 0; k < nodes->count; k++) {
       double uv[2];
-      const double *x = boundary->interfaces.nodes.x[curve->node[k]];
+      const double *x = interfaces->nodes.x[nodes->node[k]];
       cw_plane_uv(&map, x, uv);
-      CW_TRY(cw_outline_point(outline, curve->node[k], uv, x, &local));
+      CW_TRY(cw_outline_point(outline, nodes->node[k], uv, x, &local));
       if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, bounds));
       previous = local;
     }
@@ -139,14 +134,13 @@ done:
 }
 
 // The places where edges on a plane or an open patch cross: layers reach over a line of two planes, or over a cut.
-static CwStatus find_crossings(CwBoundary *boundary, const CwPatchOutline *outline) {
+static CwStatus find_crossings(CwInterfaces *interfaces, const CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   int32_t count, (*crossing)[4] = NULL;
   CW_TRY(cw_polygons_crossings(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                                (const int32_t(*)[2])outline->edge, &count, &crossing));
   for (int32_t i = 0; i < count; i++) {
-    for (int k = 0; k < 4; k++)
-      CW_TRY(add_tight(boundary, boundary->interfaces.nodes.x[outline->node[crossing[i][k]]]));
+    for (int k = 0; k < 4; k++) CW_TRY(add_tight(interfaces, interfaces->nodes.x[outline->node[crossing[i][k]]]));
   }
 done:
   free(crossing);
@@ -154,24 +148,24 @@ done:
 }
 
 // The interface polygons of one plane, kept as outlines of boundary nodes. `outline`: room for that of a plane.
-static CwStatus find_polygons(CwBoundary *boundary, int32_t node, CwPatchOutline *outline) {
+static CwStatus find_polygons(const CwBoundary *boundary, CwInterfaces *interfaces, int32_t node,
+                              CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CwPolygons polygons = {0};
-  CW_TRY(plane_outline(boundary, node, outline));
-  CW_TRY(find_crossings(boundary, outline));
-  if (boundary->interfaces.tight_count > 0) goto done;
+  CW_TRY(plane_outline(boundary, interfaces, node, outline));
+  CW_TRY(find_crossings(interfaces, outline));
+  if (interfaces->tight_count > 0) goto done;
   CW_TRY(cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                           (const int32_t(*)[2])outline->edge, outline->boundary, &polygons));
   if (polygons.polygon_count == 0) goto done;
-  CwInterfaceOutline *grown =
-      realloc(boundary->interfaces.outline, (size_t)(boundary->interfaces.outline_count + polygons.polygon_count) *
-                                                sizeof *boundary->interfaces.outline);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", boundary->interfaces.outline_count);
-  boundary->interfaces.outline = grown;
+  CwInterfaceOutline *grown = realloc(
+      interfaces->outline, (size_t)(interfaces->outline_count + polygons.polygon_count) * sizeof *interfaces->outline);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", interfaces->outline_count);
+  interfaces->outline = grown;
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
     int32_t first = polygons.polygon_start[p], last = polygons.polygon_start[p + 1];
     int32_t start = polygons.loop_start[first], end = polygons.loop_start[last];
-    CwInterfaceOutline *made = &boundary->interfaces.outline[boundary->interfaces.outline_count++];
+    CwInterfaceOutline *made = &interfaces->outline[interfaces->outline_count++];
     *made = (CwInterfaceOutline){.node = node, .corner_count = end - start, .loop_count = last - first};
     CW_NEW(made->loop_start, last - first + 1);
     CW_NEW(made->corner, end - start);
@@ -183,14 +177,14 @@ done:
   return status;
 }
 
-static CwStatus find_crossings_on_open_patches(CwBoundary *boundary) {
+static CwStatus find_crossings_on_open_patches(const CwBoundary *boundary, CwInterfaces *interfaces) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
   const CwSymmetry *symmetry = boundary->images.symmetry;
   for (int32_t face = 0; face < cw_cad_face_count(boundary->cad); face++) {
     if (cw_face_is_wall(boundary->cad, face) || (symmetry && symmetry->face.first[face] != face)) continue;
-    CW_TRY(cw_boundary_open_patch_outline(boundary, face, &outline));
-    CW_TRY(find_crossings(boundary, &outline));
+    CW_TRY(cw_boundary_open_patch_outline(boundary, interfaces, face, &outline));
+    CW_TRY(find_crossings(interfaces, &outline));
     cw_outline_free(&outline);
   }
 done:
@@ -198,26 +192,27 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_free_curves(CwBoundary *boundary, CwOutcome *outcome) {
+CwStatus cw_boundary_free_curves(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  CW_TRY(start_nodes(boundary));
+  *interfaces = (CwInterfaces){.curve_count = boundary->network.curve_count};
+  CW_NEW(interfaces->curve, interfaces->curve_count);
+  CW_TRY(start_nodes(boundary, interfaces));
   for (int32_t i = 0; i < boundary->network.curve_count; i++) {
     const CwPeriodicImages *images = &boundary->images;
     if (boundary->network.curve[i].wall || cw_image_turns(images, &images->curve, i) > 0) continue;
-    CW_TRY(divide_free_curve(boundary, &boundary->network.curve[i]));
-    if (boundary->interfaces.tight_count > 0) continue;
-    CW_TRY(cw_image_copy_curve(boundary, i, boundary->interfaces.corner_node, &boundary->interfaces.nodes.x,
-                               add_curve_node));
+    CW_TRY(divide_free_curve(boundary, i, interfaces));
   }
-  if (boundary->interfaces.tight_count > 0) goto done; // not all curves are divided
-  CW_TRY(cw_outline_start(&outline, boundary->interfaces.nodes.count));
-  for (int32_t node = 0; node < boundary->plan->node_count; node++) CW_TRY(find_polygons(boundary, node, &outline));
-  if (boundary->interfaces.tight_count == 0) CW_TRY(find_crossings_on_open_patches(boundary));
-  if (boundary->interfaces.tight_count == 0 && boundary->images.symmetry) CW_TRY(cw_image_outlines(boundary, outcome));
+  if (interfaces->tight_count > 0) goto done; // not all curves are divided
+  CW_TRY(cw_outline_start(&outline, interfaces->nodes.count));
+  for (int32_t node = 0; node < boundary->plan->node_count; node++)
+    CW_TRY(find_polygons(boundary, interfaces, node, &outline));
+  if (interfaces->tight_count == 0) CW_TRY(find_crossings_on_open_patches(boundary, interfaces));
+  if (interfaces->tight_count == 0 && boundary->images.symmetry)
+    CW_TRY(cw_image_outlines(boundary, interfaces, outcome));
 done:
-  if (status == CW_OK && boundary->interfaces.tight_count > 0) {
-    cw_outcome_set(outcome, CW_OUTCOME_THIN, boundary->interfaces.tight[0],
+  if (status == CW_OK && interfaces->tight_count > 0) {
+    cw_outcome_set(outcome, CW_OUTCOME_THIN, interfaces->tight[0],
                    "the layers fill a line of two partition planes, or cross it or a cut on an open patch");
   }
   cw_outline_free(&outline);
@@ -275,41 +270,42 @@ done:
 }
 
 // Appends a packed patch, turned: its new points as nodes, its triangles at triangle[count...].
-static CwStatus append(CwBoundary *boundary, const CwPatchBlock *block, int on_plane, int32_t turns, int32_t copies,
-                       int32_t (*triangle)[3]) {
+static CwStatus append(const CwBoundary *boundary, CwInterfaces *interfaces, const CwPatchBlock *block, int on_plane,
+                       int32_t turns, int32_t copies, int32_t (*triangle)[3]) {
   CwStatus status = CW_OK;
-  CwPeriodicImages *images = &boundary->images;
-  int32_t first = boundary->interfaces.nodes.count, node;
+  const CwPeriodicImages *images = &boundary->images;
+  int32_t first = interfaces->nodes.count, node;
   for (int32_t i = 0; i < block->point_count; i++) {
     double x[3];
     cw_image_point(images, turns, block->x[i], x);
-    CW_TRY(cw_boundary_add_node(boundary, x, on_plane, &node));
-    if (turns > 0) CW_TRY(cw_image_link(images, node - block->point_count, node, turns));
+    CW_TRY(cw_interfaces_add_node(interfaces, x, on_plane, &node));
+    if (turns > 0) CW_TRY(cw_image_link(&interfaces->images, node - block->point_count, node, turns));
     if (turns > 0 && turns == copies - 1) {
-      CW_TRY(cw_image_link(images, node, node - turns * block->point_count, 0));
+      CW_TRY(cw_image_link(&interfaces->images, node, node - turns * block->point_count, 0));
     }
   }
   for (int32_t t = 0; t < block->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t local = block->triangle[t][k];
-      triangle[t][k] = local < block->outline_points ? cw_image_node(images, block->outline_node[local], turns)
-                                                     : first + local - block->outline_points;
+      triangle[t][k] = local < block->outline_points
+                           ? cw_image_node(&interfaces->images, block->outline_node[local], turns)
+                           : first + local - block->outline_points;
     }
   }
 done:
   return status;
 }
 
-static CwStatus merge_open_patch(CwBoundary *boundary, int32_t face, const CwPatchBlock *block) {
+static CwStatus merge_open_patch(const CwBoundary *boundary, CwInterfaces *interfaces, int32_t face,
+                                 const CwPatchBlock *block) {
   CwStatus status = CW_OK;
   int32_t copies = cw_image_face_copies(&boundary->images, face);
   for (int32_t turns = 0; turns < copies; turns++) {
-    CW_TRY(append(boundary, block, 0, turns, copies,
-                  boundary->interfaces.open_patch.triangle + boundary->interfaces.open_patch.count));
+    CW_TRY(append(boundary, interfaces, block, 0, turns, copies,
+                  interfaces->open_patch.triangle + interfaces->open_patch.count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
-      boundary->interfaces.open_patch.face[boundary->interfaces.open_patch.count] =
-          cw_image_face(&boundary->images, face, turns);
-      boundary->interfaces.open_patch.region[boundary->interfaces.open_patch.count++] =
+      interfaces->open_patch.face[interfaces->open_patch.count] = cw_image_face(&boundary->images, face, turns);
+      interfaces->open_patch.region[interfaces->open_patch.count++] =
           cw_image_region(&boundary->images, boundary->plan, block->label[t], turns);
     }
   }
@@ -317,58 +313,60 @@ done:
   return status;
 }
 
-static CwStatus merge_interface(CwBoundary *boundary, int32_t index, const CwPatchBlock *block) {
+static CwStatus merge_interface(const CwBoundary *boundary, CwInterfaces *interfaces, int32_t index,
+                                const CwPatchBlock *block) {
   CwStatus status = CW_OK;
-  CwPeriodicImages *images = &boundary->images;
-  int32_t copies = cw_image_copies(images, &images->outline, index), regions = boundary->plan->region_count;
+  const CwPeriodicImages *images = &boundary->images;
+  int32_t copies = cw_image_copies(images, &interfaces->outline_images, index), regions = boundary->plan->region_count;
   for (int32_t turns = 0, copy = index; turns < copies; turns++) {
-    CwInterfaceOutline *interface = &boundary->interfaces.outline[copy];
-    interface->free_start = boundary->interfaces.nodes.count;
+    CwInterfaceOutline *interface = &interfaces->outline[copy];
+    interface->free_start = interfaces->nodes.count;
     interface->free_count = block->point_count;
-    interface->triangle_start = boundary->interfaces.refined.count;
+    interface->triangle_start = interfaces->refined.count;
     interface->triangle_count = block->triangle_count;
-    CW_TRY(append(boundary, block, 1, turns, copies,
-                  boundary->interfaces.refined.triangle + boundary->interfaces.refined.count));
+    CW_TRY(append(boundary, interfaces, block, 1, turns, copies,
+                  interfaces->refined.triangle + interfaces->refined.count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
-      int32_t *region = boundary->interfaces.refined.region[boundary->interfaces.refined.count++];
+      int32_t *region = interfaces->refined.region[interfaces->refined.count++];
       region[0] = cw_image_region(images, boundary->plan, block->label[t] / regions, turns);
       region[1] = cw_image_region(images, boundary->plan, block->label[t] % regions, turns);
     }
-    if (copies > 1) copy = images->outline.next[copy];
+    if (copies > 1) copy = interfaces->outline_images.next[copy];
   }
 done:
   return status;
 }
 
-CwStatus cw_boundary_merge_inner(CwBoundary *boundary, void *const *open_patch_bytes, void *const *interface_bytes) {
+CwStatus cw_boundary_merge_inner(const CwBoundary *boundary, void *const *open_patch_bytes,
+                                 void *const *interface_bytes, CwInterfaces *interfaces) {
   CwStatus status = CW_OK;
   CwPatchBlock block;
   const CwPeriodicImages *images = &boundary->images;
-  int32_t faces = cw_cad_face_count(boundary->cad), open_patches = 0, interfaces = 0;
+  int32_t faces = cw_cad_face_count(boundary->cad), open_patches = 0, on_planes = 0;
   for (int32_t f = 0; f < faces; f++) {
     if (!open_patch_bytes[f]) continue;
     cw_patch_block(open_patch_bytes[f], &block);
     open_patches += block.triangle_count * cw_image_face_copies(images, f);
   }
-  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
+  for (int32_t i = 0; i < interfaces->outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
-    interfaces += block.triangle_count * cw_image_copies(images, &images->outline, i);
+    on_planes += block.triangle_count * cw_image_copies(images, &interfaces->outline_images, i);
   }
-  CW_NEW(boundary->interfaces.open_patch.triangle, open_patches);
-  CW_NEW(boundary->interfaces.open_patch.face, open_patches);
-  CW_NEW(boundary->interfaces.open_patch.region, open_patches);
-  CW_NEW(boundary->interfaces.refined.triangle, interfaces);
-  CW_NEW(boundary->interfaces.refined.region, interfaces);
+  CW_NEW(interfaces->open_patch.triangle, open_patches);
+  CW_NEW(interfaces->open_patch.face, open_patches);
+  CW_NEW(interfaces->open_patch.region, open_patches);
+  CW_NEW(interfaces->refined.triangle, on_planes);
+  CW_NEW(interfaces->refined.region, on_planes);
   for (int32_t f = 0; f < faces; f++) {
     if (!open_patch_bytes[f]) continue;
     cw_patch_block(open_patch_bytes[f], &block);
-    CW_TRY(merge_open_patch(boundary, f, &block));
+    CW_TRY(merge_open_patch(boundary, interfaces, f, &block));
   }
-  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
+  for (int32_t i = 0; i < interfaces->outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
-    CW_TRY(merge_interface(boundary, i, &block));
+    CW_TRY(merge_interface(boundary, interfaces, i, &block));
   }
 done:
   return status;

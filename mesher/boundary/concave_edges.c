@@ -125,9 +125,9 @@ static void mark_columns(ConcaveEdges *concave, int32_t t) {
   for (int k = 0; k < 3; k++) {
     int32_t apex = corner[k];
     across(t, corner[k], corner[(k + 1) % 3], triangle, concave->around.start, concave->around.triangle, &apex);
-    int32_t v = cw_image_first_member(&boundary->images, concave->is_first, corner[k]);
+    int32_t v = cw_image_first_member(&boundary->surface.images, concave->is_first, corner[k]);
     concave->turning[v] = 1;
-    v = cw_image_first_member(&boundary->images, concave->is_first, apex);
+    v = cw_image_first_member(&boundary->surface.images, concave->is_first, apex);
     if (v >= 0) concave->turning[v] = 1;
   }
 }
@@ -162,8 +162,9 @@ done:
 // Gives the columns of the part that are periodic images of v what that has become.
 static void turn_copies(ConcaveEdges *concave, int32_t v) {
   const CwPeriodicImages *images = &concave->boundary->images;
+  const CwNodeImages *nodes = &concave->boundary->surface.images;
   int32_t turns = 1, from = concave->part.local[v];
-  for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1), turns++) {
+  for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1), turns++) {
     int32_t local = concave->part.local[at];
     if (local >= 0) cw_image_point(images, turns, concave->top[from], concave->top[local]);
   }
@@ -210,7 +211,7 @@ static void spread(ConcaveEdges *concave, uint8_t *moved, int32_t *opened) {
       layers->thickness[at] = thickness;
       if (!same) layers->reason[at] = CW_LAYER_REPAIR;
       moved[at] = 1;
-      at = cw_image_node(&boundary->images, at, 1);
+      at = cw_image_node(&boundary->surface.images, at, 1);
     } while (at >= 0 && at != v);
     ++*opened;
   }

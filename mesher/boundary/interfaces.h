@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "mesher/network/periodic_images.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -46,12 +47,16 @@ typedef struct {
 
 typedef struct {
   CwNodeTable nodes;
+  CwNodeImages images;  // of the nodes
   int32_t *corner_node; // of each corner of the network, or -1
-  int32_t tight_count;  // places where layers leave no room for a free curve, or layer top and free curves cross
+  int32_t curve_count;
+  CwCurveNodes *curve; // along each curve of the network; none along wall curves
+  int32_t tight_count; // places where layers leave no room for a free curve, or layer top and free curves cross
   double (*tight)[3];
   CwOpenPatches open_patch;
   int32_t outline_count;
   CwInterfaceOutline *outline;
+  CwImages outline_images;      // without symmetry none
   CwInterfaceTriangles refined; // that the regions have
   CwInterfaceTriangles planned; // before the rule of region numbers (interface_rule.h); NULL without it
 } CwInterfaces;
@@ -64,6 +69,9 @@ CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions);
 // Writes open patches and interfaces as VTK PolyData (cell data face, -1 on interfaces; region, the lower of two), for
 // a look.
 CwStatus cw_interfaces_vtk(const CwInterfaces *interfaces, const char *path);
+
+// Appends a node while interfaces are made.
+CwStatus cw_interfaces_add_node(CwInterfaces *interfaces, const double x[3], int on_plane, int32_t *node);
 
 void cw_interfaces_free(CwInterfaces *interfaces);
 

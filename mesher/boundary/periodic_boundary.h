@@ -6,14 +6,8 @@
 #include "mesher/layers/layers.h"
 #include "mesher/boundary/boundary.h"
 
-// Makes the periodic images of curve `first`, which is divided. Ends are those of `corner_node`, nodes between them lie
-// at *x (which `add` may move) and are made by `add`.
-typedef CwStatus (*CwAddCurveNode)(CwBoundary *boundary, const CwCurve *curve, const double x[3], int32_t *node);
-CwStatus cw_image_copy_curve(CwBoundary *boundary, int32_t first, const int32_t *corner_node, double (*const *x)[3],
-                             CwAddCurveNode add);
-
 // Finds the image sets of the outlines on all planes. Outcome: CW_OUTCOME_ASYMMETRIC where they are not symmetric.
-CwStatus cw_image_outlines(CwBoundary *boundary, CwOutcome *outcome);
+CwStatus cw_image_outlines(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome);
 
 // The layers of the whole wall `input` of a boundary with image sets: grown over the first of each image set with what
 // stands near them, copied, and checked as copied. Collective. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
@@ -21,7 +15,7 @@ CwStatus cw_image_outlines(CwBoundary *boundary, CwOutcome *outcome);
 CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
 
 // The least of the members of the image set of wall vertex v that are on first faces (is_first), -1 where none is.
-int32_t cw_image_first_member(const CwPeriodicImages *images, const uint8_t *is_first, int32_t v);
+int32_t cw_image_first_member(const CwNodeImages *images, const uint8_t *is_first, int32_t v);
 
 // Makes those of the wall triangles that are copies anew, from those that they are copies of.
 void cw_image_copy_triangles(const CwBoundary *boundary, int32_t (*triangle)[3]);

@@ -118,9 +118,9 @@ done:
   return status;
 }
 
-int32_t cw_image_first_member(const CwPeriodicImages *images, const uint8_t *is_first, int32_t v) {
+int32_t cw_image_first_member(const CwNodeImages *nodes, const uint8_t *is_first, int32_t v) {
   int32_t first = is_first[v] ? v : -1;
-  for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+  for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
     if (is_first[at] && (first < 0 || at < first)) first = at;
   }
   return first;
@@ -131,12 +131,13 @@ int32_t cw_image_first_member(const CwPeriodicImages *images, const uint8_t *is_
 static void turn_from(const Part *part, const CwLayers *made, int32_t from, int32_t v, const double end[3],
                       CwLayers *layers) {
   const CwPeriodicImages *images = &part->boundary->images;
+  const CwNodeImages *nodes = &part->boundary->surface.images;
   int32_t at = v, turns = 0;
   do {
     cw_image_point(images, turns++, end, layers->top[at]);
     layers->thickness[at] = made->thickness[part->wall.local[from]];
     layers->reason[at] = made->reason[part->wall.local[from]];
-    at = cw_image_node(images, at, 1);
+    at = cw_image_node(nodes, at, 1);
   } while (at >= 0 && at != v);
 }
 
@@ -144,7 +145,7 @@ static void turn_from(const Part *part, const CwLayers *made, int32_t from, int3
 // both are on first faces (on a seam) that with the smaller number counts, until one is chosen.
 static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &part->boundary->images;
+  const CwNodeImages *nodes = &part->boundary->surface.images;
   uint8_t *placed = NULL;
   CW_NEW(placed, part->wall.whole->point_count);
   for (int32_t v = 0; v < part->wall.whole->point_count; v++) {
@@ -153,7 +154,7 @@ static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers)
     int32_t at = v;
     do {
       placed[at] = 1;
-      at = cw_image_node(images, at, 1);
+      at = cw_image_node(nodes, at, 1);
     } while (at >= 0 && at != v);
   }
 done:
@@ -164,6 +165,7 @@ done:
 // How sound the prisms around the members of the image set of v are, which all get the column that ends at `end` for v.
 static double place_image(const Part *part, const CwLayerWork *work, int32_t v, const double end[3], double (*top)[3]) {
   const CwPeriodicImages *images = &part->boundary->images;
+  const CwNodeImages *nodes = &part->boundary->surface.images;
   double least = INFINITY;
   for (int around = 0; around < 2; around++) { // all are placed before prisms are looked at
     int32_t at = v, turns = 0;
@@ -174,7 +176,7 @@ static double place_image(const Part *part, const CwLayerWork *work, int32_t v, 
         least = fmin(least, cw_layers_around(work, local, (const double(*)[3])top, -INFINITY, &first));
       }
       turns++;
-      at = cw_image_node(images, at, 1);
+      at = cw_image_node(nodes, at, 1);
     } while (at >= 0 && at != v);
   }
   return least;
@@ -185,6 +187,7 @@ static double place_image(const Part *part, const CwLayerWork *work, int32_t v, 
 static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers) {
   CwStatus status = CW_OK;
   const CwPeriodicImages *images = &part->boundary->images;
+  const CwNodeImages *nodes = &part->boundary->surface.images;
   int32_t count = images->symmetry ? images->symmetry->count : 1;
   CwIncident incident = {0};
   double(*top)[3] = NULL;
@@ -196,12 +199,12 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
     memcpy(top[i], layers->top[part->wall.global[i]], sizeof *top);
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     for (int32_t v = 0; v < part->wall.whole->point_count; v++) {
-      if (!part->is_first[v] || cw_image_first_member(images, part->is_first, v) != v) continue;
+      if (!part->is_first[v] || cw_image_first_member(nodes, part->is_first, v) != v) continue;
       const double *own = made->top[part->wall.local[v]];
       double best = -INFINITY, kept[3], end[3];
       int32_t from = v, turns = 0;
       memcpy(kept, layers->top[v], sizeof kept);
-      for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+      for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
         turns++;
         if (!part->is_first[at]) continue;
         cw_image_point(images, count - turns, made->top[part->wall.local[at]], end);
@@ -316,7 +319,8 @@ done:
 static void lower(const Part *part, int32_t v, double thickness, CwLayers *layers, uint8_t *lowered) {
   const CwLayerInput *whole = part->wall.whole;
   const CwPeriodicImages *images = &part->boundary->images;
-  int32_t first = cw_image_first_member(images, part->is_first, v);
+  const CwNodeImages *nodes = &part->boundary->surface.images;
+  int32_t first = cw_image_first_member(nodes, part->is_first, v);
   double *end = layers->top[first], share = thickness / layers->thickness[first];
   for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
   if (whole->constraint_count[first]) whole->snap(whole->snap_context, first, end);
@@ -327,7 +331,7 @@ static void lower(const Part *part, int32_t v, double thickness, CwLayers *layer
     layers->reason[at] = CW_LAYER_REPAIR;
     lowered[at] = 1;
     turns++;
-    at = cw_image_node(images, at, 1);
+    at = cw_image_node(nodes, at, 1);
   } while (at >= 0 && at != first);
 }
 

@@ -110,7 +110,7 @@ CwStatus cw_surface_mesh_vtk(const CwSurfaceMesh *surface, const char *path) {
 void cw_surface_mesh_free(CwSurfaceMesh *surface) {
   free(surface->x);
   free(surface->constraint);
-  free(surface->corner_vertex);
+  cw_node_images_free(&surface->images);
   free(surface->triangle);
   free(surface->face);
   free(surface->region);

@@ -7,25 +7,19 @@
 
 #include <stdint.h>
 
+#include "mesher/boundary/wall_curves.h"
+#include "mesher/network/periodic_images.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// The surface or curve that holds the column of a wall vertex on an open edge or on a partition plane.
-typedef enum { CW_CONSTRAINT_NONE, CW_CONSTRAINT_PLANE, CW_CONSTRAINT_PATCH, CW_CONSTRAINT_CURVE } CwConstraintKind;
-
 typedef struct {
-  CwConstraintKind kind;
-  int32_t index; // plan node, CAD face or curve of the network
-} CwConstraint;
-
-typedef struct {
-  int32_t vertex_count, vertex_capacity;
+  int32_t vertex_count;
   double (*x)[3];
   CwConstraint *constraint;                // of each vertex
-  int32_t *corner_vertex;                  // vertex of each corner of the network, or -1
+  CwNodeImages images;                     // of the vertices
   int32_t triangle_count;                  //
   int32_t (*triangle)[3], *face, *region;  // normal out of the domain; the CAD face and the region of each
   int32_t *region_start, *region_triangle; // triangles of each region, ascending

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The curve network of a decomposed domain: every curve that the mesh must follow, cut into pieces that meet only at
-// corners, each discretised once and shared by all surfaces it bounds.
+// corners. Each is discretised once for all surfaces that it bounds: wall curves with the surface mesh, free ones with
+// the interfaces.
 //
 //   edge piece   part of a CAD edge between corners
 //   cut piece    where a partition plane meets a CAD face, within the plane's cell
@@ -38,11 +39,14 @@ typedef struct {
   // Fine polyline with parameters: t of the edge, (u,v) of the cut, or nothing.
   int32_t fine_count;
   double (*fine_x)[3], (*fine_parameter)[2], *fine_length; // length from the start, m
-  // The mesh nodes along it, ends included, with their parameters.
-  int32_t point_count;
+} CwCurve;
+
+// The mesh nodes along a curve, ends included, with their parameters, as in fine_parameter.
+typedef struct {
+  int32_t count;
   int32_t *node;
   double (*parameter)[2];
-} CwCurve;
+} CwCurveNodes;
 
 typedef struct {
   const CwCad *cad;
@@ -53,11 +57,14 @@ typedef struct {
   CwCurve *curve;
 } CwNetwork;
 
-// Builds corners and curves (not yet discretised). Collective. Outcome: CW_OUTCOME_REPLAN where a plane touches a face
+// Builds corners and curves. Collective. Outcome: CW_OUTCOME_REPLAN where a plane touches a face
 // or an edge in a way that cannot be resolved.
 CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
                          CwNetwork *network, CwOutcome *outcome);
 void cw_network_free(CwNetwork *network);
+
+CwStatus cw_curve_nodes_make(int32_t count, CwCurveNodes *nodes);
+void cw_curve_nodes_free(int32_t curve_count, CwCurveNodes **nodes); // of an array
 
 // Point of a curve at arc length `length` of its fine polyline, exactly on its surfaces; parameter (2 values) as in
 // fine_parameter.

@@ -116,8 +116,6 @@ static void curve_free(CwCurve *curve) {
   free(curve->fine_x);
   free(curve->fine_parameter);
   free(curve->fine_length);
-  free(curve->node);
-  free(curve->parameter);
 }
 
 CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve) {
@@ -140,4 +138,22 @@ void cw_network_free(CwNetwork *network) {
   free(network->curve);
   free(network->corner);
   memset(network, 0, sizeof *network);
+}
+
+CwStatus cw_curve_nodes_make(int32_t count, CwCurveNodes *nodes) {
+  CwStatus status = CW_OK;
+  nodes->count = count;
+  CW_NEW(nodes->node, count);
+  CW_NEW(nodes->parameter, count);
+done:
+  return status;
+}
+
+void cw_curve_nodes_free(int32_t curve_count, CwCurveNodes **nodes) {
+  for (int32_t i = 0; *nodes && i < curve_count; i++) {
+    free((*nodes)[i].node);
+    free((*nodes)[i].parameter);
+  }
+  free(*nodes);
+  *nodes = NULL;
 }

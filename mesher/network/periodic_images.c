@@ -13,38 +13,55 @@ static const double SAME_CURVE = 0.1;   // of its length: how far the middle of 
 void cw_periodic_images_free(CwPeriodicImages *images) {
   cw_images_free(&images->corner);
   cw_images_free(&images->curve);
-  cw_images_free(&images->outline);
-  free(images->node_next);
-  free(images->node_turns);
   memset(images, 0, sizeof *images);
 }
 
-CwStatus cw_image_link(CwPeriodicImages *images, int32_t node, int32_t next, int32_t turns) {
+CwStatus cw_image_link(CwNodeImages *images, int32_t node, int32_t next, int32_t turns) {
   CwStatus status = CW_OK;
   int32_t most = node > next ? node : next;
-  if (most >= images->node_capacity) {
+  if (most >= images->capacity) {
     int32_t capacity = most + most / 2 + 4096;
-    void *nexts = realloc(images->node_next, (size_t)capacity * sizeof *images->node_next);
-    if (nexts) images->node_next = nexts;
-    void *turned = realloc(images->node_turns, (size_t)capacity * sizeof *images->node_turns);
-    if (turned) images->node_turns = turned;
+    void *nexts = realloc(images->next, (size_t)capacity * sizeof *images->next);
+    if (nexts) images->next = nexts;
+    void *turned = realloc(images->turns, (size_t)capacity * sizeof *images->turns);
+    if (turned) images->turns = turned;
     CW_REQUIRE(nexts && turned, CW_ERR_MEMORY, "out of memory: %d nodes", capacity);
-    for (int32_t i = images->node_capacity; i < capacity; i++) images->node_next[i] = -1, images->node_turns[i] = 0;
-    images->node_capacity = capacity;
+    for (int32_t i = images->capacity; i < capacity; i++) images->next[i] = -1, images->turns[i] = 0;
+    images->capacity = capacity;
   }
-  images->node_next[node] = next;
-  images->node_turns[next] = turns;
+  images->next[node] = next;
+  images->turns[next] = turns;
 done:
   return status;
 }
 
-int32_t cw_image_node(const CwPeriodicImages *images, int32_t node, int32_t turns) {
-  for (int32_t k = 0; k < turns && node >= 0; k++) node = node < images->node_capacity ? images->node_next[node] : -1;
+int32_t cw_image_node(const CwNodeImages *images, int32_t node, int32_t turns) {
+  for (int32_t k = 0; k < turns && node >= 0; k++) node = node < images->capacity ? images->next[node] : -1;
   return node;
 }
 
-int32_t cw_image_node_turns(const CwPeriodicImages *images, int32_t node) {
-  return node < images->node_capacity ? images->node_turns[node] : 0;
+int32_t cw_image_node_turns(const CwNodeImages *images, int32_t node) {
+  return node < images->capacity ? images->turns[node] : 0;
+}
+
+CwStatus cw_node_images_copy(const CwNodeImages *images, CwNodeImages *copy) {
+  CwStatus status = CW_OK;
+  size_t size = (size_t)images->capacity * sizeof *copy->next;
+  *copy = (CwNodeImages){0};
+  if (!images->capacity) goto done;
+  CW_NEW_UNSET(copy->next, images->capacity);
+  CW_NEW_UNSET(copy->turns, images->capacity);
+  memcpy(copy->next, images->next, size);
+  memcpy(copy->turns, images->turns, size);
+  copy->capacity = images->capacity;
+done:
+  return status;
+}
+
+void cw_node_images_free(CwNodeImages *images) {
+  free(images->next);
+  free(images->turns);
+  *images = (CwNodeImages){0};
 }
 
 int32_t cw_image_face_copies(const CwPeriodicImages *images, int32_t face) {

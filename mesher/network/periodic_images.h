@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The image sets of a boundary whose solid and plan have a symmetry: of its corners, curves, nodes and interface
-// outlines. Items that turns take to one another form an image set: its first is made, the others are copies of it,
+// The image sets of a domain whose solid and plan have a symmetry: of the corners and curves of its network, and of
+// mesh nodes. Items that turns take to one another form an image set: its first is made, the others are copies of it,
 // turned, with the same numbers on both sides of every seam.
 #ifndef CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
 #define CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
@@ -10,10 +10,14 @@
 
 typedef struct {
   const CwSymmetry *symmetry; // NULL: none, every item stands for itself
-  CwImages corner, curve, outline;
-  // Of each node: where one turn takes it, -1: nowhere (it lies inside of a fixed face); turns from the first.
-  int32_t node_capacity, *node_next, *node_turns;
+  CwImages corner, curve;
 } CwPeriodicImages;
+
+// Of mesh nodes: where one turn takes each, -1: nowhere (it lies inside of a fixed face, or there is no symmetry);
+// turns from the first.
+typedef struct {
+  int32_t capacity, *next, *turns;
+} CwNodeImages;
 
 // Finds the image sets of corners and curves and makes each the periodic image of its first. Outcome:
 // CW_OUTCOME_ASYMMETRIC where the network is not symmetric: where a plane grazes something, the passages may have been
@@ -22,9 +26,11 @@ CwStatus cw_periodic_images_make(CwNetwork *network, CwPeriodicImages *images, C
 void cw_periodic_images_free(CwPeriodicImages *images);
 
 // Notes that one turn takes `node` to `next`, which is `turns` turns from the first of its image set.
-CwStatus cw_image_link(CwPeriodicImages *images, int32_t node, int32_t next, int32_t turns);
-int32_t cw_image_node(const CwPeriodicImages *images, int32_t node, int32_t turns);
-int32_t cw_image_node_turns(const CwPeriodicImages *images, int32_t node);
+CwStatus cw_image_link(CwNodeImages *images, int32_t node, int32_t next, int32_t turns);
+int32_t cw_image_node(const CwNodeImages *images, int32_t node, int32_t turns);
+int32_t cw_image_node_turns(const CwNodeImages *images, int32_t node);
+CwStatus cw_node_images_copy(const CwNodeImages *images, CwNodeImages *copy);
+void cw_node_images_free(CwNodeImages *images);
 
 // Copies to be made of an item, itself included, and the `turns`-th of them; without symmetry 1 and itself. A copy that
 // is not the first has turns.

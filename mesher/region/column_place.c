@@ -20,15 +20,16 @@ CwStatus cw_open_edge_places_make(const CwBoundary *boundary, CwOpenEdgePlaces *
     if (pass == 1) CW_NEW(places->place, count);
     for (int32_t i = 0; i < boundary->network.curve_count; i++) {
       const CwCurve *curve = &boundary->network.curve[i];
+      const CwCurveNodes *nodes = &boundary->wall_curves.curve[i];
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
       for (int side = 0; side < 2; side++) {
         int32_t face = curve->face[side];
         if (cw_face_is_wall(boundary->cad, face)) continue;
-        count += pass == 0 ? curve->point_count : 0;
-        for (int32_t k = 0; pass == 1 && k < curve->point_count; k++) {
+        count += pass == 0 ? nodes->count : 0;
+        for (int32_t k = 0; pass == 1 && k < nodes->count; k++) {
           CwOpenEdgePlace *made = &places->place[places->count++];
-          *made = (CwOpenEdgePlace){curve->node[k], face, {0, 0}};
-          cw_cad_edge_uv(boundary->cad, curve->edge, face, curve->parameter[k][0], made->uv);
+          *made = (CwOpenEdgePlace){nodes->node[k], face, {0, 0}};
+          cw_cad_edge_uv(boundary->cad, curve->edge, face, nodes->parameter[k][0], made->uv);
         }
       }
     }

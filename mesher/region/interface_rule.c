@@ -169,13 +169,14 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule_merge(CwBoundary *boundary, void *const *bytes, CwInterfaceRuleCounts *counts) {
+CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void *const *bytes,
+                                 CwInterfaceRuleCounts *counts) {
   CwStatus status = CW_OK;
   const char **block = NULL;
   int32_t header[HEADER], total = 0;
-  *counts = (CwInterfaceRuleCounts){.planned = boundary->interfaces.refined.count};
-  CW_NEW(block, boundary->interfaces.outline_count);
-  for (int32_t r = 0; r < boundary->plan->region_count; r++) {
+  *counts = (CwInterfaceRuleCounts){.planned = interfaces->refined.count};
+  CW_NEW(block, interfaces->outline_count);
+  for (int32_t r = 0; r < regions; r++) {
     int32_t owned = 0;
     const char *at = bytes[r];
     if (!at) continue;
@@ -193,29 +194,29 @@ CwStatus cw_interface_rule_merge(CwBoundary *boundary, void *const *bytes, CwInt
       total += header[TRIANGLES];
     }
   }
-  boundary->interfaces.planned = boundary->interfaces.refined;
-  boundary->interfaces.refined = (CwInterfaceTriangles){0};
-  CW_NEW(boundary->interfaces.refined.triangle, total);
-  CW_NEW(boundary->interfaces.refined.region, total);
-  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
-    CwInterfaceOutline *interface = &boundary->interfaces.outline[i];
+  interfaces->planned = interfaces->refined;
+  interfaces->refined = (CwInterfaceTriangles){0};
+  CW_NEW(interfaces->refined.triangle, total);
+  CW_NEW(interfaces->refined.region, total);
+  for (int32_t i = 0; i < interfaces->outline_count; i++) {
+    CwInterfaceOutline *interface = &interfaces->outline[i];
     CW_REQUIRE(block[i], CW_ERR_MESH, "interface %d has no owner", i);
     memcpy(header, block[i], sizeof header);
     const char *at = block[i] + sizeof header;
-    int32_t first = boundary->interfaces.nodes.count, node;
+    int32_t first = interfaces->nodes.count, node;
     for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
       double x[3];
       memcpy(x, at, sizeof x);
-      CW_TRY(cw_boundary_add_node(boundary, x, 1, &node));
+      CW_TRY(cw_interfaces_add_node(interfaces, x, 1, &node));
     }
-    interface->refined_start = boundary->interfaces.refined.count;
+    interface->refined_start = interfaces->refined.count;
     interface->refined_count = header[TRIANGLES];
     for (int32_t t = 0; t < header[TRIANGLES]; t++, at += sizeof(int32_t[3])) {
-      int32_t *corner = boundary->interfaces.refined.triangle[boundary->interfaces.refined.count];
+      int32_t *corner = interfaces->refined.triangle[interfaces->refined.count];
       memcpy(corner, at, sizeof(int32_t[3]));
       for (int k = 0; k < 3; k++) corner[k] = corner[k] < 0 ? first + (-1 - corner[k]) : corner[k];
-      memcpy(boundary->interfaces.refined.region[boundary->interfaces.refined.count++],
-             boundary->interfaces.planned.region[interface->triangle_start], sizeof(int32_t[2]));
+      memcpy(interfaces->refined.region[interfaces->refined.count++],
+             interfaces->planned.region[interface->triangle_start], sizeof(int32_t[2]));
     }
   }
 done:

@@ -29,7 +29,8 @@ typedef struct {
 } CwInterfaceRuleCounts;
 
 // Takes up the results of all regions (NULL: owns nothing): new nodes, new interface triangles.
-CwStatus cw_interface_rule_merge(CwBoundary *boundary, void *const *bytes, CwInterfaceRuleCounts *counts);
+CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void *const *bytes,
+                                 CwInterfaceRuleCounts *counts);
 
 // The inner points of a region: its candidates outside of all spheres of its interfaces, and their places in the
 // lattice. Caller frees *x and *site.

@@ -33,6 +33,7 @@ static CwStatus find_open_edges(CwRegionContext *context) {
     if (pass == 1) CW_NEW(context->open_edge, count);
     for (int32_t i = 0; i < boundary->network.curve_count; i++) {
       const CwCurve *curve = &boundary->network.curve[i];
+      const CwCurveNodes *nodes = &boundary->wall_curves.curve[i];
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
       int32_t open_patch = -1;
       for (int k = 0; k < 2; k++) {
@@ -40,11 +41,11 @@ static CwStatus find_open_edges(CwRegionContext *context) {
       }
       if (open_patch < 0) continue;
       if (pass == 0) {
-        count += curve->point_count - 1;
+        count += nodes->count - 1;
         continue;
       }
-      for (int32_t k = 0; k + 1 < curve->point_count; k++) {
-        int32_t a = curve->node[k], b = curve->node[k + 1];
+      for (int32_t k = 0; k + 1 < nodes->count; k++) {
+        int32_t a = nodes->node[k], b = nodes->node[k + 1];
         int32_t *open_edge = context->open_edge[context->open_edge_count++];
         open_edge[0] = a < b ? a : b;
         open_edge[1] = a < b ? b : a;

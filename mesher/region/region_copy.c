@@ -44,7 +44,7 @@ static int32_t node_of(const CwRegionContext *context, int64_t id) {
 static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t turns, int64_t *turned, double x[3]) {
   CwStatus status = CW_OK;
   const CwBoundary *boundary = context->boundary;
-  int32_t from = node_of(context, id), node = cw_image_node(&boundary->images, from, turns);
+  int32_t from = node_of(context, id), node = cw_image_node(&boundary->interfaces.images, from, turns);
   int64_t level = id - context->shared_base[from];
   CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no periodic image",
              context->domain, CW_MM(boundary->interfaces.nodes.x[from]));

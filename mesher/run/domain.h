@@ -98,7 +98,7 @@ int cw_domain_least_regions(const CwCase *table, double cells);
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome);
 
 // Starts the boundary anew at the present scale of the size field: curve network. Then cw_couple_open_edges and
-// cw_boundary_wall_curves. Outcome: that of cw_network_make and cw_periodic_images_make.
+// cw_wall_curves_make. Outcome: that of cw_network_make and cw_periodic_images_make.
 CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome);
 
 // First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.

@@ -17,7 +17,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   cw_profiler_part("free curves");
   for (int d = 0; d < run->domains.count; d++) {
     CwOutcome of_domain = {.domain = d};
-    CW_TRY(cw_boundary_free_curves(&run->domain[d].boundary, &of_domain));
+    CW_TRY(cw_boundary_free_curves(&run->domain[d].boundary, &run->domain[d].boundary.interfaces, &of_domain));
     if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
     if (of_domain.kind == CW_OUTCOME_DONE) continue;
     *outcome = of_domain;
@@ -38,7 +38,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   for (int d = 0; d < run->domains.count; d++) {
     const CwBoundary *boundary = &run->domain[d].boundary;
     for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
-      if (cw_image_turns(&boundary->images, &boundary->images.outline, i) > 0) continue;
+      if (cw_image_turns(&boundary->images, &boundary->interfaces.outline_images, i) > 0) continue;
       // Takes about as long as an open patch of as many triangles.
       task[count++] = (CwMeshTask){d, faces[d] + i, boundary->interfaces.outline[i].corner_count};
     }
@@ -46,7 +46,8 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
   cw_profiler_part("inner surfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_boundary_merge_inner(&run->domain[d].boundary, results.bytes[d], results.bytes[d] + faces[d]));
+    CW_TRY(cw_boundary_merge_inner(&run->domain[d].boundary, results.bytes[d], results.bytes[d] + faces[d],
+                                   &run->domain[d].boundary.interfaces));
     CW_AUDIT(cw_interfaces_audit(&run->domain[d].boundary.interfaces, run->domain[d].plan.region_count));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }
@@ -83,7 +84,8 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
-    CW_TRY(cw_interface_rule_merge(&domain->boundary, results.bytes[d], &domain->rule));
+    CW_TRY(cw_interface_rule_merge(&domain->boundary.interfaces, domain->plan.region_count, results.bytes[d],
+                                   &domain->rule));
     CW_AUDIT(cw_interfaces_audit(&domain->boundary.interfaces, domain->plan.region_count));
     if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "

@@ -15,14 +15,15 @@ enum { ATTEMPTS = 3 }; // on one plan
 // Gives all periodic images of a column the least thickness of them.
 static void thin_alike(const CwBoundary *boundary, double *most_thickness) {
   const CwPeriodicImages *images = &boundary->images;
+  const CwNodeImages *nodes = &boundary->surface.images;
   for (int32_t v = 0; images->symmetry && v < boundary->surface.vertex_count; v++) {
-    if (cw_image_node_turns(images, v) > 0) continue;
+    if (cw_image_node_turns(nodes, v) > 0) continue;
     double least = most_thickness[v];
-    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
       least = fmin(least, most_thickness[at]);
     }
     most_thickness[v] = least;
-    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
       most_thickness[at] = least;
     }
   }

@@ -28,7 +28,11 @@ static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
     CW_TRY(cw_couple_open_edges(&run->domain[between->domain[0]].boundary, between->patch[0],
                                 &run->domain[between->domain[1]].boundary, between->patch[1]));
   }
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_boundary_wall_curves(&run->domain[d].boundary));
+  for (int d = 0; d < run->domains.count; d++) {
+    CwBoundary *boundary = &run->domain[d].boundary;
+    CW_TRY(cw_wall_curves_make(boundary, &boundary->wall_curves));
+    CW_AUDIT(cw_wall_curves_audit(&boundary->wall_curves, &boundary->network));
+  }
 done:
   return status;
 }
@@ -50,7 +54,7 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_profiler_part("walls merged");
     for (int d = 0; d < run->domains.count; d++) {
-      CW_TRY(cw_boundary_merge_walls(&run->domain[d].boundary, results.bytes[d]));
+      CW_TRY(cw_surface_mesh_make(&run->domain[d].boundary, results.bytes[d], &run->domain[d].boundary.surface));
       CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].boundary.surface, run->domain[d].plan.region_count));
     }
     CW_TRY(cw_run_thickness(run));

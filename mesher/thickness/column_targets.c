@@ -94,7 +94,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   const CwBoundary *boundary = columns->boundary;
   const CwColumnTargets *targets = columns->targets;
   const double *x = boundary->surface.x[v];
-  if (cw_image_node_turns(&boundary->images, v) > 0) return CW_OK;
+  if (cw_image_node_turns(&boundary->surface.images, v) > 0) return CW_OK;
   Bend bend = bend_at(boundary, columns->around, v);
   double size = size_at(boundary, x), thickness = 0, last = columns->asked[v].last;
   // In a hollow tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
@@ -175,10 +175,10 @@ done:
   return status;
 }
 
-static void turn_copies(const CwPeriodicImages *images, int32_t count, CwColumnTargets *targets) {
+static void turn_copies(const CwNodeImages *nodes, int32_t count, CwColumnTargets *targets) {
   for (int32_t v = 0; v < count; v++) {
-    if (cw_image_node_turns(images, v) > 0) continue;
-    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1)) {
+    if (cw_image_node_turns(nodes, v) > 0) continue;
+    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
       targets->target[at] = targets->target[v];
       targets->first_height[at] = targets->first_height[v];
       targets->growth[at] = targets->growth[v];
@@ -200,7 +200,7 @@ CwStatus cw_column_targets_make(const CwBoundary *boundary, const CwIncident *ar
   Columns columns = {.boundary = boundary, .around = around, .targets = targets, .asked = asked};
   CW_TRY(cw_parallel_for("thicknesses: fair ones", boundary->surface.vertex_count, sizeof *targets->target, find_fair,
                          &columns, targets->target));
-  turn_copies(&boundary->images, boundary->surface.vertex_count, targets);
+  turn_copies(&boundary->surface.images, boundary->surface.vertex_count, targets);
   double lowest = cw_layer_thickness(1, layer_count, cw_policy.kept_growth);
   for (int32_t v = 0; v < boundary->surface.vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
 done:

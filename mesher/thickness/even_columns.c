@@ -101,12 +101,12 @@ static CwStatus judge(void *context, int32_t i, void *out) {
 // Evens the columns at the corners of small ones out, alike in all copies. Returns how many changed.
 static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *first_made) {
   double fraction[CW_LAYERS_MOST + 1];
-  const CwPeriodicImages *images = &columns->boundary->images;
+  const CwNodeImages *nodes = &columns->boundary->surface.images;
   int32_t changed = 0;
   for (int32_t v = 0; v < columns->boundary->surface.vertex_count; v++) {
-    if (cw_image_node_turns(images, v) > 0) continue;
+    if (cw_image_node_turns(nodes, v) > 0) continue;
     int marked = mark[v];
-    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1))
+    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1))
       marked |= mark[at];
     if (!marked) continue;
     double even = even_first(columns, v),
@@ -114,7 +114,7 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
     double next = even < made ? fmax((1 - STEP) * made, even) : fmin((1 + STEP) * made, even);
     changed += next != first_made[v];
     first_made[v] = next;
-    for (int32_t at = cw_image_node(images, v, 1); at >= 0 && at != v; at = cw_image_node(images, at, 1))
+    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1))
       first_made[at] = next;
   }
   return changed;

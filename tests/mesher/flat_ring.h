@@ -47,9 +47,8 @@ static inline void flat_ring(FlatRing *ring) {
   }
 }
 
-static inline CwPeriodicImages ring_images(FlatRing *ring) {
-  return (CwPeriodicImages){
-      .symmetry = &ring->symmetry, .node_capacity = POINTS, .node_next = ring->next, .node_turns = ring->turns};
+static inline CwNodeImages ring_images(FlatRing *ring) {
+  return (CwNodeImages){.capacity = POINTS, .next = ring->next, .turns = ring->turns};
 }
 
 #endif

@@ -144,7 +144,7 @@ static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
     assert_true(number[owner] < number[other]);
   }
   for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&boundary, number, r, "box", &refined[r], &size));
-  Box::check(cw_interface_rule_merge(&boundary, refined.data(), &counts));
+  Box::check(cw_interface_rule_merge(&boundary.interfaces, 4, refined.data(), &counts));
   assert_true(counts.encroached > 20);
   assert_true(counts.inserted > 20);
   assert_int_equal(boundary.interfaces.nodes.count, nodes + counts.inserted);
@@ -202,14 +202,16 @@ static void make_layers(Box &box) {
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr);
   int64_t size;
-  Box::check(cw_boundary_wall_curves(&boundary));
+  Box::check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
+  Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
   }
-  Box::check(cw_boundary_merge_walls(&boundary, walls.data()));
+  Box::check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  Box::check(cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &boundary.layers, &box.outcome));
+  Box::check(
+      cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
   for (void *bytes : walls) free(bytes);
@@ -220,7 +222,7 @@ static void layers_that_cross_a_line_are_found(void **) {
   Box box(3, 0.001);
   const CwBoundary &boundary = box.boundary;
   make_layers(box);
-  Box::check(cw_boundary_free_curves(&box.boundary, &box.outcome));
+  Box::check(cw_boundary_free_curves(&boundary, &box.boundary.interfaces, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
   assert_near(box.outcome.place[0], 0.021, 1e-9);
   assert_true(boundary.interfaces.tight_count > 0);
@@ -243,7 +245,7 @@ static void edges_follow_a_narrow_nose(void **) {
     const CwCurve &curve = box.boundary.network.curve[i];
     if (std::fabs(curve.fine_length[curve.fine_count - 1] - 1e-3 * M_PI) > 1e-5) continue;
     noses++;
-    assert_int_equal(curve.point_count, 4);
+    assert_int_equal(box.boundary.wall_curves.curve[i].count, 4);
   }
   assert_int_equal(noses, 2);
 }
@@ -261,11 +263,12 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr);
   int64_t size;
-  Box::check(cw_boundary_wall_curves(&boundary));
+  Box::check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
+  Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
   }
-  Box::check(cw_boundary_merge_walls(&boundary, walls.data()));
+  Box::check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   for (void *bytes : walls) free(bytes);
   int arcs = 0;
@@ -273,8 +276,9 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
     const CwCurve &curve = boundary.network.curve[i];
     if (std::fabs(curve.fine_length[curve.fine_count - 1] - 8e-3 * M_PI) > 1e-5) continue;
     arcs++;
-    for (int k = 0; k + 1 < curve.point_count; k++) {
-      const double *a = boundary.surface.x[curve.node[k]], *b = boundary.surface.x[curve.node[k + 1]];
+    const CwCurveNodes &nodes = boundary.wall_curves.curve[i];
+    for (int k = 0; k + 1 < nodes.count; k++) {
+      const double *a = boundary.surface.x[nodes.node[k]], *b = boundary.surface.x[nodes.node[k + 1]];
       if ((a[0] < 0.010) == (b[0] < 0.010) && a[0] != 0.010) continue;
       double s = (0.010 - a[0]) / (b[0] - a[0]); // above the post's middle
       assert_true(a[1] + s * (b[1] - a[1]) > 0.0377);
@@ -297,7 +301,7 @@ static void make_surfaces(Box &box) {
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
     }
   }
-  Box::check(cw_boundary_free_curves(&boundary, &box.outcome));
+  Box::check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (!cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
@@ -306,7 +310,7 @@ static void make_surfaces(Box &box) {
   for (int i = 0; i < boundary.interfaces.outline_count; i++) {
     Box::check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
   }
-  Box::check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data()));
+  Box::check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data(), &boundary.interfaces));
   Box::check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
   for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);

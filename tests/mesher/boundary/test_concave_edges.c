@@ -46,7 +46,8 @@ static void make_ring(Ring *ring, int i, double low, double least) {
                                 .surface.triangle_count = TRIANGLES,
                                 .surface.triangle = flat->triangle,
                                 .surface.source = flat->source,
-                                .images = ring_images(flat)};
+                                .surface.images = ring_images(flat),
+                                .images.symmetry = &flat->symmetry};
   ring->layers =
       (CwLayers){.column_count = POINTS, .top = ring->top, .thickness = ring->thickness, .reason = ring->reason};
   ring->wall = (CwLayerInput){.point_count = POINTS,

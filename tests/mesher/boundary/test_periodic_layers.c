@@ -36,7 +36,8 @@ static void seams_get_the_sounder_column(void **state) {
     const double across[2][3] = {{-out[1], out[0], 0}, {0.6 * out[0], 0.6 * out[1], -0.8}};
     memcpy(constraint[held], across, sizeof across);
     constraints[held] = 2;
-    CwBoundary boundary = {.surface.source = ring.source, .images = ring_images(&ring)};
+    CwBoundary boundary = {
+        .surface.source = ring.source, .surface.images = ring_images(&ring), .images.symmetry = &ring.symmetry};
     CwLayerInput in = {.point_count = POINTS,
                        .x = x,
                        .triangle_count = TRIANGLES,

@@ -35,6 +35,7 @@ struct OpenEdge {
   CwOpenEdgePlaces places = {};
   std::vector<int32_t> node;
   double parameter[NODES][2], wall[NODES][3], top[NODES][3];
+  CwCurveNodes nodes = {};
   CwConstraint constraint[NODES];
 
   // On the first four fifths of the open edge, so that columns may lean along it by `lean`, rad.
@@ -59,9 +60,10 @@ struct OpenEdge {
       constraint[i].kind = CW_CONSTRAINT_PATCH;
       constraint[i].index = open_patch;
     }
-    curve.point_count = NODES;
-    curve.node = node.data();
-    curve.parameter = parameter;
+    nodes.count = NODES;
+    nodes.node = node.data();
+    nodes.parameter = parameter;
+    boundary.wall_curves.curve = &nodes;
     boundary.network.cad = cad;
     boundary.network.curve = &curve;
     boundary.network.curve_count = 1;

@@ -20,17 +20,19 @@ static void fill_the_tank(bool divided) {
   std::vector<void *> walls(faces, nullptr), open_patches(faces, nullptr), interfaces;
   int64_t size;
   check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
-  check(cw_boundary_wall_curves(&boundary));
+  check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
+  check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
     if (cw_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
   }
-  check(cw_boundary_merge_walls(&boundary, walls.data()));
+  check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3), first(boundary.surface.vertex_count, 2e-4),
       growth(boundary.surface.vertex_count, 1.5);
-  check(cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &boundary.layers, &tank.outcome));
-  check(cw_boundary_free_curves(&boundary, &tank.outcome));
+  check(
+      cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &boundary.layers, &tank.outcome));
+  check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
@@ -39,17 +41,18 @@ static void fill_the_tank(bool divided) {
   assert_int_equal(boundary.interfaces.outline_count, divided ? 30 : 10);
   interfaces.resize(boundary.interfaces.outline_count, nullptr);
   for (int i = 0; i < boundary.interfaces.outline_count; i++) {
-    if (images.outline.first[i] == i) check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
+    if (boundary.interfaces.outline_images.first[i] == i)
+      check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
   }
-  check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data()));
+  check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data(), &boundary.interfaces));
   check(cw_interfaces_audit(&boundary.interfaces, tank.plan.region_count));
   for (int v = 0; v < boundary.surface.vertex_count; v++) {
-    const int next = cw_image_node(&images, v, 1);
+    const int next = cw_image_node(&boundary.surface.images, v, 1);
     if (next < 0) continue;
     double turned[3];
     cw_symmetry_turn(5, 1, boundary.layers.top[v], turned);
     for (int k = 0; k < 3; k++) assert_near(turned[k], boundary.layers.top[next][k], 1e-15);
-    assert_int_equal(cw_image_node(&images, v, 5), v);
+    assert_int_equal(cw_image_node(&boundary.surface.images, v, 5), v);
   }
 
   const int regions = tank.plan.region_count;
