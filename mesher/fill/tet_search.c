@@ -99,8 +99,8 @@ static int32_t choose_tet(Search *s) {
   int32_t count = 0, chosen = 0;
   for (int32_t t = 0; t < s->trial.tet_count; t++) {
     double sine;
-    if (s->trial.tet[t].corner[0] >= 0 &&
-        judge(s, &s->trial, t, &sine) < policy->improve_hard && choose(s, ++count) == 0)
+    if (s->trial.tet[t].corner[0] >= 0 && judge(s, &s->trial, t, &sine) < policy->improve_hard &&
+        choose(s, ++count) == 0)
       chosen = t;
   }
   for (int steps = choose(s, 3); steps > 0; steps--) {
@@ -363,7 +363,8 @@ CwStatus cw_tet_search(CwTetWork *w) {
   s.tries = w->mesh->tet_count > policy->search_share * policy->search_fewest
                 ? w->mesh->tet_count / policy->search_share
                 : policy->search_fewest;
-  if (count_bad(w) > w->mesh->tet_count / policy->search_few) goto done;
+  int64_t most = w->mesh->tet_count / policy->search_few;
+  if (count_bad(w) > (most > policy->search_any ? most : policy->search_any)) goto done;
   if (find_worst(&s, 0, NULL, NULL, &least) >= 0) {
     CW_TRY(sine_allowed(w->mesh, &allowed));
     s.again = fmin(policy->search_bad, allowed);

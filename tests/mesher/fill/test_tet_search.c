@@ -67,7 +67,8 @@ static CwTetWork lump(int spoilt, CwTetPatch *patch) {
                  .source_count = 2};
   judge_all(&w);
   assert_int_equal(cw_tet_improve_list(&w, 5, 1), CW_OK);
-  for (int32_t t = 40; spoilt > 0; t += 1500, spoilt--) {
+  int32_t apart = spoilt > 0 ? 4500 / spoilt : 0;
+  for (int32_t t = 40; spoilt > 0; t += apart, spoilt--) {
     while (mesh->tet[t].corner[0] < 0 || mesh->source[mesh->tet[t].corner[0]] == 0) t++;
     const int32_t *c = mesh->tet[t].corner;
     double *p = mesh->point[c[0]].x;
@@ -108,6 +109,25 @@ static void bad_ones_become_good(void **state) {
     assert_memory_equal(w.mesh->point[p].x, v.mesh->point[p].x, sizeof v.mesh->point[p].x);
   finish(&w, &patch);
   finish(&v, &again);
+}
+
+// Also where there are more of them than one for 250 tetrahedra: a small mesh has few tries, and they are worth it.
+static void many_bad_ones_of_a_small_mesh(void **state) {
+  CwTetPatch patch;
+  CwTetWork w = lump(20, &patch);
+  double volume, least = least_angle(w.mesh, &volume);
+  int32_t bad = 0;
+  for (int32_t k = 0; k < w.next.count; k++) {
+    const double *x[4];
+    CwTetShape shape;
+    for (int i = 0; i < 4; i++) x[i] = w.mesh->point[w.mesh->tet[w.next.tet[k]].corner[i]].x;
+    cw_tet_shape(x, &shape);
+    bad += shape.dihedral_least < 13;
+  }
+  assert_true(least < 8.0 && bad > w.mesh->tet_count / cw_policy.search_few && bad <= cw_policy.search_any);
+  assert_int_equal(cw_tet_search(&w), CW_OK);
+  assert_true(w.count.patches_changed >= 1 && least_angle(w.mesh, &volume) >= least);
+  finish(&w, &patch);
 }
 
 static void good_ones_are_left_alone(void **state) {
@@ -225,11 +245,9 @@ static void determinant_is_that_of_the_sum(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bad_ones_become_good),
-      cmocka_unit_test(good_ones_are_left_alone),
-      cmocka_unit_test(what_the_boundary_forces_is_not_pressed),
-      cmocka_unit_test(tries_are_bounded),
-      cmocka_unit_test(determinant_is_that_of_the_sum),
+      cmocka_unit_test(bad_ones_become_good),     cmocka_unit_test(many_bad_ones_of_a_small_mesh),
+      cmocka_unit_test(good_ones_are_left_alone), cmocka_unit_test(what_the_boundary_forces_is_not_pressed),
+      cmocka_unit_test(tries_are_bounded),        cmocka_unit_test(determinant_is_that_of_the_sum),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
