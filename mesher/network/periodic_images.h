@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The image sets of a domain whose solid and plan have a symmetry: of the corners and curves of its network, and of mesh
-// nodes. Items that turns take to one another form an image set: its first is made, the others are copies of it, turned,
-// with the same numbers on both sides of every seam.
+// The image sets of a domain whose solid and plan have a symmetry: of the corners and curves of its network, and of
+// mesh nodes. Items that turns take to one another form an image set: its first is made, the others are copies of it,
+// turned, with the same numbers on both sides of every seam.
 #ifndef CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
 #define CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
 
