@@ -10,7 +10,6 @@
 
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
-#include "pipeline/wall_group.h"
 
 CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length) {
   const double cmu = 0.09;
@@ -86,7 +85,7 @@ static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *star
   const CwWalls *walls = &start->table->walls;
   if (patch->kind != CW_KIND_WALL)
     fprintf(out, "        type            %s;\n", patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
-  else if (start->eddies || cw_wall_group(walls, patch->name)->y_plus < CW_Y_PLUS_LAMINAR)
+  else if (start->eddies || cw_patch_resolved(patch))
     fprintf(out, "        type            nutUSpaldingWallFunction;\n");
   else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
     fprintf(out,
@@ -180,7 +179,7 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   CwStatus status = CW_OK;
   const CwOperatingPoint *point = &table->operating_point;
   const CwMesh *mesh = a->mesh;
-  int resolved = cw_walls_resolved(mesh, &table->walls);
+  int resolved = cw_walls_resolved(mesh);
   const struct {
     const char *key;
     int patch;
@@ -228,7 +227,7 @@ static CwStatus set_eddy_values(const CwCase *table, const CwDesign *design, con
   CW_TRY(cw_values_set(values, "turn_time", "%.9g", turn / table->operating_point.speed));
   CW_TRY(cw_values_set(values, "phase_steps", "%.0f", pitch == floor(pitch) ? pitch : steps));
   CW_TRY(cw_values_set(values, "les_model", "Smagorinsky"));
-  CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh, &table->walls) ? "vanDriest" : "cubeRootVol"));
+  CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh) ? "vanDriest" : "cubeRootVol"));
   CW_TRY(cw_patch_names_set(a, is_blade, " ", "blades", values));
   int tongue = 0;
   while (tongue < mesh->patch_count && strcmp(mesh->patches[tongue].name, "tongue")) ++tongue;

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pipeline/wall_group.h"
-
 int cw_patch_rotates(const CwMeshPatch *patch) {
   return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && strcmp(patch->name, "suction_pipe") != 0;
 }
@@ -15,11 +13,13 @@ int cw_patch_is_shaft(const CwMeshPatch *patch) {
   return patch->domain > CW_MESH_STATOR && strcmp(patch->name, "hub_shaft_pipe") == 0;
 }
 
-int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls) {
+int cw_patch_resolved(const CwMeshPatch *patch) {
+  return patch->kind == CW_KIND_WALL && !(patch->y_plus >= CW_Y_PLUS_LAMINAR);
+}
+
+int cw_walls_resolved(const CwMesh *mesh) {
   for (int p = 0; p < mesh->patch_count; ++p)
-    if (mesh->patches[p].kind == CW_KIND_WALL &&
-        cw_wall_group(walls, mesh->patches[p].name)->y_plus < CW_Y_PLUS_LAMINAR)
-      return 1;
+    if (cw_patch_resolved(&mesh->patches[p])) return 1;
   return 0;
 }
 

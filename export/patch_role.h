@@ -17,8 +17,10 @@ int cw_patch_rotates(const CwMeshPatch *patch);
 // A wall that turns in a zone that does not: the shaft in a suction pipe of its own.
 int cw_patch_is_shaft(const CwMeshPatch *patch);
 
-// Whether any wall is to be resolved down to the viscous sublayer.
-int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls);
+// Whether the layers of a wall, by the y+ that they were made for, resolve the viscous sublayer or laminar flow; whether
+// those of any wall do.
+int cw_patch_resolved(const CwMeshPatch *patch);
+int cw_walls_resolved(const CwMesh *mesh);
 
 typedef int (*CwPatchChoice)(const CwMeshPatch *patch);
 

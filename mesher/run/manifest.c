@@ -26,8 +26,12 @@ static json_t *metres_json(double value, int dimension) {
 static json_t *patches_json(const CwDomain *domain) {
   json_t *patches = json_array();
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    json_array_append_new(patches, json_pack("{s:s, s:s}", "name", cw_cad_patch_name(domain->cad, p), "kind",
-                                             KIND_NAMES[cw_cad_patch_kind(domain->cad, p)]));
+    json_t *patch = json_pack("{s:s, s:s}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                              KIND_NAMES[cw_cad_patch_kind(domain->cad, p)]);
+    const double y_plus = domain->patch_target[p].first.y_plus;
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL && isfinite(y_plus))
+      json_object_set_new(patch, "y_plus", cw_json_number(y_plus));
+    json_array_append_new(patches, patch);
   }
   return patches;
 }

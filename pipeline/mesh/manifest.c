@@ -73,6 +73,7 @@ static CwStatus read_patch(CwMesh *mesh, int domain, const json_t *item, const c
              kind);
   snprintf(patch->name, sizeof patch->name, "%s", name);
   patch->kind = (CwPatchKind)k;
+  patch->y_plus = cw_json_real(item, "y_plus");
   patch->domain = domain;
   ++mesh->patch_count;
   ++mesh->domains[domain].patch_count;

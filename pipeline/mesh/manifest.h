@@ -16,6 +16,7 @@ typedef struct {
   char name[CW_MESH_NAME_SIZE];
   CwPatchKind kind;
   int domain;
+  double y_plus; // of a wall, that its layers were made for; NAN: the flow along it is laminar
 } CwMeshPatch;
 
 // One line of the manifest: a region file and the digest and the counts it must have.

@@ -388,7 +388,8 @@ static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_r
   number_shared(&d);
   json_t *patches = json_array(), *regions = json_array();
   for (int p = 0; p < d.patch_count; ++p)
-    json_array_append_new(patches, json_pack("{s:s, s:s}", "name", d.patches[p].name, "kind", d.patches[p].kind));
+    json_array_append_new(
+        patches, json_pack("{s:s, s:s, s:f}", "name", d.patches[p].name, "kind", d.patches[p].kind, "y_plus", 30.0));
   int failed = 0;
   for (int r = 0; r < d.annulus->regions && !failed; ++r)
     failed = json_array_append_new(regions, write_region(run, &d, r));

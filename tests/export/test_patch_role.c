@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which walls turn, and whether layers resolve the viscous sublayer.
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,21 +29,25 @@ static void a_shaft_is_a_wall_of_a_pipe_zone(void **state) {
   assert_true(cw_patch_rotates(&within) && !cw_patch_is_shaft(&within));
 }
 
-static void walls_are_resolved_where_one_group_is(void **state) {
+static void walls_are_resolved_where_one_is(void **state) {
   (void)state;
-  CwMeshPatch patches[] = {{"inlet", CW_KIND_INLET, CW_MESH_ROTOR}, {"diffuser", CW_KIND_WALL, CW_MESH_STATOR}};
-  const CwMesh mesh = {.patches = patches, .patch_count = 2};
-  CwWalls walls = {.blade.y_plus = 1, .hub_shroud.y_plus = 1, .volute.y_plus = 1, .pipe.y_plus = 30};
-  assert_false(cw_walls_resolved(&mesh, &walls)); // no wall of the other groups is there
-  walls.pipe.y_plus = 1;
-  assert_true(cw_walls_resolved(&mesh, &walls));
+  CwMeshPatch patches[] = {{"inlet", CW_KIND_INLET, CW_MESH_ROTOR, NAN},
+                           {"hub", CW_KIND_WALL, CW_MESH_ROTOR, 30},
+                           {"diffuser", CW_KIND_WALL, CW_MESH_STATOR, 30}};
+  const CwMesh mesh = {.patches = patches, .patch_count = 3};
+  assert_false(cw_walls_resolved(&mesh));
+  patches[2].y_plus = 1;
+  assert_true(cw_walls_resolved(&mesh));
+  assert_false(cw_patch_resolved(&patches[1]));
+  patches[2].y_plus = NAN; // laminar
+  assert_true(cw_walls_resolved(&mesh));
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(walls_of_the_rotor_turn),
       cmocka_unit_test(a_shaft_is_a_wall_of_a_pipe_zone),
-      cmocka_unit_test(walls_are_resolved_where_one_group_is),
+      cmocka_unit_test(walls_are_resolved_where_one_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
