@@ -109,8 +109,8 @@ NUMBER(double, gap_share, 0.35, none, "1", "of the gap to another wall, the most
 NUMBER(double, core_height, 0.65, 0, "edge",
        "between layers of walls that face each other, at least: 0.5 leaves angles of 9 degrees, 0.8 thin last layers "
        "(pumps of nq 7 to 9 at 150,000 cells)")
-NUMBER(double, core_ratio, 8, none, "1",
-       "volume of a tetrahedron across that over the last prism, at most: below the 10 that is warned of")
+NUMBER(double, core_ratio, 4, none, "1",
+       "volume of a tetrahedron across that over the last prism, at most: what counts as even")
 NUMBER(double, prism_good, 0.12, 0, "quality", "of prisms and their layer tops that is asked for")
 NUMBER(double, prism_fair, 0.05, 0, "quality", "least, where prism_good cannot be had")
 NUMBER(double, prism_kept, 0.08, 0, "quality", "least, where columns would have to give up their first height for more")

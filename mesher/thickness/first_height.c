@@ -13,8 +13,15 @@ double cw_column_room(const CwWallFlow *flow) {
   return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
 }
 
+static double even_layers(double room, int layer_count) {
+  return room / (cw_policy.even_layers * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
+}
+
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
-  return cw_column_room(flow) / (cw_policy.even_layers * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
+  double across = even_layers(cw_policy.gap_share * flow->width, layer_count);
+  if (flow->before == 0) return across;
+  int count = layer_count > 0 ? layer_count : CW_LAYERS_LEAST;
+  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_policy.least_growth));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
@@ -33,7 +40,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
     double roomy =
         cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, cw_policy.growth_auto);
     first.asked = fmin(unit * y_plus_auto, roomy);
-    if (flow->before > 0) first.asked = fmin(first.asked, cw_first_height_fitting(flow, layer_count));
+    if (flow->before > 0) first.asked = fmin(first.asked, even_layers(cw_column_room(flow), layer_count));
     first.source = CW_FIRST_AUTO;
   }
   int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;

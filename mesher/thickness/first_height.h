@@ -50,7 +50,8 @@ typedef struct {
 // How tall columns may become, m: their share of the passage, or of the way to an open patch.
 double cw_column_room(const CwWallFlow *flow);
 
-// The greatest first height of which `layer_count` even layers fit that. 0 layers: CW_LAYERS_LEAST.
+// The greatest first height that fits: of `layer_count` even layers in the share of the passage, and before an open
+// patch, where one end of a wall is short of room, of layers that fall by least_growth. 0 layers: CW_LAYERS_LEAST.
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
 
 // y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as

@@ -69,7 +69,8 @@ static void what_does_not_fit_becomes_what_fits(void **state) {
   assert_int_equal(choose(&table, 30).source, CW_FIRST_ASKED);
 }
 
-// A trailing edge 0.2 mm before the interface: six even layers in 0.6 of that, or as many as the case asks for.
+// A trailing edge before the interface: six even layers in 0.6 of the way where the height is open; a given one stays
+// as long as layers that fall by 0.6 fit there.
 static void an_open_face_before_the_wall_leaves_less_room(void **state) {
   CwCase table = water();
   CwWallFlow flow = FLOW;
@@ -82,7 +83,14 @@ static void an_open_face_before_the_wall_leaves_less_room(void **state) {
   table.walls.layer_count = 4;
   table.walls.blade.y_plus = 30; // 0.07 mm
   first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
-  NEAR(first.height, 0.6 * 0.0002 / (4 * 1.05));
+  double falling = 1 + 0.6 + 0.36 + 0.216;
+  flow.before = 1.001 * 30 * UNIT * falling / 0.6;
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  NEAR(first.height, 30 * UNIT);
+  assert_int_equal(first.source, CW_FIRST_ASKED);
+  flow.before = 0.5 * 30 * UNIT * falling / 0.6;
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  NEAR(first.height, 0.5 * 30 * UNIT);
   assert_int_equal(first.source, CW_FIRST_FITTED);
   flow.before = 0.01; // farther than the other wall
   NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6).height, 30 * UNIT);
