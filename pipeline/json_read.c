@@ -52,7 +52,7 @@ CwStatus cw_json_positive(json_t *object, const char *where, const char *key, do
   return *value > 0 ? CW_OK : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and a number above 0", where, key);
 }
 
-double cw_json_real(json_t *object, const char *key) {
+double cw_json_real(const json_t *object, const char *key) {
   json_t *number = json_object_get(object, key);
   return json_is_number(number) ? json_number_value(number) : NAN;
 }

@@ -21,6 +21,6 @@ CwStatus cw_json_count(json_t *object, const char *where, const char *key, int64
 CwStatus cw_json_positive(json_t *object, const char *where, const char *key, double *value); // above 0
 
 // A number, or NAN where there is none (null, missing, another type).
-double cw_json_real(json_t *object, const char *key);
+double cw_json_real(const json_t *object, const char *key);
 
 #endif

@@ -195,7 +195,7 @@ CwStatus cw_curve_divisions_refine(const CwBoundary *boundary, CwCurveDivision *
     if (is_meshed(boundary, f)) faces.face[faces.face_count++] = f;
   }
   for (int round = 0; round < ROUNDS && faces.face_count; round++) {
-    int32_t halved;
+    int32_t halved = 0;
     count = faces.face_count;
     CW_NEW(bytes, count);
     CW_NEW(size, count);

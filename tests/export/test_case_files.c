@@ -146,18 +146,18 @@ static void expect_in_block(const char *words) {
 static void the_shaft_in_a_suction_zone_turns(void **state) {
   (void)state;
   enum { SUCTION = CW_MESH_STATOR + 1 };
-  CwMeshPatch patches[] = {{"hub", CW_KIND_WALL, CW_MESH_ROTOR},
-                           {"hub_shaft", CW_KIND_WALL, CW_MESH_ROTOR},
-                           {"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR},
-                           {"rotor_interface", CW_KIND_INTERFACE, CW_MESH_ROTOR},
-                           {"rotor_to_suction", CW_KIND_INTERFACE, CW_MESH_ROTOR},
-                           {"stator_interface", CW_KIND_INTERFACE, CW_MESH_STATOR},
-                           {"volute", CW_KIND_WALL, CW_MESH_STATOR},
-                           {"outlet", CW_KIND_OUTLET, CW_MESH_STATOR},
-                           {"suction_to_rotor", CW_KIND_INTERFACE, SUCTION},
-                           {"inlet_pipe", CW_KIND_WALL, SUCTION},
-                           {"hub_shaft_pipe", CW_KIND_WALL, SUCTION},
-                           {"inlet", CW_KIND_INLET, SUCTION}};
+  CwMeshPatch patches[] = {{"hub", CW_KIND_WALL, CW_MESH_ROTOR, 30},
+                           {"hub_shaft", CW_KIND_WALL, CW_MESH_ROTOR, 30},
+                           {"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR, 30},
+                           {"rotor_interface", CW_KIND_INTERFACE, CW_MESH_ROTOR, 30},
+                           {"rotor_to_suction", CW_KIND_INTERFACE, CW_MESH_ROTOR, 30},
+                           {"stator_interface", CW_KIND_INTERFACE, CW_MESH_STATOR, 30},
+                           {"volute", CW_KIND_WALL, CW_MESH_STATOR, 30},
+                           {"outlet", CW_KIND_OUTLET, CW_MESH_STATOR, 30},
+                           {"suction_to_rotor", CW_KIND_INTERFACE, SUCTION, 30},
+                           {"inlet_pipe", CW_KIND_WALL, SUCTION, 30},
+                           {"hub_shaft_pipe", CW_KIND_WALL, SUCTION, 30},
+                           {"inlet", CW_KIND_INLET, SUCTION, 30}};
   enum { PATCHES = sizeof patches / sizeof *patches };
   CwMesh mesh = {.domain_count = 3,
                  .domains = {{.name = "rotor", .zone = "ROTOR", .first_patch = 0, .patch_count = 5},

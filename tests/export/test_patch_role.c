@@ -13,8 +13,10 @@ enum { SUCTION = CW_MESH_STATOR + 1 };
 
 static void walls_of_the_rotor_turn(void **state) {
   (void)state;
-  const CwMeshPatch hub = {"hub", CW_KIND_WALL, CW_MESH_ROTOR}, pipe = {"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR},
-                    inlet = {"inlet", CW_KIND_INLET, CW_MESH_ROTOR}, volute = {"volute", CW_KIND_WALL, CW_MESH_STATOR};
+  const CwMeshPatch hub = {"hub", CW_KIND_WALL, CW_MESH_ROTOR, 30},
+                    pipe = {"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR, 30},
+                    inlet = {"inlet", CW_KIND_INLET, CW_MESH_ROTOR, 30},
+                    volute = {"volute", CW_KIND_WALL, CW_MESH_STATOR, 30};
   assert_true(cw_patch_rotates(&hub));
   assert_false(cw_patch_rotates(&pipe) || cw_patch_rotates(&inlet) || cw_patch_rotates(&volute));
 }
@@ -22,8 +24,9 @@ static void walls_of_the_rotor_turn(void **state) {
 // The shaft turns in the suction zone, whose frame stands still; within the rotor it turns with the frame.
 static void a_shaft_is_a_wall_of_a_pipe_zone(void **state) {
   (void)state;
-  const CwMeshPatch shaft = {"hub_shaft_pipe", CW_KIND_WALL, SUCTION}, pipe = {"inlet_pipe", CW_KIND_WALL, SUCTION},
-                    within = {"hub_shaft", CW_KIND_WALL, CW_MESH_ROTOR};
+  const CwMeshPatch shaft = {"hub_shaft_pipe", CW_KIND_WALL, SUCTION, 30},
+                    pipe = {"inlet_pipe", CW_KIND_WALL, SUCTION, 30},
+                    within = {"hub_shaft", CW_KIND_WALL, CW_MESH_ROTOR, 30};
   assert_true(cw_patch_is_shaft(&shaft) && !cw_patch_rotates(&shaft));
   assert_false(cw_patch_is_shaft(&pipe) || cw_patch_rotates(&pipe));
   assert_true(cw_patch_rotates(&within) && !cw_patch_is_shaft(&within));

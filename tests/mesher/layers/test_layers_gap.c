@@ -30,19 +30,19 @@ static void coarse_gap(void **state) {
   case_free(&c);
 }
 
-// A wall 10 before the column, in five even layers. Tetrahedra across what is left have 8 times the volume of the last
-// prism at most: 10 - 2 t = 24 t / 5 at t = 10 / 6.8.
+// A wall 10 before the column, in five even layers. Tetrahedra across what is left have 4 times the volume of the last
+// prism at most: 10 - 2 t = 12 t / 5 at t = 10 / 4.4.
 static void room_by_hand(void **state) {
   double least = 0;
   CwLayerInput in = {.division.count = 5, .least = &least};
   CwLayerWork work = {.in = &in, .n = 1};
   assert_float_equal(cw_layers_room(&work, 0, 10, 0), 3.5, 1e-12);
   assert_float_equal(cw_layers_room(&work, 0, 10, 3), 3.5, 1e-12);
-  assert_float_equal(cw_layers_room(&work, 0, 10, 6), 2, 1e-12);
-  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 10 / 6.8, 1e-5);
-  assert_float_equal(cw_layers_room(&work, 0, 10, 20), 10 / 6.8, 1e-5);
-  least = 1.7;
-  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 1.7, 1e-12);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 5), 2.5, 1e-12);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 10 / 4.4, 1e-5);
+  assert_float_equal(cw_layers_room(&work, 0, 10, 20), 10 / 4.4, 1e-5);
+  least = 2.4;
+  assert_float_equal(cw_layers_room(&work, 0, 10, 8), 2.4, 1e-12);
   least = 4; // more than its share
   assert_float_equal(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
   least = 0;
