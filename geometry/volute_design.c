@@ -389,10 +389,15 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   CW_TRY(check_input(&volute->input));
   const double least = fmax(LEAST_ARC, LEAST_CORNER - 0.5 * PI + volute->input.side_wall_angle);
   status = design_with_arc(ARC_HALF_ANGLE, volute);
-  for (double arc = ARC_HALF_ANGLE; status == CW_ERR_DESIGN && arc > least + SLACK && tip_is_beyond(volute);) {
+  if (status == CW_ERR_DESIGN && least < ARC_HALF_ANGLE && tip_is_beyond(volute)) {
     cw_fail_clear();
-    arc = fmax(least, arc - ARC_STEP);
-    status = design_with_arc(arc, volute);
+    CW_TRY(design_with_arc(least, volute)); // what the flattest cannot reach none can
+    status = CW_ERR_DESIGN;
+    for (double arc = ARC_HALF_ANGLE; status == CW_ERR_DESIGN && arc > least;) {
+      cw_fail_clear();
+      arc = fmax(least, arc - ARC_STEP);
+      status = design_with_arc(arc, volute);
+    }
   }
   CW_TRY(status);
 
