@@ -375,7 +375,14 @@ CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign 
     if (angle >= LEAST_STANDING) break;
     trial.impeller.leading_edge_radius_shroud =
         first + FARTHEST_EDGE * i / EDGE_STEPS * (design->outlet_diameter / 2 - first);
-    CW_TRY(solve_wheel(&trial, meridian, design));
+    const CwDesign before = *design;
+    const CwMeridian walls = *meridian;
+    if (solve_wheel(&trial, meridian, design) != CW_OK) { // too short a blade for its wrap: as far as there is one
+      cw_fail_clear();
+      *design = before;
+      *meridian = walls;
+      break;
+    }
     design->source[CW_DESIGN_leading_edge_radius_shroud] =
         "as far out as cylindrical blades stand at 50 deg on the walls";
   }
