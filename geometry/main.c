@@ -9,9 +9,9 @@
 #include "geometry/design_value.h"
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
-#include "geometry/model_unit.h"
 #include "geometry/picture.h"
 #include "geometry/pump.h"
+#include "geometry/pump_model.h"
 #include "geometry/remedy.h"
 #include "geometry/step_file.h"
 #include "pipeline/log.h"
@@ -100,6 +100,16 @@ done:
   return status;
 }
 
+static CwStatus write_model(const CwDesign *design, const CwPump *pump, const char *path) {
+  CwStatus status = CW_OK;
+  CwModel model = {0};
+  CW_TRY(cw_pump_model(design, pump, &model));
+  CW_TRY(cw_model_write(&model, path));
+done:
+  cw_model_free(&model);
+  return status;
+}
+
 // Files of the stage besides those of each solid. Each appears whole; record.json, written last by main(), says
 // that all are there.
 static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwMeasuredPump *measured, const char *path,
@@ -111,7 +121,7 @@ static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwM
   case 1:
     return cw_interfaces_table_write(pump, path);
   case 10:
-    return cw_model_unit_write(cw_solid_unit(solids[0]), path);
+    return write_model(design, pump, path);
   case 11:
     return cw_step_write_with_faces(solids, pump->count, path);
   case 2:

@@ -5,17 +5,12 @@
 #ifndef CUTWATER_GEOMETRY_MODEL_UNIT_H
 #define CUTWATER_GEOMETRY_MODEL_UNIT_H
 
-#include "pipeline/status.h"
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 // The unit of a pump with the impeller outlet D2 > 0, m: its length in m.
 double cw_model_unit(double outlet_diameter);
-
-// Writes the unit as model.json, whole or not at all. The format is in docs/file-formats.md.
-CwStatus cw_model_unit_write(double unit, const char *path);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@
 #include "geometry/measure.h"
 #include "geometry/solid.h"
 #include "pipeline/case.h"
+#include "pipeline/model.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -27,6 +28,7 @@ enum { CW_PUMP_ROTOR, CW_PUMP_STATOR, CW_PUMP_DOMAINS_MOST = 4 };
 // One surface that two domains have in common, as a patch of either.
 typedef struct {
   const char *domain[2], *patch[2];
+  CwInterfaceSurface surface; // a cylinder is the one of the design's interface radius
 } CwPumpInterface;
 
 // How much of the suction and discharge pipes belongs to rotor and stator, m: all, or where a pipe is a zone of
