@@ -9,6 +9,7 @@
 #include "export/patch_role.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_points.h"
 
 static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
@@ -206,15 +207,14 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwAs
   CwStatus status = CW_OK;
   CwValues values = {0};
   char *path = NULL, setup[16 + CW_POINT_NAME_SIZE];
-  double flows[CW_LIST_MOST];
-  const int count = cw_case_flows(table, flows);
+  CwCasePoint points[CW_LIST_MOST];
+  const int count = cw_case_points(table, points);
   const char *const kinds[] = {"pre", "ccl"};
   CW_REQUIRE(asprintf(&path, "%s/points", folder) >= 0, CW_ERR_MEMORY, "out of memory");
   CW_TRY(cw_make_directory(path));
   for (int k = 0; k < count; ++k) {
-    snprintf(setup, sizeof setup, "points/");
-    cw_case_point_name(table, flows[k], setup + strlen(setup));
-    CW_TRY(set_values(table, a, flows[k], setup, &values));
+    snprintf(setup, sizeof setup, "points/%.*s", CW_POINT_NAME_SIZE - 1, points[k].name);
+    CW_TRY(set_values(table, a, points[k].flow, setup, &values));
     for (size_t kind = 0; kind < 2; ++kind) {
       char built_in[32];
       snprintf(built_in, sizeof built_in, "cfx/steady.%s", kinds[kind]);

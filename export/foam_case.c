@@ -10,6 +10,7 @@
 
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_points.h"
 
 CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length) {
   const double cmu = 0.09;
@@ -273,15 +274,14 @@ static Start start_at(double flow, const CwCase *table, const CwDesign *design, 
 static CwStatus write_points(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
   CwStatus status = CW_OK;
   static const char *const shared[] = {"constant", "system", "Allrun", "run_solver.sh", "Allclean", "summary"};
-  char *point = NULL, *link = NULL, name[CW_POINT_NAME_SIZE];
-  double flows[CW_LIST_MOST];
-  const int count = cw_case_flows(table, flows);
+  char *point = NULL, *link = NULL;
+  CwCasePoint points[CW_LIST_MOST];
+  const int count = cw_case_points(table, points);
   for (int k = 0; k < count; ++k) {
-    cw_case_point_name(table, flows[k], name);
     free(point);
-    CW_REQUIRE(asprintf(&point, "%s/points/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
+    CW_REQUIRE(asprintf(&point, "%s/points/%s", folder, points[k].name) >= 0, CW_ERR_MEMORY, "out of memory");
     CW_TRY(cw_make_directory(point));
-    const Start start = start_at(flows[k], table, design, a);
+    const Start start = start_at(points[k].flow, table, design, a);
     CW_TRY(write_fields(point, ".", &start));
     for (size_t i = 0; i < sizeof shared / sizeof *shared; ++i) {
       char target[32];

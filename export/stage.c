@@ -16,6 +16,7 @@
 #include "export/patch_role.h"
 #include "export/region_check.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_points.h"
 #include "pipeline/file_digest.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
@@ -146,14 +147,11 @@ static CwStatus record_interfaces(const CwAssembly *a, const CwInterface *interf
 static CwStatus record_points(const CwCase *table, CwRecord *record) {
   CwStatus status = CW_OK;
   json_t *list = json_array();
-  double flows[CW_LIST_MOST];
-  char name[CW_POINT_NAME_SIZE];
-  const int count = cw_case_flows(table, flows);
-  for (int k = 0; k < count; ++k) {
-    cw_case_point_name(table, flows[k], name);
-    json_array_append_new(list, json_pack("{s:s, s:f, s:f}", "name", name, "flow_m3_per_h", 3600 * flows[k],
-                                          "flow_share", flows[k] / table->operating_point.flow_rate));
-  }
+  CwCasePoint points[CW_LIST_MOST];
+  const int count = cw_case_points(table, points);
+  for (int k = 0; k < count; ++k)
+    json_array_append_new(list, json_pack("{s:s, s:f, s:f}", "name", points[k].name, "flow_m3_per_h",
+                                          3600 * points[k].flow, "flow_share", points[k].share));
   CW_TRY(cw_record_json(record, "operating_points", list));
   if (cw_case_given(table->operating_point.test_head))
     CW_TRY(cw_record_number(record, "test_head_m", table->operating_point.test_head));

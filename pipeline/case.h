@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The case file: one pump, its operating point, its walls and its mesh. Read and validated once by every
-// stage, against the one schema in case_schema.c. In memory all is SI (m, kg, s, rad, Pa) whatever the unit
-// in the key.
+// One pump, its operating point, its walls and its mesh, as the case file gives them (case_read.h). All is SI (m, kg,
+// s, rad, Pa) whatever the unit in the key.
 #ifndef CUTWATER_PIPELINE_CASE_H
 #define CUTWATER_PIPELINE_CASE_H
 
@@ -15,7 +14,7 @@ extern "C" {
 #endif
 
 enum { CW_NAME_SIZE = 33 }; // 32 characters: the limit of CGNS names
-enum { CW_LIST_MOST = 12, CW_POINT_NAME_SIZE = 24 };
+enum { CW_LIST_MOST = 12 };
 
 typedef enum { CW_PRIORITY_WRAP, CW_PRIORITY_HEAD, CW_PRIORITY_BETA, CW_PRIORITY_AUTO } CwPriority;
 typedef enum { CW_CORRELATIONS_GUELICH, CW_CORRELATIONS_GUAN } CwCorrelations;
@@ -52,7 +51,7 @@ typedef struct {
   double value[CW_LIST_MOST];
 } CwList;
 
-// The points of the characteristic curve; one of the two lists is given at the most (cw_case_flows).
+// The points of the characteristic curve; one of the two lists is given at the most (case_points.h).
 typedef struct {
   CwList flow_shares; // of operating_point.flow_rate
   CwList flow_rates;  // m3/s
@@ -174,26 +173,6 @@ typedef struct {
   CwWalls walls;
   CwMeshTable mesh;
 } CwCase;
-
-// Every key at its default, as for an empty file: keys that the hydraulic design computes are NAN, required
-// ones NAN, 0 or "".
-void cw_case_defaults(CwCase *table);
-
-// Whether a first height is left open: neither given nor by a y+.
-int cw_walls_auto(const CwWalls *walls);
-
-// The flow rates of the points of the characteristic curve (m3/s), ascending; their number. 0.6, 0.8, 1 and 1.2 times
-// that of the operating point where the case names none.
-int cw_case_flows(const CwCase *table, double flows[CW_LIST_MOST]);
-
-// The name of such a point in the solvers' files: "q0800" where it is 0.8 times the flow of the operating point. Points
-// of one case have names of their own.
-void cw_case_point_name(const CwCase *table, double flow, char name[CW_POINT_NAME_SIZE]);
-
-// Reads and validates `path`, a YAML file of at most 1 MiB. A file that cannot be read fails with CW_ERR_IO,
-// bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then
-// *table stays as it was.
-CwStatus cw_case_read(const char *path, CwCase *table);
 
 #ifdef __cplusplus
 }

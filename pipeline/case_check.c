@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/case_check.h"
 
+#include "pipeline/case_points.h"
+
 static const double pi = 3.14159265358979323846;
 static const double gravity = 9.80665; // m/s2
 
@@ -115,21 +117,19 @@ static CwStatus check_operating_points(const char *path, const CwCase *table, co
              "%s:%d:%d: operating_points.flow_rates_m3_per_h: contradicts operating_points.flow_shares; allowed: one "
              "of them",
              path, places[rates].line, places[rates].column);
-  double flows[CW_LIST_MOST];
-  const int count = cw_case_flows(table, flows);
+  CwCasePoint points[CW_LIST_MOST];
+  const int count = cw_case_points(table, points);
   const CwCasePlace *place = &places[places[rates].given ? rates : shares];
   for (int k = 1; k < count; ++k)
-    CW_REQUIRE(flows[k] >= flows[k - 1] + 0.001 * table->operating_point.flow_rate, CW_ERR_INPUT,
+    CW_REQUIRE(points[k].flow >= points[k - 1].flow + 0.001 * table->operating_point.flow_rate, CW_ERR_INPUT,
                "%s:%d:%d: operating_points.%s: value %d is not above the one before it by a thousandth of the "
                "operating point's flow rate; allowed: ascending values",
                path, place->line, place->column, places[rates].given ? "flow_rates_m3_per_h" : "flow_shares", k + 1);
-  for (int k = 0; k < count; ++k) {
-    const double share = flows[k] / table->operating_point.flow_rate;
-    CW_REQUIRE(share >= 0.001 && share < 10, CW_ERR_INPUT,
+  for (int k = 0; k < count; ++k)
+    CW_REQUIRE(points[k].share >= 0.001 && points[k].share < 10, CW_ERR_INPUT,
                "%s:%d:%d: operating_points.flow_rates_m3_per_h: value %d is %.3g times the operating point's flow "
                "rate; allowed: 0.001 to 10 times",
-               path, place->line, place->column, k + 1, share);
-  }
+               path, place->line, place->column, k + 1, points[k].share);
 done:
   return status;
 }

@@ -450,22 +450,6 @@ void cw_case_defaults(CwCase *table) {
   }
 }
 
-int cw_case_flows(const CwCase *table, double flows[CW_LIST_MOST]) {
-  static const CwList shares_unless_given = {4, {0.6, 0.8, 1, 1.2}};
-  const CwOperatingPoints *points = &table->operating_points;
-  if (points->flow_rates.count) {
-    memcpy(flows, points->flow_rates.value, sizeof points->flow_rates.value);
-    return points->flow_rates.count;
-  }
-  const CwList *shares = points->flow_shares.count ? &points->flow_shares : &shares_unless_given;
-  for (int k = 0; k < shares->count; ++k) flows[k] = shares->value[k] * table->operating_point.flow_rate;
-  return shares->count;
-}
-
-void cw_case_point_name(const CwCase *table, double flow, char name[CW_POINT_NAME_SIZE]) {
-  snprintf(name, CW_POINT_NAME_SIZE, "q%04.0f", 1000 * flow / table->operating_point.flow_rate);
-}
-
 static void units_markdown(FILE *stream) {
   fputs("\n### Units\n\nA key takes any unit of its quantity: `outlet_diameter_in: 8` stands for "
         "`outlet_diameter_mm: 203.2`.\n\n| quantity | a key may end in |\n|---|---|\n",

@@ -79,6 +79,10 @@ void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table);
 // The same from a value in `unit`, or NULL for none.
 void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, CwCase *table);
 
+// Every key at its default, as for an empty file: keys that the hydraulic design computes are NAN, required ones NAN, 0
+// or "".
+void cw_case_defaults(CwCase *table);
+
 // Writes the sections and their tables as docs/case-reference.md holds them.
 void cw_case_schema_markdown(FILE *stream);
 

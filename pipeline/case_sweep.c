@@ -2,6 +2,7 @@
 #include "pipeline/case_sweep.h"
 
 #include "pipeline/case_schema.h"
+#include "pipeline/wall_group.h"
 
 // T(share) / T(1): what the first height is multiplied by when one layer becomes 1 / share of them.
 static double first_height_factor(double growth, double share) {

@@ -10,6 +10,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
+#include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/case_sweep.h"
 #include "pipeline/case_value.h"

@@ -15,3 +15,10 @@ const CwWallGroup *cw_wall_group(const CwWalls *walls, const char *patch) {
     if (!strcmp(patch, pipes[i])) return &walls->pipe;
   return &walls->volute;
 }
+
+int cw_walls_auto(const CwWalls *walls) {
+  const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
+  for (size_t i = 0; i < sizeof group / sizeof *group; ++i)
+    if (!cw_case_given(group[i]->y_plus) && !cw_case_given(group[i]->first_height)) return 1;
+  return 0;
+}

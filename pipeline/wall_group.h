@@ -13,6 +13,9 @@ extern "C" {
 // By the name of a wall, as docs/file-formats.md lists them; those not named elsewhere are the volute's.
 const CwWallGroup *cw_wall_group(const CwWalls *walls, const char *patch);
 
+// Whether a first height is left open: neither given nor by a y+.
+int cw_walls_auto(const CwWalls *walls);
+
 #ifdef __cplusplus
 }
 #endif

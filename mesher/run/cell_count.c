@@ -6,6 +6,7 @@
 #include "mesher/policy.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
+#include "pipeline/wall_group.h"
 
 enum { SCALE_STEPS = 100 };
 

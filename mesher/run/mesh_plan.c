@@ -15,6 +15,7 @@
 #include "mesher/run/run_step.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/log.h"
+#include "pipeline/wall_group.h"
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
 enum { GRADATION_ROUNDS = 4 };

@@ -3,9 +3,14 @@
 
 #include <math.h>
 
+#include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/json_read.h"
+#include "pipeline/report/page_design.h"
+#include "pipeline/report/page_mesh.h"
+#include "pipeline/report/page_pictures.h"
+#include "pipeline/report/page_run.h"
+#include "pipeline/report/page_solve.h"
 
 static const char style[] =
     ":root{--ink:#1f2933;--soft:#5f6c7b;--line:#dde3e9;--blue:#0b5c8a;--ground:#f6f8fa}\n"
@@ -114,45 +119,6 @@ static const struct {
 };
 enum { PARTS = sizeof parts / sizeof *parts };
 
-static void write_picture(FILE *page, const CwReportPicture *picture) {
-  fprintf(page, "<figure%s>", picture->wide ? " class=\"wide\"" : "");
-  if (picture->lacking) {
-    fputs("<div class=\"lacking\">Not drawn: ", page);
-    cw_html_text(page, picture->lacking);
-    fputs(".</div>", page);
-  } else {
-    fprintf(page, "<img width=\"%d\" height=\"%d\" alt=\"", picture->width, picture->height);
-    cw_html_text(page, picture->title);
-    fputs("\" src=\"data:image/png;base64,", page);
-    cw_html_base64(page, picture->png.bytes, picture->png.size);
-    fputs("\">", page);
-  }
-  fputs("<figcaption><b>", page);
-  cw_html_text(page, picture->title);
-  fputs(".</b> ", page);
-  cw_html_text(page, picture->caption);
-  fputs("</figcaption>", page);
-  if (picture->legend_count) {
-    fputs("<div class=\"key\">", page);
-    for (int k = 0; k < picture->legend_count; k++) {
-      fprintf(page, "<span><i style=\"background:#%06x\"></i>", (unsigned)picture->legend[k].colour);
-      cw_html_text(page, picture->legend[k].label);
-      fputs("</span>", page);
-    }
-    fputs("</div>", page);
-  }
-  fputs("</figure>\n", page);
-}
-
-void cw_page_picture_list(FILE *page, const CwReportData *data, CwPictureSection section) {
-  fputs("<div class=\"grid\">\n", page);
-  for (int k = 0; k < data->pictures.count; k++) {
-    if (data->pictures.picture[k].section == section && !data->pictures.picture[k].absent)
-      write_picture(page, &data->pictures.picture[k]);
-  }
-  fputs("</div>\n", page);
-}
-
 static void tile(FILE *page, const char *value, const char *unit, const char *label) {
   fprintf(page, "<div><b>%s%s%s</b><span>%s</span></div>\n", value, *unit ? "&#8239;" : "", unit, label);
 }
@@ -176,7 +142,7 @@ static CwStatus title(FILE *page, const CwReportData *data) {
   json_t *results;
   const CwCase *table = data->table;
   snprintf(where, sizeof where, "%s/mesh/record.json: results", data->run);
-  CW_TRY(cw_page_mesh_results(data, &results));
+  CW_TRY(cw_report_mesh_results(data, &results));
   CW_TRY(cw_json_count(results, where, "asked_cells", &asked));
   for (int r = 0; r < data->mesh.region_count; r++) {
     const CwMeshRegion *region = &data->mesh.regions[r];

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The characteristic curve: what solve/record.json tells of each operating point (pipeline/solve/solve.py), beside the
-// design's prediction.
+#include "pipeline/report/page_curve.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/page.h"
 #include "pipeline/report/plot.h"
 
 enum { POINTS_MOST = CW_LIST_MOST };

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What was asked for, and what the hydraulic design made of it.
-#include <errno.h>
+#include "pipeline/report/page_design.h"
+
 #include <dirent.h>
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "pipeline/case_schema.h"
+#include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/json_read.h"
-#include "pipeline/report/page.h"
 #include "pipeline/report/quantity.h"
 
 static const char *unit_text(const char *suffix) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the mesher made: counts, regions, quality, layers.
+#include "pipeline/report/page_mesh.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/json_read.h"
-#include "pipeline/report/page.h"
+#include "pipeline/report/page_pictures.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/plot.h"
 
@@ -59,7 +60,7 @@ static void inner_row(FILE *page, const CwReportData *data, const char *label, c
 
 static CwStatus all_domains(const CwReportData *data, json_t **domain) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < data->mesh.domain_count; d++) CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
+  for (int d = 0; d < data->mesh.domain_count; d++) CW_TRY(cw_report_mesh_domain(data, d, &domain[d]));
 done:
   return status;
 }
@@ -442,7 +443,7 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   char where[4096], text[CW_FORMAT_SIZE];
   double all = 0, met = 0;
   json_t *results;
-  CW_TRY(cw_page_mesh_results(data, &results));
+  CW_TRY(cw_report_mesh_results(data, &results));
   CW_TRY(all_domains(data, domain));
   for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// How the run went: export, times, memory, warnings.
+#include "pipeline/report/page_run.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/json_read.h"
-#include "pipeline/report/page.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/quantity.h"
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The solved flow: what solve/record.json tells (pipeline/solve/solve.py), beside the design's prediction.
+#include "pipeline/report/page_solve.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/page.h"
+#include "pipeline/report/page_curve.h"
 #include "pipeline/report/plot.h"
 
 typedef struct {

@@ -3,7 +3,17 @@
 #ifndef CUTWATER_PIPELINE_REPORT_PICTURE_LIST_H
 #define CUTWATER_PIPELINE_REPORT_PICTURE_LIST_H
 
-#include "pipeline/report/pictures.h"
+#include <stdint.h>
+
+#include "pipeline/report/survey.h"
+
+typedef enum {
+  CW_SECTION_TITLE,
+  CW_SECTION_GEOMETRY,
+  CW_SECTION_SURFACE,
+  CW_SECTION_DECOMPOSITION,
+  CW_SECTION_CUT,
+} CwPictureSection;
 
 enum { CW_SEES_ROTOR = 1, CW_SEES_STATOR = 2, CW_SEES_PIPES = 4, CW_SEES_ALL = 7 };
 

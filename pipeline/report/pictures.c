@@ -9,7 +9,6 @@
 #include "pipeline/log.h"
 #include "pipeline/report/camera.h"
 #include "pipeline/report/cut.h"
-#include "pipeline/report/picture_list.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
 static const uint32_t pyramid_colour = 0xb98fc0;

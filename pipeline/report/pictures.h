@@ -4,16 +4,9 @@
 #define CUTWATER_PIPELINE_REPORT_PICTURES_H
 
 #include "pipeline/mesh/region_read.h"
+#include "pipeline/report/picture_list.h"
 #include "pipeline/report/render.h"
 #include "pipeline/report/survey.h"
-
-typedef enum {
-  CW_SECTION_TITLE,
-  CW_SECTION_GEOMETRY,
-  CW_SECTION_SURFACE,
-  CW_SECTION_DECOMPOSITION,
-  CW_SECTION_CUT,
-} CwPictureSection;
 
 typedef struct {
   char label[40];

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "pipeline/case_origin.h"
+#include "pipeline/case_read.h"
 #include "pipeline/mesh/region_items.h"
 #include "tests/seal_run.h"
 

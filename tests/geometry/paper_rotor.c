@@ -10,6 +10,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/rotor.h"
+#include "pipeline/case_read.h"
 
 CwCase paper(void) {
   CwCase table;

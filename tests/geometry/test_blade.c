@@ -8,7 +8,7 @@
 
 #include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
 
 static const double degree = M_PI / 180;

@@ -19,7 +19,7 @@ extern "C" {
 #include "geometry/hydraulic_design.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static bool crossings = false;
 

@@ -10,7 +10,7 @@
 
 #include "geometry/design_file.h"
 #include "geometry/hydraulic_design.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static double number(const json_t *root, const char *key) {
   const json_t *value = json_object_get(root, key);

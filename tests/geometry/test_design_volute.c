@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
-#include "pipeline/case.h"
+#include "pipeline/case_schema.h"
 #include "tests/geometry/near_to.h"
 
 static const double LEAST_FLOW = 0.3 / 3600; // m3/s

@@ -11,7 +11,7 @@
 #include "geometry/design_value.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
-#include "pipeline/case.h"
+#include "pipeline/case_schema.h"
 #include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;

@@ -11,7 +11,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/impeller_design.h"
 #include "geometry/meridian.h"
-#include "pipeline/case.h"
+#include "pipeline/case_schema.h"
 #include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;

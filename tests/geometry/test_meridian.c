@@ -8,7 +8,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
 
 static CwDesign design;

@@ -8,7 +8,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian_passage.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
 
 enum { COUNT = 33 };

@@ -10,7 +10,8 @@
 #include "geometry/meridian.h"
 #include "geometry/meridian_passage.h"
 #include "geometry/meridian_shape.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
+#include "pipeline/case_schema.h"
 
 enum { COUNT = 201 };
 

@@ -12,7 +12,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/picture.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static char *slurp(const char *path) {
   FILE *file = fopen(path, "rb");

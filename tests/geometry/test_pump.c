@@ -16,7 +16,7 @@
 #include "geometry/rotor.h"
 #include "geometry/stator.h"
 #include "geometry/step_file.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
 
 static CwDesign design;

@@ -23,7 +23,7 @@ extern "C" {
 #include "geometry/measure.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static CwCase read_case(const char *name) {
   CwCase table;

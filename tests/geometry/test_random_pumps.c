@@ -19,7 +19,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
 #include "geometry/pump.h"
-#include "pipeline/case.h"
+#include "pipeline/case_schema.h"
 #include "pipeline/log.h"
 
 static const double degree = M_PI / 180;

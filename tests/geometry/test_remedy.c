@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "geometry/remedy.h"
+#include "pipeline/case_schema.h"
 
 static const double degree = M_PI / 180;
 

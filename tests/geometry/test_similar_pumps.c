@@ -15,7 +15,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/pump.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static char folder[] = "similar-pumps-XXXXXX";
 

@@ -16,7 +16,7 @@ extern "C" {
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/pump.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static std::string text_of(const CwSolid &solid) {
   std::ostringstream text;

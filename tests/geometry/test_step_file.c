@@ -17,7 +17,7 @@
 #include "geometry/measure.h"
 #include "geometry/rotor.h"
 #include "geometry/step_file.h"
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 static CwSolid *rotor;
 static char folder[] = "step-file-test-XXXXXX";

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 #include "pipeline/water.h"
 
 static CwStatus read_with(const char *fluid, CwCase *table) {

@@ -13,6 +13,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
+#include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"

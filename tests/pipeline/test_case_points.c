@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The operating points of the characteristic curve: lists in the case file, and the flows and names that follow.
+// The operating points of the characteristic curve: lists in the case file, and the flows, shares and names that follow.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,8 @@
 
 #include <cmocka.h>
 
-#include "pipeline/case.h"
+#include "pipeline/case_points.h"
+#include "pipeline/case_read.h"
 
 static char path[] = CUTWATER_BIN_DIR "/points-XXXXXX";
 
@@ -38,14 +39,13 @@ static CwStatus read_with(const char *lines, CwCase *table) {
 
 static void expect_flows(const char *lines, int count, const double *m3_per_h, const char *const *names) {
   CwCase table;
-  double flows[CW_LIST_MOST];
-  char name[CW_POINT_NAME_SIZE];
+  CwCasePoint points[CW_LIST_MOST];
   if (read_with(lines, &table) != CW_OK) fail_msg("%s", cw_fail_message());
-  assert_int_equal(cw_case_flows(&table, flows), count);
+  assert_int_equal(cw_case_points(&table, points), count);
   for (int k = 0; k < count; ++k) {
-    assert_true(fabs(3600 * flows[k] - m3_per_h[k]) < 1e-9);
-    cw_case_point_name(&table, flows[k], name);
-    assert_string_equal(name, names[k]);
+    assert_true(fabs(3600 * points[k].flow - m3_per_h[k]) < 1e-9);
+    assert_true(fabs(points[k].share - m3_per_h[k] / 25) < 1e-12);
+    assert_string_equal(points[k].name, names[k]);
   }
 }
 

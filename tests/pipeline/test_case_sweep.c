@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "pipeline/case_schema.h"
 #include "pipeline/case_sweep.h"
 
 static CwCase pump(CwSweep sweep, int layers, double growth) {

@@ -16,6 +16,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
+#include "pipeline/case_read.h"
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/report/page.h"
 #include "tests/seal_run.h"

@@ -19,6 +19,7 @@
 #include "mesher/run/domain_table.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/mesh_plan.h"
+#include "pipeline/case_read.h"
 
 enum { CELLS_PER_REGION = 20000 };
 

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "mesher/run/pass_state.h"
+#include "pipeline/case_schema.h"
 
 static char run[] = "pass-state-XXXXXX";
 static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "interfaces.csv", "design.json"};

@@ -9,6 +9,7 @@
 
 #include "mesher/thickness/first_height.h"
 #include "mesher/thickness/layer_thickness.h"
+#include "pipeline/case_schema.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-5 * fabs(wanted))
 

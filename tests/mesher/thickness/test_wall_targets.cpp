@@ -3,6 +3,7 @@
 
 #include <BRepPrimAPI_MakeBox.hxx>
 
+#include "pipeline/case_schema.h"
 #include "solids.h"
 
 extern "C" {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
 
 #include <errno.h>
 #include <libfyaml.h>
@@ -317,13 +317,6 @@ static CwStatus read_file(const char *path, const char *shown_path, char **text,
 done:
   if (file) fclose(file);
   return status;
-}
-
-int cw_walls_auto(const CwWalls *walls) {
-  const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
-  for (size_t i = 0; i < sizeof group / sizeof *group; ++i)
-    if (!cw_case_given(group[i]->y_plus) && !cw_case_given(group[i]->first_height)) return 1;
-  return 0;
 }
 
 CwStatus cw_case_read(const char *path, CwCase *table) {

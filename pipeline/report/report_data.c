@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/report_data.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +8,6 @@
 
 #include "pipeline/case_origin.h"
 #include "pipeline/json_read.h"
-#include "pipeline/report/page.h"
 #include "pipeline/sealed_json.h"
 #include "pipeline/stage_files.h"
 
@@ -101,19 +102,19 @@ done:
   return status;
 }
 
-CwStatus cw_page_mesh_results(const CwReportData *data, json_t **results) {
+CwStatus cw_report_mesh_results(const CwReportData *data, json_t **results) {
   char where[4096];
   snprintf(where, sizeof where, "%s/mesh/record.json", data->run);
   return cw_json_object(data->record[1], where, "results", results);
 }
 
-CwStatus cw_page_mesh_domain(const CwReportData *data, int d, json_t **domain) {
+CwStatus cw_report_mesh_domain(const CwReportData *data, int d, json_t **domain) {
   CwStatus status = CW_OK;
   char where[4096];
   const char *name;
   json_t *results, *domains;
   snprintf(where, sizeof where, "%s/mesh/record.json: results", data->run);
-  CW_TRY(cw_page_mesh_results(data, &results));
+  CW_TRY(cw_report_mesh_results(data, &results));
   CW_TRY(cw_json_array(results, where, "domains", &domains));
   *domain = json_array_get(domains, (size_t)d);
   CW_TRY(cw_json_text(*domain, where, "name", &name));

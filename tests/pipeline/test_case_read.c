@@ -11,7 +11,9 @@
 
 #include <cmocka.h>
 
-#include "pipeline/case.h"
+#include "pipeline/case_read.h"
+#include "pipeline/case_schema.h"
+#include "pipeline/wall_group.h"
 
 static const double pi = 3.14159265358979323846;
 

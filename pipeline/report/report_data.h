@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// All that is known of a run: what its stages wrote, and the pictures.
+#ifndef CUTWATER_PIPELINE_REPORT_REPORT_DATA_H
+#define CUTWATER_PIPELINE_REPORT_REPORT_DATA_H
+
+#include <jansson.h>
+
+#include "pipeline/case.h"
+#include "pipeline/report/pictures.h"
+
+enum { CW_STAGES = 3 };
+
+// All that the page is made of.
+typedef struct {
+  const CwCase *table;
+  char *run;
+  json_t *design;            // geometry/design.json
+  json_t *record[CW_STAGES]; // geometry, mesh, export; the last may be NULL
+  json_t *solve;             // solve/record.json, or NULL
+  CwMesh mesh;
+  CwReportPictures pictures;
+} CwReportData;
+
+extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
+
+// Reads the files of `run` (all but the region files) and checks that they are of this case. CW_ERR_IO,
+// CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
+CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data);
+void cw_report_data_free(CwReportData *data);
+
+// What the pictures need of case and design. CW_ERR_INPUT.
+CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);
+
+// "results" of the mesh record, and its entry of domain `d` after a check of its name.
+CwStatus cw_report_mesh_results(const CwReportData *data, json_t **results);
+CwStatus cw_report_mesh_domain(const CwReportData *data, int d, json_t **domain);
+
+#endif
