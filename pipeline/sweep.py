@@ -16,6 +16,7 @@ import subprocess
 import sys
 
 import sweep_plot
+from whole_file import write_whole
 
 SAFETY = 1.25
 SOLVED = {"head_m": r"^head +([-\d.e+]+) m", "torque_n_m": r"^shaft torque +([-\d.e+]+) N m",
@@ -78,12 +79,6 @@ def convergence(sizes, values):
         return None
     fine = r21**order - 1
     return order, values[2] - e21 / fine, SAFETY * abs(e21 / values[2]) / fine
-
-
-def write_whole(path, text):
-    with open(path + ".part", "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-    os.replace(path + ".part", path)
 
 
 def test_head(runs):

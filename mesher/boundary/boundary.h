@@ -71,6 +71,10 @@ CwStatus cw_boundary_mesh_interface(const CwBoundary *boundary, int32_t outline,
 CwStatus cw_boundary_merge_inner(const CwBoundary *boundary, void *const *open_patch_bytes,
                                  void *const *interface_bytes, CwInterfaces *interfaces);
 
+// Brings x to the nearest point of what holds the column of a wall vertex: a plane, an open patch, a curve. `uv`: where
+// on the open patch the search begins; else not read.
+void cw_boundary_hold(const CwBoundary *boundary, CwConstraint constraint, const double uv[2], double x[3]);
+
 void cw_boundary_free(CwBoundary *boundary);
 
 // Pairs of regions that share an interface, each once, smaller index first; caller frees.

@@ -88,24 +88,26 @@ typedef struct {
   double (*uv)[2]; // of each wall vertex that an open patch holds
 } Snap;
 
-static void snap(const void *context, int32_t vertex, double x[3]) {
-  const Snap *snap = context;
-  const CwBoundary *boundary = snap->boundary;
-  CwConstraint constraint = boundary->surface.constraint[vertex];
+void cw_boundary_hold(const CwBoundary *boundary, CwConstraint constraint, const double uv[2], double x[3]) {
+  double from[3], parameter[2];
+  cw_copy(x, from);
   if (constraint.kind == CW_CONSTRAINT_PLANE) {
     const CwPlane *plane = &boundary->plan->node[constraint.index].plane;
-    double distance = cw_plane_distance(plane, x);
+    const double distance = cw_plane_distance(plane, from);
     for (int k = 0; k < 3; k++) x[k] -= distance * plane->normal[k];
   } else if (constraint.kind == CW_CONSTRAINT_PATCH) {
-    double uv[2] = {snap->uv[vertex][0], snap->uv[vertex][1]}, from[3];
-    cw_copy(x, from);
-    cw_cad_face_project(boundary->cad, constraint.index, from, uv);
-    cw_cad_face_point(boundary->cad, constraint.index, uv, x, NULL, NULL);
+    double at[2] = {uv[0], uv[1]};
+    cw_cad_face_project(boundary->cad, constraint.index, from, at);
+    cw_cad_face_point(boundary->cad, constraint.index, at, x, NULL, NULL);
   } else if (constraint.kind == CW_CONSTRAINT_CURVE) {
     const CwCurve *curve = &boundary->network.curve[constraint.index];
-    double parameter[2];
-    cw_curve_point(&boundary->network, curve, cw_curve_nearest(curve, x), x, parameter);
+    cw_curve_point(&boundary->network, curve, cw_curve_nearest(curve, from), x, parameter);
   }
+}
+
+static void snap(const void *context, int32_t vertex, double x[3]) {
+  const Snap *snap = context;
+  cw_boundary_hold(snap->boundary, snap->boundary->surface.constraint[vertex], snap->uv[vertex], x);
 }
 
 // Edges may be flipped inside one CAD face and one region: curves stay. Periodic images are left to follow.

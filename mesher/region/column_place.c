@@ -46,22 +46,13 @@ void cw_open_edge_places_free(CwOpenEdgePlaces *places) {
 
 void cw_column_place(const CwBoundary *boundary, const CwOpenEdgePlaces *places, int32_t vertex, double share,
                      double x[3]) {
-  CwConstraint constraint = boundary->surface.constraint[vertex];
+  const CwConstraint constraint = boundary->surface.constraint[vertex];
+  const CwOpenEdgePlace key = {vertex, constraint.index, {0, 0}}, *found = &key;
   cw_lerp(boundary->surface.x[vertex], boundary->layers.top[vertex], share, x);
   if (share <= 0 || share >= 1) return;
-  if (constraint.kind == CW_CONSTRAINT_PATCH) {
-    CwOpenEdgePlace key = {vertex, constraint.index, {0, 0}};
-    const CwOpenEdgePlace *found =
-        bsearch(&key, places->place, (size_t)places->count, sizeof *places->place, compare_places);
-    if (!found) return;
-    double uv[2] = {found->uv[0], found->uv[1]}, from[3];
-    cw_copy(x, from);
-    cw_cad_face_project(boundary->cad, constraint.index, from, uv);
-    cw_cad_face_point(boundary->cad, constraint.index, uv, x, NULL, NULL);
-  } else if (constraint.kind == CW_CONSTRAINT_CURVE) {
-    const CwCurve *curve = &boundary->network.curve[constraint.index];
-    double parameter[2];
-    if (curve->kind == CW_CURVE_LINE) return;
-    cw_curve_point(&boundary->network, curve, cw_curve_nearest(curve, x), x, parameter);
-  }
+  if (constraint.kind == CW_CONSTRAINT_PLANE) return; // the line lies in it
+  if (constraint.kind == CW_CONSTRAINT_CURVE && boundary->network.curve[constraint.index].kind == CW_CURVE_LINE) return;
+  if (constraint.kind == CW_CONSTRAINT_PATCH)
+    found = bsearch(&key, places->place, (size_t)places->count, sizeof *places->place, compare_places);
+  if (found) cw_boundary_hold(boundary, constraint, found->uv, x);
 }

@@ -9,9 +9,13 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import reports
 import settling
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from whole_file import write_whole  # noqa: E402  (what the scripts of pipeline/ share)
 
 LOOK_EVERY = 2.0  # s between looks at the solver's reports
 TELL_EVERY = 10.0  # s between lines of progress
@@ -33,16 +37,6 @@ def require_programs():
     missing = [name for name in PROGRAMS if not shutil.which(name)]
     if missing:
         raise Trouble(f"{missing[0]} is not there; install OpenFOAM (Debian: apt-get install openfoam)")
-
-
-def write_whole(path, text):
-    """Writes a file under its name only once all of it is on the disk."""
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
-    with open(part, "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    part.replace(path)
 
 
 def call(folder, log, *line):

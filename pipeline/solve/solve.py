@@ -136,13 +136,14 @@ def solve_design(run, name):
     return run.solve(run.folder / "export/openfoam", run.folder / "solve/steady", name, lambda: coarse_start(run))
 
 
-def solve_curve(run):
-    """Solves the other points, outwards from the operating point, each from its solved neighbour; a row for each."""
+def solve_curve(run, design):
+    """Solves the other points, outwards from the operating point, whose history `design` is, each from its solved
+    neighbour; a row for each."""
     solved, rows = {1.0: run.folder / "solve/steady"}, []
     for point in sorted(run.export["results"]["operating_points"], key=lambda point: abs(point["flow_share"] - 1)):
         name, share = point["name"], point["flow_share"]
         if name == "q1000":
-            table = reports.history(solved[1.0])
+            table = design
         else:
             nearest = solved[min(solved, key=lambda other, share=share: abs(other - share))]
             solved[share] = run.folder / "solve/points" / name
@@ -172,10 +173,9 @@ def earlier(run):
     return record if record.get("made_from") == run.export["files"] else {"seconds": 0, "results": {"curve": []}}
 
 
-def write_results(run, seconds, curve):
+def write_results(run, table, seconds, curve):
     """history.csv, curve.csv and record.json, the last in the form of the other stages."""
     folder = run.folder / "solve"
-    table = reports.history(folder / "steady")
     rows = [{"iteration": iteration, **row} for iteration, row in sorted(table.items())]
     results = run.outcome(table, run.flow_m3_per_h)
     warnings = warnings_of(results, "operating point")
@@ -230,12 +230,12 @@ def main():
         (options.run / "solve").mkdir(exist_ok=True)
         run = Run(options.run, options, options.within)
         before = earlier(run)
-        solve_design(run, options.run.name)
+        design = solve_design(run, options.run.name)
         seconds = before["seconds"] + time.monotonic() - began
-        say(write_results(run, seconds, before["results"]["curve"])["headline"])
+        say(write_results(run, design, seconds, before["results"]["curve"])["headline"])
         if options.curve:
-            curve = solve_curve(run)
-            write_results(run, before["seconds"] + time.monotonic() - began, curve)
+            curve = solve_curve(run, design)
+            write_results(run, design, before["seconds"] + time.monotonic() - began, curve)
         held.close()
     except Trouble as error:
         sys.exit(f"cutwater-solve: error: {error}")

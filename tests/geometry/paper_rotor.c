@@ -11,10 +11,20 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/rotor.h"
 #include "pipeline/case_read.h"
+#include "pipeline/case_schema.h"
 
 CwCase paper(void) {
   CwCase table;
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  return table;
+}
+
+CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) {
+  CwCase table;
+  cw_case_defaults(&table);
+  table.operating_point.flow_rate = cubic_metres_per_hour / 3600;
+  table.operating_point.head = head;
+  table.operating_point.speed = rpm * M_PI / 30;
   return table;
 }
 

@@ -11,7 +11,6 @@
 #include "geometry/design_value.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
-#include "pipeline/case_schema.h"
 #include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;
@@ -95,15 +94,6 @@ static void open_width_by_both_families(void **state) {
   near_to(design_of(&table).outlet_width, 13.939e-3, 5e-6);
   table.design.correlations = CW_CORRELATIONS_GUAN;
   near_to(design_of(&table).outlet_width, 8.811e-3, 5e-6);
-}
-
-static CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) {
-  CwCase table;
-  cw_case_defaults(&table);
-  table.operating_point.flow_rate = cubic_metres_per_hour / 3600;
-  table.operating_point.head = head;
-  table.operating_point.speed = rpm * M_PI / 30;
-  return table;
 }
 
 // From the duty point alone: Guelich psi = 1.21 exp(-0.77 0.21487) = 1.02545, D2 = 2/151.844

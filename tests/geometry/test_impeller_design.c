@@ -11,19 +11,9 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/impeller_design.h"
 #include "geometry/meridian.h"
-#include "pipeline/case_schema.h"
 #include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;
-
-static CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) {
-  CwCase table;
-  cw_case_defaults(&table);
-  table.operating_point.flow_rate = cubic_metres_per_hour / 3600;
-  table.operating_point.head = head;
-  table.operating_point.speed = rpm * M_PI / 30;
-  return table;
-}
 
 // A given D3 bounds an open D2: 1.02 D2 at most, and more outlet angle makes up for the head, which is met all the
 // same.

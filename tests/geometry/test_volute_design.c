@@ -226,21 +226,25 @@ static void spiral_by_swirl(void **state) {
   near_to(volute.throat_area, 905e-6, 0.05 * 905e-6);
 }
 
-// Throat by strips of the plane y = y_t: a strip's height is that of the section through its middle.
+// Integral of r^power over the throat, by strips of the plane y = y_t: a strip's height is that of the section through
+// its middle.
+static double throat_integral(const CwVolute *volute, int strips, int power) {
+  double sum = 0, step = volute->throat_width / strips;
+  for (int i = 0; i < strips; i++) {
+    double x = volute->inner_wall_x + (i + 0.5) * step, r = hypot(x, volute->throat_y);
+    CwVoluteSection s = cw_volute_section(volute, 2 * M_PI + atan2(volute->throat_y, x));
+    double height = 0.006 + (r - 0.102) * tan(20 * degree);
+    if (r > s.kink_radius) height = sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
+    sum += 2 * height * step * pow(r, power);
+  }
+  return sum;
+}
+
 static void throat_by_strips(void **state) {
   CwVoluteInput input = paper();
   CwVolute volute = designed(&input);
   near_to(volute.throat_area, 905e-6, 1e-12);
-  enum { STRIPS = 20000 };
-  double area = 0, step = volute.throat_width / STRIPS;
-  for (int i = 0; i < STRIPS; i++) {
-    double x = volute.inner_wall_x + (i + 0.5) * step, r = hypot(x, volute.throat_y);
-    CwVoluteSection s = cw_volute_section(&volute, 2 * M_PI + atan2(volute.throat_y, x));
-    double height = 0.006 + (r - 0.102) * tan(20 * degree);
-    if (r > s.kink_radius) height = sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
-    area += 2 * height * step;
-  }
-  near_to(area, 905e-6, 2e-5 * 905e-6);
+  near_to(throat_integral(&volute, 20000, 0), 905e-6, 2e-5 * 905e-6);
 }
 
 // At every level the nose's circle touches the spiral's level line and the plane x = x_i from inside the
@@ -338,15 +342,7 @@ static void throat_passes_the_flow(void **state) {
     input.tongue_radius = (i == 0 ? 0.4 : 1.2) * mm;
     input.outlet_diameter = NAN;
     const CwVolute volute = designed(&input);
-    enum { STRIPS = 4000 };
-    double flow = 0, step = volute.throat_width / STRIPS;
-    for (int j = 0; j < STRIPS; j++) {
-      double x = volute.inner_wall_x + (j + 0.5) * step, r = hypot(x, volute.throat_y);
-      CwVoluteSection s = cw_volute_section(&volute, 2 * M_PI + atan2(volute.throat_y, x));
-      double height = 0.006 + (r - 0.102) * tan(20 * degree);
-      if (r > s.kink_radius) height = sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
-      flow += 2 * height * step * input.angular_momentum / r;
-    }
+    const double flow = input.angular_momentum * throat_integral(&volute, 4000, -1);
     assert_true(flow > 0.979 * input.flow_rate);
     const double lawful = input.flow_rate / input.angular_momentum;
     if (i == 1) near_to(flow, 0.98 * input.flow_rate, 1e-3 * input.flow_rate);

@@ -134,8 +134,8 @@ static void an_empty_plot_is_a_plot(void **state) {
 }
 
 static char *drawn_lines(const CwLinePlot *plot) {
-  char *text = NULL;
-  size_t size = 0;
+  static char *text;
+  static size_t size;
   FILE *page = open_memstream(&text, &size);
   cw_plot_lines(page, plot);
   fclose(page);

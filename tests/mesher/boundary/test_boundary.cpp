@@ -196,8 +196,7 @@ static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
   for (void *bytes : refined) free(bytes);
 }
 
-// Walls, and layers of 1.5 mm on them.
-static void make_layers(Box &box) {
+static void make_walls(Box &box) {
   CwBoundary &boundary = box.boundary;
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr);
@@ -209,12 +208,18 @@ static void make_layers(Box &box) {
   }
   Box::check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
+  for (void *bytes : walls) free(bytes);
+}
+
+// Walls, and layers of 1.5 mm on them.
+static void make_layers(Box &box) {
+  CwBoundary &boundary = box.boundary;
+  make_walls(box);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
   Box::check(
       cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
-  for (void *bytes : walls) free(bytes);
 }
 
 // The line of planes 0 and 2 runs a millimetre above a wall, and the layer top there above the line.
@@ -260,17 +265,7 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
   Box box(1, 0.009, BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), bay).Shape(), post));
   CwBoundary &boundary = box.boundary;
   boundary.size_at = [](const void *, const double *) { return 9e-3; };
-  int faces = cw_cad_face_count(box.cad);
-  std::vector<void *> walls(faces, nullptr);
-  int64_t size;
-  Box::check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
-  Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
-  for (int f = 0; f < faces; f++) {
-    if (cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
-  }
-  Box::check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
-  Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
-  for (void *bytes : walls) free(bytes);
+  make_walls(box);
   int arcs = 0;
   for (int i = 0; i < boundary.network.curve_count; i++) {
     const CwCurve &curve = boundary.network.curve[i];
