@@ -6,7 +6,8 @@
 
 #include <stdint.h>
 
-#include "mesher/surface/patch_mesh.h"
+#include "mesher/surface/patch_input.h"
+#include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {

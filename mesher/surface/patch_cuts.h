@@ -4,7 +4,8 @@
 #ifndef CUTWATER_MESHER_SURFACE_PATCH_CUTS_H
 #define CUTWATER_MESHER_SURFACE_PATCH_CUTS_H
 
-#include "mesher/surface/patch_mesh.h"
+#include "mesher/surface/patch_input.h"
+#include "pipeline/status.h"
 
 typedef struct {
   int32_t point_count, *cut;    // of each given point: the cut that it lies inside of; -1: none, or the end of one

@@ -8,6 +8,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
 #include "mesher/surface/patch_cuts.h"
+#include "mesher/surface/patch_delaunay.h"
 
 static double edge_size(const CwPatchWork *work, int32_t a, int32_t b) {
   return 0.5 * (work->size[a] + work->size[b]);

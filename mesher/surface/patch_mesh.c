@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/surface/cdt.h"
+#include "mesher/surface/patch_delaunay.h"
 #include "mesher/surface/patch_front.h"
 #include "mesher/surface/patch_improve.h"
 #include "mesher/surface/patch_work.h"

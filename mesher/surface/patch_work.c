@@ -161,14 +161,6 @@ static void set_triangle(CwPatchWork *work, int32_t t, int32_t a, int32_t b, int
   work->point_triangle[a] = work->point_triangle[b] = work->point_triangle[c] = t;
 }
 
-// The edge of triangle t that runs from a to b.
-static int edge_from(const CwPatchWork *work, int32_t t, int32_t a, int32_t b) {
-  const int32_t *c = work->corner[t];
-  for (int i = 0; i < 3; i++)
-    if (c[(i + 1) % 3] == a && c[(i + 2) % 3] == b) return i;
-  return -1;
-}
-
 static void join(CwPatchWork *work, int32_t t, int i, int32_t n, int given) {
   work->neighbour[t][i] = n;
   work->given[t] = (uint8_t)((work->given[t] & ~(1 << i)) | given << i);
@@ -308,7 +300,7 @@ static CwStatus fill_cavity(CwPatchWork *work, int32_t p) {
     work->given[t] = work->border_given[k];
     work->neighbour[t][0] = out;
     work->point_fresh[a] = t;
-    if (out >= 0) work->neighbour[out][edge_from(work, out, b, a)] = t;
+    if (out >= 0) work->neighbour[out][cw_patch_edge_from(work, out, b, a)] = t;
   }
   for (int32_t k = 0; k < work->border_count; k++) {
     int32_t t = work->fresh[k], next = work->point_fresh[work->border[k][1]];
@@ -362,7 +354,7 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   if (work->given[t] >> i & 1) return 0;
   int32_t n = work->neighbour[t][i];
   int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
-  int j = edge_from(work, n, c, b);
+  int j = cw_patch_edge_from(work, n, c, b);
   int32_t d = work->corner[n][j];
   double left = cw_patch_cross(work->uv[a], work->uv[b], work->uv[d]);
   double right = cw_patch_cross(work->uv[a], work->uv[d], work->uv[c]);
@@ -373,8 +365,8 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   int ab_given = work->given[t] >> (i + 2) % 3 & 1, ca_given = work->given[t] >> (i + 1) % 3 & 1;
   int bd_given = work->given[n] >> (j + 1) % 3 & 1, dc_given = work->given[n] >> (j + 2) % 3 & 1;
   int32_t component = work->component[t];
-  if (bd >= 0) work->neighbour[bd][edge_from(work, bd, d, b)] = t;
-  if (ca >= 0) work->neighbour[ca][edge_from(work, ca, a, c)] = n;
+  if (bd >= 0) work->neighbour[bd][cw_patch_edge_from(work, bd, d, b)] = t;
+  if (ca >= 0) work->neighbour[ca][cw_patch_edge_from(work, ca, a, c)] = n;
   set_triangle(work, t, a, b, d, component);
   set_triangle(work, n, a, d, c, component);
   join(work, t, 0, bd, bd_given);
@@ -439,8 +431,9 @@ int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double m
     int given = work->given[gone] >> i & 1;
     int32_t r = work->corner[gone][3 - i - j];
     // The edge of `in` between p and r takes over the edge between q and r.
-    int e = side ? edge_from(work, in, r, p) : edge_from(work, in, p, r);
-    if (out >= 0) work->neighbour[out][side ? edge_from(work, out, q, r) : edge_from(work, out, r, q)] = in;
+    int e = side ? cw_patch_edge_from(work, in, r, p) : cw_patch_edge_from(work, in, p, r);
+    int o = out < 0 ? 0 : side ? cw_patch_edge_from(work, out, q, r) : cw_patch_edge_from(work, out, r, q);
+    if (out >= 0) work->neighbour[out][o] = in;
     join(work, in, e, out, given);
     work->point_triangle[r] = in;
     work->point_triangle[q] = in;
@@ -454,63 +447,4 @@ int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double m
   }
   work->point_triangle[p] = -1;
   return 1;
-}
-
-// Negative where the angles opposite to edge i of t add to more than 180 degrees: sin(a + d) with lengths.
-static double angle_margin(const CwPatchWork *work, int32_t t, int i, int on_chords) {
-  int32_t n = work->neighbour[t][i];
-  int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
-  int32_t d = work->corner[n][edge_from(work, n, c, b)];
-  double sin_a, sin_d, cos_a, cos_d;
-  if (on_chords) {
-    const double *xa = work->x[a], *xb = work->x[b], *xc = work->x[c], *xd = work->x[d];
-    double ab2 = cw_patch_distance2(xa, xb), ac2 = cw_patch_distance2(xa, xc), bc2 = cw_patch_distance2(xb, xc);
-    double db2 = cw_patch_distance2(xd, xb), dc2 = cw_patch_distance2(xd, xc);
-    cos_a = 0.5 * (ab2 + ac2 - bc2);
-    cos_d = 0.5 * (db2 + dc2 - bc2);
-    sin_a = sqrt(fmax(ab2 * ac2 - cos_a * cos_a, 0));
-    sin_d = sqrt(fmax(db2 * dc2 - cos_d * cos_d, 0));
-  } else {
-    double m[3];
-    for (int k = 0; k < 3; k++)
-      m[k] = 0.25 * (work->metric[a][k] + work->metric[b][k] + work->metric[c][k] + work->metric[d][k]);
-    double root = sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0));
-    double bu = work->uv[b][0] - work->uv[a][0], bv = work->uv[b][1] - work->uv[a][1];
-    double cu = work->uv[c][0] - work->uv[a][0], cv = work->uv[c][1] - work->uv[a][1];
-    sin_a = root * (bu * cv - bv * cu);
-    cos_a = m[0] * bu * cu + m[1] * (bu * cv + bv * cu) + m[2] * bv * cv;
-    bu = work->uv[b][0] - work->uv[d][0], bv = work->uv[b][1] - work->uv[d][1];
-    cu = work->uv[c][0] - work->uv[d][0], cv = work->uv[c][1] - work->uv[d][1];
-    sin_d = root * (cu * bv - cv * bu);
-    cos_d = m[0] * bu * cu + m[1] * (bu * cv + bv * cu) + m[2] * bv * cv;
-  }
-  double scale = sqrt((sin_a * sin_a + cos_a * cos_a) * (sin_d * sin_d + cos_d * cos_d));
-  return scale > 0 ? (sin_a * cos_d + sin_d * cos_a) / scale : 0;
-}
-
-// Whether the flip of edge i of t would fold the surface in space.
-static int flip_folds(const CwPatchWork *work, int32_t t, int i) {
-  int32_t n = work->neighbour[t][i];
-  int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
-  int32_t d = work->corner[n][edge_from(work, n, c, b)];
-  double now = fmin(cw_patch_quality(work, a, b, c), cw_patch_quality(work, d, c, b));
-  double then = fmin(cw_patch_quality(work, a, b, d), cw_patch_quality(work, a, d, c));
-  return then <= 0 && then <= now;
-}
-
-int64_t cw_patch_delaunay(CwPatchWork *work, int on_chords) {
-  int64_t all = 0, flips = 1;
-  // In a metric that changes from place to place flips may chase each other, hence the bound.
-  for (int pass = 0; pass < 40 && flips; pass++) {
-    flips = 0;
-    for (int32_t t = 0; t < work->triangle_count; t++) {
-      if (work->corner[t][0] < 0) continue;
-      for (int i = 0; i < 3; i++)
-        if (!(work->given[t] >> i & 1) && (pass > 0 || work->neighbour[t][i] > t) &&
-            angle_margin(work, t, i, on_chords) < -1e-6 && !(on_chords && flip_folds(work, t, i)))
-          flips += cw_patch_flip(work, t, i);
-    }
-    all += flips;
-  }
-  return all;
 }

@@ -13,7 +13,8 @@
 #include <stdint.h>
 
 #include "mesher/surface/cdt.h"
-#include "mesher/surface/patch_mesh.h"
+#include "mesher/surface/patch_input.h"
+#include "pipeline/status.h"
 
 enum { CW_PATCH_RING = 48 }; // free points with more triangles than that are left alone
 
@@ -71,10 +72,6 @@ int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH
 // did.
 int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double most);
 
-// Flips towards Delaunay: in the metric of the surface (on_chords = 0; for coarse triangles) or by the angles
-// of the triangles in space (1). Returns the number of flips.
-int64_t cw_patch_delaunay(CwPatchWork *work, int on_chords);
-
 // Quality of a triangle of given points in space: 1 for equilateral, 0 for flat, negative when its normal is
 // against the surface's.
 double cw_patch_quality(const CwPatchWork *work, int32_t a, int32_t b, int32_t c);
@@ -100,6 +97,14 @@ static inline double cw_patch_distance2(const double a[3], const double b[3]) {
 
 static inline int cw_patch_corner_of(const int32_t corner[3], int32_t p) {
   return corner[0] == p ? 0 : corner[1] == p ? 1 : 2;
+}
+
+// The edge of triangle t that runs from a to b.
+static inline int cw_patch_edge_from(const CwPatchWork *work, int32_t t, int32_t a, int32_t b) {
+  const int32_t *c = work->corner[t];
+  for (int i = 0; i < 3; i++)
+    if (c[(i + 1) % 3] == a && c[(i + 2) % 3] == b) return i;
+  return -1;
 }
 
 static inline int cw_patch_is_free(const CwPatchWork *work, int32_t p) {
