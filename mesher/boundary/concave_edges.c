@@ -5,13 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/periodic_boundary.h"
+#include "mesher/boundary/wall_part.h"
 #include "mesher/common/incident.h"
 #include "mesher/common/triangle_bound.h"
 #include "mesher/common/vec.h"
+#include "mesher/layers/layers.h"
 #include "mesher/layers/layers_crossing.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_topology.h"
+#include "mesher/layers/layers_turn.h"
 #include "mesher/parallel/parallel_for.h"
-#include "mesher/boundary/periodic_boundary.h"
-#include "mesher/boundary/wall_part.h"
 #include "mesher/policy.h"
 #include "pipeline/log.h"
 

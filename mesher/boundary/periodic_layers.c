@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Layers over the first of each image set of a symmetric wall, and their copies: all ranks grow and check them
 // together, and each turns them for itself.
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/periodic_boundary.h"
+#include "mesher/boundary/wall_part.h"
+#include "mesher/common/box_tree.h"
 #include "mesher/common/incident.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
+#include "mesher/layers/layers.h"
 #include "mesher/layers/layers_crossing.h"
-#include "mesher/parallel/profiler.h"
+#include "mesher/layers/layers_turn.h"
 #include "mesher/parallel/parallel_for.h"
-#include "mesher/boundary/periodic_boundary.h"
-#include "mesher/boundary/wall_part.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/policy.h"
 #include "pipeline/log.h"
 

@@ -6,9 +6,17 @@
 // which leaves the normal thickness as asked. Columns that a constraint tilts (an oblique partition plane) are treated
 // alike. A column on an edge, concave or convex, leans along the edge only: so the smoothing of a corner runs down its
 // edges too.
-#include <stdlib.h>
-
 #include "mesher/layers/direction_smoothing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/layers/direction_smoothing_block.h"
+#include "mesher/layers/direction_smoothing_reach.h"
+#include "mesher/layers/direction_smoothing_work.h"
+#include "mesher/layers/layers_normal.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
 

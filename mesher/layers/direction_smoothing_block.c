@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The solution of the smoothing in one block and the rows around it.
-#include <stdlib.h>
+#include "mesher/layers/direction_smoothing_block.h"
 
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
 #include "mesher/common/vertex_heap.h"
-#include "mesher/layers/direction_smoothing.h"
+#include "mesher/layers/direction_smoothing_work.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_topology.h"
+#include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/layers/layers.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "mesher/common/box_tree.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/layers/direction_smoothing.h"
+#include "mesher/layers/layers_gap.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_repair.h"
+#include "mesher/layers/layers_topology.h"
+#include "mesher/layers/prism_quality.h"
+#include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/profiler.h"
 
 // The columns as they came out.
@@ -60,6 +70,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
   }
 done:
   cw_box_tree_free(&tree);
+  cw_smoothing_free(&work.smoothing);
   cw_layers_work_free(&work);
   if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_layers_free(layers);
   return status;

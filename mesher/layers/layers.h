@@ -18,53 +18,13 @@
 
 #include <stdint.h>
 
+#include "mesher/layers/layer_input.h"
 #include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum {
-  CW_LAYER_FULL,      // thickness as asked
-  CW_LAYER_GAP,       // limited by a narrow gap or a concave place
-  CW_LAYER_GRADATION, // limited by neighbours
-  CW_LAYER_REPAIR     // limited by validity of the prisms or of the layer top
-} CwLayerReason;
-
-// How columns are divided, for the determinants of prisms.
-typedef struct {
-  int count; // of layers; 0: determinants are not looked at
-  // Share that the last layer takes of the column over a vertex where that is so high (m); NULL: even layers.
-  double (*last)(const void *context, int32_t vertex, double thickness);
-  const void *context;
-} CwLayerDivision;
-
-typedef struct {
-  int32_t point_count;
-  const double (*x)[3]; // wall vertices, m
-  int32_t triangle_count;
-  const int32_t (*triangle)[3]; // wall triangles, normal out of the domain
-  const double *target;         // asked thickness of each vertex, normal to the wall, m
-  const double *least;          // no column is thinned below this for a better shape of the layer top; NULL: 0
-  CwLayerDivision division;
-  // Sliding constraints: a vertex on an open edge with an open patch, or on a partition plane, marches inside that
-  // surface. Up to two per vertex: none: free; one: stays in the tangent plane; two: stays on the line of both. A
-  // constrained vertex may have wall on both sides (partition plane) or on one (open edge).
-  const int32_t *constraint_count;         // 0, 1, 2 for each vertex; may be NULL: all free
-  const double (*constraint_normal)[2][3]; // unit normals of the surfaces that hold the column
-  const uint8_t
-      *constraint_stays; // of each vertex: held by an open patch, which is there in any plan; may be NULL: none
-  // Puts a moved vertex back onto its constraints (a cylinder, say); may be NULL.
-  void (*snap)(const void *context, int32_t vertex, double x[3]);
-  const void *snap_context;
-  // Surfaces without layers that columns must not reach (open patches: inlet, outlet, rotor/stator interface), normal
-  // out of the domain. They may be coarse and need not share points with the wall. Not the partition planes.
-  int32_t obstacle_point_count;
-  const double (*obstacle_x)[3];
-  int32_t obstacle_triangle_count;
-  const int32_t (*obstacle_triangle)[3];
-} CwLayerInput;
 
 // The product: one column over each wall vertex. What reads it needs the columns about its own regions.
 typedef struct {

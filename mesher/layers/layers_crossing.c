@@ -2,11 +2,13 @@
 // Pairs of triangles of layer top, wall and open patches that cross. The first search looks at everything, the later
 // ones at what moved since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the
 // triangles; what is left is judged exactly.
+#include "mesher/layers/layers_crossing.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/layers/layers_crossing.h"
-
+#include "mesher/common/box_tree.h"
 #include "mesher/common/intersect.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <stdlib.h>
+#include "mesher/layers/layers_gap.h"
 
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/box_tree.h"
+#include "mesher/common/vec.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_topology.h"
 #include "mesher/layers/thickness_gradation.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
 enum { BISECTIONS = 20 };

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/layers/layers_normal.h"
+
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/vec.h"
+#include "mesher/parallel/parallel_for.h"
 
 static const double BENT = 0.98;             // least cosine of the normals about a vertex of a wall as good as flat
 static const double SHARP = 0.92;            // the same of a convex edge that columns need not slide along

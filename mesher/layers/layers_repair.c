@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <stdlib.h>
+#include "mesher/layers/layers_repair.h"
 
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/box_tree.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/layers/direction_smoothing.h"
 #include "mesher/layers/layers_crossing.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/layers/layers_gap.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_turn.h"
+#include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/layers/layers_topology.h"
+
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/incident.h"
 #include "mesher/common/model_unit.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/vec.h"
+#include "mesher/parallel/parallel_for.h"
 
 static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
   int32_t low = work->near_start[v], high = work->near_start[v + 1];
@@ -204,6 +209,5 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->gap);
   free(work->gap_column);
   free(work->curve);
-  cw_smoothing_free(&work->smoothing);
   memset(work, 0, sizeof *work);
 }

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// How good the prisms round a column are, and the search for a better direction of it.
-#include "mesher/layers/layers_inner.h"
+#include "mesher/layers/layers_turn.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
 
 static const double MUCH = 100; // more than any quality

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/layers/wall_unfold.h"
-#include "mesher/policy.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/layers/layers_inner.h" // most normal directions
+#include "mesher/common/vec.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/parallel/parallel_for.h"
+#include "mesher/policy.h"
 
 enum { SWEEPS = 8 };
 static const double GAIN = 0.02;     // in the cosine, that is worth a flip

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Thicknesses: what gaps, hollows and gradation leave of them.
 #include "layers_case.h"
-
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/vec.h"
+#include "mesher/layers/layers.h"
+#include "mesher/layers/layers_gap.h"
 
 // Two plates 1 mm apart: 0.35 of the gap, where edges are so short that tetrahedra fit what is left.
 static void thin_gap(void **state) {

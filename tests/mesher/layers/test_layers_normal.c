@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Directions of columns: free, and held in open patches and partition planes.
 #include "layers_case.h"
-
-#include "mesher/layers/layers_inner.h"
+#include "mesher/layers/layers.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_topology.h"
 
 // The best direction of one, two and three faces, free and held, by hand.
 static void most_normal_by_hand(void **state) {

@@ -3,8 +3,8 @@
 // bumpy surfaces.
 #include "draw.h"
 #include "layers_case.h"
-
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/vec.h"
+#include "mesher/layers/prism_quality.h"
 
 // Meridional polyline (r,z) turned about z from angle a0 to a1.
 typedef struct {

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Columns that lean: turned, then thinned.
 #include "layers_case.h"
-
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/box_tree.h"
+#include "mesher/layers/direction_smoothing.h"
+#include "mesher/layers/layers_gap.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/layers/layers_repair.h"
+#include "mesher/layers/layers_topology.h"
+#include "mesher/layers/layers_turn.h"
+#include "mesher/layers/prism_quality.h"
 
 // A column on a plate leans so far over its neighbour that the prisms are sound and layer top triangles are not: it is
 // turned back. Where it may not turn, the columns are thinned, but not below what they are asked to keep.
@@ -56,6 +62,7 @@ static void leaning_column(void **state) {
       if (after && i == 2) assert_float_equal(thickness, 0.55 * MM, 1e-15);
     }
     cw_box_tree_free(&tree);
+    cw_smoothing_free(&work.smoothing);
     cw_layers_work_free(&work);
     free(top);
     case_free(&c);
@@ -96,6 +103,7 @@ static void sheared_prism(void **state) {
     assert_true(layers ? cw_prism_shear_quality(wall, end, 1, whole) == 1
                        : cw_prism_shear_quality(wall, end, 1, whole) < 0.1);
     cw_box_tree_free(&tree);
+    cw_smoothing_free(&work.smoothing);
     cw_layers_work_free(&work);
     case_free(&c);
   }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Directions most normal to the faces about a vertex, and the columns that follow.
+#ifndef CUTWATER_MESHER_LAYERS_LAYERS_NORMAL_H
+#define CUTWATER_MESHER_LAYERS_LAYERS_NORMAL_H
+
+#include "mesher/layers/layer_columns.h"
+#include "mesher/parallel/outcome.h"
+#include "pipeline/status.h"
+
+// Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the best of the
+// single normals, the bisectors of pairs and the circumcentres of triples. With one constraint g is held in the plane
+// normal to it, with two on the line of both. Returns the least cosine; negative where no direction sees all faces.
+double cw_layers_most_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
+                             double g[3]);
+// Directions and creases of all vertices. Collective. CW_ERR_MESH where the faces around a vertex see no
+// common direction or a constraint that stays holds none; outcome CW_OUTCOME_REPLAN where other constraints hold none.
+CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
+// Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
+enum { CW_LAYER_NORMALS = 48 };
+int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]);
+// Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor).
+double cw_layers_floor(const CwLayerWork *work, int32_t v);
+// The column of v without any smoothing.
+void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);
+
+// Least product of a vector with the unit normals of the faces around v: of a direction its least
+// cosine, of a column its normal thickness.
+double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]);
+// Outer end of the column of v at thickness t[v], put back on its constraints.
+void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
+
+#endif

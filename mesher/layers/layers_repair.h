@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Columns are turned, then thinned, until all prisms and the layer top are valid.
+#ifndef CUTWATER_MESHER_LAYERS_LAYERS_REPAIR_H
+#define CUTWATER_MESHER_LAYERS_LAYERS_REPAIR_H
+
+#include "mesher/common/box_tree.h"
+#include "mesher/layers/layer_columns.h"
+#include "pipeline/status.h"
+
+// Makes prisms and layer top valid; fills `top`. *rounds: how many that took. Takes the tree of walls
+// and obstacles over. CW_ERR_MESH with the place where 40 rounds do not do.
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds);
+
+#endif

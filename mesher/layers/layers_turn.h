@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How good the prisms about a column are, and the search for a better direction of it.
+#ifndef CUTWATER_MESHER_LAYERS_LAYERS_TURN_H
+#define CUTWATER_MESHER_LAYERS_LAYERS_TURN_H
+
+#include "mesher/layers/layer_columns.h"
+
+// Quality (prism_quality.h) of the prism over triangle f with column ends `top`.
+double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
+// How good the column of v is: by the worst prism around it, and where all are good by their layer top and shear too;
+// no more than `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and
+// then the one that was the worst: most other directions fail there too.
+double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first);
+// How good the column of v is, as cw_layers_around tells.
+typedef double (*CwLayerJudge)(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor,
+                               int32_t *first);
+// Tries directions of the column of v near the present one; keeps the best.
+void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge judge);
+
+// What the layer top over triangle f counts beside its prism; and its shear, where its quality is
+// `prism`: prism_good where no determinant is small.
+double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
+double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism);
+
+#endif
