@@ -25,8 +25,8 @@ typedef struct {
 typedef struct {
   OpenFace *open;
   int64_t open_count, open_room;
-  CwInterfaceFace *interface[CW_DOMAINS_MOST][2];
-  int64_t interface_count[CW_DOMAINS_MOST][2], interface_room[CW_DOMAINS_MOST][2];
+  CwInterfaceFace *interface[CW_INTERFACES_MOST][2];
+  int64_t interface_count[CW_INTERFACES_MOST][2], interface_room[CW_INTERFACES_MOST][2];
   double *least[CW_DOMAINS_MOST],
       *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
   int64_t *open_counts;       // by region
@@ -34,9 +34,11 @@ typedef struct {
 
 static void collected_free(Collected *c) {
   free(c->open);
+  for (int i = 0; i < CW_INTERFACES_MOST; ++i) {
+    free(c->interface[i][0]);
+    free(c->interface[i][1]);
+  }
   for (int d = 0; d < CW_DOMAINS_MOST; ++d) {
-    free(c->interface[d][0]);
-    free(c->interface[d][1]);
     free(c->least[d]);
     free(c->most[d]);
   }
@@ -48,10 +50,10 @@ void cw_assembly_free(CwAssembly *assembly) {
   free(assembly->parts);
   free(assembly->patches);
   free(assembly->across);
-  for (int d = 0; d < CW_DOMAINS_MOST; ++d) {
-    free(assembly->shared[d]);
-    free(assembly->interface[d][0]);
-    free(assembly->interface[d][1]);
+  for (int d = 0; d < CW_DOMAINS_MOST; ++d) free(assembly->shared[d]);
+  for (int i = 0; i < CW_INTERFACES_MOST; ++i) {
+    free(assembly->interface[i][0]);
+    free(assembly->interface[i][1]);
   }
   memset(assembly, 0, sizeof *assembly);
 }
@@ -352,7 +354,7 @@ static CwStatus check_surface(const CwAssembly *a) {
     const CwMeshDomain *domain = &mesh->domains[d];
     for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p) {
       const CwPatchPart *sum = &a->patches[p];
-      CW_REQUIRE(sum->triangles + sum->quads > 0 || mesh->patches[p].kind == CW_KIND_WALL, CW_ERR_INPUT,
+      CW_REQUIRE(sum->triangles + sum->quads > 0 || mesh->patches[p].kind == CW_PATCH_WALL, CW_ERR_INPUT,
                  "domain %s: patch '%s' has no face", domain->name, mesh->patches[p].name);
       area += sum->area;
       for (int k = 0; k < 3; ++k) vector[k] += sum->vector[k];

@@ -51,7 +51,7 @@ typedef struct {
   double (*shared[CW_DOMAINS_MOST])[3];
   int64_t *across; // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
   int64_t open_count;
-  CwInterfaceFace *interface[CW_DOMAINS_MOST][2]; // by interface and side; on rank 0 only, by place
+  CwInterfaceFace *interface[CW_INTERFACES_MOST][2]; // by interface and side; on rank 0 only, by place
 } CwAssembly;
 
 // Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a shared point differs

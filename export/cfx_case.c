@@ -6,71 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "export/blocks.h"
 #include "export/patch_role.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
 
-static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
-  return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
-}
-
-static int is_stator_wall(const CwMeshPatch *patch) {
-  return patch->domain == CW_MESH_STATOR && patch->kind == CW_KIND_WALL;
-}
-
-// Text that grows, for blocks of which a case has as many as its mesh has domains and interfaces.
-typedef struct {
-  char *text;
-  size_t size;
-  FILE *out;
-} Blocks;
-
-static CwStatus blocks_open(Blocks *blocks) {
-  CwStatus status = CW_OK;
-  blocks->out = open_memstream(&blocks->text, &blocks->size);
-  CW_REQUIRE(blocks->out, CW_ERR_MEMORY, "out of memory");
-done:
-  return status;
-}
-
-// Adds the built-in file `name`, without its first line (the licence), filled with the values.
-static CwStatus blocks_add(Blocks *blocks, const char *name, const CwValues *values) {
-  CwStatus status = CW_OK;
-  char *filled = NULL;
-  const CwTemplate *part = cw_template_find(name);
-  CW_REQUIRE(part, CW_ERR_EXPORT, "no template %s", name);
-  CW_TRY(cw_template_fill(name, strchr(part->text, '\n') + 1, values, &filled));
-  fputs(filled, blocks->out);
-done:
-  free(filled);
-  return status;
-}
-
-// Sets `key` to the blocks and frees them.
-static CwStatus blocks_close(Blocks *blocks, const char *key, CwValues *values) {
-  CwStatus status = CW_OK;
-  if (!blocks->out) return status;
-  int failed = fclose(blocks->out) != 0;
-  CW_REQUIRE(!failed, CW_ERR_MEMORY, "out of memory");
-  if (key) CW_TRY(cw_values_set(values, key, "%s", blocks->text));
-done:
-  free(blocks->text);
-  *blocks = (Blocks){0};
-  return status;
-}
-
 static int turns(const CwMesh *mesh, int interface) {
   int turning = 0;
   for (int side = 0; side < 2; ++side)
-    turning |= mesh->patches[mesh->interfaces[interface].patch[side]].domain == CW_MESH_ROTOR;
+    turning |= mesh->domains[mesh->patches[mesh->interfaces[interface].patch[side]].domain].rotating;
   return turning;
 }
 
 // What names the two sides of an interface: its name, "ROTOR STATOR", zones and patches.
 static CwStatus set_interface(const CwMesh *mesh, int interface, CwValues *values) {
   CwStatus status = CW_OK;
-  const CwMeshPatch *side[2];
+  const CwModelPatch *side[2];
   for (int s = 0; s < 2; ++s) side[s] = &mesh->patches[mesh->interfaces[interface].patch[s]];
   CW_TRY(cw_values_set(values, "zone_a", "%s", mesh->domains[side[0]->domain].zone));
   CW_TRY(cw_values_set(values, "zone_b", "%s", mesh->domains[side[1]->domain].zone));
@@ -82,87 +34,188 @@ done:
   return status;
 }
 
-// Inlet and outlet, where they lie in the domain, and its sides of interfaces.
-static CwStatus set_boundaries(const CwMesh *mesh, int domain, const char *ends_key, const char *sides_key,
-                               CwValues *values) {
+// Inlets, outlets and planes of symmetry of the domain, and its sides of interfaces.
+static CwStatus set_boundaries(const CwMesh *mesh, int domain, double mass_flow, CwValues *values) {
   CwStatus status = CW_OK;
-  Blocks blocks = {0};
-  CW_TRY(blocks_open(&blocks));
-  if (mesh->patches[cw_mesh_end(mesh, CW_KIND_INLET)].domain == domain)
-    CW_TRY(blocks_add(&blocks, "cfx_parts/inlet.ccl", values));
-  if (mesh->patches[cw_mesh_end(mesh, CW_KIND_OUTLET)].domain == domain)
-    CW_TRY(blocks_add(&blocks, "cfx_parts/outlet.ccl", values));
-  CW_TRY(blocks_close(&blocks, ends_key, values));
-  CW_TRY(blocks_open(&blocks));
+  static const char *const parts[] = {[CW_PATCH_INLET] = "cfx_parts/inlet.ccl",
+                                      [CW_PATCH_OUTLET] = "cfx_parts/outlet.ccl",
+                                      [CW_PATCH_SYMMETRY] = "cfx_parts/symmetry.ccl"};
+  CwBlocks blocks = {0};
+  CW_TRY(cw_blocks_open(&blocks));
+  for (int kind = 0; kind < CW_PATCH_KINDS; ++kind)
+    for (int p = 0; p < mesh->patch_count; ++p) {
+      const CwModelPatch *patch = &mesh->patches[p];
+      if (patch->domain != domain || (int)patch->kind != kind || !parts[kind]) continue;
+      CW_TRY(cw_values_set(values, "end", "%s", patch->name));
+      CW_TRY(cw_values_set(values, "end_mass_flow", "%.9g", mass_flow * patch->flow_share));
+      CW_TRY(cw_blocks_add(&blocks, parts[kind], values));
+    }
+  CW_TRY(cw_blocks_close(&blocks, "zone_ends", values));
+  CW_TRY(cw_blocks_open(&blocks));
   for (int i = 0; i < mesh->interface_count; ++i)
     for (int side = 0; side < 2; ++side) {
-      const CwMeshPatch *patch = &mesh->patches[mesh->interfaces[i].patch[side]];
+      const CwModelPatch *patch = &mesh->patches[mesh->interfaces[i].patch[side]];
       if (patch->domain != domain) continue;
       CW_TRY(set_interface(mesh, i, values));
       CW_TRY(cw_values_set(values, "side", "%d", side + 1));
       CW_TRY(cw_values_set(values, "side_patch", "%s", patch->name));
-      CW_TRY(blocks_add(&blocks, "cfx_parts/interface_side.ccl", values));
+      CW_TRY(cw_blocks_add(&blocks, "cfx_parts/interface_side.ccl", values));
     }
-  CW_TRY(blocks_close(&blocks, sides_key, values));
+  CW_TRY(cw_blocks_close(&blocks, "zone_sides", values));
 done:
-  blocks_close(&blocks, NULL, values);
+  cw_blocks_close(&blocks, NULL, values);
   return status;
 }
 
-// The domains beside rotor and stator, each with one wall of all its wall patches, and their LES.
-static CwStatus set_more_domains(const CwAssembly *a, CwValues *values) {
+// Whether no domain before this one, rotating or not as it is, has walls that turn, or do not.
+static int is_first(const CwMesh *mesh, int domain, int turning) {
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    const CwModelPatch *patch = &mesh->patches[p];
+    if (patch->domain < domain && patch->kind == CW_PATCH_WALL && cw_patch_turns(mesh, patch) == turning &&
+        !mesh->domains[patch->domain].rotating == !mesh->domains[domain].rotating)
+      return 0;
+  }
+  return 1;
+}
+
+enum { WALL_NAME_SIZE = CW_MESH_NAME_SIZE + 20 };
+
+// What the boundary of a domain's walls is called that turn, or do not. The first ones have names of their own.
+static void wall_name(const CwMesh *mesh, int domain, int turning, char name[WALL_NAME_SIZE]) {
+  const CwMeshDomain *of = &mesh->domains[domain];
+  const int first = is_first(mesh, domain, turning);
+  if (!turning && !of->rotating && first)
+    snprintf(name, WALL_NAME_SIZE, "casing");
+  else if (!turning)
+    snprintf(name, WALL_NAME_SIZE, of->rotating ? "%s fixed walls" : "%s walls", of->name);
+  else if (of->rotating)
+    snprintf(name, WALL_NAME_SIZE, first ? "impeller" : "%s impeller", of->name);
+  else
+    snprintf(name, WALL_NAME_SIZE, first ? "shaft" : "%s shaft", of->name);
+}
+
+// The walls of a domain that turn, or do not, as one boundary; none where it has none.
+static CwStatus add_walls(const CwAssembly *a, int domain, int turning, CwBlocks *blocks, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
-  Blocks domains = {0}, les = {0};
-  CW_TRY(blocks_open(&domains));
-  CW_TRY(blocks_open(&les));
-  for (int d = CW_MESH_STATOR + 1; d < mesh->domain_count; ++d) {
-    Blocks walls = {0}, shaft = {0};
-    CW_TRY(blocks_open(&walls));
-    CW_TRY(blocks_open(&shaft));
-    for (int p = 0, first = 1; p < mesh->patch_count; ++p)
-      if (mesh->patches[p].domain == d && mesh->patches[p].kind == CW_KIND_WALL &&
-          a->patches[p].triangles + a->patches[p].quads > 0) {
-        if (cw_patch_is_shaft(&mesh->patches[p])) {
-          CW_TRY(cw_values_set(values, "shaft_patch", "%s", mesh->patches[p].name));
-          CW_TRY(blocks_add(&shaft, "cfx_parts/shaft.ccl", values));
-          continue;
-        }
-        fprintf(walls.out, "%s%s", first ? "" : ",", mesh->patches[p].name);
-        first = 0;
-      }
-    CW_TRY(blocks_close(&walls, "zone_walls", values));
-    CW_TRY(blocks_close(&shaft, "zone_shaft", values));
-    CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
-    CW_TRY(cw_values_set(values, "zone_wall_name", "%s walls", mesh->domains[d].name));
-    CW_TRY(set_boundaries(mesh, d, "zone_ends", "zone_sides", values));
-    CW_TRY(blocks_add(&domains, "cfx_parts/domain.ccl", values));
-    CW_TRY(blocks_add(&les, "cfx_parts/transient_domain.ccl", values));
+  CwBlocks names = {0};
+  char name[WALL_NAME_SIZE];
+  int count = 0;
+  CW_TRY(cw_blocks_open(&names));
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    const CwModelPatch *patch = &mesh->patches[p];
+    if (patch->domain != domain || patch->kind != CW_PATCH_WALL || !cw_patch_is_there(a, p)) continue;
+    if (cw_patch_turns(mesh, patch) != turning) continue;
+    fprintf(names.out, "%s%s", count++ ? "," : "", patch->name);
   }
-  CW_TRY(blocks_close(&domains, "more_domains", values));
-  CW_TRY(blocks_close(&les, "more_les", values));
+  CW_TRY(cw_blocks_close(&names, "wall_patches", values));
+  if (!count) goto done;
+  const int rotating = mesh->domains[domain].rotating;
+  wall_name(mesh, domain, turning, name);
+  CW_TRY(cw_values_set(values, "wall_name", "%s", name));
+  CW_TRY(cw_blocks_add(blocks,
+                       rotating  ? turning ? "cfx_parts/wall_turning.ccl" : "cfx_parts/wall_counter.ccl"
+                       : turning ? "cfx_parts/shaft.ccl"
+                                 : "cfx_parts/wall.ccl",
+                       values));
 done:
-  blocks_close(&domains, NULL, values);
-  blocks_close(&les, NULL, values);
+  cw_blocks_close(&names, NULL, values);
+  return status;
+}
+
+static CwStatus set_domains(const CwAssembly *a, double mass_flow, CwValues *values) {
+  CwStatus status = CW_OK;
+  const CwMesh *mesh = a->mesh;
+  CwBlocks domains = {0}, les = {0}, walls = {0};
+  CW_TRY(cw_blocks_open(&domains));
+  CW_TRY(cw_blocks_open(&les));
+  for (int d = 0; d < mesh->domain_count; ++d) {
+    const int rotating = mesh->domains[d].rotating != 0;
+    CW_TRY(cw_blocks_open(&walls));
+    CW_TRY(add_walls(a, d, rotating, &walls, values));
+    CW_TRY(add_walls(a, d, !rotating, &walls, values));
+    CW_TRY(cw_blocks_close(&walls, "zone_wall_boundaries", values));
+    CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
+    CW_TRY(set_boundaries(mesh, d, mass_flow, values));
+    CW_TRY(cw_blocks_add(&domains, rotating ? "cfx_parts/domain_rotating.ccl" : "cfx_parts/domain.ccl", values));
+    CW_TRY(cw_blocks_add(&les, "cfx_parts/transient_domain.ccl", values));
+  }
+  CW_TRY(cw_blocks_close(&domains, "domains", values));
+  CW_TRY(cw_blocks_close(&les, "domains_les", values));
+done:
+  cw_blocks_close(&domains, NULL, values);
+  cw_blocks_close(&les, NULL, values);
+  cw_blocks_close(&walls, NULL, values);
+  return status;
+}
+
+// The mean total pressure of inlets or outlets, weighted by their flows, and what flows through all of them.
+static CwStatus set_ends(const CwMesh *mesh, CwPatchKind kind, const char *pressure_key, const char *flow_key,
+                         CwValues *values) {
+  CwStatus status = CW_OK;
+  CwBlocks sum = {0}, flow = {0};
+  const char *mean = "massFlowAve(Total Pressure in Stn Frame)";
+  int count = 0, written = 0;
+  for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == kind;
+  CW_TRY(cw_blocks_open(&sum));
+  CW_TRY(cw_blocks_open(&flow));
+  if (count > 1) fprintf(sum.out, "(");
+  if (count > 1) fprintf(flow.out, "(");
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    if (mesh->patches[p].kind != kind) continue;
+    const char *name = mesh->patches[p].name, *between = written++ ? " + " : "";
+    fprintf(sum.out, "%s%s@%s", between, mean, name);
+    if (count > 1) fprintf(sum.out, " * massFlow()@%s", name);
+    fprintf(flow.out, "%smassFlow()@%s", between, name);
+  }
+  if (count > 1) fprintf(flow.out, ")");
+  CW_TRY(cw_blocks_close(&flow, flow_key, values));
+  if (count > 1) fprintf(sum.out, ") / %s", values->list[values->count - 1].value);
+  CW_TRY(cw_blocks_close(&sum, pressure_key, values));
+done:
+  cw_blocks_close(&sum, NULL, values);
+  cw_blocks_close(&flow, NULL, values);
+  return status;
+}
+
+// Of the water on all boundaries that turn.
+static CwStatus set_torque(const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  CwBlocks sum = {0};
+  char name[WALL_NAME_SIZE];
+  CW_TRY(cw_blocks_open(&sum));
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
+    int turning = 0;
+    for (int p = 0; p < a->mesh->patch_count; ++p)
+      turning |= a->mesh->patches[p].domain == d && cw_patch_is_there(a, p) &&
+                 cw_patch_turns(a->mesh, &a->mesh->patches[p]);
+    if (!turning) continue;
+    wall_name(a->mesh, d, 1, name);
+    fprintf(sum.out, "%s-torque_z()@%s", ftell(sum.out) > 0 ? " " : "", name);
+  }
+  if (ftell(sum.out) == 0) fprintf(sum.out, "0 [N m]");
+  CW_TRY(cw_blocks_close(&sum, "torque", values));
+done:
+  cw_blocks_close(&sum, NULL, values);
   return status;
 }
 
 static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
   CwStatus status = CW_OK;
-  Blocks steady = {0}, transient = {0};
-  CW_TRY(blocks_open(&steady));
-  CW_TRY(blocks_open(&transient));
+  CwBlocks steady = {0}, transient = {0};
+  CW_TRY(cw_blocks_open(&steady));
+  CW_TRY(cw_blocks_open(&transient));
   for (int i = 0; i < mesh->interface_count; ++i) {
     CW_TRY(set_interface(mesh, i, values));
-    CW_TRY(blocks_add(&steady, turns(mesh, i) ? "cfx_parts/interface_turning.ccl" : "cfx_parts/interface_fixed.ccl",
+    CW_TRY(cw_blocks_add(&steady, turns(mesh, i) ? "cfx_parts/interface_turning.ccl" : "cfx_parts/interface_fixed.ccl",
                       values));
-    if (turns(mesh, i)) CW_TRY(blocks_add(&transient, "cfx_parts/transient_interface_turning.ccl", values));
+    if (turns(mesh, i)) CW_TRY(cw_blocks_add(&transient, "cfx_parts/transient_interface_turning.ccl", values));
   }
-  CW_TRY(blocks_close(&steady, "interfaces", values));
-  CW_TRY(blocks_close(&transient, "transient_interfaces", values));
+  CW_TRY(cw_blocks_close(&steady, "interfaces", values));
+  CW_TRY(cw_blocks_close(&transient, "transient_interfaces", values));
 done:
-  blocks_close(&steady, NULL, values);
-  blocks_close(&transient, NULL, values);
+  cw_blocks_close(&steady, NULL, values);
+  cw_blocks_close(&transient, NULL, values);
   return status;
 }
 
@@ -171,9 +224,6 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
   CwStatus status = CW_OK;
   const CwOperatingPoint *point = &table->operating_point;
   const CwMesh *mesh = a->mesh;
-  CW_TRY(cw_patch_names_set(a, cw_patch_rotates, ",", "rotating_walls", values));
-  CW_TRY(cw_patch_names_set(a, is_fixed_rotor_wall, ",", "rotor_fixed_walls", values));
-  CW_TRY(cw_patch_names_set(a, is_stator_wall, ",", "stator_walls", values));
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
   CW_TRY(cw_values_set(values, "setup", "%s", setup));
   CW_TRY(cw_values_set(values, "speed_rpm", "%.9g", point->speed * 30 / M_PI));
@@ -194,9 +244,10 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
   CW_TRY(cw_values_set(values, "time_step", "%.9g", point->time_step_angle / point->speed));
   CW_TRY(cw_values_set(values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
   CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / point->speed));
-  CW_TRY(set_boundaries(mesh, CW_MESH_ROTOR, "rotor_ends", "rotor_sides", values));
-  CW_TRY(set_boundaries(mesh, CW_MESH_STATOR, "stator_ends", "stator_sides", values));
-  CW_TRY(set_more_domains(a, values));
+  CW_TRY(set_domains(a, flow * table->fluid.density, values));
+  CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));
+  CW_TRY(set_ends(mesh, CW_PATCH_OUTLET, "outlet_pressure", "outlet_mass_flow", values));
+  CW_TRY(set_torque(a, values));
   CW_TRY(set_interfaces(mesh, values));
 done:
   return status;

@@ -9,7 +9,7 @@
 #include "export/cgns_node.h"
 #include "export/cgns_sections.h"
 
-static CwStatus put_reference_state(hid_t base, const CwCase *table) {
+static CwStatus put_reference_state(hid_t base, const CwCase *table, double reference_length) {
   CwStatus status = CW_OK;
   hid_t state = -1, array = -1;
   const struct {
@@ -20,7 +20,7 @@ static CwStatus put_reference_state(hid_t base, const CwCase *table) {
       {"Density", table->fluid.density, {1, -3, 0, 0, 0}},
       {"Pressure", table->operating_point.inlet_pressure, {1, -1, -2, 0, 0}},
       {"ViscosityKinematic", table->fluid.kinematic_viscosity, {0, 2, -1, 0, 0}},
-      {"LengthReference", table->impeller.outlet_diameter, {0, 1, 0, 0, 0}},
+      {"LengthReference", reference_length, {0, 1, 0, 0, 0}},
   };
   CW_TRY(cw_cgns_node(base, "ReferenceState", "ReferenceState_t", "MT", 0, NULL, NULL, &state));
   for (size_t i = 0; i < sizeof values / sizeof *values; ++i) {
@@ -50,7 +50,7 @@ done:
 
 static CwStatus put_families(hid_t base, const CwMesh *mesh) {
   CwStatus status = CW_OK;
-  static const char *const types[] = {"BCWallViscous", "BCInflow", "BCOutflow", "UserDefined"};
+  static const char *const types[] = {"BCWallViscous", "BCInflow", "BCOutflow", "UserDefined", "BCSymmetryPlane"};
   hid_t family = -1;
   for (int p = 0; p < mesh->patch_count; ++p) {
     CW_TRY(cw_cgns_node(base, mesh->patches[p].name, "Family_t", "MT", 0, NULL, NULL, &family));
@@ -126,6 +126,17 @@ done:
   return status;
 }
 
+// Interfaces before this one from the same domain to the same other one: two zones may meet in several surfaces.
+static int connections_before(const CwMesh *mesh, int number, int side) {
+  int count = 0;
+  const CwModelPatch *patch = mesh->patches;
+  for (int i = 0; i < number; ++i)
+    for (int s = 0; s < 2; ++s)
+      count += patch[mesh->interfaces[i].patch[s]].domain == patch[mesh->interfaces[number].patch[side]].domain &&
+               patch[mesh->interfaces[i].patch[1 - s]].domain == patch[mesh->interfaces[number].patch[1 - side]].domain;
+  return count;
+}
+
 // The connection of one side of an interface, in the ZoneGridConnectivity of its zone.
 static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const CwInterface *interface, int side) {
   CwStatus status = CW_OK;
@@ -137,10 +148,12 @@ static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const
   int32_t *donors = NULL;
   int64_t count = interface->count[side], donor_first = cw_cgns_patch_first(a, patch[1 - side]);
   int first = (int)cw_cgns_patch_first(a, patch[side]);
-  char name[CW_MESH_NAME_SIZE];
+  char name[48]; // no more than CGNS's 32 are used
   CW_NEW(donors, count);
   for (int64_t i = 0; i < count; ++i) donors[i] = (int32_t)(donor_first + interface->donor[side][i]);
+  int again = connections_before(mesh, number, side);
   snprintf(name, sizeof name, "%.14s_to_%.14s", here->name, there->name);
+  if (again) snprintf(name, sizeof name, "%.12s_to_%.12s_%d", here->name, there->name, again + 1);
   CW_TRY(cw_cgns_text(all, name, "GridConnectivity_t", there->zone, &one));
   CW_TRY(cw_cgns_text(one, "GridConnectivityType", "GridConnectivityType_t", "Abutting", NULL));
   CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
@@ -207,7 +220,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
   for (int s = 0; s < section_count; ++s) CW_TRY(put_section(zone, &sections[s]));
   CW_TRY(put_conditions(zone, a, domain));
   CW_TRY(put_connections(zone, a, interfaces, domain));
-  if (domain == CW_MESH_ROTOR) CW_TRY(put_rotation(zone, table->operating_point.speed));
+  if (a->mesh->domains[domain].rotating) CW_TRY(put_rotation(zone, table->operating_point.speed));
 done:
   free(sections);
   if (zone >= 0) H5Gclose(zone);
@@ -229,7 +242,7 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
   CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed, NULL));
   CW_TRY(put_equations(base));
-  CW_TRY(put_reference_state(base, table));
+  CW_TRY(put_reference_state(base, table, a->mesh->flow.reference_length));
   CW_TRY(put_families(base, a->mesh));
   for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d));
 done:

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "export/blocks.h"
+#include "export/foam_zones.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
@@ -19,10 +21,6 @@ CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length)
   t.epsilon = pow(cmu, 0.75) * pow(t.k, 1.5) / mixing_length;
   t.omega = t.epsilon / (cmu * t.k);
   return t;
-}
-
-static int is_rotor_and_fixed(const CwMeshPatch *patch) {
-  return patch->domain == CW_MESH_ROTOR && !cw_patch_rotates(patch);
 }
 
 typedef enum { FIELD_U, FIELD_P, FIELD_K, FIELD_EPSILON, FIELD_OMEGA, FIELD_NUT } Field;
@@ -43,17 +41,18 @@ typedef struct {
   const CwCase *table;
   const CwAssembly *assembly;
   CwTurbulence inlet, inside;
-  double flow_rate, outlet_velocity[3]; // m3/s, m/s
+  double flow_rate; // m3/s
   int moving;                           // the mesh turns in time
   int eddies;                           // large eddy simulation: near walls the wall function of all y+
 } Start;
 
-static void put_wall_velocity(FILE *out, const CwMeshPatch *patch, const Start *start) {
-  if (cw_patch_rotates(patch) && start->moving)
+static void put_wall_velocity(FILE *out, const CwModelPatch *patch, const Start *start) {
+  const CwMesh *mesh = start->assembly->mesh;
+  if (cw_patch_rotates(mesh, patch) && start->moving)
     fprintf(out, "        type            movingWallVelocity;\n        value           uniform (0 0 0);\n");
-  else if (cw_patch_rotates(patch)) // MRF puts the velocity of the turning wall in its place
+  else if (cw_patch_rotates(mesh, patch)) // MRF puts the velocity of the turning wall in its place
     fprintf(out, "        type            fixedValue;\n        value           uniform (0 0 0);\n");
-  else if (cw_patch_is_shaft(patch))
+  else if (cw_patch_is_shaft(mesh, patch))
     fprintf(
         out,
         "        type            rotatingWallVelocity;\n        origin          (0 0 0);\n"
@@ -63,29 +62,36 @@ static void put_wall_velocity(FILE *out, const CwMeshPatch *patch, const Start *
     fprintf(out, "        type            noSlip;\n");
 }
 
-static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start) {
+static void put_velocity(FILE *out, const CwModelPatch *patch, const Start *start) {
+  const CwPatchPart *outlet = &start->assembly->patches[patch - start->assembly->mesh->patches];
+  const double flow = patch->flow_share * start->flow_rate;
   switch (patch->kind) {
-  case CW_KIND_WALL:
+  case CW_PATCH_WALL:
     put_wall_velocity(out, patch, start);
     break;
-  case CW_KIND_INLET:
+  case CW_PATCH_INLET:
     fprintf(out, "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n");
     break;
-  case CW_KIND_OUTLET:
+  case CW_PATCH_OUTLET:
     fprintf(out,
             "        type            flowRateOutletVelocity;\n        volumetricFlowRate constant %.9g;\n"
             "        value           uniform (%.9g %.9g %.9g);\n",
-            start->flow_rate, start->outlet_velocity[0], start->outlet_velocity[1], start->outlet_velocity[2]);
+            flow, flow * outlet->vector[0] / (outlet->area * outlet->area),
+            flow * outlet->vector[1] / (outlet->area * outlet->area),
+            flow * outlet->vector[2] / (outlet->area * outlet->area));
     break;
-  case CW_KIND_INTERFACE:
+  case CW_PATCH_INTERFACE:
     fprintf(out, "        type            cyclicAMI;\n        value           uniform (0 0 0);\n");
+    break;
+  default:
+    break;
   }
 }
 
-static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *start) {
+static void put_viscosity(FILE *out, const CwModelPatch *patch, const Start *start) {
   const CwWalls *walls = &start->table->walls;
-  if (patch->kind != CW_KIND_WALL)
-    fprintf(out, "        type            %s;\n", patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
+  if (patch->kind != CW_PATCH_WALL)
+    fprintf(out, "        type            %s;\n", patch->kind == CW_PATCH_INTERFACE ? "cyclicAMI" : "calculated");
   else if (start->eddies || cw_patch_resolved(patch))
     fprintf(out, "        type            nutUSpaldingWallFunction;\n");
   else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
@@ -98,14 +104,14 @@ static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *star
   fprintf(out, "        value           uniform 0;\n");
 }
 
-static void put_scalar(FILE *out, Field field, const CwMeshPatch *patch, double inlet, double inside) {
+static void put_scalar(FILE *out, Field field, const CwModelPatch *patch, double inlet, double inside) {
   const char *type = "cyclicAMI";
   double value = inside;
-  if (patch->kind == CW_KIND_WALL) type = fields[field].wall;
-  if (patch->kind == CW_KIND_INLET || patch->kind == CW_KIND_OUTLET) {
+  if (patch->kind == CW_PATCH_WALL) type = fields[field].wall;
+  if (patch->kind == CW_PATCH_INLET || patch->kind == CW_PATCH_OUTLET) {
     type = "inletOutlet";
     value = inlet;
-    if (field == FIELD_P) type = patch->kind == CW_KIND_INLET ? "totalPressure" : "zeroGradient";
+    if (field == FIELD_P) type = patch->kind == CW_PATCH_INLET ? "totalPressure" : "zeroGradient";
   }
   fprintf(out, "        type            %s;\n", type);
   if (strcmp(type, "inletOutlet") == 0) fprintf(out, "        inletValue      uniform %.9g;\n", value);
@@ -135,10 +141,12 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
     fprintf(out, "%.9g", inside);
   fprintf(out, ";\nboundaryField\n{\n");
   for (int p = 0; p < start->assembly->mesh->patch_count; ++p) {
-    const CwMeshPatch *patch = &start->assembly->mesh->patches[p];
+    const CwModelPatch *patch = &start->assembly->mesh->patches[p];
     if (!cw_patch_is_there(start->assembly, p)) continue;
     fprintf(out, "    %s\n    {\n", patch->name);
-    if (field == FIELD_U)
+    if (patch->kind == CW_PATCH_SYMMETRY)
+      fprintf(out, "        type            symmetry;\n");
+    else if (field == FIELD_U)
       put_velocity(out, patch, start);
     else if (field == FIELD_NUT)
       put_viscosity(out, patch, start);
@@ -157,42 +165,11 @@ done:
   return status;
 }
 
-// The flow through the discs before the pipes, like that through the cylinder between rotor and stator.
-static CwStatus set_interface_flows(const CwMesh *mesh, CwValues *values) {
-  CwStatus status = CW_OK;
-  char *text = NULL;
-  size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
-  for (int i = 1; i < mesh->interface_count; ++i)
-    for (int side = 0; side < 2; ++side) {
-      const char *name = mesh->patches[mesh->interfaces[i].patch[side]].name;
-      fprintf(out, "flow_%s\n{\n    $flowInlet;\n    name            %s;\n}\n", name, name);
-    }
-  fclose(out);
-  CW_TRY(cw_values_set(values, "interface_flows", "%s", text));
-done:
-  free(text);
-  return status;
-}
-
 static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const CwOperatingPoint *point = &table->operating_point;
-  const CwMesh *mesh = a->mesh;
-  int resolved = cw_walls_resolved(mesh);
-  const struct {
-    const char *key;
-    int patch;
-  } ends[] = {{"inlet", cw_mesh_end(mesh, CW_KIND_INLET)},
-              {"outlet", cw_mesh_end(mesh, CW_KIND_OUTLET)},
-              {"rotor_interface", mesh->interfaces[0].patch[0]},
-              {"stator_interface", mesh->interfaces[0].patch[1]}};
-  for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i)
-    CW_TRY(cw_values_set(values, ends[i].key, "%s", mesh->patches[ends[i].patch].name));
-  CW_TRY(set_interface_flows(mesh, values));
-  CW_TRY(cw_patch_names_set(a, cw_patch_rotates, " ", "rotating_walls", values));
-  CW_TRY(cw_patch_names_set(a, is_rotor_and_fixed, " ", "rotor_fixed_patches", values));
+  int resolved = cw_walls_resolved(a->mesh);
+  CW_TRY(cw_patch_names_set(a, cw_patch_turns, " ", "rotating_walls", values));
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
   CW_TRY(cw_values_set(values, "speed", "%.9g", point->speed));
   CW_TRY(cw_values_set(values, "flow_rate", "%.9g", point->flow_rate));
@@ -206,23 +183,41 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   CW_TRY(cw_values_set(values, "turbulence_model", "%s", resolved ? "kOmegaSST" : "kEpsilon"));
   CW_TRY(cw_values_set(values, "dissipation", "%s", resolved ? "omega" : "epsilon"));
   CW_TRY(cw_values_set(values, "report_interval", "10"));
+  CW_TRY(cw_foam_zones_set(a, values));
 done:
   return status;
 }
 
-static int is_blade(const CwMeshPatch *patch) {
-  return patch->kind == CW_KIND_WALL && strncmp(patch->name, "blade", 5) == 0;
+static int is_blade(const CwMesh *mesh, const CwModelPatch *patch) {
+  (void)mesh;
+  return patch->kind == CW_PATCH_WALL && patch->group == CW_GROUP_BLADE;
+}
+
+// The mean pressure of walls that are monitored.
+static CwStatus set_monitored(const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  CwBlocks pressures = {0};
+  CW_TRY(cw_blocks_open(&pressures));
+  for (int p = 0; p < a->mesh->patch_count; ++p) {
+    const char *name = a->mesh->patches[p].name;
+    if (a->mesh->patches[p].monitored && cw_patch_is_there(a, p))
+      fprintf(pressures.out, "pressure_%s\n{\n    $pressure_outlet;\n    name            %s;\n}\n", name, name);
+  }
+  CW_TRY(cw_blocks_close(&pressures, "monitored_pressures", values));
+done:
+  cw_blocks_close(&pressures, NULL, values);
+  return status;
 }
 
 // What the large eddy simulation asks beyond the other cases. A phase is a position of the blades to the tongue: it
 // comes again after a pitch, or where a pitch is no whole number of steps, after a turn.
-static CwStatus set_eddy_values(const CwCase *table, const CwDesign *design, const CwAssembly *a, CwValues *values) {
+static CwStatus set_eddy_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   const double turn = 2 * M_PI, most = M_PI / 180;
   // As many steps a turn as the case asks, but of one degree at the most.
   const double steps = round(turn / fmin(table->operating_point.time_step_angle, most));
-  const double pitch = steps / design->blade_count;
+  const double pitch = steps / mesh->flow.blade_count;
   CW_TRY(cw_values_set(values, "les_step", "%.9g", turn / steps / table->operating_point.speed));
   CW_TRY(cw_values_set(values, "les_step_deg", "%.9g", 360 / steps));
   CW_TRY(cw_values_set(values, "turn_time", "%.9g", turn / table->operating_point.speed));
@@ -230,12 +225,7 @@ static CwStatus set_eddy_values(const CwCase *table, const CwDesign *design, con
   CW_TRY(cw_values_set(values, "les_model", "Smagorinsky"));
   CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh) ? "vanDriest" : "cubeRootVol"));
   CW_TRY(cw_patch_names_set(a, is_blade, " ", "blades", values));
-  int tongue = 0;
-  while (tongue < mesh->patch_count && strcmp(mesh->patches[tongue].name, "tongue")) ++tongue;
-  CW_TRY(cw_values_set(values, "tongue_pressure", "%s",
-                       tongue < mesh->patch_count && cw_patch_is_there(a, tongue)
-                           ? "pressure_tongue\n{\n    $pressure_outlet;\n    name            tongue;\n}\n"
-                           : ""));
+  CW_TRY(set_monitored(a, values));
 done:
   return status;
 }
@@ -257,21 +247,19 @@ done:
 
 // What the fields start from at a flow rate (m3/s). Mixing lengths: 7 % of the suction pipe's diameter, and of the
 // width of the channels inside.
-static Start start_at(double flow, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+static Start start_at(double flow, const CwCase *table, const CwAssembly *a) {
   const double intensity = 0.05, share = flow / table->operating_point.flow_rate;
+  const CwModelFlow *of = &a->mesh->flow;
   Start start = {.table = table,
                  .assembly = a,
                  .flow_rate = flow,
-                 .inlet =
-                     cw_turbulence(share * design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
-                 .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
-  const CwPatchPart *outlet = &a->patches[cw_mesh_end(a->mesh, CW_KIND_OUTLET)];
-  for (int k = 0; k < 3; ++k) start.outlet_velocity[k] = flow * outlet->vector[k] / (outlet->area * outlet->area);
+                 .inlet = cw_turbulence(share * of->inlet_speed, intensity, 0.07 * of->inlet_diameter),
+                 .inside = cw_turbulence(of->passage_speed, intensity, 0.07 * of->passage_width)};
   return start;
 }
 
 // A steady case for each point of the curve, points/NAME: fields of its own, all else is that of the operating point.
-static CwStatus write_points(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+static CwStatus write_points(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   static const char *const shared[] = {"constant", "system", "Allrun", "run_solver.sh", "Allclean", "summary"};
   char *point = NULL, *link = NULL;
@@ -281,7 +269,7 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwDe
     free(point);
     CW_REQUIRE(asprintf(&point, "%s/points/%s", folder, points[k].name) >= 0, CW_ERR_MEMORY, "out of memory");
     CW_TRY(cw_make_directory(point));
-    const Start start = start_at(points[k].flow, table, design, a);
+    const Start start = start_at(points[k].flow, table, a);
     CW_TRY(write_fields(point, ".", &start));
     for (size_t i = 0; i < sizeof shared / sizeof *shared; ++i) {
       char target[32];
@@ -297,19 +285,19 @@ done:
   return status;
 }
 
-CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  Start start = start_at(table->operating_point.flow_rate, table, design, a);
+  Start start = start_at(table->operating_point.flow_rate, table, a);
   CW_TRY(set_values(table, a, &values));
-  CW_TRY(set_eddy_values(table, design, a, &values));
+  CW_TRY(set_eddy_values(table, a, &values));
   CW_TRY(cw_templates_write("openfoam/", folder, &values));
   CW_TRY(write_fields(folder, ".", &start));
   start.moving = 1;
   CW_TRY(write_fields(folder, "transient", &start));
   start.eddies = 1;
   CW_TRY(write_fields(folder, "les", &start));
-  CW_TRY(write_points(folder, table, design, a));
+  CW_TRY(write_points(folder, table, a));
 done:
   cw_values_free(&values);
   return status;

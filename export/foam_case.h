@@ -4,13 +4,11 @@
 #define CUTWATER_EXPORT_FOAM_CASE_H
 
 #include "export/assembly.h"
-#include "export/design_input.h"
 #include "export/patch_role.h"
 #include "pipeline/case.h"
 
 // Writes the case (but for constant/polyMesh) into `folder`. One rank calls it. CW_ERR_IO.
-CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design,
-                            const CwAssembly *assembly);
+CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAssembly *assembly);
 
 // Turbulence at the inlet and inside at the start.
 typedef struct {

@@ -152,19 +152,21 @@ static CwStatus write_boundary(const CwFoamMesh *mesh) {
           "    location    \"constant/polyMesh\";\n    object      boundary;\n}\n\n%d\n(\n",
           present);
   for (int p = 0; p < input->patch_count; ++p) {
-    const CwMeshPatch *patch = &input->patches[p];
+    const CwModelPatch *patch = &input->patches[p];
     int64_t count = mesh->assembly->patches[p].triangles + mesh->assembly->patches[p].quads;
     if (count == 0) continue;
     fprintf(out, "    %s\n    {\n", patch->name);
     int side = 0, between = cw_mesh_interface_of(input, p, &side);
-    if (patch->kind == CW_KIND_INTERFACE)
+    if (patch->kind == CW_PATCH_INTERFACE)
       fprintf(out,
               "        type            cyclicAMI;\n        inGroups        1(cyclicAMI);\n"
               "        matchTolerance  0.0001;\n        transform       noOrdering;\n"
               "        neighbourPatch  %s;\n        lowWeightCorrection 0.2;\n",
               input->patches[input->interfaces[between].patch[1 - side]].name);
-    else if (patch->kind == CW_KIND_WALL)
+    else if (patch->kind == CW_PATCH_WALL)
       fprintf(out, "        type            wall;\n        inGroups        1(wall);\n");
+    else if (patch->kind == CW_PATCH_SYMMETRY)
+      fprintf(out, "        type            symmetry;\n        inGroups        1(symmetry);\n");
     else
       fprintf(out, "        type            patch;\n");
     fprintf(out, "        nFaces          %lld;\n        startFace       %lld;\n    }\n", (long long)count,

@@ -5,9 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "export/interface_near.h"
 #include "pipeline/mesh/interface_tolerance.h"
 
 static const double ROUNDING = 1e-9; // of the size of the interface
+// Of the longest edge there. A chord of an arc of a radius as short as itself is 0.13 of its length off.
+static const double WIDEST_GAP = 0.25;
 
 // Donor faces by the bins of the surface's coordinates that they reach into. On a cylinder the first goes round.
 typedef struct {
@@ -281,14 +284,41 @@ done:
   return status;
 }
 
-CwStatus cw_interface_make(const CwAssembly *a, int number, double radius, CwInterface *in) {
+// The donors on a surface of any shape.
+static CwStatus find_nearest(const CwAssembly *a, int number, CwInterface *in) {
   CwStatus status = CW_OK;
-  in->is_flat = number > 0;
+  for (int s = 0; s < 2; ++s) {
+    const int patch = a->mesh->interfaces[number].patch[s], other = a->mesh->interfaces[number].patch[1 - s];
+    const CwInterfaceFace *mine = a->interface[number][s];
+    double gap;
+    int64_t worst;
+    in->sides[s].area = a->patches[patch].area;
+    CW_NEW(in->donor[s], in->count[s]);
+    CW_NEW(in->place[s], in->count[s]);
+    CW_TRY(cw_interface_near(mine, in->count[s], a->interface[number][1 - s], in->count[1 - s], in->donor[s],
+                             in->place[s], &gap, &worst));
+    const double *x = mine[worst].nodes[0];
+    CW_REQUIRE(gap <= WIDEST_GAP, CW_ERR_INPUT,
+               "patch '%s': its face at (%.6g, %.6g, %.6g) mm is %.2g of its longest edge off patch '%s'; allowed: "
+               "%.2g",
+               a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], gap, a->mesh->patches[other].name,
+               WIDEST_GAP);
+  }
+done:
+  return status;
+}
+
+CwStatus cw_interface_make(const CwAssembly *a, int number, CwInterface *in) {
+  CwStatus status = CW_OK;
+  const CwInterfaceSurface surface = a->mesh->interfaces[number].surface;
+  const double radius = a->mesh->interfaces[number].radius;
+  in->is_flat = surface == CW_SURFACE_PLANE;
   in->radius = radius;
   for (int s = 0; s < 2; ++s) {
     const CwPatchPart *sum = &a->patches[a->mesh->interfaces[number].patch[s]];
     in->count[s] = sum->triangles + sum->quads;
   }
+  if (surface == CW_SURFACE_OTHER) return find_nearest(a, number, in);
   if (in->is_flat) make_plane(a, number, in);
   double size = in->is_flat ? sqrt(a->patches[a->mesh->interfaces[number].patch[0]].area / M_PI) : radius, longest = 0;
   for (int s = 0; s < 2; ++s) CW_TRY(measure_side(a, number, s, in, &longest));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The surfaces where two domains meet, the cylinder between rotor and stator and the discs before the pipes:
-// whether both sides are the same surface, and which face of the other side lies over the centre of each face.
+// The surfaces where two domains meet: whether both sides are the same surface, and which face of the other side lies
+// over the centre of each face.
 #ifndef CUTWATER_EXPORT_INTERFACE_H
 #define CUTWATER_EXPORT_INTERFACE_H
 
@@ -11,8 +11,8 @@ typedef struct {
   double least[2], most[2]; // of the nodes in the surface's own coordinates, see CwInterface
 } CwInterfaceSide;
 
-// The surface's own coordinates: angle (rad) and z (m) on the cylinder between rotor and stator; lengths (m) along
-// two axes of a flat one.
+// The surface's own coordinates: angle (rad) and z (m) on a cylinder about the axis; lengths (m) along two axes of a
+// plane; none on another surface.
 typedef struct {
   int is_flat;
   double radius;                // of the cylinder, m
@@ -25,11 +25,11 @@ typedef struct {
   double (*place[2])[2];
 } CwInterface;
 
-// Works on interface `number` of the mesh: on the unrolled cylinder of the design's `radius` (m) for the first,
-// on a plane for the others. Fails with CW_ERR_INPUT where a node is off the cylinder or the plane by more than
-// cw_interface_tolerance, or where the sides have different ends. The gap that the first check excludes is one that no
-// solver's interface weights show. For rank 0, which holds the faces.
-CwStatus cw_interface_make(const CwAssembly *assembly, int number, double radius, CwInterface *interface);
+// Works on interface `number` of the mesh. On a cylinder, unrolled, or a plane, fails with CW_ERR_INPUT where a node is
+// off it by more than cw_interface_tolerance, or where the sides have different ends; on another surface, where a face
+// has no other one near. The gap that these checks exclude is one that no solver's interface weights show. For rank 0,
+// which holds the faces.
+CwStatus cw_interface_make(const CwAssembly *assembly, int number, CwInterface *interface);
 void cw_interface_free(CwInterface *interface);
 
 #endif

@@ -3,18 +3,22 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-int cw_patch_rotates(const CwMeshPatch *patch) {
-  return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && strcmp(patch->name, "suction_pipe") != 0;
+int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch) {
+  (void)mesh;
+  return patch->kind == CW_PATCH_WALL && patch->turns;
 }
 
-int cw_patch_is_shaft(const CwMeshPatch *patch) {
-  return patch->domain > CW_MESH_STATOR && strcmp(patch->name, "hub_shaft_pipe") == 0;
+int cw_patch_rotates(const CwMesh *mesh, const CwModelPatch *patch) {
+  return cw_patch_turns(mesh, patch) && mesh->domains[patch->domain].rotating;
 }
 
-int cw_patch_resolved(const CwMeshPatch *patch) {
-  return patch->kind == CW_KIND_WALL && !(patch->y_plus >= CW_Y_PLUS_LAMINAR);
+int cw_patch_is_shaft(const CwMesh *mesh, const CwModelPatch *patch) {
+  return cw_patch_turns(mesh, patch) && !mesh->domains[patch->domain].rotating;
+}
+
+int cw_patch_resolved(const CwModelPatch *patch) {
+  return patch->kind == CW_PATCH_WALL && !(patch->y_plus >= CW_Y_PLUS_LAMINAR);
 }
 
 int cw_walls_resolved(const CwMesh *mesh) {
@@ -35,7 +39,7 @@ CwStatus cw_patch_names_set(const CwAssembly *assembly, CwPatchChoice wanted, co
   FILE *out = open_memstream(&text, &size);
   CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
   for (int p = 0, first = 1; p < assembly->mesh->patch_count; ++p)
-    if (cw_patch_is_there(assembly, p) && wanted(&assembly->mesh->patches[p])) {
+    if (cw_patch_is_there(assembly, p) && wanted(assembly->mesh, &assembly->mesh->patches[p])) {
       fprintf(out, "%s%s", first ? "" : between, assembly->mesh->patches[p].name);
       first = 0;
     }

@@ -11,18 +11,18 @@
 // layer meet, y+ = ln(9.8 y+)/0.41.
 #define CW_Y_PLUS_LAMINAR 11.225
 
-// A wall that turns with the impeller: the walls of the rotor but for the suction pipe.
-int cw_patch_rotates(const CwMeshPatch *patch);
-
-// A wall that turns in a zone that does not: the shaft in a suction pipe of its own.
-int cw_patch_is_shaft(const CwMeshPatch *patch);
+// A wall that turns with the impeller; one that does so in a zone that rotates; and one in a zone that stands still,
+// such as the shaft in a suction pipe.
+int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch);
+int cw_patch_rotates(const CwMesh *mesh, const CwModelPatch *patch);
+int cw_patch_is_shaft(const CwMesh *mesh, const CwModelPatch *patch);
 
 // Whether the layers of a wall, by the y+ that they were made for, resolve the viscous sublayer or laminar flow; whether
 // those of any wall do.
-int cw_patch_resolved(const CwMeshPatch *patch);
+int cw_patch_resolved(const CwModelPatch *patch);
 int cw_walls_resolved(const CwMesh *mesh);
 
-typedef int (*CwPatchChoice)(const CwMeshPatch *patch);
+typedef int (*CwPatchChoice)(const CwMesh *mesh, const CwModelPatch *patch);
 
 // Whether any face of the mesh lies on the patch.
 int cw_patch_is_there(const CwAssembly *assembly, int patch);

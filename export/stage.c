@@ -8,7 +8,6 @@
 
 #include "export/cfx_case.h"
 #include "export/cgns_file.h"
-#include "export/design_input.h"
 #include "export/foam_case.h"
 #include "export/foam_mesh.h"
 #include "export/folder.h"
@@ -55,18 +54,30 @@ done:
   return status;
 }
 
+// A solver's case needs both ends.
+static CwStatus check_ends(const CwMesh *mesh) {
+  CwStatus status = CW_OK;
+  for (CwPatchKind kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind) {
+    int count = 0;
+    for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == kind;
+    CW_REQUIRE(count > 0, CW_ERR_EXPORT, "no patch is of kind %s; a case needs one at least", cw_patch_kind_name(kind));
+  }
+done:
+  return status;
+}
+
 // What rank 0 does alone before the regions are written.
-static CwStatus begin_files(const CwCase *table, const CwDesign *design, const CwAssembly *assembly,
-                            CwInterface *interfaces, const Paths *paths, CwFoamMesh *foam) {
+static CwStatus begin_files(const CwCase *table, const CwAssembly *assembly, CwInterface *interfaces,
+                            const Paths *paths, CwFoamMesh *foam) {
   CwStatus status = CW_OK;
   for (int i = 0; i < assembly->mesh->interface_count; ++i)
-    CW_TRY(cw_interface_make(assembly, i, design->interface_radius, &interfaces[i]));
+    CW_TRY(cw_interface_make(assembly, i, &interfaces[i]));
   CW_TRY(cw_folder_remove(paths->part));
   CW_TRY(cw_make_directory(paths->foam_mesh));
   CW_TRY(cw_make_directory(paths->cfx));
   CW_TRY(cw_cgns_tree_write(paths->cgns, assembly, interfaces, table));
   CW_TRY(cw_foam_mesh_create(foam));
-  CW_TRY(cw_foam_case_write(paths->foam, table, design, assembly));
+  CW_TRY(cw_foam_case_write(paths->foam, table, assembly));
   CW_TRY(cw_cfx_case_write(paths->cfx, table, assembly));
 done:
   return status;
@@ -175,8 +186,6 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
-  CW_TRY(cw_record_number(record, "interface_area_rotor_m2", interfaces[0].sides[0].area));
-  CW_TRY(cw_record_number(record, "interface_area_stator_m2", interfaces[0].sides[1].area));
   CW_TRY(record_interfaces(a, interfaces, record));
   CW_TRY(record_patches(a, record));
 done:
@@ -246,25 +255,25 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   CwStatus status = CW_OK;
   Paths paths = {0};
   CwMesh mesh = {0};
-  CwDesign design = {0};
-  CwCase whole = *table;
   CwAssembly assembly = {0};
-  CwInterface interfaces[CW_DOMAINS_MOST] = {{0}};
+  CwInterface *interfaces = NULL;
   CwFoamMesh foam = {0};
   CwRecord *record = NULL;
   char *path = NULL, digest[CW_HASH_TEXT];
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
   CW_TRY(paths_make(run, &paths));
   CW_TRY(cw_record_start("export", &record));
-  CW_TRY(join(run, "geometry/design.json", &path));
   status = cw_record_made_from(record, run, reads);
-  if (status == CW_OK) status = cw_design_read(path, &design, &whole);
   if (status == CW_OK) status = cw_mesh_manifest_read(run, &mesh);
+  if (status == CW_OK) status = check_ends(&mesh);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
   checked = cw_seconds();
+  interfaces = calloc((size_t)mesh.interface_count + 1, sizeof *interfaces);
+  status = interfaces ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory: %d interfaces", mesh.interface_count);
+  CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_foam_mesh_plan(&assembly, paths.foam_mesh, &foam);
-  if (status == CW_OK && ranks->rank == 0) status = begin_files(&whole, &design, &assembly, interfaces, &paths, &foam);
+  if (status == CW_OK && ranks->rank == 0) status = begin_files(table, &assembly, interfaces, &paths, &foam);
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &paths, &foam));
@@ -299,7 +308,8 @@ done:
     rmdir(paths.folder); // only if nothing is in it
   }
   cw_foam_mesh_close(&foam);
-  for (int i = 0; i < CW_DOMAINS_MOST; ++i) cw_interface_free(&interfaces[i]);
+  for (int i = 0; interfaces && i < mesh.interface_count; ++i) cw_interface_free(&interfaces[i]);
+  free(interfaces);
   cw_assembly_free(&assembly);
   cw_mesh_free(&mesh);
   cw_record_free(record);

@@ -18,18 +18,3 @@ done:
   cw_atomic_file_abandon(&file);
   return status;
 }
-
-CwStatus cw_interfaces_table_write(const CwPump *pump, const char *path) {
-  CwStatus status = CW_OK;
-  CwAtomicFile file = {0};
-  CW_TRY(cw_atomic_file_open(path, &file));
-  fprintf(file.stream, "domain,patch,other_domain,other_patch\n");
-  for (int i = 0; i < pump->interface_count; i++) {
-    const CwPumpInterface *between = &pump->interface[i];
-    fprintf(file.stream, "%s,%s,%s,%s\n", between->domain[0], between->patch[0], between->domain[1], between->patch[1]);
-  }
-  CW_TRY(cw_atomic_file_commit(&file));
-done:
-  cw_atomic_file_abandon(&file);
-  return status;
-}

@@ -21,7 +21,7 @@
 static const CwStageUsage usage = {
     .stage = "geometry",
     .summary = "Designs the pump of the case file and writes its solids, with named faces, to RUN/geometry:\n"
-               "a .brep file a domain, faces.csv, interfaces.csv, pump.step, design.json, record.json and pictures.\n",
+               "a .brep file a domain, faces.csv, model.json, pump.step, design.json, record.json and pictures.\n",
 };
 
 static const double degree = M_PI / 180;
@@ -119,10 +119,8 @@ static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwM
   case 0:
     return cw_faces_table_write(solids, pump->count, path);
   case 1:
-    return cw_interfaces_table_write(pump, path);
-  case 10:
     return write_model(design, pump, path);
-  case 11:
+  case 10:
     return cw_step_write_with_faces(solids, pump->count, path);
   case 2:
     return cw_step_write(solids, pump->count, path);
@@ -165,7 +163,7 @@ done:
 
 static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
   static const char *const names[] = {"faces.csv",
-                                      "interfaces.csv",
+                                      "model.json",
                                       "pump.step",
                                       "design.json",
                                       "meridional_section.svg",
@@ -174,7 +172,6 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
                                       "blade_angle.svg",
                                       "volute_sections.svg",
                                       "volute_plan.svg",
-                                      "model.json",
                                       "pump_faces.step"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;

@@ -80,6 +80,8 @@ CwStatus cw_model_add_patch(CwModel *model, const char *name, CwPatchKind kind, 
   CW_REQUIRE(model->domain_count > 0, CW_ERR_INPUT, "patch '%s' stands before the first domain", name);
   CW_TRY(check_name("patch name", name, CW_PATCH_NAME_MOST, SMALL CAPITALS DIGITS, "letters"));
   CW_REQUIRE(cw_model_patch_find(model, name) < 0, CW_ERR_INPUT, "patch '%s' is named twice", name);
+  CW_REQUIRE(domain->patch_count < CW_PATCHES_MOST, CW_ERR_INPUT, "domain '%s' has more than %d patches", domain->name,
+             CW_PATCHES_MOST);
   CwModelPatch *grown = realloc(model->patch, (size_t)(model->patch_count + 1) * sizeof *grown);
   CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d patches", model->patch_count + 1);
   model->patch = grown;
@@ -90,6 +92,7 @@ CwStatus cw_model_add_patch(CwModel *model, const char *name, CwPatchKind kind, 
                                    : kind == CW_PATCH_INTERFACE ? CW_GROUP_INTERFACE
                                                                 : CW_GROUP_PIPE,
                            .group = CW_GROUP_VOLUTE,
+                           .y_plus_asked = NAN,
                            .y_plus = NAN,
                            .turns = kind == CW_PATCH_WALL && domain->rotating,
                            .flow_share = 1};
@@ -115,6 +118,7 @@ CwStatus cw_model_add_interface(CwModel *model, const char *const patch[2], CwIn
              model->domain[model->patch[made.patch[0]].domain].name);
   CW_REQUIRE(surface != CW_SURFACE_CYLINDER || radius > 0, CW_ERR_INPUT,
              "interface %d: the radius of a cylinder must be above 0", model->interface_count + 1);
+  CW_REQUIRE(model->interface_count < CW_INTERFACES_MOST, CW_ERR_INPUT, "more than %d interfaces", CW_INTERFACES_MOST);
   CwModelInterface *grown = realloc(model->interface, (size_t)(model->interface_count + 1) * sizeof *grown);
   CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", model->interface_count + 1);
   model->interface = grown;
@@ -164,7 +168,9 @@ static json_t *patch_json(const CwModelPatch *patch) {
     json_object_set_new(object, "group", json_string(groups[patch->group]));
     json_object_set_new(object, "turns", json_boolean(patch->turns));
     if (patch->monitored) json_object_set_new(object, "monitored", json_true());
-    if (cw_case_given(patch->y_plus)) json_object_set_new(object, "y_plus_asked", json_real(patch->y_plus));
+    if (cw_case_given(patch->y_plus_asked))
+      json_object_set_new(object, "y_plus_asked", json_real(patch->y_plus_asked));
+    if (cw_case_given(patch->y_plus)) json_object_set_new(object, "y_plus", json_real(patch->y_plus));
     json_object_set_new(object, "flow", flow);
   }
   if (patch->kind == CW_PATCH_OUTLET) json_object_set_new(object, "flow_share", json_real(patch->flow_share));
@@ -191,8 +197,7 @@ CwStatus cw_model_pack(const CwModel *model, json_t **root) {
     if (of->surface == CW_SURFACE_CYLINDER) json_object_set_new(one, "radius_m", json_real(of->radius));
     json_array_append_new(interfaces, one);
   }
-  *root = json_pack("{s:i, s:o, s:o, s:o}", "format", FORMAT, "domains", domains, "interfaces", interfaces, "flow",
-                    flow);
+  *root = json_pack("{s:o, s:o, s:o}", "domains", domains, "interfaces", interfaces, "flow", flow);
   CW_REQUIRE(*root, CW_ERR_MEMORY, "out of memory: the model");
 done:
   return status;
@@ -221,7 +226,8 @@ static CwStatus unpack_wall(json_t *object, const char *where, CwModelPatch *pat
   patch->group = (CwPatchGroup)group;
   patch->turns = json_is_true(json_object_get(object, "turns"));
   patch->monitored = json_is_true(json_object_get(object, "monitored"));
-  patch->y_plus = cw_json_real(object, "y_plus_asked");
+  patch->y_plus_asked = cw_json_real(object, "y_plus_asked");
+  patch->y_plus = cw_json_real(object, "y_plus");
   CW_TRY(cw_json_object(object, where, "flow", &flow));
   CW_TRY(read_numbers(flow, where, wall_flow, COUNT(wall_flow), &patch->flow));
   if (json_object_get(flow, "before_m")) CW_TRY(cw_json_positive(flow, where, "before_m", &patch->flow.before));
@@ -270,8 +276,6 @@ CwStatus cw_model_unpack(json_t *root, const char *where, CwModel *model) {
   json_t *list, *item, *flow;
   size_t i, k;
   int64_t blades;
-  CW_REQUIRE(json_integer_value(json_object_get(root, "format")) == FORMAT, CW_ERR_INPUT,
-             "%s: 'format' must be %d: it was written by another version", where, FORMAT);
   CW_TRY(cw_json_array(root, where, "domains", &list));
   CW_REQUIRE(json_array_size(list) > 0, CW_ERR_INPUT, "%s: 'domains' is empty", where);
   json_array_foreach(list, i, item) {
@@ -306,6 +310,8 @@ CwStatus cw_model_read(const char *path, CwModel *model) {
   CwStatus status = CW_OK;
   json_t *root = NULL;
   CW_TRY(cw_json_read(path, &root));
+  CW_REQUIRE(json_integer_value(json_object_get(root, "format")) == FORMAT, CW_ERR_INPUT,
+             "%s: 'format' must be %d: it was written by another version", path, FORMAT);
   CW_TRY(cw_json_positive(root, path, "unit_m", &model->unit));
   CW_TRY(cw_model_unpack(root, path, model));
 done:
@@ -318,6 +324,7 @@ CwStatus cw_model_write(const CwModel *model, const char *path) {
   json_t *root = NULL;
   CwModel again = {0};
   CW_TRY(cw_model_pack(model, &root));
+  json_object_set_new(root, "format", json_integer(FORMAT));
   json_object_set_new(root, "unit_m", json_real(model->unit));
   CW_TRY(cw_model_unpack(root, path, &again)); // what its readers refuse is refused here
   CW_TRY(cw_json_write(root, path));

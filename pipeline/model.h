@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { CW_DOMAINS_MOST = 64 };
+enum { CW_DOMAINS_MOST = 64, CW_INTERFACES_MOST = 64, CW_PATCHES_MOST = 64 }; // patches: of a domain
 // Names: letters, digits and _. CGNS names have 32 characters, and a patch's is also written with "_triangles", a
 // domain's with that of another domain and "_to_" between them. Domains have small letters only.
 enum { CW_PATCH_NAME_MOST = 22, CW_DOMAIN_NAME_MOST = 14 };
@@ -62,7 +62,8 @@ typedef struct {
   CwPatchGroup size;  // relative size of its edges
   CwPatchGroup group; // of a wall
   CwWallFlow flow;    // of a wall
-  double y_plus;      // of a wall, in place of its group's; NAN: none
+  double y_plus_asked; // of a wall, in place of its group's; NAN: none
+  double y_plus;       // of a wall, that its layers were made for; NAN: not yet, or the flow along it is laminar
   int turns;          // of a wall: 1: it turns with the impeller
   int monitored;      // of a wall: 1: solvers record its mean pressure
   double flow_share;  // of an outlet: its part of the flow rate
@@ -99,7 +100,7 @@ typedef struct {
 
 // Adds to a model that was zeroed at first. Patches belong to the domain that was added last; a patch begins with the
 // group volute where it is a wall, the size interface or pipe where it is not, turning with its domain. CW_ERR_INPUT
-// for a name that is not allowed or taken, or more domains than CW_DOMAINS_MOST. *patch: where it stands until the next
+// for a name that is not allowed or taken, or more of either than allowed. *patch: where it stands until the next
 // is added.
 CwStatus cw_model_add_domain(CwModel *model, const char *name, int rotating);
 CwStatus cw_model_add_patch(CwModel *model, const char *name, CwPatchKind kind, CwModelPatch **patch);

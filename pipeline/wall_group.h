@@ -5,13 +5,14 @@
 #define CUTWATER_PIPELINE_WALL_GROUP_H
 
 #include "pipeline/case.h"
+#include "pipeline/model.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// By the name of a wall, as docs/file-formats.md lists them; those not named elsewhere are the volute's.
-const CwWallGroup *cw_wall_group(const CwWalls *walls, const char *patch);
+// What the case asks of the walls of a group, blade to pipe.
+const CwWallGroup *cw_wall_group(const CwWalls *walls, CwPatchGroup group);
 
 // Whether a first height is left open: neither given nor by a y+.
 int cw_walls_auto(const CwWalls *walls);

@@ -81,7 +81,7 @@ static int seal_mesh(const char *run) {
 // The files of a stage for the others.
 static const char *const stage_names[] = {"geometry", "mesh", "export", NULL};
 static const char *const file_names[][8] = {
-    {"design.json", "faces.csv", "interfaces.csv", "rotor.brep", "stator.brep", "velocity_triangles.svg"},
+    {"design.json", "faces.csv", "model.json", "rotor.brep", "stator.brep", "velocity_triangles.svg"},
     {"manifest.json"},
     {"pump.cgns"}};
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The exact geometry of one domain (rotor, stator or a pipe), read from the geometry stage. The one bridge of the
+// The exact geometry of one domain , read from the geometry stage. The one bridge of the
 // mesher to OpenCASCADE. The B-rep has a unit of its own; lengths here are metres until cw_cad_rescale brings them to
 // the unit of the model (common/model_unit). Indices are 0-based.
 #ifndef CUTWATER_MESHER_CAD_CAD_H
 #define CUTWATER_MESHER_CAD_CAD_H
 
 #include "mesher/common/box.h"
+#include "pipeline/model.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum { CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET, CW_PATCH_INTERFACE } CwPatchKind;
 
 typedef struct CwCad CwCad;
 

@@ -9,7 +9,6 @@
 enum { COLUMN_DOMAIN, COLUMN_FACE, COLUMN_PATCH, COLUMN_KIND, COLUMN_NAME, COLUMN_COUNT };
 
 static const char *const header_line = "domain,face,patch,kind,name";
-static const char *const kind_name[] = {"wall", "inlet", "outlet", "interface"};
 
 static void strip_line_end(char *line) {
   line[strcspn(line, "\r\n")] = '\0';
@@ -42,15 +41,15 @@ static CwStatus find_patch(const char *path, int line, const char *name, const c
                            int *patch) {
   CwStatus status = CW_OK;
   int kind_index = 0;
-  while (kind_index < 4 && strcmp(kind, kind_name[kind_index]) != 0) kind_index++;
-  CW_REQUIRE(kind_index < 4, CW_ERR_INPUT, "%s:%d: kind '%s' is unknown; allowed are wall, inlet, outlet and interface",
-             path, line, kind);
+  while (kind_index < CW_PATCH_KINDS && strcmp(kind, cw_patch_kind_name((CwPatchKind)kind_index)) != 0) kind_index++;
+  CW_REQUIRE(kind_index < CW_PATCH_KINDS, CW_ERR_INPUT,
+             "%s:%d: kind '%s' is unknown; allowed are wall, inlet, outlet, interface and symmetry", path, line, kind);
   CW_TRY(check_name(path, line, "patch", name));
   for (int p = 0; p < table->patch_count; p++) {
     if (strcmp(table->patch[p].name, name) != 0) continue;
     CW_REQUIRE((int)table->patch[p].kind == kind_index, CW_ERR_INPUT,
                "%s:%d: patch '%s' is of kind '%s' here and '%s' above; a patch has one kind", path, line, name, kind,
-               kind_name[table->patch[p].kind]);
+               cw_patch_kind_name(table->patch[p].kind));
     *patch = p;
     goto done;
   }

@@ -26,7 +26,7 @@ static double prisms_per_layer(double asked) {
 static double tets_per_volume(const CwMeshRun *run, double scale) {
   double walls = 0, volume = 0;
   if (scale <= 1) return 8.45 + 6.25 * scale + 0.011 / (scale * scale);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);
   }
@@ -47,7 +47,7 @@ double cw_predicted_cells(const CwMeshRun *run, int domain) {
 
 static double all_cells_at(const CwMeshRun *run, double scale) {
   double cells = 0;
-  for (int d = 0; d < run->domains.count; d++) cells += cells_at(run, d, scale);
+  for (int d = 0; d < run->model.domain_count; d++) cells += cells_at(run, d, scale);
   return cells;
 }
 
@@ -62,7 +62,7 @@ void cw_start_factors(CwMeshRun *run) {
 
 void cw_mesh_set_scale(CwMeshRun *run, double scale) {
   run->scale = scale;
-  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
+  for (int d = 0; d < run->model.domain_count; d++) cw_size_set_scale(run->domain[d].size, scale);
 }
 
 // By secants in the logarithms, the first of a slope of -2.7, about which cells go with the scale.
@@ -83,7 +83,7 @@ void cw_mesh_solve_scale(CwMeshRun *run) {
 static void set_layers(CwMeshRun *run, int count, double y_plus_auto) {
   run->layer_count = count;
   run->y_plus_auto = y_plus_auto;
-  for (int d = 0; d < run->domains.count; d++) cw_domain_set_layers(&run->domain[d], run->table, count, y_plus_auto);
+  for (int d = 0; d < run->model.domain_count; d++) cw_domain_set_layers(&run->domain[d], run->table, count, y_plus_auto);
 }
 
 // More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. From below the
@@ -96,7 +96,7 @@ void cw_mesh_solve_layers(CwMeshRun *run) {
   for (;;) {
     double needing[CW_LAYER_COUNT_MOST + 1] = {0}, y_plus = run->y_plus_auto;
     cw_mesh_solve_scale(run);
-    for (int d = 0; d < run->domains.count; d++) cw_domain_layers_needed(&run->domain[d], run->scale, needing);
+    for (int d = 0; d < run->model.domain_count; d++) cw_domain_layers_needed(&run->domain[d], run->scale, needing);
     int needed = cw_layer_count_for(needing);
     if (given || needed <= run->layer_count) break;
     if (needed > CW_LAYER_COUNT_USUAL && cw_walls_auto(walls) && y_plus < CW_LOG_LAYER_END) {
@@ -109,13 +109,13 @@ void cw_mesh_solve_layers(CwMeshRun *run) {
 
 void cw_learn_prisms(CwMeshRun *run, int64_t triangles) {
   double integral = 0;
-  for (int d = 0; d < run->domains.count; d++) integral += run->domain[d].prism_integral;
+  for (int d = 0; d < run->model.domain_count; d++) integral += run->domain[d].prism_integral;
   run->prism_factor = (double)triangles * run->layer_count * run->scale * run->scale / integral;
 }
 
 void cw_learn_tets(CwMeshRun *run) {
   double made = 0, integral = 0;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
     integral += cw_domain_tet_integral(&run->domain[d], run->scale);
   }

@@ -18,7 +18,6 @@
 #include "mesher/plan/sector_plan.h"
 #include "mesher/policy.h"
 #include "mesher/region/region_number.h"
-#include "pipeline/wall_group.h"
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
@@ -134,21 +133,38 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
 }
 
-CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir) {
+CwStatus cw_domain_open(CwDomain *domain, const CwModel *model, int number, const char *geometry_dir) {
+  CwStatus status = CW_OK;
+  const CwModelDomain *of = &model->domain[number];
   memset(domain, 0, sizeof *domain);
-  domain->name = name;
-  return cw_cad_open(geometry_dir, name, &domain->cad);
+  domain->name = of->name;
+  domain->patch = &model->patch[of->first_patch];
+  CW_TRY(cw_cad_open(geometry_dir, of->name, &domain->cad));
+  CW_REQUIRE(cw_cad_patch_count(domain->cad) == of->patch_count, CW_ERR_INPUT,
+             "%s: %s has %d patches in faces.csv and %d in model.json", geometry_dir, of->name,
+             cw_cad_patch_count(domain->cad), of->patch_count);
+  for (int p = 0; p < of->patch_count; p++)
+    CW_REQUIRE(!strcmp(cw_cad_patch_name(domain->cad, p), domain->patch[p].name) &&
+                   cw_cad_patch_kind(domain->cad, p) == domain->patch[p].kind,
+               CW_ERR_INPUT, "%s: patch %d of %s is '%s', %s, in faces.csv and '%s', %s, in model.json", geometry_dir,
+               p + 1, of->name, cw_cad_patch_name(domain->cad, p),
+               cw_patch_kind_name(cw_cad_patch_kind(domain->cad, p)), domain->patch[p].name,
+               cw_patch_kind_name(domain->patch[p].kind));
+done:
+  return status;
 }
 
-CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales *scales) {
+CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   int patches = cw_cad_patch_count(domain->cad);
   domain->layer_share = CW_LAYER_SHARE;
   CW_NEW(domain->patch_target, patches);
   CW_NEW(domain->relative_size, patches);
   CW_NEW(domain->patch_layers, patches);
-  cw_patch_targets(domain->cad, table, scales, domain->patch_target);
-  for (int p = 0; p < patches; p++) domain->relative_size[p] = domain->patch_target[p].relative_size;
+  for (int p = 0; p < patches; p++) {
+    domain->patch_target[p] = cw_patch_target(table, &domain->patch[p]);
+    domain->relative_size[p] = domain->patch_target[p].relative_size;
+  }
   cw_domain_set_layers(domain, table, table->walls.layer_count > 0 ? table->walls.layer_count : CW_LAYERS_LEAST,
                        CW_LOG_LAYER_Y_PLUS);
 done:
@@ -159,10 +175,9 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
   domain->layer_count = layer_count;
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
-    const CwWallGroup *group = cw_wall_group(&table->walls, cw_cad_patch_name(domain->cad, p));
     CwPatchTarget *target = &domain->patch_target[p];
-    target->first = cw_first_height_choose(table, group, &target->flow, y_plus_auto, layer_count);
-    domain->patch_layers[p] = cw_layer_target(table, group, target->first.height, layer_count);
+    target->first = cw_first_height_choose(table, &target->walls, &target->flow, y_plus_auto, layer_count);
+    domain->patch_layers[p] = cw_layer_target(table, &target->walls, target->first.height, layer_count);
     domain->patch_layers[p].first_height /= cw_model_unit();
     domain->patch_layers[p].thickness /= cw_model_unit();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// One domain (rotor, stator or a pipe) on its way from exact geometry to regions: everything a rank holds of it.
+// One domain on its way from exact geometry to regions: everything a rank holds of it.
 #ifndef CUTWATER_MESHER_RUN_DOMAIN_H
 #define CUTWATER_MESHER_RUN_DOMAIN_H
 
@@ -22,6 +22,7 @@ typedef struct {
 
 typedef struct {
   const char *name;
+  const CwModelPatch *patch; // of the model
   CwCad *cad;
   struct CwTessellation *tessellation; // while the background is made
   CwBackground background;
@@ -53,9 +54,11 @@ typedef struct {
 
 enum { CW_UNDIVIDED = -1 };
 
-// Opens the exact geometry; then, once it has the unit of the model, notes what the case asks of its patches.
-CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir);
-CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales *scales);
+// Opens the exact geometry of domain `number` of the model, which it keeps; then, once it has the unit of the model,
+// notes what the case asks of its patches. CW_ERR_INPUT where the patches of faces.csv are not those of the model, in
+// their order and of their kinds.
+CwStatus cw_domain_open(CwDomain *domain, const CwModel *model, int number, const char *geometry_dir);
+CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table);
 
 // Sets the number of layers and the first heights, of this y+ where the case leaves it open, and what patches ask of so
 // many.

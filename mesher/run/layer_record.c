@@ -9,7 +9,6 @@
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
-#include "pipeline/wall_group.h"
 
 static const double MOST_SHARE = 0.05; // of the faces, may exceed CW_RATIO_FAIR
 static const double LEAST_MET = 0.9;   // of the faces, have their first height
@@ -50,14 +49,6 @@ void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch) {
   json_object_set_new(patch, "small_weight_faces", json_integer((json_int_t)ratio->small_weight));
 }
 
-// What the keys of a group of walls end in.
-static const char *group_name(const CwWalls *walls, const CwWallGroup *group) {
-  return group == &walls->blade        ? "blade"
-         : group == &walls->hub_shroud ? "hub_shroud"
-         : group == &walls->pipe       ? "pipe"
-                                       : "volute";
-}
-
 // A list of patches in a message.
 typedef struct {
   char text[WHERE_SIZE];
@@ -75,11 +66,10 @@ static void add(List *list, const char *format, ...) {
 }
 
 // Whether an earlier wall patch of the same group has the same first height.
-static int is_told(const CwDomain *domain, const CwWalls *walls, int patch) {
-  const CwWallGroup *group = cw_wall_group(walls, cw_cad_patch_name(domain->cad, patch));
+static int is_told(const CwDomain *domain, int patch) {
   for (int q = 0; q < patch; q++) {
     if (cw_cad_patch_kind(domain->cad, q) == CW_PATCH_WALL &&
-        group == cw_wall_group(walls, cw_cad_patch_name(domain->cad, q)) &&
+        domain->patch[q].group == domain->patch[patch].group &&
         domain->patch_target[q].first.height == domain->patch_target[patch].first.height)
       return 1;
   }
@@ -102,16 +92,15 @@ static void add_fitted(const CwPatchTarget *target, const char *patch, const cha
     add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus);
 }
 
-void cw_warn_of_first_heights(const CwDomain *domain, const CwCase *table, json_t *headlines) {
-  const CwWalls *walls = &table->walls;
+void cw_warn_of_first_heights(const CwDomain *domain, json_t *headlines) {
   List laminar = {{0}, 0}, fitted = {{0}, 0};
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     const CwPatchTarget *target = &domain->patch_target[p];
     const char *name = cw_cad_patch_name(domain->cad, p);
-    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL || is_told(domain, walls, p)) continue;
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL || is_told(domain, p)) continue;
     if (target->first.source == CW_FIRST_LAMINAR) add_laminar(target, name, &laminar);
     if (target->first.source == CW_FIRST_FITTED)
-      add_fitted(target, name, group_name(walls, cw_wall_group(walls, name)), &fitted);
+      add_fitted(target, name, cw_patch_group_name(domain->patch[p].group), &fitted);
   }
   if (laminar.length)
     tell(headlines,

@@ -16,7 +16,7 @@ void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch);
 
 // Warns, before anything is meshed, of walls in laminar flow, and of those whose asked first height does not fit the
 // passage.
-void cw_warn_of_first_heights(const CwDomain *domain, const CwCase *table, json_t *headlines);
+void cw_warn_of_first_heights(const CwDomain *domain, json_t *headlines);
 
 // Warns where less than 90 % of the wall faces of `coverage` (the domain's layer_coverage) have their first height.
 void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headlines);

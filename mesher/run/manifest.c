@@ -15,25 +15,11 @@
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
 #include "pipeline/log.h"
-
-static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
+#include "pipeline/mesh/manifest.h"
 
 // A length, area or volume of the run in m, m2 or m3.
 static json_t *metres_json(double value, int dimension) {
   return cw_json_number(value * pow(cw_model_unit(), dimension));
-}
-
-static json_t *patches_json(const CwDomain *domain) {
-  json_t *patches = json_array();
-  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    json_t *patch = json_pack("{s:s, s:s}", "name", cw_cad_patch_name(domain->cad, p), "kind",
-                              KIND_NAMES[cw_cad_patch_kind(domain->cad, p)]);
-    const double y_plus = domain->patch_target[p].first.y_plus;
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL && isfinite(y_plus))
-      json_object_set_new(patch, "y_plus", cw_json_number(y_plus));
-    json_array_append_new(patches, patch);
-  }
-  return patches;
 }
 
 static json_t *regions_json(const CwMeshRun *run, int d) {
@@ -51,26 +37,25 @@ static json_t *regions_json(const CwMeshRun *run, int d) {
   return regions;
 }
 
-static json_t *interfaces_json(const CwDomainTable *table) {
-  json_t *interfaces = json_array();
-  for (int i = 0; i < table->interface_count; i++) {
-    const CwDomainInterface *between = &table->interface[i];
-    json_array_append_new(interfaces, json_pack("[s, s]", between->patch[0], between->patch[1]));
+// The model, with what was made of it.
+static CwStatus manifest_json(CwMeshRun *run, json_t **manifest) {
+  CwStatus status = CW_OK;
+  CwModel *model = &run->model;
+  for (int p = 0; p < model->patch_count; p++) {
+    const CwModelPatch *patch = &model->patch[p];
+    const CwDomain *domain = &run->domain[patch->domain];
+    if (patch->kind == CW_PATCH_WALL) model->patch[p].y_plus = domain->patch_target[patch - domain->patch].first.y_plus;
   }
-  return interfaces;
-}
-
-static json_t *manifest_json(const CwMeshRun *run) {
-  json_t *domains = json_array();
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwDomain *domain = &run->domain[d];
-    json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
-                                             (json_int_t)domain->context.shared_count, "solid_volume_m3",
-                                             metres_json(domain->solid_volume, 3), "patches", patches_json(domain),
-                                             "regions", regions_json(run, d)));
+  CW_TRY(cw_model_pack(model, manifest));
+  json_object_set_new(*manifest, "format", json_integer(CW_MANIFEST_FORMAT));
+  for (int d = 0; d < model->domain_count; d++) {
+    json_t *made = json_array_get(json_object_get(*manifest, "domains"), (size_t)d);
+    json_object_set_new(made, "shared_points", json_integer((json_int_t)run->domain[d].context.shared_count));
+    json_object_set_new(made, "solid_volume_m3", metres_json(run->domain[d].solid_volume, 3));
+    json_object_set_new(made, "regions", regions_json(run, d));
   }
-  return json_pack("{s:i, s:o, s:o}", "format", CW_REGION_FORMAT, "domains", domains, "interfaces",
-                   interfaces_json(&run->domains));
+done:
+  return status;
 }
 
 static json_t *counts_json(const int64_t *count, int size) {
@@ -152,7 +137,7 @@ static const double REMEDY_MOST = 100; // times the first height that anyone wou
 
 // One line for the user on all patches that have thin prisms.
 static void warn_of_thin(const char *domain, const json_t *coverage) {
-  char where[64 * CW_PATCH_LIMIT] = "";
+  char where[64 * CW_PATCHES_MOST] = "";
   int length = 0;
   json_int_t sum = 0;
   double wanted = 0, at[3] = {0};
@@ -285,7 +270,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     double area = 0;
     for (int32_t r = 0; r < domain->plan.region_count; r++) area += run->summary[d][r].patch_area[p];
     json_array_append_new(patches, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
-                                             KIND_NAMES[kind], "area_m2", metres_json(area, 2)));
+                                             cw_patch_kind_name(kind), "area_m2", metres_json(area, 2)));
     if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
   warn_of_thin(domain->name, coverage);
@@ -310,7 +295,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
 static CwStatus check_files(const CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096], digest[CW_HASH_TEXT];
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
       snprintf(path, sizeof path, "%s/mesh/%s-%04d.h5", run->run_path, run->domain[d].name, r + 1);
       status = cw_region_digest_read(path, digest);
@@ -325,14 +310,14 @@ done:
 CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096];
-  json_t *manifest = manifest_json(run), *domains = json_array();
-  CW_REQUIRE(manifest && domains, CW_ERR_MEMORY, "out of memory: manifest");
+  json_t *manifest = NULL, *domains = json_array();
+  CW_TRY(manifest_json(run, &manifest));
   CW_TRY(check_files(run));
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run->run_path);
   CW_TRY(cw_json_write(manifest, path));
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_record_file(run->record, path, "manifest.json"));
-  for (int d = 0; d < run->domains.count; d++) json_array_append_new(domains, domain_json(run, d));
+  for (int d = 0; d < run->model.domain_count; d++) json_array_append_new(domains, domain_json(run, d));
   CW_TRY(cw_record_integer(run->record, "ranks", run->ranks));
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
   CW_TRY(cw_record_integer(run->record, "cells", run->cells));

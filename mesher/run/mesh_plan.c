@@ -38,7 +38,7 @@ static double extent_of(const CwBox *box) {
 // The extent of the smallest domain.
 static double least_extent(const CwMeshRun *run) {
   double least = INFINITY;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CwBox box = cw_box_empty();
     cw_cad_add_to_box(run->domain[d].cad, &box);
     least = fmin(least, extent_of(&box));
@@ -48,8 +48,8 @@ static double least_extent(const CwMeshRun *run) {
 
 static void settle_base_size(CwMeshRun *run) {
   double volume = 0;
-  for (int d = 0; d < run->domains.count; d++) volume += fabs(cw_background_volume(&run->domain[d].background));
-  for (int d = 0; d < run->domains.count; d++) run->domain[d].base_size = BASE_SIZE * cbrt(volume);
+  for (int d = 0; d < run->model.domain_count; d++) volume += fabs(cw_background_volume(&run->domain[d].background));
+  for (int d = 0; d < run->model.domain_count; d++) run->domain[d].base_size = BASE_SIZE * cbrt(volume);
 }
 
 // Background triangulations, face by face, and the base size that follows from their volume.
@@ -61,20 +61,20 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
   double deflection = DEFLECTION * least_extent(run);
   cw_profiler_part("edges of the background");
   cw_face_counts(run, faces);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_start_background(&run->domain[d], deflection));
     all += faces[d];
   }
-  CW_TRY(cw_results_make(&results, run->domains.count, faces));
+  CW_TRY(cw_results_make(&results, run->model.domain_count, faces));
   CW_NEW(task, all);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     for (int f = 0; f < faces[d]; f++) {
       task[count++] = (CwMeshTask){d, f, cw_domain_background_cost(&run->domain[d], f)};
     }
   }
   CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
   cw_profiler_part("background joined");
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
     cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
            run->domain[d].background.triangle_count);
@@ -86,17 +86,18 @@ done:
   return status;
 }
 
-// Looks for equal passages, which the rotor alone can have.
+// Looks for equal passages about the axis.
 static CwStatus find_symmetry(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwDomain *domain = &run->domain[0];
   if (!run->table->mesh.periodic_impeller) goto done;
   cw_profiler_part("symmetry");
-  CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
-  if (domain->symmetry) {
-    cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
-  } else {
-    cw_log("%s: no equal passages; it is meshed whole", domain->name);
+  for (int d = 0; d < run->model.domain_count; d++) {
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
+    if (domain->symmetry)
+      cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
+    else if (run->model.domain[d].rotating)
+      cw_log("%s: no equal passages; it is meshed whole", domain->name);
   }
 done:
   return status;
@@ -111,10 +112,10 @@ static CwStatus run_parts(CwMeshRun *run, const char *name, CwMeshStep body, con
   CwMeshTask *task = NULL;
   double *cost = NULL;
   int32_t count = 0, all = 0;
-  for (int d = 0; d < run->domains.count; d++) all += parts[d];
-  CW_TRY(cw_results_make(results, run->domains.count, parts));
+  for (int d = 0; d < run->model.domain_count; d++) all += parts[d];
+  CW_TRY(cw_results_make(results, run->model.domain_count, parts));
   CW_NEW(task, all);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CW_NEW(cost, parts[d]);
     costs(&run->domain[d], cost);
     for (int32_t i = 0; i < parts[d]; i++) task[count++] = (CwMeshTask){d, i, cost[i]};
@@ -136,7 +137,7 @@ static void field_cost(const CwDomain *domain, double *cost) {
 // most of all cells, as for the thin layers of resolved walls, flat prisms are what is asked.
 static int walls_limit(const CwMeshRun *run, double scale) {
   double wanted = 0, asked = 0;
-  for (int d = 0; d < run->domains.count; d++) cw_domain_walls_ask(&run->domain[d], scale, &wanted, &asked);
+  for (int d = 0; d < run->model.domain_count; d++) cw_domain_walls_ask(&run->domain[d], scale, &wanted, &asked);
   cw_log_debug("size field: walls ask for %.2f times as many prisms", asked / wanted);
   return asked <= cw_policy.prisms_asked * wanted;
 }
@@ -150,7 +151,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
   CwResults results = {0};
   double allowed = run->table->mesh.gradation, made_for = 0, greatest = 0;
   int32_t parts[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++)
+  for (int d = 0; d < run->model.domain_count; d++)
     parts[d] = CW_SIZE_SEEDS + 1; // open edges ask for metres, whatever the scale
   for (int round = 0;; round++) {
     cw_mesh_solve_layers(run);
@@ -164,7 +165,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
     cw_log_debug("size field: scale %.4f, made again with a gradation of %.4f, walls at %.3f", run->scale,
                  run->gradation, run->wall_scale);
     CW_TRY(run_parts(run, "size field", cw_step_size, parts, field_cost, &results));
-    for (int d = 0; d < run->domains.count; d++)
+    for (int d = 0; d < run->model.domain_count; d++)
       CW_TRY(cw_domain_take_field(&run->domain[d], made_for, results.bytes[d]));
     cw_results_free(&results);
   }
@@ -179,9 +180,9 @@ static CwStatus make_sizes(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults seeds = {0}, results = {0};
   int32_t parts[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
+  for (int d = 0; d < run->model.domain_count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
   CW_TRY(run_parts(run, "size seeds", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     run->seeds[d] = seeds.bytes[d];
     parts[d] = cw_domain_size_parts(&run->domain[d]);
   }
@@ -189,10 +190,10 @@ static CwStatus make_sizes(CwMeshRun *run) {
   run->wall_scale = 0;
   CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
   cw_profiler_part("integrals of the size");
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
   CW_TRY(hold_gradation(run));
 done:
-  for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
+  for (int d = 0; d < run->model.domain_count; d++) run->seeds[d] = NULL;
   cw_results_free(&seeds);
   cw_results_free(&results);
   return status;
@@ -202,12 +203,12 @@ done:
 static CwStatus settle_unit(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwBox box = cw_box_empty();
-  for (int d = 0; d < run->domains.count; d++) cw_cad_add_to_box(run->domain[d].cad, &box);
+  for (int d = 0; d < run->model.domain_count; d++) cw_cad_add_to_box(run->domain[d].cad, &box);
   double extent = extent_of(&box);
   CW_REQUIRE(extent > 0 && isfinite(extent), CW_ERR_INPUT, "%s/geometry: the solids have no extent", run->run_path);
   int power = cw_model_unit_power(extent);
   cw_model_unit_set(power);
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, -power));
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, -power));
   cw_log_debug("the model reaches over %.6g mm; the unit of lengths is 2^%d m", 1e3 * extent, power);
 done:
   return status;
@@ -222,28 +223,21 @@ static const char *y_plus_text(const CwMeshRun *run) {
 
 CwStatus cw_mesh_open(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwFlowScales scales;
   char path[4096];
   double started = cw_seconds();
   run->headlines = json_array();
   cw_profiler_part("geometry");
-  snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
-  CW_TRY(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry/model.json", run->run_path);
+  CW_TRY(cw_model_read(path, &run->model));
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
-  CW_TRY(cw_domain_table_read(path, &run->domains));
-  for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path));
-    CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
-               "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
-               cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
-  }
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_open(&run->domain[d], &run->model, d, path));
   CW_TRY(settle_unit(run));
-  for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_ask(&run->domain[d], run->table, &scales));
-    cw_warn_of_first_heights(&run->domain[d], run->table, run->headlines);
+  for (int d = 0; d < run->model.domain_count; d++) {
+    CW_TRY(cw_domain_ask(&run->domain[d], run->table));
+    cw_warn_of_first_heights(&run->domain[d], run->headlines);
   }
   if (run->rank == 0)
-    CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
+    CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->model.domain_count, "domains"));
   CW_TRY(triangulate_domains(run));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
@@ -291,7 +285,7 @@ done:
 
 CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d, reason));
   }
 done:
@@ -380,25 +374,25 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   run->planned_prism_factor = run->prism_factor;
   run->planned_tet_factor = run->tet_factor;
   run->planned_scale = run->scale;
-  for (int d = 0; d < run->domains.count; d++) cost[d] = run->domain[d].symmetry ? PERIODIC_PLAN : 1;
+  for (int d = 0; d < run->model.domain_count; d++) cost[d] = run->domain[d].symmetry ? PERIODIC_PLAN : 1;
   CwGroupWork work = {.step = "decomposition",
-                      .count = run->domains.count,
+                      .count = run->model.domain_count,
                       .cost = cost,
                       .own = OWN_PLAN,
                       .run = plan_item,
                       .hand = hand_plan,
                       .context = run};
-  cw_progress_start("decomposition", run->domains.count, "domains");
+  cw_progress_start("decomposition", run->model.domain_count, "domains");
   CW_TRY(cw_groups_run(&work, outcome));
-  cw_progress(run->domains.count);
+  cw_progress(run->model.domain_count);
   cw_progress_end();
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     warn_of_few_cells(run, d);
     log_plan(run, d);
   }
   if (run->rank == 0) {
-    CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->domains.count, "domains"));
+    CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->model.domain_count, "domains"));
   }
 done:
   return status;

@@ -81,9 +81,9 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   double asked = (double)run->table->mesh.cells;
   cw_start_factors(run);
   CwPassState state = {.pass = 1};
-  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
+  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->model, fingerprint));
   cw_pass_state_read(run->run_path, fingerprint, &state);
-  for (int d = 0; d < run->domains.count; d++) run->domain[d].more_regions = state.more_regions[d];
+  for (int d = 0; d < run->model.domain_count; d++) run->domain[d].more_regions = state.more_regions[d];
   CW_TRY(cw_mesh_plan(run));
   if (state.pass > 1) {
     run->prism_factor = state.prism_factor;
@@ -108,9 +108,9 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->prism_factor = rounded(run->prism_factor);
     run->tet_factor = rounded(run->tet_factor);
     state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole, {0}};
-    for (int d = 0; d < run->domains.count; d++) state.more_regions[d] = run->domain[d].more_regions;
+    for (int d = 0; d < run->model.domain_count; d++) state.more_regions[d] = run->domain[d].more_regions;
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
-    for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
+    for (int d = 0; d < run->model.domain_count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     cw_mesh_solve_scale(run);
   }
   cw_profiler_part("manifest");
@@ -121,7 +121,7 @@ done:
 
 void cw_mesh_run_free(CwMeshRun *run) {
   json_decref(run->headlines);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     cw_domain_close(&run->domain[d]);
     free(run->summary[d]);
     free(run->region_seconds[d]);

@@ -202,8 +202,8 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
     if (!taken) CW_TRY(cw_region_write(path, &mesh));
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
-    cw_domain_coverage(domain, task.index, CW_PATCH_LIMIT, summary->coverage);
-    CW_TRY(cw_layer_ratio(&mesh, domain->layer_count, CW_PATCH_LIMIT, summary->ratio));
+    cw_domain_coverage(domain, task.index, CW_PATCHES_MOST, summary->coverage);
+    CW_TRY(cw_layer_ratio(&mesh, domain->layer_count, CW_PATCHES_MOST, summary->ratio));
   }
   *bytes = summary;
   *size = sizeof *summary;

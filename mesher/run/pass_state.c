@@ -27,10 +27,10 @@ done:
   return status;
 }
 
-CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwModel *model,
                              char fingerprint[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
-  static const char *const FILES[] = {"faces.csv", "interfaces.csv", "design.json"};
+  static const char *const FILES[] = {"faces.csv", "model.json"};
   CwHash hash = cw_hash_start();
   const CwWalls *walls = &table->walls;
   const CwMeshTable *mesh = &table->mesh;
@@ -52,9 +52,9 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
     cw_hash_bytes(&hash, of_group, sizeof of_group);
   }
   for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++) CW_TRY(hash_file(&hash, run_path, FILES[i]));
-  for (int d = 0; d < domains->count; d++) {
+  for (int d = 0; d < model->domain_count; d++) {
     char name[CW_NAME_SIZE + 8];
-    snprintf(name, sizeof name, "%s.brep", domains->name[d]);
+    snprintf(name, sizeof name, "%s.brep", model->domain[d].name);
     CW_TRY(hash_file(&hash, run_path, name));
   }
   cw_hash_hex(&hash, fingerprint);

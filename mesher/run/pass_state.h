@@ -4,7 +4,7 @@
 #ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
 #define CUTWATER_MESHER_RUN_PASS_STATE_H
 
-#include "mesher/run/domain_table.h"
+#include "pipeline/model.h"
 #include "pipeline/hash.h"
 
 typedef struct {
@@ -15,7 +15,7 @@ typedef struct {
 } CwPassState;
 
 // Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.
-CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwModel *model,
                              char fingerprint[CW_HASH_TEXT]);
 
 // Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise, with a

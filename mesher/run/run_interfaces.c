@@ -15,7 +15,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   CwMeshTask *open_patch = NULL, *task = NULL;
   int32_t open_patches, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   cw_profiler_part("free curves");
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CwOutcome of_domain = {.domain = d};
     CW_TRY(cw_boundary_free_curves(&run->domain[d].boundary, &run->domain[d].boundary.interfaces, &of_domain));
     if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
@@ -27,15 +27,15 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   cw_face_counts(run, faces);
   CW_TRY(cw_face_tasks(run, 0, &open_patches, &open_patch));
   count = open_patches;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     parts[d] = faces[d] + run->domain[d].boundary.interfaces.outline_count;
     count += run->domain[d].boundary.interfaces.outline_count;
   }
-  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  CW_TRY(cw_results_make(&results, run->model.domain_count, parts));
   CW_NEW(task, count);
   memcpy(task, open_patch, (size_t)open_patches * sizeof *task);
   count = open_patches;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     const CwBoundary *boundary = &run->domain[d].boundary;
     for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
       if (cw_image_turns(&boundary->images, &boundary->interfaces.outline_images, i) > 0) continue;
@@ -45,7 +45,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   }
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
   cw_profiler_part("inner surfaces merged");
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_boundary_merge_inner(&run->domain[d].boundary, results.bytes[d], results.bytes[d] + faces[d],
                                    &run->domain[d].boundary.interfaces));
     CW_AUDIT(cw_interfaces_audit(&run->domain[d].boundary.interfaces, run->domain[d].plan.region_count));
@@ -63,12 +63,12 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     regions[d] = run->domain[d].plan.region_count;
     all += regions[d];
   }
   CW_NEW(task, all);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t r = 0; r < regions[d]; r++) {
       int owns = 0;
@@ -78,10 +78,10 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
       if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
     }
   }
-  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
   CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
   cw_profiler_part("interfaces merged");
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
     CW_TRY(cw_interface_rule_merge(&domain->boundary.interfaces, domain->plan.region_count, results.bytes[d],

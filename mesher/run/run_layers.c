@@ -14,7 +14,7 @@ static const double OWN_THICKNESS = 0.3, COPIED_THICKNESS = 0.15, OWN_LAYERS = 0
 // Returns the wall triangles.
 static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DOMAINS_MOST]) {
   int64_t all = 0;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     const CwBoundary *boundary = &run->domain[d].boundary;
     int32_t firsts = 0;
     for (int32_t t = 0; t < boundary->surface.triangle_count; t++) firsts += boundary->surface.source[t] == t;
@@ -50,7 +50,7 @@ CwStatus cw_run_thickness(CwMeshRun *run) {
   double cost[CW_DOMAINS_MOST];
   find_costs(run, COPIED_THICKNESS, cost);
   CwGroupWork work = {.step = "thicknesses of the layers",
-                      .count = run->domains.count,
+                      .count = run->model.domain_count,
                       .cost = cost,
                       .own = OWN_THICKNESS,
                       .run = find_thickness,
@@ -104,7 +104,7 @@ CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
   int64_t faces = find_costs(run, COPIED_LAYERS, cost);
   CwGroupWork work = {.step = "layers",
-                      .count = run->domains.count,
+                      .count = run->model.domain_count,
                       .cost = cost,
                       .own = OWN_LAYERS,
                       .run = grow,
@@ -112,12 +112,12 @@ CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
                       .context = run};
   cw_progress_start("layers", faces, "wall faces");
   CW_TRY(cw_groups_run(&work, of_domain));
-  *outcome = cw_outcomes_first(run->domains.count, of_domain);
+  *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   if (outcome->kind == CW_OUTCOME_DONE) cw_progress(faces);
   cw_progress_end();
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
   if (run->rank == 0)
-    CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
+    CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->model.domain_count, "domains"));
 done:
   return status;
 }

@@ -29,8 +29,8 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   uint64_t open_faces[CW_DOMAINS_MOST] = {0};
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
   cw_profiler_part("points that regions share");
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+  for (int d = 0; d < run->model.domain_count; d++) {
     regions[d] = run->domain[d].plan.region_count;
     all += regions[d];
     free(run->summary[d]);
@@ -42,7 +42,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   }
   CW_NEW(task, all);
   CW_NEW(after, all);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     const CwBoundary *boundary = &run->domain[d].boundary;
     for (int32_t r = 0; r < regions[d]; r++) {
       if (cw_image_region_first(&boundary->images, boundary->plan, r) != r) continue;
@@ -56,7 +56,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
       }
     }
   }
-  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
   CW_TRY(
       cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes, run->region_seconds));
   cw_profiler_part("results");
@@ -70,7 +70,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
     if (made->failure.failed) outcome->kind = CW_OUTCOME_THIN;
   }
   if (outcome->kind == CW_OUTCOME_THIN) CW_TRY_STAGE(cw_thin_places_in_regions(run, places), outcome);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH,
                "%s: the regions in %s/mesh do not fit together on the partition planes", run->domain[d].name,
                run->run_path);

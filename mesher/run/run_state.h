@@ -9,10 +9,8 @@
 #include "mesher/region/layer_ratio.h"
 #include "mesher/region/region_failure.h"
 #include "mesher/run/domain.h"
-#include "mesher/run/domain_table.h"
+#include "pipeline/model.h"
 #include "pipeline/record.h"
-
-enum { CW_PATCH_LIMIT = 32 };
 
 // Checks a product as it is made, in builds with sanitizers.
 #ifdef CUTWATER_AUDIT
@@ -24,9 +22,9 @@ enum { CW_PATCH_LIMIT = 32 };
 // What is known of a finished region; travels between ranks as bytes.
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
-  double patch_area[CW_PATCH_LIMIT];  // m2, of the region's boundary faces
-  CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
-  CwLayerCoverage coverage[CW_PATCH_LIMIT];
+  double patch_area[CW_PATCHES_MOST];  // m2, of the region's boundary faces
+  CwLayerRatio ratio[CW_PATCHES_MOST]; // wall faces by last layer over first tetrahedron
+  CwLayerCoverage coverage[CW_PATCHES_MOST];
   CwFillRecovery recovery;
   char digest[CW_HASH_TEXT]; // of its file
   char damage[256];          // of the file that was there before, which is made again; "": none
@@ -47,8 +45,8 @@ typedef struct {
   int vtk;            // 1: what the stage made is written
   int stopped;
   json_t *headlines; // what the report begins with
-  CwDomainTable domains;
-  CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
+  CwModel model;
+  CwDomain domain[CW_DOMAINS_MOST]; // as many as the model has
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
   void **seeds[CW_DOMAINS_MOST];           // of the size field, by part, while it is made

@@ -74,7 +74,7 @@ void cw_results_free(CwResults *results) {
 }
 
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
-  for (int d = 0; d < run->domains.count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
+  for (int d = 0; d < run->model.domain_count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
 }
 
 CwStatus cw_face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTask **tasks) {
@@ -82,9 +82,9 @@ CwStatus cw_face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTa
   int32_t faces[CW_DOMAINS_MOST], all = 0;
   *count = 0;
   cw_face_counts(run, faces);
-  for (int d = 0; d < run->domains.count; d++) all += faces[d];
+  for (int d = 0; d < run->model.domain_count; d++) all += faces[d];
   CW_NEW(*tasks, all);
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
       if (cw_face_is_wall(domain->cad, f) != walls) continue;

@@ -67,7 +67,7 @@ done:
 
 CwStatus cw_thin_places_in_regions(const CwMeshRun *run, CwThinPlaces *places) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
       const CwRegionFailure *failure = &run->summary[d][r].failure;
       if (failure->failed) CW_TRY(add_place(d, r, failure, places));
@@ -118,7 +118,7 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
     cw_region_failure_thin(&run->domain[d].boundary, place->region, &place->failure,
                            cw_policy.thin_reach * (double)(1 << attempt), run->most_thickness[d]);
   }
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     if (run->most_thickness[d]) thin_alike(&run->domain[d].boundary, run->most_thickness[d]);
   }
   run->retries++;
@@ -127,7 +127,7 @@ done:
 }
 
 void cw_end_thinning(CwMeshRun *run) {
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     free(run->most_thickness[d]);
     run->most_thickness[d] = NULL;
   }

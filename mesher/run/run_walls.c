@@ -19,16 +19,16 @@ static const double WALL_TOLERANCE = 0.01; // of the asked number of cells, befo
 // cw_domain_start.
 static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     outcome->domain = d;
     CW_TRY_STAGE(cw_domain_start(&run->domain[d], outcome), outcome);
   }
-  for (int i = 0; i < run->domains.interface_count; i++) {
-    const CwDomainInterface *between = &run->domains.interface[i];
-    CW_TRY(cw_couple_open_edges(&run->domain[between->domain[0]].boundary, between->patch[0],
-                                &run->domain[between->domain[1]].boundary, between->patch[1]));
+  for (int i = 0; i < run->model.interface_count; i++) {
+    const CwModelPatch *a = &run->model.patch[run->model.interface[i].patch[0]],
+                       *b = &run->model.patch[run->model.interface[i].patch[1]];
+    CW_TRY(cw_couple_open_edges(&run->domain[a->domain].boundary, a->name, &run->domain[b->domain].boundary, b->name));
   }
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CwBoundary *boundary = &run->domain[d].boundary;
     CW_TRY(cw_wall_curves_make(boundary, &boundary->wall_curves));
     CW_AUDIT(cw_wall_curves_audit(&boundary->wall_curves, &boundary->network));
@@ -43,22 +43,22 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t count, faces[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) again |= run->most_thickness[d] != NULL;
+  for (int d = 0; d < run->model.domain_count; d++) again |= run->most_thickness[d] != NULL;
   CW_TRY(cw_face_tasks(run, 1, &count, &task));
   cw_face_counts(run, faces);
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
     cw_profiler_part("curves of the walls");
     CW_TRY_STAGE(start_walls(run, outcome), outcome);
-    CW_TRY(cw_results_make(&results, run->domains.count, faces));
+    CW_TRY(cw_results_make(&results, run->model.domain_count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_profiler_part("walls merged");
-    for (int d = 0; d < run->domains.count; d++) {
+    for (int d = 0; d < run->model.domain_count; d++) {
       CW_TRY(cw_surface_mesh_make(&run->domain[d].boundary, results.bytes[d], &run->domain[d].boundary.surface));
       CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].boundary.surface, run->domain[d].plan.region_count));
     }
     CW_TRY(cw_run_thickness(run));
-    for (int d = 0; d < run->domains.count; d++) {
+    for (int d = 0; d < run->model.domain_count; d++) {
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
                    run->domain[d].layer_share);
       triangles += run->domain[d].boundary.surface.triangle_count;
@@ -71,7 +71,7 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
     cw_mesh_solve_scale(run);
   }
-  for (int d = 0; d < run->domains.count; d++) {
+  for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     for (int32_t v = 0; run->most_thickness[d] && v < domain->boundary.surface.vertex_count; v++) {
       domain->targets.target[v] = fmin(domain->targets.target[v], run->most_thickness[d][v]);

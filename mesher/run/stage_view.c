@@ -38,7 +38,7 @@ CwStatus cw_stage_view(CwMeshRun *run, CwStage stage) {
   CwStatus status = CW_OK;
   if (run->stop_after != stage) goto done;
   run->stopped = 1;
-  for (int d = 0; run->vtk && run->rank == 0 && d < run->domains.count; d++) CW_TRY(write_product(run, d, stage));
+  for (int d = 0; run->vtk && run->rank == 0 && d < run->model.domain_count; d++) CW_TRY(write_product(run, d, stage));
   cw_log("ended after the stage %s, as asked; there is no mesh", NAMES[stage]);
 done:
   return status;

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_THICKNESS_FIRST_HEIGHT_H
 
 #include "pipeline/case.h"
+#include "pipeline/model.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,15 +23,6 @@ extern "C" {
 #define CW_LAMINAR_SHARE 0.02
 // Fewer layers are no boundary layer mesh; policy.
 enum { CW_LAYERS_LEAST = 3 };
-
-// The flow along the walls of a patch.
-typedef struct {
-  double speed;    // m/s
-  double length;   // along which the boundary layer grows, m
-  double diameter; // hydraulic, of the passage, m
-  double width;    // from wall to wall, where the passage is narrowest, m
-  double before;   // way to an open patch that the wall looks at, m; 0: none
-} CwWallFlow;
 
 typedef enum {
   CW_FIRST_ASKED,  // as the case gives it, or its y+

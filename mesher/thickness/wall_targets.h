@@ -3,9 +3,9 @@
 #ifndef CUTWATER_MESHER_THICKNESS_WALL_TARGETS_H
 #define CUTWATER_MESHER_THICKNESS_WALL_TARGETS_H
 
-#include "mesher/cad/cad.h"
 #include "mesher/thickness/first_height.h"
 #include "pipeline/case.h"
+#include "pipeline/model.h"
 
 // What a wall asks of its layers.
 typedef struct {
@@ -15,25 +15,16 @@ typedef struct {
   double last;         // greatest height of the last layer, over that of a regular tetrahedron on it
 } CwLayerTarget;
 
-// The flow along the walls, from geometry/design.json.
-typedef struct {
-  CwWallFlow blade;         // blades, hub and shroud: the mean along the blade, in the passage between two blades
-  CwWallFlow trailing_edge; // of the blades, before the interface
-  CwWallFlow neck, volute, suction, diffuser, discharge;
-} CwFlowScales;
-
-// Reads them. Fails with CW_ERR_IO or CW_ERR_INPUT naming file and key.
-CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales);
-
 // What the case asks of a patch, lengths in m.
 typedef struct {
   double relative_size;
+  CwWallGroup walls;   // of its group, but for a y+ of its own
   CwWallFlow flow;     // of walls
   CwFirstHeight first; // of walls
 } CwPatchTarget;
 
-// For each patch of the CAD, but for the first height; `target` holds cw_cad_patch_count of them.
-void cw_patch_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *scales, CwPatchTarget *target);
+// But for the first height.
+CwPatchTarget cw_patch_target(const CwCase *table, const CwModelPatch *patch);
 
 // The layers, m, that `group` asks for from a first height on, `layer_count` of them.
 CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, double first_height, int layer_count);

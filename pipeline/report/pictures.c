@@ -22,20 +22,25 @@ typedef struct {
   CwCutPlane plane;
   CwCanvas canvas;
   const char *lacking; // what is not there; then nothing is drawn
+  unsigned part[CW_DOMAINS_MOST]; // CW_SEES_ROTOR and so on
   char hidden[CW_DOMAINS_MOST][PATCHES];
   char seen[CW_DOMAINS_MOST][PATCHES];
 } Drawing;
 
-static int sees(const CwPictureSpec *spec, int d) {
-  const unsigned of[] = {CW_SEES_ROTOR, CW_SEES_STATOR, CW_SEES_PIPES};
-  return (spec->sees & of[d > CW_MESH_STATOR ? 2 : d]) != 0;
+// What a domain is in a picture: the first that does not rotate is the stator, others are pipes.
+static unsigned part_of(const CwMesh *mesh, int d) {
+  if (mesh->domains[d].rotating) return CW_SEES_ROTOR;
+  for (int before = 0; before < d; before++)
+    if (!mesh->domains[before].rotating) return CW_SEES_PIPES;
+  return CW_SEES_STATOR;
 }
 
-static void mark_hidden(const CwMesh *mesh, Drawing *drawing) {
+static void mark_parts(const CwMesh *mesh, Drawing *drawing) {
   char name[80];
+  for (int d = 0; d < mesh->domain_count; d++) drawing->part[d] = part_of(mesh, d);
   if (!drawing->spec->hidden) return;
   for (int p = 0; p < mesh->patch_count; p++) {
-    const CwMeshPatch *patch = &mesh->patches[p];
+    const CwModelPatch *patch = &mesh->patches[p];
     snprintf(name, sizeof name, "|%s|", patch->name);
     drawing->hidden[patch->domain][p - mesh->domains[patch->domain].first_patch] =
         strstr(drawing->spec->hidden, name) != NULL;
@@ -123,7 +128,7 @@ static Face face_at(const CwRegionData *cells, int32_t index) {
 
 static int face_shown(const Drawing *drawing, int d, const Face *face) {
   if (drawing->hidden[d][face->patch]) return 0;
-  if (!drawing->spec->upper_half || d == CW_MESH_ROTOR) return 1;
+  if (!drawing->spec->upper_half || drawing->part[d] == CW_SEES_ROTOR) return 1;
   double z = 0;
   for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
   return z > 0;
@@ -181,14 +186,14 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
 static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells) {
   const CwPictureSpec *spec = drawing->spec;
   int d = cells->domain;
-  const CwMeshPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
+  const CwModelPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
   for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
     Face face = face_at(cells, f);
     if (!face_shown(drawing, d, &face)) continue;
     double p[5][3], part[5][3];
     int corners = face.count, outside;
     double light = light_of(&drawing->camera, &face, &outside);
-    if (spec->upper_half && d == CW_MESH_STATOR)
+    if (spec->upper_half && drawing->part[d] == CW_SEES_STATOR)
       corners = upper_part(&face, part);
     else
       for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
@@ -196,7 +201,7 @@ static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const C
     uint32_t colour = spec->colour == CW_COLOUR_REGION ? cw_region_colour(region)
                                                        : cw_patch_colour(patch[face.patch].name, face.patch);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
-    if (spec->hollow_white && outside && d == CW_MESH_ROTOR) group = METAL;
+    if (spec->hollow_white && outside && drawing->part[d] == CW_SEES_ROTOR) group = METAL;
     CwPaint paint = {.colour = cw_render_shade(colour, light),
                      .group = (uint16_t)group,
                      .edge_colour = ink,
@@ -287,7 +292,7 @@ static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPict
   if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0) return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
-      if (!sees(drawing->spec, d)) continue;
+      if (!(drawing->spec->sees & drawing->part[d])) continue;
       for (int k = 1; k >= 0; k--) {
         char label[40];
         snprintf(label, sizeof label, "%.20s %s", mesh->domains[d].name, kind[k]);
@@ -355,7 +360,7 @@ static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *surv
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_SURFACE, &cells));
     cw_survey_add(survey, mesh, &cells);
     for (int k = 0; k < cw_picture_list_count; k++) {
-      if (sees(drawings[k].spec, cells.domain)) reach_faces(&drawings[k], cells.domain, &cells);
+      if (drawings[k].spec->sees & drawings[k].part[cells.domain]) reach_faces(&drawings[k], cells.domain, &cells);
     }
     cw_mesh_region_free(&cells);
   }
@@ -371,7 +376,7 @@ static CwStatus draw_all(const CwMesh *mesh, Drawing *drawings) {
   for (int r = 0; r < mesh->region_count; r++) {
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &cells));
     for (int k = 0; k < cw_picture_list_count; k++) {
-      if (!sees(drawings[k].spec, cells.domain) || drawings[k].lacking) continue;
+      if (!(drawings[k].spec->sees & drawings[k].part[cells.domain]) || drawings[k].lacking) continue;
       if (drawings[k].spec->plane == CW_PLANE_NONE)
         draw_faces(&drawings[k], mesh, r, &cells);
       else
@@ -398,7 +403,7 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
   cw_survey_start(survey, sizes);
   for (int k = 0; k < cw_picture_list_count; k++) {
     drawings[k].spec = &cw_picture_list[k];
-    mark_hidden(mesh, &drawings[k]);
+    mark_parts(mesh, &drawings[k]);
     aim(survey, &drawings[k]); // the directions of views of all; the places are not known yet
     drawings[k].reach = (CwCameraReach){0};
   }

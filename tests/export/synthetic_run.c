@@ -11,6 +11,7 @@
 
 #include "pipeline/case_origin.h"
 #include "pipeline/case_read.h"
+#include "pipeline/mesh/manifest.h"
 #include "pipeline/mesh/region_items.h"
 #include "tests/seal_run.h"
 
@@ -378,6 +379,21 @@ static json_t *write_region(const char *run, Domain *d, int region) {
   return line;
 }
 
+static json_t *patch_json(const Patch *of, int is_rotor) {
+  const int is_blade = strncmp(of->name, "blade", 5) == 0;
+  json_t *patch = json_pack("{s:s, s:s, s:s}", "name", of->name, "kind", of->kind, "size", "volute");
+  if (!strcmp(of->kind, "outlet")) json_object_set_new(patch, "flow_share", json_real(1));
+  if (strcmp(of->kind, "wall") != 0) return patch;
+  json_object_set_new(patch, "group", json_string(is_blade ? "blade" : "volute"));
+  json_object_set_new(patch, "turns", json_boolean(is_rotor && strcmp(of->name, "suction_pipe") != 0));
+  json_object_set_new(patch, "monitored", json_boolean(!strcmp(of->name, "tongue")));
+  json_object_set_new(patch, "y_plus", json_real(30));
+  json_object_set_new(patch, "flow",
+                      json_pack("{s:f, s:f, s:f, s:f}", "speed_m_per_s", 7.8, "length_m", 0.1, "diameter_m", 0.01,
+                                "width_m", 0.008));
+  return patch;
+}
+
 static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_rotor) {
   Domain d = {.pump = pump,
               .annulus = is_rotor ? &pump->rotor : &pump->stator,
@@ -388,15 +404,13 @@ static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_r
   d.node_count = (d.annulus->radial + 1) * d.annulus->around * (d.annulus->axial + 1);
   number_shared(&d);
   json_t *patches = json_array(), *regions = json_array();
-  for (int p = 0; p < d.patch_count; ++p)
-    json_array_append_new(
-        patches, json_pack("{s:s, s:s, s:f}", "name", d.patches[p].name, "kind", d.patches[p].kind, "y_plus", 30.0));
+  for (int p = 0; p < d.patch_count; ++p) json_array_append_new(patches, patch_json(&d.patches[p], is_rotor));
   int failed = 0;
   for (int r = 0; r < d.annulus->regions && !failed; ++r)
     failed = json_array_append_new(regions, write_region(run, &d, r));
   free(d.shared);
-  json_t *domain = json_pack("{s:s, s:i, s:f, s:o, s:o}", "name", d.name, "shared_points", d.shared_count,
-                             "solid_volume_m3", d.volume, "patches", patches, "regions", regions);
+  json_t *domain = json_pack("{s:s, s:b, s:i, s:f, s:o, s:o}", "name", d.name, "rotating", is_rotor,
+                             "shared_points", d.shared_count, "solid_volume_m3", d.volume, "patches", patches, "regions", regions);
   if (failed) {
     json_decref(domain);
     return NULL;
@@ -429,17 +443,14 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
     json_decref(stator);
     return -1;
   }
-  json_t *root = json_pack("{s:i, s:[o, o], s:[[s, s]]}", "format", CW_REGION_FORMAT, "domains", rotor, stator,
-                           "interfaces", "rotor_interface", "stator_interface");
+  json_t *flow = json_pack("{s:f, s:f, s:f, s:f, s:f, s:i}", "inlet_speed_m_per_s", 1.6, "inlet_diameter_m", 0.074,
+                           "passage_speed_m_per_s", 7.8, "passage_width_m", 0.008, "reference_length_m", 0.2,
+                           "blade_count", 6);
+  json_t *root = json_pack("{s:i, s:[o, o], s:[{s:[s, s], s:s, s:f}], s:o}", "format", CW_MANIFEST_FORMAT, "domains",
+                           rotor, stator, "interfaces", "patches", "rotor_interface", "stator_interface", "surface",
+                           "cylinder", "radius_m", pump->rotor.outer, "flow", flow);
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
-  json_decref(root);
-  root = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
-                   "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s", 7.0,
-                   "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0,
-                   "blade_count", 6.0);
-  snprintf(path, sizeof path, "%s/geometry/design.json", run);
-  failed |= json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
   return failed || write_record(run, "geometry") || write_record(run, "mesh") || seal_run(run) ? -1 : 0;
 }

@@ -21,7 +21,7 @@ typedef struct {
 // A small pump of about 20000 cells in 3 + 2 regions.
 SyntheticPump synthetic_pump(void);
 
-// Writes geometry/design.json and mesh/ into the folder `run`, which it makes. Returns 0, or -1 with a
+// Writes mesh/ into the folder `run`, which it makes. Returns 0, or -1 with a
 // message on standard error.
 int synthetic_run_write(const char *run, const SyntheticPump *pump);
 

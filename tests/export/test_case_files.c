@@ -145,32 +145,33 @@ static void expect_in_block(const char *words) {
 // A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.
 static void the_shaft_in_a_suction_zone_turns(void **state) {
   (void)state;
-  enum { SUCTION = CW_MESH_STATOR + 1 };
-  CwMeshPatch patches[] = {{"hub", CW_KIND_WALL, CW_MESH_ROTOR, 30},
-                           {"hub_shaft", CW_KIND_WALL, CW_MESH_ROTOR, 30},
-                           {"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR, 30},
-                           {"rotor_interface", CW_KIND_INTERFACE, CW_MESH_ROTOR, 30},
-                           {"rotor_to_suction", CW_KIND_INTERFACE, CW_MESH_ROTOR, 30},
-                           {"stator_interface", CW_KIND_INTERFACE, CW_MESH_STATOR, 30},
-                           {"volute", CW_KIND_WALL, CW_MESH_STATOR, 30},
-                           {"outlet", CW_KIND_OUTLET, CW_MESH_STATOR, 30},
-                           {"suction_to_rotor", CW_KIND_INTERFACE, SUCTION, 30},
-                           {"inlet_pipe", CW_KIND_WALL, SUCTION, 30},
-                           {"hub_shaft_pipe", CW_KIND_WALL, SUCTION, 30},
-                           {"inlet", CW_KIND_INLET, SUCTION, 30}};
+  enum { ROTOR, STATOR, SUCTION };
+  CwModelPatch patches[] = {{.name = "hub", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
+                            {.name = "hub_shaft", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
+                            {.name = "suction_pipe", .kind = CW_PATCH_WALL, .domain = ROTOR},
+                            {.name = "rotor_interface", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                            {.name = "rotor_to_suction", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                            {.name = "stator_interface", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
+                            {.name = "volute", .kind = CW_PATCH_WALL, .domain = STATOR},
+                            {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 1},
+                            {.name = "suction_to_rotor", .kind = CW_PATCH_INTERFACE, .domain = SUCTION},
+                            {.name = "inlet_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION},
+                            {.name = "hub_shaft_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION, .turns = 1},
+                            {.name = "inlet", .kind = CW_PATCH_INLET, .domain = SUCTION}};
+  CwModelInterface interfaces[] = {{{3, 5}, CW_SURFACE_CYLINDER, 0.1}, {{4, 8}, CW_SURFACE_PLANE, 0}};
   enum { PATCHES = sizeof patches / sizeof *patches };
   CwMesh mesh = {.domain_count = 3,
-                 .domains = {{.name = "rotor", .zone = "ROTOR", .first_patch = 0, .patch_count = 5},
+                 .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 5},
                              {.name = "stator", .zone = "STATOR", .first_patch = 5, .patch_count = 3},
                              {.name = "suction", .zone = "SUCTION", .first_patch = 8, .patch_count = 4}},
                  .interface_count = 2,
-                 .interfaces = {{{3, 5}}, {{4, 8}}},
+                 .interfaces = interfaces,
                  .patch_count = PATCHES,
-                 .patches = patches};
+                 .patches = patches,
+                 .flow = {2, 0.07, 9, 0.01, 0.2, 6}};
   CwPatchPart parts[PATCHES];
   for (int p = 0; p < PATCHES; ++p) parts[p] = (CwPatchPart){.triangles = 1, .area = 1, .vector = {0, 0, 1}};
   CwAssembly assembly = {.mesh = &mesh, .patches = parts};
-  CwDesign design = {.relative_speed = 9, .suction_speed = 2};
   CwCase table = {.name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}};
   char path[STAGE_PATH_SIZE + 60];
   snprintf(path, sizeof path, "%s/run/export/cfx", folder);
@@ -194,7 +195,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   snprintf(path, sizeof path, "%s/run/export/openfoam", folder);
   assert_int_equal(stage_shell(output, "rm -rf '%s'", path), 0);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  assert_int_equal(cw_foam_case_write(path, &table, &design, &assembly), CW_OK);
+  assert_int_equal(cw_foam_case_write(path, &table, &assembly), CW_OK);
   static const char *const fields[] = {"openfoam/0/U", "openfoam/transient/0/U"};
   for (int i = 0; i < 2; ++i) {
     find_block(fields[i], "hub_shaft_pipe\n", "}\n");

@@ -36,7 +36,8 @@ static int64_t make_ring(int around, int along, int triangles, double turn, CwIn
 }
 
 typedef struct {
-  CwMeshPatch names[2];
+  CwModelPatch names[2];
+  CwModelInterface surfaces[3]; // the cylinder, a plane, and the cylinder taken for any surface
   CwPatchPart sums[2];
   CwMesh mesh;
   CwAssembly assembly;
@@ -44,9 +45,12 @@ typedef struct {
 
 static void make_pair(Pair *p) {
   memset(p, 0, sizeof *p);
-  p->names[0] = (CwMeshPatch){"rotor_interface", CW_KIND_INTERFACE, 0};
-  p->names[1] = (CwMeshPatch){"stator_interface", CW_KIND_INTERFACE, 1};
-  p->mesh.interfaces[0] = (CwMeshInterface){{0, 1}};
+  p->names[0] = (CwModelPatch){"rotor_interface", CW_PATCH_INTERFACE, .domain = 0};
+  p->names[1] = (CwModelPatch){"stator_interface", CW_PATCH_INTERFACE, .domain = 1};
+  p->surfaces[0] = (CwModelInterface){{0, 1}, CW_SURFACE_CYLINDER, RADIUS};
+  p->surfaces[1] = (CwModelInterface){{0, 1}, CW_SURFACE_PLANE, 0};
+  p->surfaces[2] = (CwModelInterface){{0, 1}, CW_SURFACE_OTHER, 0};
+  p->mesh.interfaces = p->surfaces;
   p->mesh.interface_count = 1;
   p->mesh.patches = p->names;
   p->mesh.patch_count = 2;
@@ -83,7 +87,7 @@ static void every_centre_lies_where_its_donor_says(void **state) {
   Pair p;
   CwInterface interface = {0};
   make_pair(&p);
-  assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_OK);
+  assert_int_equal(cw_interface_make(&p.assembly, 0, &interface), CW_OK);
   for (int d = 0; d < 2; ++d) {
     assert_int_equal(interface.count[d], d ? 350 : 360);
     for (int64_t i = 0; i < interface.count[d]; ++i) {
@@ -109,7 +113,7 @@ static void a_radial_gap_is_told(void **state) {
   for (int64_t i = 0; i < 350; ++i)
     for (int c = 0; c < 4; ++c)
       for (int k = 0; k < 2; ++k) p.assembly.interface[0][1][i].nodes[c][k] *= 1.01;
-  assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_ERR_INPUT);
+  assert_int_equal(cw_interface_make(&p.assembly, 0, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "patch 'stator_interface'"));
   assert_non_null(strstr(cw_fail_message(), "has the radius 101 mm; the interface has 100 mm"));
   cw_interface_free(&interface);
@@ -123,7 +127,7 @@ static void different_ends_are_told(void **state) {
   make_pair(&p);
   for (int64_t i = 0; i < 350; ++i)
     for (int c = 0; c < 4; ++c) p.assembly.interface[0][1][i].nodes[c][2] += 1e-3;
-  assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_ERR_INPUT);
+  assert_int_equal(cw_interface_make(&p.assembly, 0, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "from z = -10 to 10 mm on patch 'rotor_interface', but from -9 to 11 mm"));
   cw_interface_free(&interface);
   free_pair(&p);
@@ -153,7 +157,6 @@ static int64_t make_disc(int around, int rings, CwInterfaceFace **faces) {
 // Both sides have the same rim; inside, one is much finer.
 static void make_discs(Pair *p) {
   make_pair(p);
-  p->mesh.interfaces[1] = p->mesh.interfaces[0];
   p->mesh.interface_count = 2;
   for (int side = 0; side < 2; ++side) {
     p->sums[side] = (CwPatchPart){.area = M_PI * RADIUS * RADIUS,
@@ -172,7 +175,7 @@ static void a_disc_finds_its_donors_in_its_plane(void **state) {
   Pair p;
   CwInterface interface = {0};
   make_discs(&p);
-  assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_OK);
+  assert_int_equal(cw_interface_make(&p.assembly, 1, &interface), CW_OK);
   for (int d = 0; d < 2; ++d) {
     assert_int_equal(interface.count[d], d ? 24 * 13 : 24 * 5);
     for (int64_t i = 0; i < interface.count[d]; ++i) {
@@ -199,7 +202,7 @@ static void a_node_off_the_disc_is_told(void **state) {
   CwInterface interface = {0};
   make_discs(&p);
   p.assembly.interface[1][1][40].nodes[1][2] += 1e-3;
-  assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_ERR_INPUT);
+  assert_int_equal(cw_interface_make(&p.assembly, 1, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "patch 'stator_interface'"));
   assert_non_null(strstr(cw_fail_message(), "is 0.866 mm off the interface's plane; allowed: "));
   cw_interface_free(&interface);
@@ -216,10 +219,48 @@ static void discs_of_different_size_are_told(void **state) {
       for (int k = 0; k < 3; ++k)
         p.assembly.interface[1][1][i].nodes[c][k] +=
             0.03 * (p.assembly.interface[1][1][i].nodes[c][k] - (k == 2) * 0.3);
-  assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_ERR_INPUT);
+  assert_int_equal(cw_interface_make(&p.assembly, 1, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "'rotor_interface', but from -103 to 103 mm"));
   cw_interface_free(&interface);
   free_discs(&p);
+}
+
+// Without coordinates of the surface; on a cylinder these say which donors are right.
+static void any_surface_has_the_donors_of_the_cylinder(void **state) {
+  (void)state;
+  Pair p;
+  CwInterface wanted = {0}, found = {0};
+  make_pair(&p);
+  assert_int_equal(cw_interface_make(&p.assembly, 0, &wanted), CW_OK);
+  for (int s = 0; s < 2; ++s) p.assembly.interface[2][s] = p.assembly.interface[0][s];
+  if (cw_interface_make(&p.assembly, 2, &found) != CW_OK) fail_msg("%s", cw_fail_message());
+  for (int d = 0; d < 2; ++d) {
+    int64_t same = 0;
+    for (int64_t i = 0; i < wanted.count[d]; ++i) {
+      if (found.donor[d][i] != wanted.donor[d][i]) continue; // a chord's end may belong to its neighbour
+      ++same;
+      for (int k = 0; k < 2; ++k) assert_float_equal(found.place[d][i][k], wanted.place[d][i][k], 0.02);
+    }
+    assert_true(same >= 0.98 * (double)wanted.count[d]);
+  }
+  cw_interface_free(&wanted);
+  cw_interface_free(&found);
+  free_pair(&p);
+}
+
+static void any_surface_with_a_gap_is_told(void **state) {
+  (void)state;
+  Pair p;
+  CwInterface interface = {0};
+  make_pair(&p);
+  for (int s = 0; s < 2; ++s) p.assembly.interface[2][s] = p.assembly.interface[0][s];
+  for (int64_t i = 0; i < 350; ++i)
+    for (int c = 0; c < 4; ++c)
+      for (int k = 0; k < 2; ++k) p.assembly.interface[0][1][i].nodes[c][k] *= 1.1; // edges of 12 to 17 mm
+  assert_int_equal(cw_interface_make(&p.assembly, 2, &interface), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "of its longest edge off patch 'stator_interface'; allowed: 0.25"));
+  cw_interface_free(&interface);
+  free_pair(&p);
 }
 
 int main(void) {
@@ -230,6 +271,8 @@ int main(void) {
       cmocka_unit_test(a_disc_finds_its_donors_in_its_plane),
       cmocka_unit_test(a_node_off_the_disc_is_told),
       cmocka_unit_test(discs_of_different_size_are_told),
+      cmocka_unit_test(any_surface_has_the_donors_of_the_cylinder),
+      cmocka_unit_test(any_surface_with_a_gap_is_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

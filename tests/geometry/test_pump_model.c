@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
+#include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
 
 // The pump of cases/zones, with figures from which the flows follow by hand.

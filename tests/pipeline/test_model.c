@@ -41,7 +41,8 @@ static CwModel double_suction(void) {
   CwModelPatch *blade = add_wall(&model, "Vane_1");
   blade->group = blade->size = CW_GROUP_BLADE;
   blade->flow.before = 0.002;
-  blade->y_plus = 1;
+  blade->y_plus_asked = 1;
+  blade->y_plus = 1.25;
   blade->monitored = 1;
   add(&model, "to_casing", CW_PATCH_INTERFACE);
   assert_int_equal(cw_model_add_domain(&model, "casing", 0), CW_OK);
@@ -67,6 +68,7 @@ static void what_is_written_is_read(void **state) {
   for (int p = 0; p < model.patch_count; p++) {
     CwModelPatch *a = &again.patch[p], *b = &model.patch[p];
     assert_true(a->y_plus == b->y_plus || (isnan(a->y_plus) && isnan(b->y_plus)));
+    assert_true(a->y_plus_asked == b->y_plus_asked || (isnan(a->y_plus_asked) && isnan(b->y_plus_asked)));
     assert_string_equal(a->name, b->name);
     assert_true(a->kind == b->kind && a->domain == b->domain && a->size == b->size && a->group == b->group);
     assert_memory_equal(&a->flow, &b->flow, sizeof a->flow);

@@ -187,8 +187,8 @@ static void survey_finds_places(void **state) {
                    {-0.1, -0.003, 0.004}, {-0.1, 0.003, 0.004}, {0, 0.3, 0.02},       {0.001, 0.3, -0.02},
                    {-0.001, 0.29, 0},     {0.05, 0, -0.01},     {0, 0.05, -0.01},     {0.0, -0.05, -0.01}};
   int32_t triangle[][3] = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, patch[] = {0, 0, 1, 2};
-  CwMeshPatch names[] = {
-      {"blade_trailing_edge", CW_KIND_WALL, 0, 30}, {"outlet", CW_KIND_OUTLET, 0, 30}, {"shroud", CW_KIND_WALL, 0, 30}};
+  CwModelPatch names[] = {
+      {.name = "blade_trailing_edge", .kind = CW_PATCH_WALL}, {.name = "outlet", .kind = CW_PATCH_OUTLET}, {.name = "shroud", .kind = CW_PATCH_WALL}};
   CwMesh mesh = {.patch_count = 3, .patches = names};
   CwRegionData cells = {
       .point_count = 12, .triangle_count = 4, .points = x, .triangles = triangle, .triangle_patch = patch};
@@ -214,7 +214,7 @@ static void survey_finds_places(void **state) {
   assert_int_equal(cw_survey_shroud(survey, 0.05 / 3, &z), 1);
   assert_near(z, -0.01, 1e-12);
   // Of leading edges those of whole blades count: the larger face, further out, is a splitter's.
-  names[0] = (CwMeshPatch){"blade_leading_edge", CW_KIND_WALL, 0, 30};
+  names[0] = (CwModelPatch){.name = "blade_leading_edge", .kind = CW_PATCH_WALL};
   x[0][0] = 0.04;
   x[1][0] = x[2][0] = 0.041;
   cw_survey_start(survey, &sizes);

@@ -116,14 +116,19 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
 // clang-format off
 #define REGION(file) "{\"file\":\"" file "\",\"region\":1,\"number\":1,\"points\":8,\"own_points\":8," \
   "\"tetrahedra\":0,\"pyramids\":0,\"prisms\":2,\"triangles\":4,\"quads\":4}"
-#define PATCHES(a, b, end, c) "[{\"name\":\"" a "\",\"kind\":\"wall\"},{\"name\":\"" b "\",\"kind\":\"wall\"}," \
-  "{\"name\":\"" end "\",\"kind\":\"" end "\"},{\"name\":\"" c "\",\"kind\":\"interface\"}]"
-#define MESHED(name, patches, file) "{\"name\":\"" name "\",\"shared_points\":0,\"solid_volume_m3\":1," \
-  "\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
-#define MANIFEST "{\"format\":2,\"domains\":[" \
-  MESHED("rotor", PATCHES("shroud", "hub", "inlet", "rotor_interface"), "rotor-0001.h5") "," \
-  MESHED("stator", PATCHES("volute", "tongue", "outlet", "stator_interface"), "stator-0001.h5") "]," \
-  "\"interfaces\":[[\"rotor_interface\",\"stator_interface\"]]}"
+#define WALL(name) "{\"name\":\"" name "\",\"kind\":\"wall\",\"size\":\"volute\",\"group\":\"volute\",\"flow\":" \
+  "{\"speed_m_per_s\":7,\"length_m\":0.1,\"diameter_m\":0.01,\"width_m\":0.01}}"
+#define PATCHES(a, b, end, c) "[" WALL(a) "," WALL(b) "," \
+  "{\"name\":\"" end "\",\"kind\":\"" end "\",\"size\":\"pipe\",\"flow_share\":1}," \
+  "{\"name\":\"" c "\",\"kind\":\"interface\",\"size\":\"interface\"}]"
+#define MESHED(name, turns, patches, file) "{\"name\":\"" name "\",\"rotating\":" turns ",\"shared_points\":0," \
+  "\"solid_volume_m3\":1,\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
+#define MANIFEST "{\"format\":3,\"domains\":[" \
+  MESHED("rotor", "true", PATCHES("shroud", "hub", "inlet", "rotor_interface"), "rotor-0001.h5") "," \
+  MESHED("stator", "false", PATCHES("volute", "tongue", "outlet", "stator_interface"), "stator-0001.h5") "]," \
+  "\"interfaces\":[{\"patches\":[\"rotor_interface\",\"stator_interface\"],\"surface\":\"cylinder\"," \
+  "\"radius_m\":0.101}],\"flow\":{\"inlet_speed_m_per_s\":2,\"inlet_diameter_m\":0.07,\"passage_speed_m_per_s\":7," \
+  "\"passage_width_m\":0.01,\"reference_length_m\":0.2,\"blade_count\":6}}"
 #define DOMAIN(name, patch) \
   "{\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5," \
   "\"tetrahedron_aspect_class\":[0,0,0,0,0,0,0,0]," \
@@ -326,8 +331,8 @@ static void wrong_content_is_named(void **state) {
     const char *file, *text, *message;
   } wrong[] = {
       {"mesh/manifest.json", "{\"format\":1,", "mesh/manifest.json:1:"},
-      {"mesh/manifest.json", "{\"format\":1}", "'format' must be 2"},
-      {"mesh/manifest.json", "{\"format\":2,\"domains\":[]}", "'domains' must list rotor, stator"},
+      {"mesh/manifest.json", "{\"format\":1}", "'format' must be 3"},
+      {"mesh/manifest.json", "{\"format\":3,\"domains\":[]}", "'domains' is empty"},
       {"geometry/design.json", "[]", "object"},
       {"geometry/design.json", "{}", "blade_count"},
       {"geometry/design.json", "{\"blade_count\":6}", "outlet_diameter_m"},

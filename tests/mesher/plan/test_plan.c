@@ -16,7 +16,6 @@
 #include "mesher/network/network.h"
 #include "mesher/plan/plan_model.h"
 #include "mesher/run/domain.h"
-#include "mesher/run/domain_table.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/mesh_plan.h"
 #include "pipeline/case_read.h"
@@ -27,7 +26,7 @@ static const char *case_name = "paper";
 static int asked_count;
 static char **asked;
 static CwCase table;
-static CwDomainTable domains;
+static CwModel model;
 static CwDomain domain[CW_DOMAINS_MOST];
 static CwSymmetry *symmetry; // of the rotor
 static double prism_factor;
@@ -37,11 +36,11 @@ static void check(CwStatus status) {
   if (status != CW_OK) fail_msg("%s", cw_fail_message());
 }
 
-static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
+static void open_domain(CwDomain *made, int number, const char *folder) {
   void **part, **seed, **field;
   int64_t size;
-  check(cw_domain_open(made, name, folder));
-  check(cw_domain_ask(made, &table, scales));
+  check(cw_domain_open(made, &model, number, folder));
+  check(cw_domain_ask(made, &table));
   int faces = cw_cad_face_count(made->cad);
   part = calloc((size_t)faces, sizeof *part);
   assert_non_null(part);
@@ -69,18 +68,16 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
 
 static int open_pump(void **state) {
   char folder[] = "test-plan-XXXXXX", command[1024], path[128], case_path[512];
-  CwFlowScales scales;
   assert_non_null(mkdtemp(folder));
   snprintf(case_path, sizeof case_path, "%s/cases/%s/case.yaml", CUTWATER_SOURCE_DIR, case_name);
   snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR,
            case_path, folder);
   assert_int_equal(system(command), 0);
   check(cw_case_read(case_path, &table));
-  snprintf(path, sizeof path, "%s/geometry/design.json", folder);
-  check(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry/model.json", folder);
+  check(cw_model_read(path, &model));
   snprintf(path, sizeof path, "%s/geometry", folder);
-  check(cw_domain_table_read(path, &domains));
-  for (int d = 0; d < domains.count; d++) open_domain(&domain[d], domains.name[d], path, &scales);
+  for (int d = 0; d < model.domain_count; d++) open_domain(&domain[d], d, path);
   prism_factor = 2.45 * domain[0].layer_count;
   check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
   assert_true(symmetry || strcmp(case_name, "paper") != 0);
@@ -90,8 +87,9 @@ static int open_pump(void **state) {
 }
 
 static int close_pump(void **state) {
-  for (int d = 0; d < domains.count; d++) cw_domain_close(&domain[d]);
+  for (int d = 0; d < model.domain_count; d++) cw_domain_close(&domain[d]);
   cw_symmetry_free(&symmetry);
+  cw_model_free(&model);
   return 0;
 }
 
@@ -212,14 +210,14 @@ static void judge(int d, int32_t regions) {
 }
 
 static void few_regions_are_even_and_cut_cleanly(void **state) {
-  for (int d = 0; d < domains.count; d++) {
+  for (int d = 0; d < model.domain_count; d++) {
     judge(d, 4);
     judge(d, 8);
   }
 }
 
 static void dozens_of_regions_too(void **state) {
-  for (int d = 0; d < domains.count; d++) judge(d, 32);
+  for (int d = 0; d < model.domain_count; d++) judge(d, 32);
 }
 
 static void two_plans_are_the_same(void **state) {
@@ -254,7 +252,7 @@ static void packed_plans_come_back_whole(void **state) {
 // not divided, unless it is too large for a region, and then the run ends.
 static void plans_that_do_not_fit_give_way(void **state) {
   CwMeshRun run = {.table = &table,
-                   .domains = domains,
+                   .model = model,
                    .prism_factor = 2 * prism_factor,
                    .tet_factor = 2 * TET_FACTOR,
                    .planned_prism_factor = prism_factor,

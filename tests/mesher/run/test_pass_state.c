@@ -15,9 +15,9 @@
 #include "pipeline/case_schema.h"
 
 static char run[] = "pass-state-XXXXXX";
-static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "interfaces.csv", "design.json"};
+static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "model.json"};
 enum { FILE_COUNT = sizeof FILES / sizeof *FILES };
-static const CwDomainTable domains = {.count = 2, .name = {"rotor", "stator"}};
+static const CwModel domains = {.domain_count = 2, .domain = {{.name = "rotor"}, {.name = "stator"}}};
 
 enum { PATH_SIZE = 128 };
 

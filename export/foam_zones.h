@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What an OpenFOAM case says of the zones of the mesh: which turn, and what is reported of the flow through their ends
+// and interfaces.
+#ifndef CUTWATER_EXPORT_FOAM_ZONES_H
+#define CUTWATER_EXPORT_FOAM_ZONES_H
+
+#include "export/patch_role.h"
+
+// Sets "mrf_zones", "mesh_motion" and "rotating_zones", which need "speed"; the ends' lines "inlet_region",
+// "outlet_region", "inlet_flow", "outlet_flow", "interface_flow"; and "rotor_interface", "stator_interface" and
+// "interface_flows": the sides of the first interface of a zone that turns with one that does not, and of the others.
+CwStatus cw_foam_zones_set(const CwAssembly *assembly, CwValues *values);
+
+#endif
