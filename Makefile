@@ -11,7 +11,8 @@
 #   make measurements [SECTIONS="scale cases"]  the benches, for docs/measurements.md (hours)
 #   make clean                               removes build/ (runs/ stays)
 #
-# CELLS: asked number of cells (default: of the case file); NP: ranks; OUT: folder of the run (default runs/paper).
+# CELLS: asked number of cells (default: of the case file); NP: ranks; OUT: folder of the run (default runs/paper);
+# HOSTS=FILE: mpirun's file of hosts; LAUNCHER="srun -n 256": instead of mpirun (docs/cluster.md).
 ROOT := $(CURDIR)
 include pipeline/build.mk
 include pipeline/run.mk
@@ -20,7 +21,7 @@ include pipeline/run.mk
 .PHONY: help solve curve check check-long check-sanitized measurements clean
 
 help:
-	@sed -n '/^#   make/s/^#  //p; /^# CELLS/s/^# //p' Makefile
+	@sed -n '/^#   make/s/^#  //p; /^# \(CELLS\|HOSTS\)/s/^# //p' Makefile
 
 OUT ?= runs/paper
 $(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))

@@ -24,8 +24,11 @@ static void require_memory(void) {
 
 void cw_mpi_settings(void) {
   require_memory();
+  setenv("OMPI_MCA_sharedfp", "^lockedfile", 0);
   const char *all = getenv("OMPI_COMM_WORLD_SIZE"), *here = getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   int alone = !all && !getenv("PMIX_NAMESPACE") && !getenv("PMI_RANK"); // other launchers set one of these
   if (alone) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  if (alone || (all && here && strcmp(all, here) == 0)) setenv("OMPI_MCA_pml", "ob1", 0);
+  int one_host = alone || (all && here && strcmp(all, here) == 0);
+  if (one_host) setenv("OMPI_MCA_pml", "ob1", 0);
+  if (!one_host && getenv("OMPI_MCA_orte_num_nodes")) setenv("OMPI_MCA_osc", "pt2pt,sm", 0); // from mpirun 4 and older
 }

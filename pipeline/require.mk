@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# What the variables of a call may be. Checked before anything is built or run. Included with ROOT set.
+# What the variables of a call may be. Checked before anything is built or run. Included with ROOT, the top of the source,
+# set, and TOP, the folder that the paths of a call count from, where that is another one.
+ifneq ($(origin TOP),file)
+TOP := $(ROOT)
+endif
 
 # $(call cutwater_require,NAME,VALUE,PATTERN,ALLOWED): stops where the value is not of the pattern, an extended regular
 # expression.
@@ -10,12 +14,12 @@ cutwater_require = $(if $(shell echo '$(subst ','\'',$(2))' | grep -Ex '$(3)' > 
 cutwater_require_cells = $(call cutwater_require,$(1),$(2),([0-9][0-9.]*[kKMG]?)?,a number of cells as 500000 or 500k or 2M)
 
 # Stops at a variable of the command line that is none of those in the list, such as CELL=2M.
-cutwater_variables := BUILD CELLS CHOICE JOBS MPIRUN NP OPTIONS OUT SECTIONS SOLVE SWEEP
+cutwater_variables := BUILD CELLS CHOICE HOSTS JOBS LAUNCHER NP OPTIONS OUT SECTIONS SOLVE SWEEP
 $(foreach variable,$(filter-out $(cutwater_variables),$(.VARIABLES)),$(if $(filter command,$(origin $(variable))),$\
   $(error $(variable) is no variable of this project; allowed: $(cutwater_variables))))
 
-# $(call cutwater_folder,NAME,VALUE): an absolute path; others count from the top of the source.
-cutwater_folder = $(if $(filter 1,$(words $(2))),$(abspath $(if $(filter /%,$(2)),$(2),$(ROOT)/$(2))),$\
+# $(call cutwater_folder,NAME,VALUE): an absolute path; others count from TOP.
+cutwater_folder = $(if $(filter 1,$(words $(2))),$(abspath $(if $(filter /%,$(2)),$(2),$(TOP)/$(2))),$\
   $(error $(1) is '$(2)'; allowed: one folder, without blanks))
 
-$(if $(filter 1,$(words $(CURDIR))),,$(error the source lies in '$(CURDIR)'; allowed: a path without blanks))
+$(if $(filter 1,$(words $(CURDIR))),,$(error this folder is '$(CURDIR)'; allowed: a path without blanks))

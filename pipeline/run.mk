@@ -3,14 +3,31 @@
 # record.json last, so the record stands for all its files. Included with ROOT, the top of the source, and BIN, the
 # folder of the programs, set.
 include $(ROOT)/pipeline/require.mk
-NP ?= 2
-$(call cutwater_require,NP,$(NP),[1-9][0-9]*,a number of ranks from 1 on)
-$(call cutwater_require_cells,CELLS,$(CELLS))
 
-# All ranks on this machine, also as root and also more than it has cores. Without binding, so that runs side by side
-# do not share a core while another is free; without copies across processes, which containers forbid.
-MPIRUN ?= env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none \
-  mpirun -q --oversubscribe --bind-to none -n $(NP)
+# How the stages that run over MPI are started: by LAUNCHER, which brings its own number of ranks (srun -n 256); else by
+# mpirun with NP ranks, on the hosts of the file HOSTS where that is given, as many as it has slots where NP is not. The
+# flow is solved on this machine by NP ranks.
+ifeq ($(HOSTS)$(LAUNCHER),)
+NP ?= 2
+endif
+ifneq ($(origin NP),undefined)
+$(call cutwater_require,NP,$(NP),[1-9][0-9]*,a number of ranks from 1 on)
+endif
+$(if $(and $(HOSTS),$(LAUNCHER)),$(error HOSTS is for mpirun, and LAUNCHER is given; allowed: one of them))
+cutwater_solves := $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS))
+$(if $(and $(NP),$(LAUNCHER)),$(if $(cutwater_solves),,$\
+  $(error NP is for mpirun, and LAUNCHER is given; allowed: the number of ranks in LAUNCHER, as 'srun -n 256')))
+$(call cutwater_require_cells,CELLS,$(CELLS))
+ifneq ($(HOSTS),)
+override HOSTS := $(call cutwater_folder,HOSTS,$(HOSTS))
+$(if $(shell test -f $(HOSTS) && test -r $(HOSTS) || echo no),$\
+  $(error HOSTS is '$(HOSTS)'; allowed: a file with a line 'NAME slots=NUMBER' for each host))
+endif
+
+# Also as root. On this machine also more ranks than it has cores, without binding, so that runs side by side do not share
+# a core while another is free, and without copies across processes, which containers forbid.
+LAUNCHER ?= env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 $(if $(HOSTS),mpirun -q --hostfile $(HOSTS),$\
+  OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -q --oversubscribe --bind-to none) $(if $(NP),-n $(NP))
 
 # $(call cutwater_note,TEXT): puts the text into the target where it is not there yet.
 define cutwater_note
@@ -23,7 +40,7 @@ endef
 define cutwater_run
 .PHONY: $(1) $(1)-solve $(1)-curve
 $(1)-solve $(1)-curve: $(1)-%: $(2) $(3)/export/record.json
-	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(NP) --bin $(BIN) $$(if $$(filter curve,$$*),--curve)
+	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(or $(NP),2) --bin $(BIN) $$(if $$(filter curve,$$*),--curve)
 	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 
@@ -42,10 +59,10 @@ $(3)/log/cells: FORCE
 	@$$(call cutwater_note,$(4))
 
 $(3)/mesh/record.json: $(2) $(3)/log/cells $(3)/geometry/record.json $(BIN)/cutwater-mesh
-	@$(MPIRUN) $(BIN)/cutwater-mesh --case $(2) --run $(3) $(if $(4),--cells $(4))
+	@$(LAUNCHER) $(BIN)/cutwater-mesh --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 $(3)/export/record.json: $(2) $(3)/mesh/record.json $(BIN)/cutwater-export
-	@$(MPIRUN) $(BIN)/cutwater-export --case $(2) --run $(3) $(if $(4),--cells $(4))
+	@$(LAUNCHER) $(BIN)/cutwater-export --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 $(3)/report/record.json: $(2) $(3)/export/record.json $(BIN)/cutwater-report
 	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))

@@ -14,7 +14,10 @@ static const char *const names[] = {"OMPI_COMM_WORLD_SIZE",
                                     "PMIX_NAMESPACE",
                                     "PMI_RANK",
                                     "OMPI_MCA_ess_singleton_isolated",
-                                    "OMPI_MCA_pml"};
+                                    "OMPI_MCA_pml",
+                                    "OMPI_MCA_sharedfp",
+                                    "OMPI_MCA_orte_num_nodes",
+                                    "OMPI_MCA_osc"};
 
 static int forget_all(void **state) {
   for (size_t k = 0; k < sizeof names / sizeof *names; k++) unsetenv(names[k]);
@@ -33,6 +36,9 @@ static void ranks_of_one_machine_share_memory(void **state) {
   cw_mpi_settings();
   assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
   assert_string_equal(getenv("OMPI_MCA_pml"), "ob1");
+  setenv("OMPI_MCA_orte_num_nodes", "1", 1);
+  cw_mpi_settings();
+  assert_null(getenv("OMPI_MCA_osc"));
 }
 
 static void ranks_of_several_machines_take_what_there_is(void **state) {
@@ -41,6 +47,10 @@ static void ranks_of_several_machines_take_what_there_is(void **state) {
   cw_mpi_settings();
   assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
   assert_null(getenv("OMPI_MCA_pml"));
+  assert_null(getenv("OMPI_MCA_osc"));
+  setenv("OMPI_MCA_orte_num_nodes", "2", 1);
+  cw_mpi_settings();
+  assert_string_equal(getenv("OMPI_MCA_osc"), "pt2pt,sm");
 }
 
 static void other_launchers_are_left_alone(void **state) {
@@ -53,10 +63,18 @@ static void other_launchers_are_left_alone(void **state) {
   }
 }
 
+static void the_component_that_fails_at_long_paths_is_left_out(void **state) {
+  setenv("PMI_RANK", "1", 1);
+  cw_mpi_settings();
+  assert_string_equal(getenv("OMPI_MCA_sharedfp"), "^lockedfile");
+}
+
 static void what_the_user_chose_stays(void **state) {
   setenv("OMPI_MCA_pml", "ucx", 1);
+  setenv("OMPI_MCA_sharedfp", "sm", 1);
   cw_mpi_settings();
   assert_string_equal(getenv("OMPI_MCA_pml"), "ucx");
+  assert_string_equal(getenv("OMPI_MCA_sharedfp"), "sm");
 }
 
 int main(void) {
@@ -65,6 +83,7 @@ int main(void) {
       cmocka_unit_test_setup(ranks_of_one_machine_share_memory, forget_all),
       cmocka_unit_test_setup(ranks_of_several_machines_take_what_there_is, forget_all),
       cmocka_unit_test_setup(other_launchers_are_left_alone, forget_all),
+      cmocka_unit_test_setup(the_component_that_fails_at_long_paths_is_left_out, forget_all),
       cmocka_unit_test_setup(what_the_user_chose_stays, forget_all),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

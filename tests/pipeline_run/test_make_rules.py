@@ -2,6 +2,7 @@
 """The make rules with stages that only note their call: what runs when, and what a failing stage does."""
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 import time
@@ -25,12 +26,17 @@ esac
 echo "{\\"seconds\\": 1, \\"peak_memory_bytes\\": 1, \\"warnings\\": [], \\"results\\": {$results}}" > "$2/$name/record.json"
 echo > "$2/$name/index.html"
 """
+LAUNCHER = """#!/bin/sh
+# Notes its name and arguments, and starts one rank of the program behind them.
+echo "${0##*/} $*" >> %(launches)s
+while [ "${1#%(bin)s/cutwater-}" = "$1" ]; do shift; done
+exec "$@"
+"""
 DOMAIN = json.dumps({"name": "rotor", "regions": 4, "tetrahedra": 0, "prisms": 5, "layer_coverage": [],
                      "volume_error": -0.001, "least_cell_volume_m3": 1e-12})
 MAKEFILE = """
 ROOT := %(source)s
 BIN := %(bin)s
-MPIRUN := env NP=$(NP)
 include $(ROOT)/pipeline/run.mk
 FORCE:
 $(eval $(call cutwater_run,pump,%(case)s,%(run)s,$(CELLS)))
@@ -49,6 +55,10 @@ class MakeRules(unittest.TestCase):
             program = self.bin / f"cutwater-{name}"
             program.write_text(STAGE % {"calls": self.calls, "fail": self.failing, "domain": DOMAIN})
             program.chmod(0o755)
+        self.launches = folder / "launches"
+        for name in ("mpirun", "srun"):
+            (self.bin / name).write_text(LAUNCHER % {"launches": self.launches, "bin": self.bin})
+            (self.bin / name).chmod(0o755)
         self.makefile = folder / "Makefile"
         self.makefile.write_text(MAKEFILE % {"source": SOURCE, "bin": self.bin, "case": self.case,
                                              "run": self.run_folder})
@@ -60,7 +70,9 @@ class MakeRules(unittest.TestCase):
         """Calls make; gives its result and the stages that ran."""
         self.calls.write_text("")
         time.sleep(0.02)  # file times must differ
+        self.launches.write_text("")
         clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
+        clean["PATH"] = f"{self.bin}:{clean['PATH']}"
         result = subprocess.run(["make", "-f", self.makefile, "pump", *words], env=clean, cwd=self.holder.name,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return result, [line.split()[0] for line in self.calls.read_text().splitlines()]
@@ -107,6 +119,25 @@ class MakeRules(unittest.TestCase):
         self.make("NP=1")
         self.assertEqual(self.make("NP=3")[1], [])
 
+    def launched(self, *words):
+        """How a run starts the mesher; the exporter the same way."""
+        result, ran = self.make(*words)
+        self.assertEqual((result.returncode, ran), (0, list(STAGES)), result.stdout)
+        mesh, export = [line.partition(f" {self.bin}/cutwater-") for line in self.launches.read_text().splitlines()]
+        self.assertEqual((mesh[0], export[0]), (mesh[0], mesh[0]))
+        self.assertTrue(mesh[2].startswith("mesh --case ") and export[2].startswith("export --case "))
+        shutil.rmtree(self.run_folder)
+        return mesh[0]
+
+    def test_who_starts_the_ranks(self):
+        hosts = self.makefile.with_name("hosts")
+        hosts.write_text("localhost slots=3\n")
+        self.assertEqual(self.launched(), "mpirun -q --oversubscribe --bind-to none -n 2")
+        self.assertEqual(self.launched("NP=5"), "mpirun -q --oversubscribe --bind-to none -n 5")
+        self.assertEqual(self.launched(f"HOSTS={hosts}"), f"mpirun -q --hostfile {hosts}")
+        self.assertEqual(self.launched(f"HOSTS={hosts}", "NP=2"), f"mpirun -q --hostfile {hosts} -n 2")
+        self.assertEqual(self.launched("LAUNCHER=srun -n 256 --exclusive"), "srun -n 256 --exclusive")
+
     def test_a_new_case_or_program_runs_what_depends_on_it(self):
         self.make()
         time.sleep(0.02)
@@ -140,11 +171,19 @@ class FrontDoor(unittest.TestCase):
         self.assertIn(f"-n 3 {SOURCE}/build/bin/cutwater-mesh --case {SOURCE}/cases/paper/case.yaml --run /nowhere/run "
                       "--cells 2M", told)
 
+    def test_the_flow_is_solved_by_the_ranks_of_this_machine(self):
+        told = self.make("solve", "LAUNCHER=srun -n 64", "NP=6").stdout
+        self.assertIn(f"srun -n 64 {SOURCE}/build/bin/cutwater-mesh", told)
+        self.assertIn("--ranks 6", told)
+
     def test_a_wrong_variable_is_refused_before_anything_runs(self):
         for words, told in ((["CELLS=abc"], "CELLS is 'abc'; allowed: a number of cells as 500000 or 500k or 2M"),
                             (["CELLS=2m"], "CELLS is '2m'"), (["CELLS=1 2"], "CELLS is '1 2'"),
                             (["CELLS=1'"], "CELLS is '1''"), (["NP=0"], "NP is '0'; allowed: a number of ranks from 1"),
-                            (["NP=two"], "NP is 'two'"), (["JOBS=0"], "JOBS is '0'"),
+                            (["NP=two"], "NP is 'two'"), (["NP="], "NP is ''"),
+                            (["HOSTS=none"], "HOSTS is '%s/none'; allowed: a file with a line 'NAME slots" % SOURCE),
+                            (["HOSTS=README.md", "LAUNCHER=srun"], "HOSTS is for mpirun, and LAUNCHER is given"),
+                            (["NP=4", "LAUNCHER=srun"], "NP is for mpirun, and LAUNCHER is given; allowed: the number"), (["JOBS=0"], "JOBS is '0'"),
                             (["OUT="], "OUT is ''; allowed: one folder, without blanks"), (["OUT=a b"], "OUT is 'a b'"),
                             (["CELL=2M"], "CELL is no variable of this project; allowed: BUILD CELLS "),
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),
