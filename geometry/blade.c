@@ -193,6 +193,10 @@ done:
   return status;
 }
 
+double cw_blade_longest_nose(const CwBladeSection *section) {
+  return fmin(0.5 * section->end, 0.8 * section->thickest_at);
+}
+
 CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *blade) {
   CwBladeSection section = *blade;
   double x[2], dx[2];

@@ -57,6 +57,9 @@ CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian,
 // where they overlap. Fails as cw_blade_section().
 CwStatus cw_blade_clearance(const CwDesign *design, const CwMeridian *meridian, double *least);
 
+// Longest ellipse of the leading edge, in p: within half of the blade, and ending before it is thickest.
+double cw_blade_longest_nose(const CwBladeSection *section);
+
 // Makes the section of the splitter between two blades from the section of the blade.
 CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *blade);
 

@@ -24,6 +24,7 @@ public:
   Maker(const CwDesign *from, const CwMeridian *section, double unit, CwBladeShape &of)
       : design(from), meridian(*section), scale(1 / unit), shape(of) {}
   void make();
+  void make_seam(double room);
 
 private:
   const CwDesign *design;
@@ -45,7 +46,7 @@ private:
       surface(const CwBladePatch &patch, const std::vector<double> &v, const std::vector<std::vector<double>> &span,
               const std::vector<CwBladePoint> &points) const;
   Handle(Geom_BSplineSurface) fillet(const CwBladePatch &patch, int wall) const;
-  void guide_line(int wall);
+  void guide_line(int wall, double room);
 };
 
 // Point of the outline at u[i] and the span s, between those of the sections: by Lagrange's polynomial through
@@ -250,33 +251,72 @@ void Maker::make() {
     shape.theta_corner[w] = corner.theta;
     shape.t_tip[w] = cw_meridian_parameter(on.curve, on.begin + tip.q * on.length);
     shape.t_corner[w] = cw_meridian_parameter(on.curve, on.begin + corner.q * on.length);
-    if (shape.section[0].start > 0) guide_line(w);
+    if (shape.section[0].start > 0) guide_line(w, 2 * M_PI / design->blade_count);
   }
   for (double *theta : {shape.theta_corner, shape.theta_up})
     if (std::fabs(theta[CW_HUB] - theta[CW_SHROUD]) < level) theta[CW_HUB] = theta[CW_SHROUD];
 }
 
-// From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into
-// the meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through
-// them wriggles.
-void Maker::guide_line(int wall) {
-  const int fine = 8000, points = 480;
+void Maker::make_seam(double room) {
+  shape.seam = true;
+  shape.has_bevel = shape.has_trailing = false;
+  for (int w : {CW_HUB, CW_SHROUD}) {
+    guide_line(w, room);
+    shape.theta_corner[w] = shape.guide_on_wall[w]->Value(1).X();
+  }
+}
+
+// The mean line of the blades on a wall, which goes on smoothly into the meridian before their leading edge and, of a
+// seam, at the trailing edge: theta by length along the wall.
+class GuideLine {
+public:
+  GuideLine(const CwBladeSection &of, const CwBladeOnWall &on, double room)
+      : s(of), begin(on.begin), length(on.length) {
+    const double step = 1e-4;
+    slope = (in_passage(0) - in_passage(step)) / (step * length);
+    turning = std::min(0.7 * begin, 0.4 * room / slope);
+    const double out = (in_passage(1 - step) - in_passage(1)) / (step * length);
+    straightening = std::min(0.5 * length, 0.4 * room / out);
+  }
+  double in_passage(double q) const {
+    return cw_blade_theta(&s, (q - s.start) / (1 - s.start));
+  }
+  // Upstream.
+  double theta(double at) const {
+    if (at >= begin) return in_passage((at - begin) / length);
+    const double f = std::min(1.0, (begin - at) / turning), f4 = f * f * f * f;
+    return in_passage(0) + slope * turning * (f - f4 * (2.5 - 3 * f + f * f));
+  }
+  // The same, but meridional from the trailing edge on.
+  double theta_of_seam(double at) const {
+    const double from = begin + length - straightening;
+    if (at <= from) return theta(at);
+    const double q = (from - begin) / length, step = 1e-4;
+    const double out = (in_passage(q - step) - in_passage(q)) / (step * length);
+    const double f = std::min(1.0, (at - from) / straightening), f4 = f * f * f * f;
+    return in_passage(q) - out * straightening * (f - f4 * (2.5 - 3 * f + f * f));
+  }
+
+private:
+  const CwBladeSection &s;
+  const double begin, length;
+  double slope, turning, straightening; // of theta by length upstream; lengths
+};
+
+// From the nose of a splitter, or of a seam from the interface, upstream to the eye. The points are evenly spaced: with
+// uneven ones the curve through them wriggles.
+void Maker::guide_line(int wall, double room) {
+  const int fine = 8000, points = shape.seam ? 960 : 480; // a seam is longer and turns at both ends
   const CwBladeOnWall on = cw_blade_on_wall(&meridian, wall);
   const CwMeridianCurve &curve = *on.curve;
-  const double begin = on.begin, length = on.length, pitch = 2 * M_PI / design->blade_count;
-  const CwBladePoint &tip = shape.leading.outline[wall][shape.leading.u.size() / 2];
-  const CwBladeSection &s = shape.section[wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1];
-  const double end = begin + tip.q * length, step = 1e-4;
-  const auto in_passage = [&](double q) { return cw_blade_theta(&s, (q - s.start) / (1 - s.start)); };
-  const double slope = (in_passage(0) - in_passage(step)) / (step * length); // of theta by length upstream
-  const double turning = std::min(0.7 * begin, 0.4 * pitch / slope);
+  const GuideLine line(shape.section[wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1], on, room);
   // The tip of a root fillet's foot lies a little off the mean line.
-  const double off = tip.theta - in_passage(tip.q);
+  const CwBladePoint tip = shape.seam ? CwBladePoint{0, 0} : shape.leading.outline[wall][shape.leading.u.size() / 2];
+  const double end = shape.seam ? cw_meridian_length(&curve, 1) : on.begin + tip.q * on.length;
+  const double off = shape.seam ? 0 : tip.theta - line.in_passage(tip.q);
   const auto theta_at = [&](double at_length) {
-    const double beside = off * smooth_step((at_length / end - 0.8) / 0.2);
-    if (at_length >= begin) return in_passage((at_length - begin) / length) + beside;
-    const double f = std::min(1.0, (begin - at_length) / turning), f4 = f * f * f * f;
-    return in_passage(0) + slope * turning * (f - f4 * (2.5 - 3 * f + f * f)) + beside;
+    if (shape.seam) return line.theta_of_seam(at_length);
+    return line.theta(at_length) + off * smooth_step((at_length / end - 0.8) / 0.2);
   };
   const auto point_at = [&](double at_length, double theta, double *t) {
     double x[2];
@@ -313,4 +353,8 @@ void Maker::guide_line(int wall) {
 
 void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, CwBladeShape *shape) {
   Maker(design, meridian, unit, *shape).make();
+}
+
+void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double unit, double room, CwBladeShape *shape) {
+  Maker(design, meridian, unit, *shape).make_seam(room);
 }

@@ -15,4 +15,8 @@
 // Standard_Failure with the reason where the trailing edge or the root fillets do not fit.
 void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, CwBladeShape *shape);
 
+// Makes the guide lines of a seam whose sections are set, those of the blade shifted into the passage. On its way it
+// turns into the meridian within a fifth of the angle `room` at either end.
+void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double unit, double room, CwBladeShape *shape);
+
 #endif

@@ -32,7 +32,7 @@ struct CwBladePatch {
   Handle(Geom2d_BSplineCurve) on_wall[2];
 };
 
-// A blade or a splitter. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a
+// A blade, a splitter or a seam. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a
 // sharp one no cut.
 struct CwBladeShape {
   const char *name;
@@ -47,6 +47,10 @@ struct CwBladeShape {
   double theta_up[2];
   Handle(Geom2d_BSplineCurve) guide_on_wall[2];
   Handle(Geom_BSplineCurve) guide[2];
+  // A seam is no blade: only its guide lines from the eye to the interface, where a passage is cut in two because its
+  // walls would wind round the axis by more than a revolution.
+  bool seam = false;
+  double begin = 0; // angle at which the parameter planes of the passage behind it begin, less the margin
 
   // The patches that this shape has.
   std::vector<CwBladePatch *> patches();

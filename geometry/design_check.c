@@ -40,6 +40,15 @@ static void against_correlations(const CwDesign *d, CwDesignRemarks *remarks) {
   }
 }
 
+// Given values that could not be had.
+static void gave_way(const CwDesign *d, CwDesignRemarks *remarks) {
+  for (int i = 0; i < CW_DESIGN_COUNT; i++) {
+    const CwDesignValue value = cw_hydraulic_design_value(d, i);
+    remark(remarks, !isnan(value.asked), "%s: %s is %.4g %s, the case asks for %.4g %s", d->source[i], value.text,
+           value.shown, value.unit, value.asked, value.unit);
+  }
+}
+
 // Where the sources of efficiency, shaft and viscous correction do not reach.
 static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
   const double q = 3600 * d->water_flow_rate, rpm = d->angular_speed * 30 / M_PI;
@@ -106,6 +115,13 @@ static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(remarks, d3 < 1.03 || d3 > 1.15, "D3 is %.3f D2; 1.03 to 1.08 are usual", d3);
   remark(remarks, tip < 1.045 || tip > 1.25,
          "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: give tongue_gap_mm", tip);
+  const CwVolute *v = &d->volute;
+  const double touching = 0.5 * M_PI + v->input.side_wall_angle;
+  remark(
+      remarks, v->input.section == CW_SECTION_CIRCLE && v->end_half_angle < touching - 1e-9,
+      "section circle: the spiral has no room for circles that touch its side walls; its arcs end at %.0f instead of "
+      "%.0f deg",
+      v->end_half_angle / degree, touching / degree);
   remark(remarks, d->diffuser_angle > 10.05 * degree, "the diffuser opens by %.1f deg; at most 10 deg are usual",
          d->diffuser_angle / degree);
   remark(remarks, d->diffuser_area_ratio < 1.45 || d->diffuser_area_ratio > 3.05,
@@ -117,14 +133,16 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
   const double blades = 6.5 * (d->outlet_diameter + d->inlet_diameter) / (d->outlet_diameter - d->inlet_diameter) *
                         sin(0.5 * (d->inlet_blade_angle + d->outlet_blade_angle));
   remarks->count = 0;
+  gave_way(d, remarks);
   against_correlations(d, remarks);
   remark(remarks, fabs(d->blade_count - blades) > 1.5 && d->specific_speed_nq < 45,
          "%d blades; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives %.1f", d->blade_count, blades);
-  remark(remarks, fabs(d->head_residual) > 0.03 * d->head,
-         "the design predicts a head of %.2f m, the table asks for %.2f m: wrap, blade angles and head do "
-         "not fit one another, and the priority decides",
-         d->predicted_head, d->head);
-  remark(remarks, fabs(d->wrap_residual) > 0.1 * degree,
+  remark(
+      remarks, fabs(d->head_residual) > 0.03 * d->head,
+      "the design predicts a head of %.4g m, the table asks for %.4g m: its dimensions, wrap and blade angles do not "
+      "fit that head, and go before it unless impeller.priority is head",
+      d->predicted_head, d->head);
+  remark(remarks, fabs(d->wrap_residual) > 0.1 * degree && isnan(d->asked[CW_DESIGN_wrap_angle]),
          "the wrap is %.2f deg, the table asks for %.2f deg: the priority decides", d->wrap_angle / degree,
          (d->wrap_angle - d->wrap_residual) / degree);
   remark(remarks, fabs(d->outlet_angle_residual) > 0.1 * degree,

@@ -3,7 +3,17 @@
 #ifndef CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 #define CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 
+#include <math.h>
+
 #include "geometry/design.h"
+
+// A given value that cannot be had gives way to `value`. The text begins with the key.
+#define GIVE_WAY(member, value, given, text)                                                                           \
+  do {                                                                                                                 \
+    const double given_up = (given);                                                                                   \
+    SET(member, value, text);                                                                                          \
+    design->asked[CW_DESIGN_##member] = given_up;                                                                      \
+  } while (0)
 
 // Takes the case's value where it is given, else the computed one, and notes which.
 #define TAKE(member, given, computed, text)                                                                            \
@@ -11,11 +21,13 @@
     const double take_given = (given);                                                                                 \
     design->member = cw_case_given(take_given) ? take_given : (computed);                                              \
     design->source[CW_DESIGN_##member] = cw_case_given(take_given) ? "case" : (text);                                  \
+    design->asked[CW_DESIGN_##member] = NAN;                                                                           \
   } while (0)
 #define SET(member, value, text)                                                                                       \
   do {                                                                                                                 \
     design->member = (value);                                                                                          \
     design->source[CW_DESIGN_##member] = (text);                                                                       \
+    design->asked[CW_DESIGN_##member] = NAN;                                                                           \
   } while (0)
 
 #endif

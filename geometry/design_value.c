@@ -40,6 +40,7 @@ CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity
   CwDesignValue value = {.text = rows[quantity].text,
                          .unit = units[kind].unit,
                          .shown = values[quantity] * units[kind].shown,
+                         .asked = design->asked[quantity] * units[kind].shown,
                          .stored = values[quantity] * units[kind].stored};
   snprintf(value.key, sizeof value.key, "%s%s", rows[quantity].member, units[kind].suffix);
   return value;

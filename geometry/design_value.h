@@ -15,6 +15,7 @@ extern "C" {
 typedef struct {
   const char *text, *unit; // as people read it, with its unit
   double shown;            // in that unit
+  double asked;            // the same: of the case, where it gave way; else NAN
   char key[64];
   double stored; // in the key's unit
 } CwDesignValue;

@@ -2,6 +2,7 @@
 #include "geometry/design_volute.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "geometry/design_source.h"
 #include "geometry/volute_diffuser.h"
@@ -81,33 +82,79 @@ static double flatness(const CwVolute *volute) {
   return volute->throat_area / (volute->throat_width * volute->throat_width);
 }
 
-// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side
-// walls, which else would make the spiral too tall, at low specific speed the tongue's radius, which is too
-// large for its throat.
-CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
-  CwStatus status = CW_OK;
-  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
-            tongue_open = !cw_case_given(given->tongue_radius);
+// The volute with b3 and side walls widened in steps as far as they may be, until its spiral is not too tall.
+static CwStatus widened(const CwVoluteTable *given, double tongue, int width_open, int side_open, CwDesign *design) {
+  enum { STEPS = 12, WIDTH_STEPS = 8 };
+  CwStatus status = CW_ERR_DESIGN;
+  CwVoluteTable wider = *given;
+  const int parallel = given->section == CW_SECTION_RECTANGLE;
   const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
+  if (parallel && side_open) wider.section = CW_SECTION_TRAPEZOID;
+  for (int i = 1; status == CW_ERR_DESIGN && i <= STEPS; i++) {
+    const double to = width + fmax(0, widest - width) * fmin(1, (double)i / WIDTH_STEPS), angle = (20 + i) * degree;
+    cw_fail_clear();
+    if (!cw_case_given(given->tongue_radius)) SET(tongue_radius, tongue, "0.0075 D2: casting");
+    if (width_open && cw_case_given(given->inlet_width))
+      GIVE_WAY(inlet_width, to, given->inlet_width, "inlet_width_mm gives way to a spiral that is not too tall");
+    else if (width_open)
+      SET(inlet_width, to, "widened for a spiral that is not too tall");
+    if (side_open && parallel)
+      GIVE_WAY(side_wall_angle, angle, 0, "section rectangle gives way to a spiral that is not too tall");
+    else if (side_open && cw_case_given(given->side_wall_angle))
+      GIVE_WAY(side_wall_angle, fmax(angle, given->side_wall_angle), given->side_wall_angle,
+               "side_wall_angle_deg gives way to a spiral that is not too tall");
+    else if (side_open)
+      SET(side_wall_angle, angle, "widened for a spiral that is not too tall");
+    status = volute_of(&wider, design);
+  }
+  return status;
+}
+
+// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side walls,
+// which else would make the spiral too tall, at low specific speed the tongue's radius, which is too large for its
+// throat. Then given side walls yield, and at last a given b3.
+static CwStatus volute_that_fits(const CwVoluteTable *given, CwDesign *design) {
+  const int width_open = !cw_case_given(given->inlet_width),
+            side_open = !cw_case_given(given->side_wall_angle) && given->section != CW_SECTION_RECTANGLE;
   const double tongue = 0.0075 * design->outlet_diameter;
+  char first[1000];
   SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
   TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
   TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
-  status = volute_of(given, design);
-  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && tongue_open; i++) {
+  CwStatus status = volute_of(given, design);
+  snprintf(first, sizeof first, "%s", cw_fail_message());
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && !cw_case_given(given->tongue_radius); i++) {
     cw_fail_clear();
     SET(tongue_radius, tongue * pow(0.75, i), "0.0075 D2, reduced for the small throat");
     status = volute_of(given, design);
   }
-  for (int i = 1; status == CW_ERR_DESIGN && i <= 12 && (width_open || side_open); i++) {
-    cw_fail_clear();
-    if (tongue_open) SET(tongue_radius, tongue, "0.0075 D2: casting");
-    if (width_open)
-      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
-    if (side_open) SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
-    status = volute_of(given, design);
+  const CwDesign before = *design;
+  for (int more = 0; status == CW_ERR_DESIGN && more < 3; more++) {
+    *design = before;
+    if ((more == 0 && !width_open && !side_open) || (more == 1 && side_open) || (more == 2 && width_open)) continue;
+    status = widened(given, tongue, width_open || more == 2, side_open || more >= 1, design);
   }
-  CW_TRY(status);
+  return status == CW_ERR_DESIGN ? CW_FAIL(status, "%s", first) : status;
+}
+
+// The tongue came as near to the given place as the spiral allows.
+static void place_of_tongue(const CwVoluteTable *given, CwDesign *design) {
+  const double r3 = design->base_diameter / 2, gap = given->tongue_gap, angle = given->tongue_angle;
+  const double tip = design->volute.tip_radius, at = design->volute.tip_angle;
+  SET(tongue_tip_radius, tip,
+      cw_case_given(gap) ? "case: D3/2 + tongue gap"
+                         : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
+  if (cw_case_given(gap) && fabs(tip - r3 - gap) > CW_VOLUTE_TONGUE_SLACK * r3)
+    GIVE_WAY(tongue_tip_radius, tip, r3 + gap, "tongue_gap_mm gives way to the nearest tongue that the spiral allows");
+  SET(tongue_angle, at, cw_case_given(angle) ? "case" : "where its gap asks for it");
+  if (cw_case_given(angle) && fabs(at - angle) > CW_VOLUTE_TONGUE_SLACK)
+    GIVE_WAY(tongue_angle, at, angle, "tongue_angle_deg gives way to the nearest that the spiral allows");
+}
+
+CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const int width_open = !cw_case_given(given->inlet_width);
+  CW_TRY(volute_that_fits(given, design));
   const double narrowest = 1.001 * (design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter);
   while (width_open && flatness(&design->volute) > FLATTEST_THROAT && design->inlet_width > narrowest) {
     SET(inlet_width, fmax(narrowest, 0.9 * design->inlet_width), "narrowed for a throat that is not too flat");
@@ -116,11 +163,7 @@ CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
   TAKE(throat_area, given->throat_area, design->volute.throat_area,
        given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
-  SET(tongue_tip_radius, design->volute.tip_radius,
-      cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
-                                       : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
-  SET(tongue_angle, design->volute.tip_angle,
-      cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
+  place_of_tongue(given, design);
   TAKE(discharge_diameter, given->outlet_diameter, design->volute.input.outlet_diameter,
        cw_case_given(given->diffuser_area_ratio) ? "area ratio of the diffuser"
                                                  : "standard bore, area ratio 1.5 to 3, under 4 m/s where that allows");

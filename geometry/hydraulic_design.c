@@ -2,6 +2,7 @@
 #include "geometry/hydraulic_design.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "geometry/blade.h"
 #include "geometry/correlations.h"
@@ -76,6 +77,61 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
       best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
 }
 
+// The wheel with the spread of its wraps; all its sections have a law.
+static CwStatus wheel(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  enum { SECTIONS = 5 };
+  CwStatus status = CW_OK;
+  CwBladeSection section;
+  CW_TRY(cw_impeller_design(table, meridian, design));
+  choose_wrap_spread(&table->impeller, meridian, design);
+  for (int j = 0; j < SECTIONS; j++) CW_TRY(cw_blade_section(design, meridian, (double)j / (SECTIONS - 1), &section));
+done:
+  return status;
+}
+
+// A given wrap that no law closes gives way, unless the priority is the wrap: to the nearest that one does, in steps.
+static CwStatus wheel_of_nearest_wrap(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  enum { STEPS = 16 };
+  const double step = 1.06, given = table->impeller.wrap_angle;
+  const CwDesign before = *design;
+  CwCase trial = *table;
+  char refused[1000];
+  CwStatus status = wheel(table, meridian, design);
+  if (status != CW_ERR_DESIGN || !cw_case_given(given) || table->impeller.priority != CW_PRIORITY_AUTO) return status;
+  snprintf(refused, sizeof refused, "%s", cw_fail_message());
+  for (int i = 2; status == CW_ERR_DESIGN && i <= 2 * STEPS + 1; i++) {
+    cw_fail_clear();
+    *design = before;
+    trial.impeller.wrap_angle = given * pow(step, (i % 2 ? 1 : -1) * (i / 2));
+    status = wheel(&trial, meridian, design);
+  }
+  if (status != CW_OK) return CW_FAIL(status, "%s", refused);
+  GIVE_WAY(wrap_angle, trial.impeller.wrap_angle, given, "wrap_angle_deg gives way to blade angles of 12 to 60 deg");
+  SET(wrap_residual, design->wrap_angle - given, "wrap - table's wrap");
+  return CW_OK;
+}
+
+// The leading edge's ellipse must end before the blade is thickest, at every span.
+static CwStatus fit_leading_edge(const CwMeridian *meridian, CwDesign *design) {
+  enum { SECTIONS = 5 };
+  const double room = 0.99;
+  CwStatus status = CW_OK;
+  CwBladeSection section;
+  double share = 1;
+  for (int j = 0; j < SECTIONS; j++) {
+    CW_TRY(cw_blade_section(design, meridian, (double)j / (SECTIONS - 1), &section));
+    share = fmin(share, cw_blade_longest_nose(&section) / section.nose);
+    if (!(design->splitter_start > 0)) continue;
+    section = cw_blade_splitter(design, &section);
+    share = fmin(share, cw_blade_longest_nose(&section) / section.nose);
+  }
+  if (share < 1 && room * share * design->leading_edge_ratio >= 1)
+    GIVE_WAY(leading_edge_ratio, room * share * design->leading_edge_ratio, design->leading_edge_ratio,
+             "leading_edge_ratio gives way to an ellipse that ends before the blade is thickest");
+done:
+  return status;
+}
+
 static CwPriority resolved_priority(const CwImpellerTable *given) {
   if (given->priority != CW_PRIORITY_AUTO) return given->priority;
   return cw_case_given(given->wrap_angle)           ? CW_PRIORITY_WRAP
@@ -105,8 +161,10 @@ static double fillet_width(double radius, double wall_angle) {
   return 2 * radius / sin(fmax(M_PI / 4, wall_angle));
 }
 
-// Between neighbours a quarter of the blade's thickness must be left of hub and shroud beside the root fillets.
-static CwStatus check_clearance(const CwMeridian *meridian, const CwDesign *design) {
+// Between neighbours a quarter of the blade's thickness must be left of hub and shroud beside the root fillets. Fillets
+// that take more become smaller, to this share of what there is room for.
+static const double FILLETS_LEFT = 0.95;
+static CwStatus make_clearance(const CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
   double clear, angle;
   CW_TRY(cw_blade_clearance(design, meridian, &clear));
@@ -117,11 +175,10 @@ static CwStatus check_clearance(const CwMeridian *meridian, const CwDesign *desi
              "%d blades%s are %.2f mm apart on hub or shroud; at least %.2f mm are allowed (a quarter of the blade's "
              "thickness): lower blade_count, blade_thickness_mm or the wrap, or leave splitter_start out",
              design->blade_count, splitters, clear * 1e3, least * 1e3);
-  CW_REQUIRE(clear > least + fillets, CW_ERR_DESIGN,
-             "%d blades%s are %.2f mm apart on hub or shroud, of which root fillets take %.2f mm; at least %.2f mm "
-             "must be left: lower root_fillet_radius_mm to %.2f, or lower blade_count, or leave splitter_start out",
-             design->blade_count, splitters, clear * 1e3, fillets * 1e3, least * 1e3,
-             floor(1e5 * design->root_fillet_radius * (clear - least) / fillets) / 1e2);
+  if (clear <= least + fillets)
+    GIVE_WAY(root_fillet_radius, FILLETS_LEFT * design->root_fillet_radius * (clear - least) / fillets,
+             design->root_fillet_radius,
+             "root_fillet_radius_mm gives way to a quarter of the blade's thickness left between fillets");
 done:
   return status;
 }
@@ -144,9 +201,9 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(vapour_pressure, cw_case_given(vapour) ? vapour : cw_water_vapour_pressure(20), "case, or that of water (IAPWS)");
   water_duty(table, design);
   specific_speeds(table, design);
-  CW_TRY(cw_impeller_design(table, &meridian, design));
-  choose_wrap_spread(&table->impeller, &meridian, design);
-  CW_TRY(check_clearance(&meridian, design));
+  CW_TRY(wheel_of_nearest_wrap(table, &meridian, design));
+  CW_TRY(fit_leading_edge(&meridian, design));
+  CW_TRY(make_clearance(&meridian, design));
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,

@@ -19,8 +19,16 @@ static const double degree = M_PI / 180;
 // D3 over D2 at least, where D3 is given and D2 is not; usual are 1.03 to 1.08.
 static const double LEAST_BASE = 1.02;
 
+// Of a given D1, where the hub is open: more than half of the eye is left.
+static const double LARGEST_HUB_IN_EYE = 0.65;
+
 static double largest_outlet_diameter(const CwCase *table) {
   return cw_case_given(table->volute.base_diameter) ? table->volute.base_diameter / LEAST_BASE : INFINITY;
+}
+
+// Blades this thick at 30 degrees leave 0.3 of the circumference of D1.
+static double largest_leading_edge(const CwDesign *design) {
+  return 0.7 * M_PI * design->inlet_diameter * sin(30 * degree) / design->blade_count;
 }
 
 static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
@@ -33,6 +41,10 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
     SET(outlet_diameter, outlet_diameter, "meets the head with the outlet blade angle");
   const double d2 = design->outlet_diameter, nq = design->specific_speed_nq;
   value = CORRELATED(CW_CORRELATED_HUB_DIAMETER);
+  if (value > LARGEST_HUB_IN_EYE * given->inlet_diameter) { // not where that is left out
+    value = LARGEST_HUB_IN_EYE * given->inlet_diameter;
+    source = "at most 0.65 of the given D1";
+  }
   if (value < given->through_shaft_diameter) {
     value = given->through_shaft_diameter;
     source = "that of the shaft through the inlet";
@@ -64,7 +76,10 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   design->blade_count_source = given->blade_count ? "case" : source;
   value = CORRELATED(CW_CORRELATED_BLADE_THICKNESS);
   TAKE(blade_thickness, given->blade_thickness, value, source);
-  TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness, "0.70 of the largest");
+  const double room = 0.5 * largest_leading_edge(design);
+  value = 0.70 * design->blade_thickness;
+  TAKE(leading_edge_thickness, given->leading_edge_thickness, fmin(value, room),
+       value > room ? "leaves two thirds of the inlet open" : "0.70 of the largest");
   TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness, "0.50 of the largest");
   TAKE(suction_pipe_length, given->suction_pipe_length,
        fmax(d1 / 3,
@@ -204,7 +219,9 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
         high = design->outlet_blade_angle;
     }
     SET(outlet_blade_angle, cw_case_given(fixed) ? fixed : 0.5 * (low + high),
-        cw_case_given(fixed) ? "limit of the usual 18 to 32 deg; D2 meets the head" : "solved for the head");
+        cw_case_given(fixed)                          ? "limit of the usual 18 to 32 deg; D2 meets the head"
+        : low > least + 1e-9 && high < largest - 1e-9 ? "solved for the head"
+                                                      : "nearest to the head of 12 to 60 deg");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else {
     for (int i = 0; i < 60; i++) {
@@ -235,10 +252,11 @@ static CwStatus impeller(const CwCase *table, double outlet_diameter, double fix
                          CwDesign *design) {
   CwStatus status = CW_OK;
   main_dimensions(table, outlet_diameter, design);
-  CW_REQUIRE(
-      design->blade_count * design->leading_edge_thickness < 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
-      CW_ERR_DESIGN, "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
-      design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
+  CW_REQUIRE(design->leading_edge_thickness < largest_leading_edge(design), CW_ERR_DESIGN,
+             "%d blades of leading_edge_thickness_mm %.2f fill the inlet of %.1f mm: lower it to %.2f, or lower "
+             "blade_count",
+             design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3,
+             0.5e3 * largest_leading_edge(design));
   leading_edge_shroud(&table->impeller, design);
   if (shape) cw_meridian_shape(&table->impeller, design);
   leading_edge_hub(&table->impeller, design);
@@ -288,12 +306,7 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
   CW_TRY(outlet_diameter_for_head(table, fixed, meridian, design));
   if (by_head && !meets_head(design) && design->outlet_diameter > (1 - 1e-9) * largest)
     CW_TRY(impeller(table, largest, NAN, 1, meridian, design));
-  CW_REQUIRE(
-      meets_head(design) || design->outlet_diameter < (1 - 1e-9) * largest, CW_ERR_DESIGN,
-      "a head of %.3f m asks for a larger wheel than D2 = %.2f mm, the most that base_diameter_mm leaves (%.3f m "
-      "with beta2 = %.2f deg): raise base_diameter_mm, or change outlet_width_mm or blade_count",
-      design->head, largest * 1e3, design->predicted_head, design->outlet_blade_angle / degree);
-  CW_REQUIRE(meets_head(design), CW_ERR_DESIGN,
+  CW_REQUIRE(meets_head(design) || design->outlet_diameter > (1 - 1e-9) * largest, CW_ERR_DESIGN,
              "no outlet diameter from 0.7 to 3 times the correlation's meets the head of %.3f m with beta2 "
              "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
@@ -339,6 +352,25 @@ done:
   return status;
 }
 
+// Given dimensions go before the head, unless the priority is the head: a wheel is built where it reaches this share of
+// the asked head, and no more than its inverse. What is further off contradicts the duty point.
+static const double LEAST_HEAD_SHARE = 0.25;
+
+static CwStatus check_head(const CwCase *table, const CwDesign *design) {
+  CwStatus status = CW_OK;
+  const int strict = table->impeller.priority == CW_PRIORITY_HEAD;
+  const double share = design->predicted_head / design->head, least = strict ? 1 - 1e-3 : LEAST_HEAD_SHARE;
+  CW_REQUIRE(share >= least && share <= 1 / least, CW_ERR_DESIGN,
+             "the table asks for a head of %.4g m; its dimensions give %.4g m with beta2 = %.2f deg (12 to 60 are "
+             "allowed) and D2 = %.4g mm%s: change outlet_diameter_mm, outlet_width_mm, outlet_blade_angle_deg%s%s",
+             design->head, design->predicted_head, design->outlet_blade_angle / degree, design->outlet_diameter * 1e3,
+             design->outlet_diameter > (1 - 1e-9) * largest_outlet_diameter(table) ? ", the most that D3 leaves" : "",
+             cw_case_given(table->volute.base_diameter) ? ", base_diameter_mm" : "",
+             strict ? " or the priority" : " or blade_count");
+done:
+  return status;
+}
+
 // The dimensions of the wheel for its head.
 static CwStatus solve_wheel(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
@@ -346,10 +378,7 @@ static CwStatus solve_wheel(const CwCase *table, CwMeridian *meridian, CwDesign 
     CW_TRY(solve_outlet_width(table, meridian, design));
   else
     CW_TRY(solve_outlet_diameter(table, meridian, design));
-  CW_REQUIRE(design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
-             "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
-             "change outlet_diameter_mm, outlet_width_mm or the priority",
-             design->head, design->predicted_head);
+  CW_TRY(check_head(table, design));
 done:
   return status;
 }

@@ -143,5 +143,6 @@ void cw_meridian_shape(const CwImpellerTable *table, CwDesign *design) {
     const int open = !cw_case_given(given[i]);
     *share[i] = open ? round(1e3 * fmin(largest_of(design, i), fmax(least_share[i], best[i]))) / 1e3 : given[i];
     design->source[quantity[i]] = open ? "monotone passage area with the least bending" : "case";
+    design->asked[quantity[i]] = NAN;
   }
 }

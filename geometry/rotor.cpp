@@ -16,6 +16,7 @@
 // has angles between 0 and 2 pi; half of it is left behind the leading edge. rad; bevels and leaning edges need the
 // least.
 static const double usual_margin = 0.5, least_margin = 0.15;
+static const int most_parts = 4; // of a passage between seams
 
 CwStatus RotorMaker::sections() {
   CwStatus status = CW_OK;
@@ -34,23 +35,49 @@ CwStatus RotorMaker::sections() {
   for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
       last = std::max(last, cw_blade_theta(&s, 0));
-      CW_REQUIRE(s.nose < 0.5 * s.end && s.nose < 0.8 * s.thickest_at, CW_ERR_GEOMETRY,
+      CW_REQUIRE(s.nose < cw_blade_longest_nose(&s), CW_ERR_GEOMETRY,
                  "the leading edge's ellipse takes %.0f %% of the %s at span %.2f: lower "
                  "leading_edge_thickness_mm or leading_edge_ratio, or raise thickest_at",
                  100 * s.nose, shape.name, s.span);
     }
-  margin = std::min(usual_margin, (2 * M_PI - last - pitch) / 1.5);
-  CW_REQUIRE(margin >= least_margin, CW_ERR_GEOMETRY,
-             "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
-             "raise blade_count",
-             last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * least_margin) * 180 / M_PI);
+  CW_TRY(seams(last));
+done:
+  return status;
+}
+
+// A passage whose walls would wind round the axis by a revolution is cut by seams into equal parts that do not. `last`:
+// angle of the foremost leading edge.
+CwStatus RotorMaker::seams(double last) {
+  CwStatus status = CW_OK;
+  const double whole = 2 * M_PI - 1.5 * least_margin, turned = 0.2; // of a part: how far its seam turns at the eye
+  int parts = 1;
+  double reach = last + pitch;
+  while (reach > whole && shapes.size() == 1 && parts < most_parts) reach = last + pitch / ++parts * (1 + turned);
+  CW_REQUIRE(reach <= whole, CW_ERR_GEOMETRY,
+             "the blades and a part of their pitch of %.1f deg wind round the axis by %.1f deg; at most %.1f deg are "
+             "allowed: lower wrap_angle_deg, raise blade_count or leave splitter_start out",
+             pitch * 180 / M_PI, reach * 180 / M_PI, whole * 180 / M_PI);
+  margin = std::min(usual_margin, (2 * M_PI - reach) / 1.5);
+  for (int part = 1; part < parts; part++) {
+    CwBladeShape seam = {};
+    seam.name = "seam";
+    seam.section = shapes[0].section;
+    seam.seam = true;
+    seam.begin = pitch * part / parts;
+    for (CwBladeSection &s : seam.section) s.shift += seam.begin;
+    shapes.push_back(seam);
+  }
 done:
   return status;
 }
 
 CwSolid *RotorMaker::build() {
-  for (CwBladeShape &shape : shapes) cw_blade_patches(design, &meridian, unit, &shape);
   const int kinds = (int)shapes.size(), n = design->blade_count * kinds;
+  for (CwBladeShape &shape : shapes)
+    if (shape.seam)
+      cw_blade_seam(design, &meridian, unit, pitch / kinds, &shape);
+    else
+      cw_blade_patches(design, &meridian, unit, &shape);
   curve[CW_HUB] = &meridian.hub;
   curve[CW_SHROUD] = &meridian.shroud;
   bands = (int)shapes[0].pressure.band.size();
@@ -61,8 +88,8 @@ CwSolid *RotorMaker::build() {
     RotorBlade &b = blade[i];
     b.turns = i / kinds;
     b.shape = &shapes[i % kinds];
-    for (int level = 0; level <= bands; level++) level_edges(b, level);
-    for (int band = 0; band < bands; band++) band_edges(b, band);
+    for (int level = 0; level <= bands && !b.shape->seam; level++) level_edges(b, level);
+    for (int band = 0; band < bands && !b.shape->seam; band++) band_edges(b, band);
     wall_edges(b);
   }
   for (int i = 0; i < n; i++) arcs(i);
@@ -72,7 +99,7 @@ CwSolid *RotorMaker::build() {
     tube_faces(i);
     if (has_shaft) inlet_ring_face(i);
     interface_face(i);
-    blade_faces(i);
+    if (!blade[i].shape->seam) blade_faces(i);
   }
   if (!has_shaft) {
     disk(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", "wall", "hub_nut_end");

@@ -12,9 +12,9 @@
 
 #include "geometry/bspline_fit.hpp"
 
-// Axes whose x axis is the zero of the parameter plane of passage k.
-gp_Ax3 RotorMaker::frame(int k, double z) const {
-  const double angle = k * pitch - margin;
+// Axes whose x axis is the zero of the parameter planes of the passage behind blade i.
+gp_Ax3 RotorMaker::frame(int i, double z) const {
+  const double angle = zero_of(i);
   return gp_Ax3(gp_Pnt(0, 0, scale * z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
 }
 
@@ -115,6 +115,13 @@ void RotorMaker::wall_edges(RotorBlade &b) {
   const double turn = b.turns * pitch, r_pipe = design->inlet_diameter / 2;
   for (int w : {CW_HUB, CW_SHROUD}) {
     const Handle(Geom_Curve) down = meridian_curve(*curve[w], turn + s.theta_corner[w]);
+    if (s.seam) {
+      const Handle(Geom_Curve) whole = turned(s.guide[w], turn);
+      b.up[w] = shell.vertex(whole->Value(0));
+      b.out[w] = shell.vertex(whole->Value(1));
+      b.e_up[w] = shell.edge(whole, 0, 1, b.up[w], b.out[w]);
+      continue;
+    }
     b.up[w] = shell.vertex(at(curve[w]->pole[0][0], turn + s.theta_up[w], curve[w]->pole[0][1]));
     b.out[w] = shell.vertex(down->Value(1));
     if (s.guide[w].IsNull())
@@ -152,8 +159,8 @@ void RotorMaker::arcs(int i) {
   const RotorBlade &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
-    return shell.edge(new Geom_Circle(frame(b.turns, height).Ax2(), scale * r), from + margin, to + margin + far_of(i),
-                      begin, end);
+    return shell.edge(new Geom_Circle(frame(i, height).Ax2(), scale * r), from + near_of(i), to + far_of(i), begin,
+                      end);
   };
   for (int w : {CW_HUB, CW_SHROUD}) {
     b.a_out[w] = arc(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w], b.out[w],

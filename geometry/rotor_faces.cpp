@@ -60,33 +60,37 @@ Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
 
 // Axes and parameter plane are those of the passage behind blade i.
 Handle(Geom_Surface) RotorMaker::cylinder(int i, double r) const {
-  return new Geom_CylindricalSurface(frame(blade[i].turns), scale * r);
+  return new Geom_CylindricalSurface(frame(i), scale * r);
 }
 
 // Hub or shroud between a blade and the next.
 void RotorMaker::wall_face(int i, int w) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
-  const double near = margin, far = margin + far_of(i);
+  const double near = near_of(i), far = far_of(i);
   const int level = w == CW_HUB ? 0 : bands;
   const char *patch = w == CW_HUB ? "hub" : "shroud";
   const auto up_on_wall = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
     if (shape.guide[w].IsNull()) return along_v(shape.theta_up[w] + offset);
     return moved(shape.guide_on_wall[w], offset);
   };
-  std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)},
-                                 {b.e_nose_p[level], true, moved(s.leading.on_wall[w], near)},
-                                 {b.e_p[level], true, moved(s.pressure.on_wall[w], near)},
-                                 {b.e_down[w], true, along_v(s.theta_corner[w] + near)},
-                                 {b.a_out[w], true, along_u(1)},
-                                 {next.e_down[w], false, along_v(f.theta_corner[w] + far)}};
-  if (f.has_trailing) loop.push_back({next.e_te[level], false, moved(f.trailing.on_wall[w], far)});
-  if (f.has_bevel) loop.push_back({next.e_bevel[level], false, moved(f.bevel.on_wall[w], far)});
-  loop.push_back({next.e_s[level], false, moved(f.suction.on_wall[w], far)});
-  loop.push_back({next.e_nose_s[level], true, moved(f.leading.on_wall[w], far)});
+  std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)}};
+  if (!s.seam) {
+    loop.push_back({b.e_nose_p[level], true, moved(s.leading.on_wall[w], near)});
+    loop.push_back({b.e_p[level], true, moved(s.pressure.on_wall[w], near)});
+    loop.push_back({b.e_down[w], true, along_v(s.theta_corner[w] + near)});
+  }
+  loop.push_back({b.a_out[w], true, along_u(1)});
+  if (!f.seam) {
+    loop.push_back({next.e_down[w], false, along_v(f.theta_corner[w] + far)});
+    if (f.has_trailing) loop.push_back({next.e_te[level], false, moved(f.trailing.on_wall[w], far)});
+    if (f.has_bevel) loop.push_back({next.e_bevel[level], false, moved(f.bevel.on_wall[w], far)});
+    loop.push_back({next.e_s[level], false, moved(f.suction.on_wall[w], far)});
+    loop.push_back({next.e_nose_s[level], true, moved(f.leading.on_wall[w], far)});
+  }
   loop.push_back({next.e_up[w], false, up_on_wall(f, far)});
   loop.push_back({b.a_up[w], false, along_u(0)});
-  shell.face(revolved(meridian_curve(*curve[w], b.turns * pitch - margin)), loop, w == CW_SHROUD, patch, "wall",
+  shell.face(revolved(meridian_curve(*curve[w], zero_of(i))), loop, w == CW_SHROUD, patch, "wall",
              patch + ("_" + std::to_string(i + 1)));
 }
 
@@ -95,7 +99,7 @@ void RotorMaker::wall_face(int i, int w) {
 void RotorMaker::tube_faces(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
-  const double near = margin, far = margin + far_of(i), z_inlet = scale * meridian.inlet_z;
+  const double near = near_of(i), far = far_of(i), z_inlet = scale * meridian.inlet_z;
   const auto tube = [&](const Handle(Geom_Surface) & surface, int w, int line, int next_line, int low, double v_low,
                         int high, double v_high, bool outward, const char *patch) {
     shell.face(surface,
@@ -106,7 +110,7 @@ void RotorMaker::tube_faces(int i) {
                outward, patch, "wall", patch + ("_" + std::to_string(i + 1)));
   };
   if (has_nut)
-    tube(revolved(nut_curve(b.turns * pitch - margin)), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB], b.a_end[CW_HUB], 0,
+    tube(revolved(nut_curve(zero_of(i))), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB], b.a_end[CW_HUB], 0,
          b.a_up[CW_HUB], 1, false, "hub_nut");
   tube(cylinder(i, design->inlet_diameter / 2), CW_SHROUD, b.e_end[CW_SHROUD], next.e_end[CW_SHROUD],
        b.a_end[CW_SHROUD], z_inlet, b.a_up[CW_SHROUD], scale * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
@@ -125,10 +129,10 @@ void RotorMaker::inlet_ring_face(int i) {
   const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
     return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), scale * r);
   };
-  shell.face(new Geom_Plane(frame(b.turns, meridian.inlet_z)),
-             {{b.e_inlet, true, spoke(*b.shape, margin)},
+  shell.face(new Geom_Plane(frame(i, meridian.inlet_z)),
+             {{b.e_inlet, true, spoke(*b.shape, near_of(i))},
               {b.a_end[CW_SHROUD], true, circle(design->inlet_diameter / 2)},
-              {next.e_inlet, false, spoke(*next.shape, margin + far_of(i))},
+              {next.e_inlet, false, spoke(*next.shape, far_of(i))},
               {b.a_shaft, false, circle(meridian.shaft_radius)}},
              false, "inlet", "inlet", "inlet_" + std::to_string(i + 1));
 }
@@ -146,9 +150,9 @@ void RotorMaker::interface_face(int i) {
     return new Geom2d_BezierCurve(poles);
   };
   shell.face(cylinder(i, design->interface_radius),
-             {{b.x_out, true, across(*b.shape, margin)},
+             {{b.x_out, true, across(*b.shape, near_of(i))},
               {b.a_out[CW_HUB], true, along_u(half)},
-              {next.x_out, false, across(*next.shape, margin + far_of(i))},
+              {next.x_out, false, across(*next.shape, far_of(i))},
               {b.a_out[CW_SHROUD], false, along_u(-half)}},
              true, "rotor_interface", "interface", "rotor_interface_" + std::to_string(i + 1));
 }
@@ -192,9 +196,9 @@ void RotorMaker::blade_faces(int i) {
 void RotorMaker::disk(double height, double r, int w, bool outward, const char *patch, const char *kind,
                       const char *name) {
   std::vector<CwEdgeUse> loop;
-  for (const RotorBlade &b : blade) {
-    const double angle = b.turns * pitch - margin;
-    loop.push_back({b.a_end[w], true,
+  for (size_t i = 0; i < blade.size(); i++) {
+    const double angle = zero_of((int)i);
+    loop.push_back({blade[i].a_end[w], true,
                     new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), scale * r)});
   }
   shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, scale * height), gp::DZ(), gp::DX())), loop, outward, patch, kind,

@@ -52,8 +52,8 @@ private:
   const double unit, scale; // the model unit, m; model units in a metre
   CwMeridian meridian;
   const CwMeridianCurve *curve[2];  // hub and shroud
-  std::vector<CwBladeShape> shapes; // the blade and, with splitters, the splitter behind its pressure side
-  std::vector<RotorBlade> blade;    // splitters among the blades
+  std::vector<CwBladeShape> shapes; // the blade and, behind its pressure side, the splitter or seams
+  std::vector<RotorBlade> blade;    // those of all pitches
   double pitch, margin;
   int bands;
   bool has_nut, has_shaft;
@@ -62,7 +62,7 @@ private:
   gp_Pnt at(double r, double theta, double z) const {
     return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
   }
-  gp_Ax3 frame(int k, double z = 0) const;
+  gp_Ax3 frame(int i, double z = 0) const;
   Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
   Handle(Geom_Curve) nut_curve(double theta) const;
   Handle(Geom_Surface) cylinder(int i, double r) const;
@@ -79,9 +79,17 @@ private:
   void interface_face(int i);
   void blade_faces(int i);
   void disk(double height, double r, int w, bool outward, const char *patch, const char *kind, const char *name);
-  // Angle of the next blade's frame in that of blade i: 0, or the pitch where it is the first of its pitch.
+  CwStatus seams(double last);
+  // The parameter planes of the passage behind blade i: the angle where they begin, and what is added in them to the
+  // angles of blade i and of the next blade, which may be the first of its pitch.
+  double zero_of(int i) const {
+    return blade[i].turns * pitch + blade[i].shape->begin - margin;
+  }
+  double near_of(int i) const {
+    return margin - blade[i].shape->begin;
+  }
   double far_of(int i) const {
-    return (i + 1) % (int)shapes.size() == 0 ? pitch : 0;
+    return ((i + 1) % (int)shapes.size() == 0 ? pitch : 0) + near_of(i);
   }
 };
 

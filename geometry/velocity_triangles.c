@@ -4,15 +4,10 @@
 #include <math.h>
 
 #include "geometry/blade.h"
+#include "geometry/design_source.h"
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
-
-#define SET(member, value, text)                                                                                       \
-  do {                                                                                                                 \
-    design->member = (value);                                                                                          \
-    design->source[CW_DESIGN_##member] = (text);                                                                       \
-  } while (0)
 
 double cw_blockage(double count, double thickness, double radius, double angle) {
   return 1 / (1 - count * thickness / (2 * M_PI * radius * sin(angle)));

@@ -46,6 +46,9 @@
 // Least difference of b3 and b2, in D3.
 #define CW_VOLUTE_LEAST_STEP 5e-3
 
+// A tongue lies where it was asked for within this: rad, or of D3/2.
+#define CW_VOLUTE_TONGUE_SLACK 1e-6
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -64,8 +67,8 @@ typedef struct {
   double side_wall_angle;     // a, rad: half angle between the side walls; a rectangle has 0 whatever it says
   double throat_area;         // m2; NAN: what the law gives for Q and K or c3
   double tongue_radius;       // of the nose, m
-  double tongue_gap;          // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
-  double tongue_angle;        // rad, from the spiral's start to the tongue's tip; NAN: as the gap or shape asks
+  double tongue_gap;          // m, radial, from D3/2 to the tip at z = 0, or as near as can be; NAN: well shaped
+  double tongue_angle;        // rad, from the spiral's start to the tip, or as near as can be; NAN: as the gap asks
   double tongue_gap_range[2]; // m, of a chosen gap, which comes as near as the spiral allows; NAN: no bound
   double diffuser_length;     // m; NAN: from the diffuser's angle
   double diffuser_angle;      // rad, full angle of the cone of equal areas; used where the length is NAN

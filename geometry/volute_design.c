@@ -138,7 +138,7 @@ static double nearest_end(double (*excess)(double, const void *), const Context 
   return !(fabs(at_low) > fabs(at_high)) ? low : high;
 }
 
-// The tongue that the input asks for, or the nearest: check_tongue() says where it differs.
+// The tongue that the input asks for, or the nearest.
 static void choose_tongue(CwVolute *volute) {
   const CwVoluteInput *in = &volute->input;
   const double least = LEAST_START * base_radius(volute), largest = LARGEST_START * base_radius(volute);
@@ -296,16 +296,6 @@ done:
 static CwStatus check_tongue(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
-  const double r3 = base_radius(volute);
-  const Context context = {.volute = volute};
-  CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap_of(volute) - in->tongue_gap) < 1e-6 * r3, CW_ERR_DESIGN,
-             "volute: tongue_gap_mm is %g mm; allowed for this spiral: %.6g to %.6g mm (or leave it out)",
-             in->tongue_gap * 1e3, 1e3 * gap_excess(LEAST_START * r3, &context),
-             1e3 * gap_excess(LARGEST_START * r3, &context));
-  CW_REQUIRE(isnan(in->tongue_angle) || fabs(volute->tip_angle - in->tongue_angle) < 1e-6, CW_ERR_DESIGN,
-             "volute: tongue_angle_deg is %g deg; allowed for this spiral: %.2f to %.2f deg (or leave it out)",
-             in->tongue_angle * 180 / PI, angle_excess(LEAST_WEDGE, &context) * 180 / PI,
-             angle_excess(LARGEST_WEDGE, &context) * 180 / PI);
   double corner[3] = {volute->inner_wall_x};
   if (!isnan(volute->throat_width))
     cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
@@ -356,11 +346,15 @@ done:
   return status;
 }
 
-// A slim spiral has no room for a circle that touches both side walls: its arc then ends sooner.
+// A slim spiral has no room for a circle that touches both side walls: its arc then ends sooner, at last everywhere as
+// at the tongue.
 static CwStatus design_circle(CwVolute *volute) {
-  const double touching = volute->end_half_angle;
-  for (; volute->end_half_angle > volute->arc_half_angle; volute->end_half_angle -= PI / 18)
+  const double touching = volute->end_half_angle, least = volute->arc_half_angle, step = PI / 18;
+  for (int i = 0; touching - i * step > least - step; i++) {
+    volute->end_half_angle = fmax(least, touching - i * step);
     if (design_spiral(volute) == CW_OK) return CW_OK;
+    cw_fail_clear();
+  }
   volute->end_half_angle = touching;
   return design_spiral(volute);
 }
@@ -377,8 +371,23 @@ static CwStatus design_with_arc(double arc, CwVolute *volute) {
 // Whether the tip lies farther from the spiral's start than the given tongue does.
 static int tip_is_beyond(const CwVolute *volute) {
   const CwVoluteInput *in = &volute->input;
-  return (!isnan(in->tongue_gap) && gap_of(volute) > in->tongue_gap) ||
-         (!isnan(in->tongue_angle) && volute->tip_angle > in->tongue_angle);
+  return (!isnan(in->tongue_gap) && gap_of(volute) > in->tongue_gap + CW_VOLUTE_TONGUE_SLACK * base_radius(volute)) ||
+         (!isnan(in->tongue_angle) && volute->tip_angle > in->tongue_angle + CW_VOLUTE_TONGUE_SLACK);
+}
+
+// Flatter arcs bring the tip nearer to a given tongue: the least flat one that reaches it, or else the flattest.
+static CwStatus design_with_flatter_arc(double least, CwVolute *volute) {
+  CwStatus status = CW_OK;
+  CW_TRY(design_with_arc(least, volute));
+  const CwVolute flattest = *volute;
+  if (tip_is_beyond(volute)) goto done;
+  for (double arc = ARC_HALF_ANGLE - ARC_STEP; arc > least; arc -= ARC_STEP) {
+    if (design_with_arc(arc, volute) == CW_OK && !tip_is_beyond(volute)) goto done;
+    cw_fail_clear();
+  }
+  *volute = flattest;
+done:
+  return status;
 }
 
 CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
@@ -389,15 +398,13 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   CW_TRY(check_input(&volute->input));
   const double least = fmax(LEAST_ARC, LEAST_CORNER - 0.5 * PI + volute->input.side_wall_angle);
   status = design_with_arc(ARC_HALF_ANGLE, volute);
-  if (status == CW_ERR_DESIGN && least < ARC_HALF_ANGLE && tip_is_beyond(volute)) {
-    cw_fail_clear();
-    CW_TRY(design_with_arc(least, volute)); // what the flattest cannot reach none can
-    status = CW_ERR_DESIGN;
-    for (double arc = ARC_HALF_ANGLE; status == CW_ERR_DESIGN && arc > least;) {
-      cw_fail_clear();
-      arc = fmax(least, arc - ARC_STEP);
-      status = design_with_arc(arc, volute);
+  if ((status == CW_OK || status == CW_ERR_DESIGN) && least < ARC_HALF_ANGLE && tip_is_beyond(volute)) {
+    CwVolute flatter = *volute;
+    if (design_with_flatter_arc(least, &flatter) == CW_OK) {
+      status = CW_OK;
+      *volute = flatter;
     }
+    if (status == CW_OK) cw_fail_clear();
   }
   CW_TRY(status);
 

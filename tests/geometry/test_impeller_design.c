@@ -30,14 +30,63 @@ static void open_outlet_diameter_stays_within_the_volute(void **state) {
   CwDesign refused;
   table.volute.base_diameter = 0.6 * open;
   assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
-  assert_non_null(strstr(cw_fail_message(), "raise base_diameter_mm"));
+  assert_non_null(strstr(cw_fail_message(), "base_diameter_mm"));
   cw_fail_clear();
+}
+
+// Given dimensions go before the head down to a quarter of it, with the blade angle nearest to it; not where the head
+// is the priority.
+static void head_gives_way_to_given_dimensions(void **state) {
+  CwCase table = duty_point(54, 20, 1800);
+  const CwDesign open = design_of(&table);
+  table.impeller.outlet_width = open.outlet_width;
+  table.impeller.outlet_diameter = 0.85 * open.outlet_diameter;
+  const CwDesign low = design_of(&table);
+  near_to(low.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
+  near_to(low.outlet_blade_angle, 60 * degree, 1e-9);
+  assert_true(low.predicted_head > 5 && low.predicted_head < 19.9);
+  CwDesign refused;
+  table.impeller.priority = CW_PRIORITY_HEAD;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  cw_fail_clear();
+  table.impeller.priority = CW_PRIORITY_AUTO;
+  table.impeller.outlet_diameter = 0.5 * open.outlet_diameter;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "change outlet_diameter_mm"));
+  cw_fail_clear();
+}
+
+// What else is given and cannot be had gives way to what can, and the design keeps what was asked.
+static void given_values_give_way(void **state) {
+  CwCase table = duty_point(54, 20, 1800);
+  const CwDesign open = design_of(&table);
+  assert_true(isnan(open.asked[CW_DESIGN_wrap_angle]));
+  table.impeller.wrap_angle = 2.2 * open.wrap_angle;
+  const CwDesign wrapped = design_of(&table);
+  near_to(wrapped.asked[CW_DESIGN_wrap_angle], table.impeller.wrap_angle, 1e-12);
+  assert_true(wrapped.wrap_angle < table.impeller.wrap_angle && wrapped.wrap_angle > open.wrap_angle);
+  CwDesign refused;
+  table.impeller.priority = CW_PRIORITY_WRAP;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "wrap"));
+  cw_fail_clear();
+
+  table = duty_point(54, 20, 1800);
+  table.impeller.root_fillet_radius = open.outlet_diameter / 10;
+  const CwDesign rounded = design_of(&table);
+  near_to(rounded.asked[CW_DESIGN_root_fillet_radius], open.outlet_diameter / 10, 1e-12);
+  assert_true(rounded.root_fillet_radius > 0 && rounded.root_fillet_radius < open.outlet_diameter / 10);
+
+  table = duty_point(2287.1, 1369.9, 6803.2); // whose shaft asks for a thick hub
+  table.impeller.inlet_diameter = 0.85 * design_of(&table).inlet_diameter;
+  near_to(design_of(&table).hub_diameter, 0.65 * table.impeller.inlet_diameter, 1e-12);
 }
 
 // A given wheel somewhat too small or too large for its head at any outlet blade angle: b2 meets the head. A given b2
 // leaves nothing open.
 static void open_outlet_width_meets_the_head_of_a_given_wheel(void **state) {
   CwCase table = duty_point(54, 20, 1800);
+  table.impeller.priority = CW_PRIORITY_HEAD;
   const CwDesign open = design_of(&table);
   int wider = 0, narrower = 0;
   for (int way = -1; way <= 1; way += 2) {
@@ -92,6 +141,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(open_outlet_diameter_stays_within_the_volute),
       cmocka_unit_test(open_outlet_width_meets_the_head_of_a_given_wheel),
+      cmocka_unit_test(head_gives_way_to_given_dimensions),
+      cmocka_unit_test(given_values_give_way),
       cmocka_unit_test(cylindrical_blades_stand_on_the_walls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

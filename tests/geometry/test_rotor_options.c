@@ -145,11 +145,44 @@ static void hub_follows_the_shaft(void **state) {
   near_to(design.nut_length, 0, 0);
 }
 
+// Two blades whose passages wind round the axis by more than a revolution: seams cut hub, shroud and what goes on from
+// them into as many equal parts as it takes, and the fluid stays the same.
+static void seams_cut_passages_that_wind(void **state) {
+  static const double wraps[] = {130, 200, 250};
+  for (int i = 0; i < 3; i++) {
+    CwCase table;
+    cw_case_defaults(&table);
+    table.operating_point.flow_rate = 1.3357 / 3600;
+    table.operating_point.head = 0.16303;
+    table.operating_point.speed = 111.76 * M_PI / 30;
+    table.impeller.blade_count = 2;
+    table.impeller.wrap_angle = wraps[i] * degree;
+    table.impeller.through_shaft_diameter = i == 1 ? 16e-3 : 0;
+    const CwDesign design = design_of(&table);
+    near_to(design.wrap_angle, wraps[i] * degree, 1e-9);
+    CwMeasuredSolid solid;
+    CwMeasuredRotor measured;
+    CwSolid *rotor = NULL;
+    double expected;
+    measure(&design, &solid, &measured);
+    assert_true(measured.kink.angle < 0.1 * degree);
+    near_to(measured.wrap_angle, wraps[i] * degree, 0.02 * degree);
+    assert_int_equal(cw_rotor_volume(&design, &expected), CW_OK);
+    near_to(solid.volume / expected, 1, i == 0 ? 2e-5 : 2e-4);
+    assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+    assert_int_equal(count(rotor, "hub", "hub_"), 2 * (i + 1));
+    assert_int_equal(count(rotor, "shroud", "shroud_"), 2 * (i + 1));
+    assert_int_equal(count(rotor, "blade_pressure", "pressure"), 2);
+    cw_solid_free(&rotor);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(fillets_take_their_volume),    cmocka_unit_test(fillets_are_tangent_and_named),
       cmocka_unit_test(fillets_go_with_every_option), cmocka_unit_test(too_large_fillets_are_refused),
       cmocka_unit_test(shaft_through_the_inlet),      cmocka_unit_test(hub_follows_the_shaft),
+      cmocka_unit_test(seams_cut_passages_that_wind),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
