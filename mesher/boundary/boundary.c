@@ -4,10 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int cw_face_is_wall(const CwCad *cad, int32_t face) {
-  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
-}
-
 void cw_boundary_free(CwBoundary *boundary) {
   cw_network_free(&boundary->network);
   for (int32_t i = 0; i < boundary->open_edge_count; i++) free(boundary->open_edge[i].t);

@@ -80,6 +80,4 @@ void cw_boundary_free(CwBoundary *boundary);
 // Pairs of regions that share an interface, each once, smaller index first; caller frees.
 CwStatus cw_boundary_adjacency(const CwBoundary *boundary, int32_t *pair_count, int32_t (**pair)[2]);
 
-int cw_face_is_wall(const CwCad *cad, int32_t face);
-
 #endif

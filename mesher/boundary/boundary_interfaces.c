@@ -182,7 +182,7 @@ static CwStatus find_crossings_on_open_patches(const CwBoundary *boundary, CwInt
   CwPatchOutline outline = {0};
   const CwSymmetry *symmetry = boundary->images.symmetry;
   for (int32_t face = 0; face < cw_cad_face_count(boundary->cad); face++) {
-    if (cw_face_is_wall(boundary->cad, face) || (symmetry && symmetry->face.first[face] != face)) continue;
+    if (cw_cad_face_is_wall(boundary->cad, face) || (symmetry && symmetry->face.first[face] != face)) continue;
     CW_TRY(cw_boundary_open_patch_outline(boundary, interfaces, face, &outline));
     CW_TRY(find_crossings(interfaces, &outline));
     cw_outline_free(&outline);

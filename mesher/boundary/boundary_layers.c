@@ -209,7 +209,7 @@ CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *backgr
   CW_TRY(make_constraints(boundary, background, constraint_count, constraint_normal, constraint_stays, snapping.uv));
   CW_NEW(open_patch_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    if (cw_face_is_wall(boundary->cad, background->face[t])) continue;
+    if (cw_cad_face_is_wall(boundary->cad, background->face[t])) continue;
     memcpy(open_patch_triangle[open_patches++], background->triangle[t], sizeof open_patch_triangle[0]);
   }
   CwLayerInput input = {.point_count = n,

@@ -31,8 +31,7 @@ static int32_t first_of(const CwBoundary *boundary, int32_t curve) {
 // Whether the face is meshed, and not a copy.
 static int is_meshed(const CwBoundary *boundary, int32_t face) {
   const CwSymmetry *symmetry = boundary->images.symmetry;
-  int patch = cw_cad_face_patch(boundary->cad, face);
-  return cw_cad_patch_kind(boundary->cad, patch) == CW_PATCH_WALL && (!symmetry || !symmetry->face.turns[face]);
+  return cw_cad_face_is_wall(boundary->cad, face) && (!symmetry || !symmetry->face.turns[face]);
 }
 
 static int bounds(const CwCurve *curve, int32_t face) {

@@ -19,7 +19,7 @@ static const double MOST_BESIDE = 0.14;
 static CwConstraint curve_constraint(const CwBoundary *boundary, const CwCurve *curve) {
   if (curve->kind == CW_CURVE_CUT) return (CwConstraint){CW_CONSTRAINT_PLANE, curve->plane[0]};
   for (int k = 0; k < 2; k++) {
-    if (!cw_face_is_wall(boundary->cad, curve->face[k])) return (CwConstraint){CW_CONSTRAINT_PATCH, curve->face[k]};
+    if (!cw_cad_face_is_wall(boundary->cad, curve->face[k])) return (CwConstraint){CW_CONSTRAINT_PATCH, curve->face[k]};
   }
   return (CwConstraint){CW_CONSTRAINT_NONE, -1};
 }

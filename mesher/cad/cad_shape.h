@@ -29,6 +29,7 @@ struct CwCadFace {
   CwCadKnots u_knots, v_knots;
   double u_range[2], v_range[2]; // of the surface; infinite where it is unbounded or periodic
   int reversed;
+  bool bare; // a wall without layers
 };
 
 struct CwCadEdge {

@@ -130,6 +130,7 @@ static int32_t face_image(const CwCad *cad, const FaceSamples *samples, int32_t 
   const FaceSamples *of = &samples[face];
   for (int32_t g = 0; g < cw_cad_face_count(cad); g++) {
     if (g == face || cw_cad_face_patch(cad, g) != cw_cad_face_patch(cad, face)) continue;
+    if (cw_cad_face_is_wall(cad, g) != cw_cad_face_is_wall(cad, face)) continue;
     if (cw_cad_face_reversed(cad, g) != cw_cad_face_reversed(cad, face)) continue;
     int same = of->count > 0;
     for (int32_t s = 0; same && s < of->count; s++) {

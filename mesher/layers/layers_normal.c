@@ -12,7 +12,6 @@
 static const double BENT = 0.98;             // least cosine of the normals about a vertex of a wall as good as flat
 static const double SHARP = 0.92;            // the same of a convex edge that columns need not slide along
 static const double RISE = 0.3, FOLD = 0.75; // of an edge against the normal where the bend is concave
-static const double LEAST_COSINE = 0.05;     // of a column to the normals of the faces around
 
 // What keeps the best candidate direction.
 typedef struct {
@@ -162,10 +161,10 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
   int count = cw_layers_distinct_normals(work, v, normal);
   double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g);
-  CW_REQUIRE(c > LEAST_COSINE, CW_ERR_MESH,
+  CW_REQUIRE(c > CW_LAYERS_LEAST_COSINE, CW_ERR_MESH,
              "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
              "least %.2f needed): the wall is folded or has an edge too sharp there",
-             CW_MM(x), c, LEAST_COSINE);
+             CW_MM(x), c, CW_LAYERS_LEAST_COSINE);
   made->normal_cos = c;
   if (c >= BENT) goto done;
   double most = -1;
@@ -220,15 +219,15 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
 static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const double *x = work->in->x[v];
-  if (cosine > LEAST_COSINE) goto done;
+  if (cosine > CW_LAYERS_LEAST_COSINE) goto done;
   CW_REQUIRE(
       !work->in->constraint_stays || !work->in->constraint_stays[v], CW_ERR_MESH,
       "layers: no column inside the open patch at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
       "%.2f needed): it is nearly tangent to the wall there",
-      CW_MM(x), cosine, LEAST_COSINE);
+      CW_MM(x), cosine, CW_LAYERS_LEAST_COSINE);
   cw_outcome_set(outcome, CW_OUTCOME_REPLAN, x,
                  "no column inside a partition plane leaves the wall (best cosine %.3f, at least %.2f needed)", cosine,
-                 LEAST_COSINE);
+                 CW_LAYERS_LEAST_COSINE);
 done:
   return status;
 }

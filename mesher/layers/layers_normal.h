@@ -7,6 +7,8 @@
 #include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
+#define CW_LAYERS_LEAST_COSINE 0.05 // of a column to the normals of the faces around
+
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the best of the
 // single normals, the bisectors of pairs and the circumcentres of triples. With one constraint g is held in the plane
 // normal to it, with two on the line of both. Returns the least cosine; negative where no direction sees all faces.

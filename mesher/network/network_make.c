@@ -20,10 +20,6 @@ static int compare_places(const void *p, const void *q) {
   return (a->corner > b->corner) - (a->corner < b->corner);
 }
 
-static int face_is_wall(const CwCad *cad, int face) {
-  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
-}
-
 static CwStatus fine_new(CwCurve *curve, int32_t count) {
   CwStatus status = CW_OK;
   curve->fine_count = count;
@@ -56,7 +52,7 @@ static CwStatus add_edge(CwNetwork *network, int32_t edge, Place *place) {
                      .edge = edge,
                      .face = {face[0], face[1]},
                      .plane = {-1, -1},
-                     .wall = face_is_wall(cad, face[0]) || face_is_wall(cad, face[1])};
+                     .wall = cw_cad_face_is_wall(cad, face[0]) || cw_cad_face_is_wall(cad, face[1])};
     CW_TRY(fine_new(&curve, EDGE_FINE));
     for (int i = 0; i < EDGE_FINE; i++) {
       double t = place[p].t + (place[p + 1].t - place[p].t) * i / (EDGE_FINE - 1);

@@ -288,8 +288,7 @@ static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, 
     curve.corner[k] = cw_network_corner(network, &ends[k], cw_same_corner);
     CW_REQUIRE(curve.corner[k] >= 0, CW_ERR_MEMORY, "out of memory: %d corners", network->corner_count);
   }
-  int patch = cw_cad_face_patch(network->cad, trace->face);
-  curve.wall = cw_cad_patch_kind(network->cad, patch) == CW_PATCH_WALL;
+  curve.wall = cw_cad_face_is_wall(network->cad, trace->face);
   status = cw_network_add_curve(network, &curve);
   return status;
 done:

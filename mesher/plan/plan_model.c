@@ -306,7 +306,7 @@ static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, Cw
   CW_NEW_UNSET(model->thickness, background->triangle_count);
   CW_NEW_UNSET(model->normal, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    model->wall[t] = cw_cad_patch_kind(cad, cw_cad_face_patch(cad, background->face[t])) == CW_PATCH_WALL;
+    model->wall[t] = cw_cad_face_is_wall(cad, background->face[t]);
   }
   CW_TRY(cw_parallel_for("decomposition", background->triangle_count, sizeof *made, measure,
                          &(Walls){cad, options, model}, made));

@@ -24,7 +24,7 @@ CwStatus cw_open_edge_places_make(const CwBoundary *boundary, CwOpenEdgePlaces *
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
       for (int side = 0; side < 2; side++) {
         int32_t face = curve->face[side];
-        if (cw_face_is_wall(boundary->cad, face)) continue;
+        if (cw_cad_face_is_wall(boundary->cad, face)) continue;
         count += pass == 0 ? nodes->count : 0;
         for (int32_t k = 0; pass == 1 && k < nodes->count; k++) {
           CwOpenEdgePlace *made = &places->place[places->count++];

@@ -37,7 +37,7 @@ static CwStatus find_open_edges(CwRegionContext *context) {
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
       int32_t open_patch = -1;
       for (int k = 0; k < 2; k++) {
-        if (!cw_face_is_wall(boundary->cad, curve->face[k])) open_patch = curve->face[k];
+        if (!cw_cad_face_is_wall(boundary->cad, curve->face[k])) open_patch = curve->face[k];
       }
       if (open_patch < 0) continue;
       if (pass == 0) {

@@ -11,6 +11,7 @@
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
+#include "mesher/layers/bare_faces.h"
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/parallel_for.h"
@@ -18,6 +19,7 @@
 #include "mesher/plan/sector_plan.h"
 #include "mesher/policy.h"
 #include "mesher/region/region_number.h"
+#include "pipeline/log.h"
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
@@ -65,7 +67,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(domain->face_triangles, cw_cad_face_count(domain->cad));
   for (int32_t t = 0; t < background->triangle_count; t++) {
     domain->face_triangles[background->face[t]] += piece[t].area / (piece[t].size * piece[t].size);
-    if (!cw_face_is_wall(domain->cad, background->face[t])) continue;
+    if (!cw_cad_face_is_wall(domain->cad, background->face[t])) continue;
     least = fmin(least, piece[t].size);
     greatest = fmax(greatest, piece[t].size);
   }
@@ -74,7 +76,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(sample, (size_t)patches * (size_t)steps);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     double h = piece[t].size;
-    if (!cw_face_is_wall(domain->cad, background->face[t])) continue;
+    if (!cw_cad_face_is_wall(domain->cad, background->face[t])) continue;
     int patch = cw_cad_face_patch(domain->cad, background->face[t]);
     CwLayerSample *of = &sample[patch * steps + (int)(log(h / least) / log(SAMPLE_STEP))];
     domain->prism_integral += piece[t].area / (h * h);
@@ -214,6 +216,30 @@ CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes) {
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));
 done:
+  return status;
+}
+
+CwStatus cw_domain_leave_bare(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = &domain->background;
+  CwBareFaces bare;
+  double *area = NULL, centre[3], walls = 0, without = 0;
+  CW_NEW(area, cw_cad_face_count(domain->cad));
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    double of = triangle_area(background, t, centre);
+    area[background->face[t]] += of;
+    if (cw_cad_face_is_wall(domain->cad, background->face[t])) walls += of;
+  }
+  CW_TRY(cw_bare_faces_find(domain->cad, area, &bare));
+  if (bare.count == 0) goto done;
+  for (int f = 0; f < cw_cad_face_count(domain->cad); f++)
+    if (cw_cad_face_is_wall(domain->cad, f)) without += area[f];
+  cw_log_warn("%s: %d faces, %.2g %% of the wall, carry no layers: no direction sees all faces about a corner or an "
+              "edge of theirs and lies in the open faces there, first at (%.6g, %.6g, %.6g) mm of face '%s'",
+              domain->name, bare.count, 100 * (walls - without) / walls, CW_MM(bare.at),
+              cw_cad_face_name(domain->cad, bare.first));
+done:
+  free(area);
   return status;
 }
 

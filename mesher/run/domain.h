@@ -75,6 +75,8 @@ CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 double cw_domain_background_cost(const CwDomain *domain, int face);
 CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);
+// Walls on which no layers can stand become bare, with a warning.
+CwStatus cw_domain_leave_bare(CwDomain *domain);
 void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part, zeroed
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
 int cw_domain_size_parts(const CwDomain *domain);

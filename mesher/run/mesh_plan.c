@@ -239,6 +239,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->model.domain_count, "domains"));
   CW_TRY(triangulate_domains(run));
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(&run->domain[d]));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
   if (run->table->walls.layer_count == 0)

@@ -217,8 +217,7 @@ static Packed packed_head(const CwSizeGrid *grid, const CwScanlines *lines, CwSi
 // The longest edge that a face allows; any where the list is that of the edges, behind the faces.
 static double longest_of(const CwCad *cad, const CwSizeLimits *limits, int face) {
   if (!limits || !limits->wall || face == cw_cad_face_count(cad)) return INFINITY;
-  int patch = cw_cad_face_patch(cad, face);
-  return cw_cad_patch_kind(cad, patch) == CW_PATCH_WALL ? limits->wall[patch] : INFINITY;
+  return cw_cad_face_is_wall(cad, face) ? limits->wall[cw_cad_face_patch(cad, face)] : INFINITY;
 }
 
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,

@@ -117,10 +117,6 @@ done:
   return status;
 }
 
-static int is_wall(const CwCad *cad, int face) {
-  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
-}
-
 // Walks along the open edges: seeds `grid`, and returns the mean share of what is allowed in `wanted`; either may be
 // NULL.
 static double walk_open_edges(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
@@ -130,8 +126,8 @@ static double walk_open_edges(const CwSizeInput *input, const CwSizeGrid *wanted
     int face[2];
     double t[2], from[3], to[3];
     cw_cad_edge_faces(cad, e, face);
-    if (is_wall(cad, face[0]) == is_wall(cad, face[1])) continue;
-    double size = input->open_edge_size[cw_cad_face_patch(cad, is_wall(cad, face[0]) ? face[0] : face[1])];
+    if (cw_cad_face_is_wall(cad, face[0]) == cw_cad_face_is_wall(cad, face[1])) continue;
+    double size = input->open_edge_size[cw_cad_face_patch(cad, cw_cad_face_is_wall(cad, face[0]) ? face[0] : face[1])];
     cw_cad_edge_range(cad, e, t);
     cw_cad_edge_point(cad, e, t[0], from, NULL);
     for (int i = 1; i <= MOST_PARTS; i++) {

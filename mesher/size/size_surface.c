@@ -116,12 +116,9 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   double cells = fmax(input->table->cells_across_gap, 1), distance;
   int32_t hit = cw_rays_exit(surface->rays, x, inward, 1e-3 * patch_size, cells * patch_size, &distance);
   if (hit < 0) return INFINITY;
-  int patch = cw_cad_face_patch(input->cad, b->face[t]), hit_patch = cw_cad_face_patch(input->cad, b->face[hit]);
   // Before an open face there are no layers and no velocity profile: two cells do.
-  if (cw_cad_patch_kind(input->cad, patch) != CW_PATCH_WALL ||
-      cw_cad_patch_kind(input->cad, hit_patch) != CW_PATCH_WALL) {
+  if (!cw_cad_face_is_wall(input->cad, b->face[t]) || !cw_cad_face_is_wall(input->cad, b->face[hit]))
     cells = fmin(cells, 2);
-  }
   double met[3];
   cw_background_normal(b, hit, met);
   double facing = cw_dot(inward, met);

@@ -13,6 +13,7 @@
 #include "geometry/measure.h"
 #include "geometry/rotor.h"
 #include "geometry/rotor_volume.h"
+#include "pipeline/case_schema.h"
 #include "pipeline/case.h"
 #include "tests/geometry/paper_rotor.h"
 

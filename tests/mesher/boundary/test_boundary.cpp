@@ -204,7 +204,7 @@ static void make_walls(Box &box) {
   Box::check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
   Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
-    if (cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
+    if (cw_cad_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
   }
   Box::check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
@@ -299,7 +299,7 @@ static void make_surfaces(Box &box) {
   Box::check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
-    if (!cw_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
+    if (!cw_cad_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
   }
   interfaces.resize(boundary.interfaces.outline_count);
   for (int i = 0; i < boundary.interfaces.outline_count; i++) {

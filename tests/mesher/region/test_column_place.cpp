@@ -49,7 +49,7 @@ struct OpenEdge {
     cw_cad_edge_faces(cad, curve.edge, face);
     cw_cad_edge_range(cad, curve.edge, range);
     for (int k = 0; k < 2; k++) curve.face[k] = face[k];
-    int open_patch = cw_face_is_wall(cad, face[0]) ? face[1] : face[0];
+    int open_patch = cw_cad_face_is_wall(cad, face[0]) ? face[1] : face[0];
     for (int i = 0; i < NODES; i++) {
       parameter[i][0] = range[0] + (range[1] - range[0]) * 0.8 * i / NODES;
       cw_cad_edge_point(cad, curve.edge, parameter[i][0], wall[i], nullptr);

@@ -24,7 +24,7 @@ static void fill_the_tank(bool divided) {
   check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
-    if (cw_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
+    if (cw_cad_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
   }
   check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
@@ -36,7 +36,7 @@ static void fill_the_tank(bool divided) {
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
-    if (!cw_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
+    if (!cw_cad_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
   }
   assert_int_equal(boundary.interfaces.outline_count, divided ? 30 : 10);
   interfaces.resize(boundary.interfaces.outline_count, nullptr);

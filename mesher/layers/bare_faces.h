@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Walls that cannot carry layers: where no direction sees all faces about an edge or a corner of the solid, or none
+// does that also lies in the open face beside them. Such are cusps, corners of opposite planes, and walls that go on
+// smoothly as an inlet or interface.
+#ifndef CUTWATER_MESHER_LAYERS_BARE_FACES_H
+#define CUTWATER_MESHER_LAYERS_BARE_FACES_H
+
+#include <stdint.h>
+
+#include "mesher/cad/cad.h"
+
+typedef struct {
+  int32_t count; // faces left bare
+  int32_t first; // one of them, -1: none
+  double at[3];  // place of the first, in the unit of the model
+} CwBareFaces;
+
+// Leaves walls of the CAD bare until columns can stand on all others: at each place without a direction the face of
+// the least area that frees one, or if none does, the face of the least area. Beside a bare face columns lie in it.
+// `area`: of each face, > 0. Whether faces point out of the solid must be settled (cw_background_join).
+CwStatus cw_bare_faces_find(CwCad *cad, const double *area, CwBareFaces *bare);
+
+#endif
