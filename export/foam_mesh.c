@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/foam_mesh.h"
+#include "export/foam_zones.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -181,6 +182,47 @@ done:
   return status;
 }
 
+// Several inlets or outlets are a zone of faces too, over which solvers can report a mean.
+static CwStatus write_end_zones(const CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  const CwMesh *input = mesh->assembly->mesh;
+  FILE *out = NULL;
+  char *path = NULL;
+  int zones = 0, count[CW_PATCH_KINDS] = {0};
+  int64_t faces[CW_PATCH_KINDS] = {0};
+  for (int p = 0; p < input->patch_count; ++p) {
+    ++count[input->patches[p].kind];
+    faces[input->patches[p].kind] += mesh->assembly->patches[p].triangles + mesh->assembly->patches[p].quads;
+  }
+  for (int kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind) zones += count[kind] > 1;
+  if (!zones) goto done;
+  CW_REQUIRE(asprintf(&path, "%s/faceZones", mesh->folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  out = fopen(path, "w");
+  CW_REQUIRE(out, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  fprintf(out,
+          "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       regIOobject;\n"
+          "    location    \"constant/polyMesh\";\n    object      faceZones;\n}\n\n%d\n(\n",
+          zones);
+  for (int kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind) {
+    if (count[kind] <= 1) continue;
+    fprintf(out, "%s\n{\n    type            faceZone;\n    faceLabels      List<label>\n%lld\n(\n",
+            cw_foam_end_zone((CwPatchKind)kind), (long long)faces[kind]);
+    for (int p = 0; p < input->patch_count; ++p) {
+      int64_t here = mesh->assembly->patches[p].triangles + mesh->assembly->patches[p].quads;
+      for (int64_t f = 0; f < here && (int)input->patches[p].kind == kind; ++f)
+        fprintf(out, "%lld\n", (long long)(mesh->patch_face[p] + f));
+    }
+    fprintf(out, ")\n;\n    flipMap         List<bool> %lld{0};\n}\n", (long long)faces[kind]);
+  }
+  fprintf(out, ")\n");
+  CW_REQUIRE(!ferror(out), CW_ERR_IO, "%s: cannot be written", path);
+done:
+  if (out && fclose(out) != 0 && status == CW_OK)
+    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  free(path);
+  return status;
+}
+
 // All of `cellZones` but the numbers of the cells.
 static CwStatus put_zone_texts(const CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
@@ -217,6 +259,7 @@ CwStatus cw_foam_mesh_create(CwFoamMesh *mesh) {
     CW_TRY(put(mesh, CW_FOAM_POINTS, a->shared[d], 24 * a->mesh->domains[d].shared_points,
                mesh->start[CW_FOAM_POINTS] + 24 * a->totals[d].first_point));
   CW_TRY(write_boundary(mesh));
+  CW_TRY(write_end_zones(mesh));
   CW_TRY(put_zone_texts(mesh));
 done:
   return status;

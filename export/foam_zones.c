@@ -59,24 +59,14 @@ done:
   return status;
 }
 
+const char *cw_foam_end_zone(CwPatchKind kind) {
+  return kind == CW_PATCH_INLET ? "inlets" : "outlets";
+}
+
 static int count_kind(const CwMesh *mesh, CwPatchKind kind) {
   int count = 0;
   for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == kind;
   return count;
-}
-
-// Several patches together are a sampled surface, weighted by the velocity: v1912 has no flux on those.
-static void put_together(FILE *out, const CwMesh *mesh, CwPatchKind kind, const char *margin) {
-  fprintf(out,
-          "%sregionType      sampledSurface;\n%sname            %ss;\n%ssampledSurfaceDict\n%s{\n"
-          "%s    type            patch;\n%s    patches         (",
-          margin, margin, cw_patch_kind_name(kind), margin, margin, margin, margin);
-  for (int p = 0, first = 1; p < mesh->patch_count; ++p) {
-    if (mesh->patches[p].kind != kind) continue;
-    fprintf(out, "%s%s", first ? "" : " ", mesh->patches[p].name);
-    first = 0;
-  }
-  fprintf(out, ");\n%s    triangulate     false;\n%s}\n", margin, margin);
 }
 
 static const char *first_of(const CwMesh *mesh, CwPatchKind kind) {
@@ -85,36 +75,23 @@ static const char *first_of(const CwMesh *mesh, CwPatchKind kind) {
   return "";
 }
 
-// What is reported of inlets or outlets: the weighted mean over all of them, and the flow through them. `based`: the
-// flow of the inlets is a sum over one patch, which others refer to by their names.
-static CwStatus set_ends(const CwMesh *mesh, CwPatchKind kind, int based, CwValues *values) {
+// Where what is reported of inlets or outlets is taken: a patch, or the zone of faces of several.
+static CwStatus set_ends(const CwMesh *mesh, CwPatchKind kind, CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks region = {0}, flow = {0};
-  char key[40];
   const int several = count_kind(mesh, kind) > 1;
-  const char *name = first_of(mesh, kind);
-  CW_TRY(cw_blocks_open(&region));
-  CW_TRY(cw_blocks_open(&flow));
-  if (several)
-    put_together(region.out, mesh, kind, "        ");
+  const char *name = several ? cw_foam_end_zone(kind) : first_of(mesh, kind), *type = several ? "faceZone" : "patch";
+  const char *end = cw_patch_kind_name(kind);
+  char key[40];
+  snprintf(key, sizeof key, "%s_region", end);
+  CW_TRY(cw_values_set(values, key, "        regionType      %s;\n        name            %s;\n", type, name));
+  // The others take their lines over from the flow of the inlets.
+  const int inherits = kind != CW_PATCH_INLET && several == (count_kind(mesh, CW_PATCH_INLET) > 1);
+  snprintf(key, sizeof key, "%s_flow", end);
+  if (inherits)
+    CW_TRY(cw_values_set(values, key, "    name            %s;\n", name));
   else
-    fprintf(region.out, "        regionType      patch;\n        name            %s;\n", name);
-  fprintf(region.out, "        operation       weightedAverage;\n        weightField     %s;\n", several ? "U" : "phi");
-  if (several) {
-    put_together(flow.out, mesh, kind, "    ");
-    fprintf(flow.out, "    operation       areaNormalIntegrate;\n    fields          (U);\n");
-  } else {
-    if (!based || kind == CW_PATCH_INLET) fprintf(flow.out, "    regionType      patch;\n");
-    fprintf(flow.out, "    name            %s;\n", name);
-    if (!based || kind == CW_PATCH_INLET) fprintf(flow.out, "    operation       sum;\n    fields          (phi);\n");
-  }
-  snprintf(key, sizeof key, "%s_region", cw_patch_kind_name(kind));
-  CW_TRY(cw_blocks_close(&region, key, values));
-  snprintf(key, sizeof key, "%s_flow", cw_patch_kind_name(kind));
-  CW_TRY(cw_blocks_close(&flow, key, values));
+    CW_TRY(cw_values_set(values, key, "    regionType      %s;\n    name            %s;\n", type, name));
 done:
-  cw_blocks_close(&region, NULL, values);
-  cw_blocks_close(&flow, NULL, values);
   return status;
 }
 
@@ -124,7 +101,7 @@ static int rotates(const CwMesh *mesh, int interface, int side) {
 
 static void put_flow(FILE *out, const char *function, const char *patch, int based) {
   fprintf(out, "%s\n{\n    $flowInlet;\n", function);
-  if (!based) fprintf(out, "    regionType      patch;\n    operation       sum;\n    fields          (phi);\n");
+  if (!based) fprintf(out, "    regionType      patch;\n");
   fprintf(out, "    name            %s;\n}\n", patch);
 }
 
@@ -159,8 +136,8 @@ CwStatus cw_foam_zones_set(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const int based = count_kind(a->mesh, CW_PATCH_INLET) == 1;
   CW_TRY(set_motion(a, values));
-  CW_TRY(set_ends(a->mesh, CW_PATCH_INLET, based, values));
-  CW_TRY(set_ends(a->mesh, CW_PATCH_OUTLET, based, values));
+  CW_TRY(set_ends(a->mesh, CW_PATCH_INLET, values));
+  CW_TRY(set_ends(a->mesh, CW_PATCH_OUTLET, values));
   CW_TRY(set_interfaces(a->mesh, based, values));
   CW_TRY(cw_values_set(values, "outlet", "%s", first_of(a->mesh, CW_PATCH_OUTLET)));
 done:
