@@ -85,7 +85,8 @@ def main():
     run = sys.argv[1]
     try:
         record = {stage: read(run, stage) for stage in ("geometry", "mesh", "export", "report")}
-        lines = [("head", f"{record['geometry']['results']['predicted_head_m']:.2f} m predicted by the design")]
+        head = record["geometry"]["results"].get("predicted_head_m")  # none of solids from elsewhere
+        lines = [("head", f"{head:.2f} m predicted by the design")] if head else []
         lines += mesh_lines(record["mesh"]["results"])
         lines += [("note", text) for text in record["mesh"]["results"]["headlines"]]
         seconds = {stage: record[stage]["seconds"] for stage in record}

@@ -101,21 +101,22 @@ static CwStatus cut_pictures(FILE *page, const CwReportData *data) {
 static const struct {
   const char *id, *heading;
   Part part;
+  int of_design; // 1: left out where no generator made the pump
 } parts[] = {
-    {"input", "Design table", cw_page_input},
-    {"design", "Derived dimensions", cw_page_design},
-    {"drawings", "Design drawings", cw_page_design_pictures},
-    {"geometry", "Geometry", geometry_pictures},
-    {"counts", "Mesh counts", cw_page_counts},
-    {"regions", "Regions", cw_page_regions},
-    {"surface", "Surface mesh", surface_pictures},
-    {"volume", "Volume mesh", cut_pictures},
-    {"quality", "Cell quality", cw_page_quality},
-    {"layers", "Prism layers", cw_page_layers},
-    {"export", "Export", cw_page_export},
-    {"solve", "Solved flow", cw_page_solve},
-    {"times", "Times and memory", cw_page_times},
-    {"warnings", "Warnings", cw_page_warnings},
+    {"input", "Design table", cw_page_input, 1},
+    {"design", "Derived dimensions", cw_page_design, 1},
+    {"drawings", "Design drawings", cw_page_design_pictures, 1},
+    {"geometry", "Geometry", geometry_pictures, 0},
+    {"counts", "Mesh counts", cw_page_counts, 0},
+    {"regions", "Regions", cw_page_regions, 0},
+    {"surface", "Surface mesh", surface_pictures, 0},
+    {"volume", "Volume mesh", cut_pictures, 0},
+    {"quality", "Cell quality", cw_page_quality, 0},
+    {"layers", "Prism layers", cw_page_layers, 0},
+    {"export", "Export", cw_page_export, 0},
+    {"solve", "Solved flow", cw_page_solve, 0},
+    {"times", "Times and memory", cw_page_times, 0},
+    {"warnings", "Warnings", cw_page_warnings, 0},
 };
 enum { PARTS = sizeof parts / sizeof *parts };
 
@@ -157,10 +158,9 @@ static CwStatus title(FILE *page, const CwReportData *data) {
   }
   fputs("<h1>Pump ", page);
   cw_html_text(page, table->name);
-  fputs(": from design table to mesh</h1>\n<p class=\"lead\">", page);
-  fprintf(page, "Centrifugal pump, %d blades, D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ",
-          (int)cw_json_real(data->design, "blade_count"),
-          cw_format_number(cw_json_real(data->design, "outlet_diameter_m") * 1e3, 4, text));
+  fprintf(page, ": from %s to mesh</h1>\n<p class=\"lead\">", data->design ? "design table" : "solids");
+  fprintf(page, "Centrifugal pump, %d blades, D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ", data->mesh.flow.blade_count,
+          cw_format_number(data->mesh.flow.reference_length * 1e3, 4, text));
   fprintf(page, "Q&#8239;=&#8239;%s&#8239;m&sup3;/h, ",
           cw_format_number(table->operating_point.flow_rate * 3600, 4, text));
   fprintf(page, "H&#8239;=&#8239;%s&#8239;m ", cw_format_number(table->operating_point.head, 4, text));
@@ -185,7 +185,7 @@ static CwStatus title(FILE *page, const CwReportData *data) {
   tile(page, text, "", label);
   snprintf(label, sizeof label, "predicted head; %s&#8239;m asked",
            cw_format_number(table->operating_point.head, 4, more));
-  tile(page, cw_format_number(cw_json_real(data->design, "predicted_head_m"), 4, text), "m", label);
+  if (data->design) tile(page, cw_format_number(cw_json_real(data->design, "predicted_head_m"), 4, text), "m", label);
   snprintf(label, sizeof label, "whole run%s", data->record[2] ? ", geometry to export" : ", not exported yet");
   tile(page, cw_format_seconds(seconds, text), "", label);
   int64_t ranks = json_integer_value(json_object_get(results, "ranks"));
@@ -208,10 +208,13 @@ CwStatus cw_page_write(FILE *page, const CwReportData *data) {
   cw_html_text(page, data->table->name);
   fprintf(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<nav><b>Cutwater report</b>\n", style);
   fputs("<a href=\"#top\">Overview</a>\n", page);
-  for (int k = 0; k < PARTS; k++) fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
+  for (int k = 0; k < PARTS; k++)
+    if (data->design || !parts[k].of_design)
+      fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
   fputs("</nav>\n<main id=\"top\">\n", page);
   CW_TRY(title(page, data));
   for (int k = 0; k < PARTS; k++) {
+    if (!data->design && parts[k].of_design) continue;
     fprintf(page, "<h2 id=\"%s\">%s</h2>\n", parts[k].id, parts[k].heading);
     CW_TRY(parts[k].part(page, data));
   }

@@ -65,7 +65,7 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   data->run = strdup(run);
   CW_REQUIRE(data->run, CW_ERR_MEMORY, "out of memory: a path");
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
-  CW_TRY(cw_json_read(path, &data->design));
+  if (access(path, F_OK) == 0) CW_TRY(cw_json_read(path, &data->design)); // else no generator made the pump
   for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, table, s, &data->record[s]));
   CW_TRY(read_solve(run, &data->solve));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
@@ -83,9 +83,25 @@ void cw_report_data_free(CwReportData *data) {
   *data = (CwReportData){0};
 }
 
+// Of a pump that no generator made: what the model says of it.
+static CwPumpSizes sizes_of_model(const CwMesh *mesh) {
+  CwPumpSizes sizes = {.blade_count = mesh->flow.blade_count,
+                       .leading_radius = INFINITY,
+                       .outlet_radius = 0.5 * mesh->flow.reference_length};
+  sizes.interface_radius = sizes.outlet_radius;
+  for (int i = mesh->interface_count - 1; i >= 0; i--)
+    if (mesh->interfaces[i].surface == CW_SURFACE_CYLINDER) sizes.interface_radius = mesh->interfaces[i].radius;
+  sizes.base_radius = sizes.interface_radius;
+  return sizes;
+}
+
 // From the design: the case may leave any of them open.
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
+  if (!data->design) {
+    *sizes = sizes_of_model(&data->mesh);
+    return CW_OK;
+  }
   static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
   char path[4096];
   double value[4], splitters = cw_json_real(data->design, "splitter_count");

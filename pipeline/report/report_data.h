@@ -14,7 +14,7 @@ enum { CW_STAGES = 3 };
 typedef struct {
   const CwCase *table;
   char *run;
-  json_t *design;            // geometry/design.json
+  json_t *design;            // geometry/design.json; NULL: no generator made the pump
   json_t *record[CW_STAGES]; // geometry, mesh, export; the last may be NULL
   json_t *solve;             // solve/record.json, or NULL
   CwMesh mesh;

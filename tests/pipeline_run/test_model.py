@@ -20,7 +20,7 @@ class Model(unittest.TestCase):
         cls.run_folder = fresh("model") / "run"
         result = execute([BIN / "turned_zones", PAPER, cls.run_folder])
         test.assertEqual(result.returncode, 0, result.stdout)
-        for name in ("mesh", "export"):
+        for name in ("mesh", "export", "report"):
             done(test, name, cls.run_folder, cells=CELLS, ranks=2)
         cls.export = record(cls.run_folder, "export")["results"]
         cls.foam = cls.run_folder / "export/openfoam"
@@ -77,6 +77,14 @@ class Model(unittest.TestCase):
                              .split()[-1]) for name in ("flowInlet", "flowOutlet")}
         self.assertAlmostEqual(flows["flowOutlet"] * 3600 / 25, 1, delta=1e-6)
         self.assertAlmostEqual(-flows["flowInlet"] / flows["flowOutlet"], 1, delta=0.05)
+
+    def test_6_the_report_does_without_a_design(self):
+        page = (self.run_folder / "report/index.html").read_text()
+        self.assertIn("from solids to mesh", page)
+        for heading in ("Derived dimensions", "Design drawings"):
+            self.assertNotIn(heading, page)
+        for heading in (">Wheel</th>", "Prism layers", "D<sub>2</sub>&#8239;=&#8239;100&#8239;mm"):
+            self.assertIn(heading, page)
 
 
 if __name__ == "__main__":
