@@ -23,6 +23,7 @@
 #include "mesher/cad/cad_unit.h"
 #include "mesher/common/vec.h"
 
+static const double least_tolerance = 1e-9; // of the model's unit
 enum { BOX_PARTS = 8, SEARCH_PARTS = 12 }; // of an edge; of a face along u and v
 static const double pcurve_tolerance =
     1e-4; // in units of the B-rep: past it the point of an edge is projected onto its face
@@ -79,6 +80,15 @@ void cw_cad_add_to_box(const CwCad *cad, CwBox *box) {
       cw_box_add_point(box, x);
     }
   }
+}
+
+double cw_cad_tolerance(const CwCad *cad) {
+  double most = 0;
+  for (int i = 1; i <= cad->vertex_map.Extent(); i++)
+    most = std::max(most, BRep_Tool::Tolerance(TopoDS::Vertex(cad->vertex_map(i))));
+  for (int i = 1; i <= cad->edge_map.Extent(); i++)
+    most = std::max(most, BRep_Tool::Tolerance(TopoDS::Edge(cad->edge_map(i))));
+  return std::max(least_tolerance, most * cad->unit);
 }
 
 int cw_cad_patch_count(const CwCad *cad) {

@@ -27,6 +27,10 @@ void cw_cad_add_to_box(const CwCad *cad, CwBox *box);
 // included, holds no more.
 CwStatus cw_cad_rescale(CwCad *cad, int power);
 
+// Within which places of the solid are one: the greatest tolerance of its vertices and edges, but no less than 1e-9 in
+// the unit of the model.
+double cw_cad_tolerance(const CwCad *cad);
+
 int cw_cad_patch_count(const CwCad *cad);
 const char *cw_cad_patch_name(const CwCad *cad, int patch);
 CwPatchKind cw_cad_patch_kind(const CwCad *cad, int patch);

@@ -8,7 +8,6 @@
 #include "mesher/common/vec.h"
 
 enum { TURNS_MOST = 64, FACE_SAMPLES = 5, EDGE_SAMPLES = 5 };
-static const double SAME = 1e-9; // of the model's unit
 
 void cw_symmetry_turn(int32_t count, int32_t turns, const double x[3], double turned[3]) {
   if (turns == 0) {
@@ -108,7 +107,7 @@ static int bounds(const CwCad *cad, int32_t edge, int32_t face) {
 }
 
 // True where one turn takes the edges of face `f` to edges of face `g`: faces may be pieces of one surface.
-static int edges_agree(const CwCad *cad, int32_t count, int32_t f, int32_t g) {
+static int edges_agree(const CwCad *cad, double near, int32_t count, int32_t f, int32_t g) {
   for (int32_t e = 0; e < cw_cad_edge_count(cad); e++) {
     if (!bounds(cad, e, f)) continue;
     double x[3], turned[3];
@@ -118,7 +117,7 @@ static int edges_agree(const CwCad *cad, int32_t count, int32_t f, int32_t g) {
     for (int32_t other = 0; other < cw_cad_edge_count(cad) && !found; other++) {
       if (!bounds(cad, other, g)) continue;
       edge_middle(cad, other, x);
-      found = cw_distance(x, turned) < SAME;
+      found = cw_distance(x, turned) < near;
     }
     if (!found) return 0;
   }
@@ -126,7 +125,7 @@ static int edges_agree(const CwCad *cad, int32_t count, int32_t f, int32_t g) {
 }
 
 // Where one turn takes `face`, -1: nowhere.
-static int32_t face_image(const CwCad *cad, const FaceSamples *samples, int32_t count, int32_t face) {
+static int32_t face_image(const CwCad *cad, double near, const FaceSamples *samples, int32_t count, int32_t face) {
   const FaceSamples *of = &samples[face];
   for (int32_t g = 0; g < cw_cad_face_count(cad); g++) {
     if (g == face || cw_cad_face_patch(cad, g) != cw_cad_face_patch(cad, face)) continue;
@@ -137,19 +136,19 @@ static int32_t face_image(const CwCad *cad, const FaceSamples *samples, int32_t 
       double turned[3], x[3];
       cw_symmetry_turn(count, 1, of->x[s], turned);
       cw_cad_face_point(cad, g, of->uv[s], x, NULL, NULL);
-      same = cw_distance(turned, x) < SAME;
+      same = cw_distance(turned, x) < near;
     }
-    if (same && edges_agree(cad, count, face, g)) return g;
+    if (same && edges_agree(cad, near, count, face, g)) return g;
   }
   for (int32_t s = 0; s < of->count; s++) {
     double turned[3], uv[2] = {of->uv[s][0], of->uv[s][1]};
     cw_symmetry_turn(count, 1, of->x[s], turned);
-    if (cw_cad_face_project(cad, face, turned, uv) >= SAME) return -1;
+    if (cw_cad_face_project(cad, face, turned, uv) >= near) return -1;
   }
-  return of->count > 0 && edges_agree(cad, count, face, face) ? face : -1;
+  return of->count > 0 && edges_agree(cad, near, count, face, face) ? face : -1;
 }
 
-static int32_t edge_image(const CwCad *cad, const CwImages *face, int32_t count, int32_t edge) {
+static int32_t edge_image(const CwCad *cad, double near, const CwImages *face, int32_t count, int32_t edge) {
   double range[2];
   int faces[2];
   cw_cad_edge_range(cad, edge, range);
@@ -168,26 +167,26 @@ static int32_t edge_image(const CwCad *cad, const CwImages *face, int32_t count,
       cw_cad_edge_point(cad, edge, t, x, NULL);
       cw_symmetry_turn(count, 1, x, turned);
       cw_cad_edge_point(cad, e, t, x, NULL);
-      same = cw_distance(turned, x) < SAME;
+      same = cw_distance(turned, x) < near;
     }
     if (same) return e;
   }
   return -1;
 }
 
-static int32_t vertex_image(const CwCad *cad, int32_t count, int32_t vertex) {
+static int32_t vertex_image(const CwCad *cad, double near, int32_t count, int32_t vertex) {
   double x[3], turned[3];
   cw_cad_vertex_point(cad, vertex, x);
   cw_symmetry_turn(count, 1, x, turned);
   for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) {
     cw_cad_vertex_point(cad, v, x);
-    if (cw_distance(x, turned) < SAME) return v;
+    if (cw_distance(x, turned) < near) return v;
   }
   return -1;
 }
 
 // *whole: whether `count` turns bring the solid to itself.
-static CwStatus try_count(const CwCad *cad, const FaceSamples *samples, int32_t count, CwSymmetry *symmetry,
+static CwStatus try_count(const CwCad *cad, double near, const FaceSamples *samples, int32_t count, CwSymmetry *symmetry,
                           int *whole) {
   CwStatus status = CW_OK;
   int32_t *next = NULL, faces = cw_cad_face_count(cad), edges = cw_cad_edge_count(cad), turning = 0;
@@ -195,7 +194,7 @@ static CwStatus try_count(const CwCad *cad, const FaceSamples *samples, int32_t 
   *whole = 0;
   CW_NEW(next, faces);
   for (int32_t f = 0; f < faces; f++) {
-    next[f] = face_image(cad, samples, count, f);
+    next[f] = face_image(cad, near, samples, count, f);
     if (next[f] < 0) goto done;
     turning += next[f] != f;
   }
@@ -204,12 +203,12 @@ static CwStatus try_count(const CwCad *cad, const FaceSamples *samples, int32_t 
   next = NULL;
   if (!*whole) goto done;
   CW_NEW(next, edges);
-  for (int32_t e = 0; e < edges; e++) next[e] = edge_image(cad, &symmetry->face, count, e);
+  for (int32_t e = 0; e < edges; e++) next[e] = edge_image(cad, near, &symmetry->face, count, e);
   status = cw_images_make(edges, next, count, 0, &symmetry->edge, whole);
   next = NULL;
   if (!*whole) goto done;
   CW_NEW(next, cw_cad_vertex_count(cad));
-  for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) next[v] = vertex_image(cad, count, v);
+  for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) next[v] = vertex_image(cad, near, count, v);
   status = cw_images_make(cw_cad_vertex_count(cad), next, count, 0, &symmetry->vertex, whole);
   next = NULL;
 done:
@@ -268,12 +267,13 @@ static void clear(CwSymmetry *symmetry) {
 CwStatus cw_symmetry_find(const CwCad *cad, const CwBackground *background, CwSymmetry **symmetry) {
   CwStatus status = CW_OK;
   FaceSamples *samples = NULL;
+  const double near = cw_cad_tolerance(cad);
   *symmetry = NULL;
   CW_TRY(sample_faces(cad, background, &samples));
   CW_NEW(*symmetry, 1);
   int found = 0;
   for (int32_t count = TURNS_MOST; count >= 2 && !found; count--) {
-    CW_TRY(try_count(cad, samples, count, *symmetry, &found));
+    CW_TRY(try_count(cad, near, samples, count, *symmetry, &found));
     if (!found) clear(*symmetry);
   }
   if (found) {

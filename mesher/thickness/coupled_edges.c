@@ -9,7 +9,6 @@
 #include "mesher/policy.h"
 
 enum { SIZE_STEPS = 400 };
-static const double SAME_PLACE = 1e-9; // of the model's unit
 
 // A place on the edge, as shares of its length in the sense of side 0, for either side.
 typedef struct {
@@ -43,12 +42,12 @@ static void point_at(const Pair *pair, int side, double s, double x[3]) {
 }
 
 // Whether the two edges are one curve, in the sense that pair->reversed says.
-static int same_edge(const Pair *pair) {
+static int same_edge(const Pair *pair, double near) {
   for (int i = 0; i <= 4; i++) {
     double x[3], y[3];
     point_at(pair, 0, i / 4.0, x);
     point_at(pair, 1, i / 4.0, y);
-    if (cw_distance(x, y) > SAME_PLACE) return 0;
+    if (cw_distance(x, y) > near) return 0;
   }
   return 1;
 }
@@ -183,13 +182,14 @@ done:
 
 CwStatus cw_couple_open_edges(CwBoundary *a, const char *patch_a, CwBoundary *b, const char *patch_b) {
   CwStatus status = CW_OK;
+  const double near = cw_cad_tolerance(a->cad) + cw_cad_tolerance(b->cad);
   for (int32_t e = 0; e < cw_cad_edge_count(a->cad); e++) {
     if (!on_patch(a->cad, e, patch_a)) continue;
     for (int32_t f = 0; f < cw_cad_edge_count(b->cad); f++) {
       Pair pair = {{a, b}, {e, f}, 0};
       if (!on_patch(b->cad, f, patch_b)) continue;
-      if (!same_edge(&pair)) pair.reversed = 1;
-      if (same_edge(&pair)) CW_TRY(couple_edge(&pair));
+      if (!same_edge(&pair, near)) pair.reversed = 1;
+      if (same_edge(&pair, near)) CW_TRY(couple_edge(&pair));
     }
   }
 done:

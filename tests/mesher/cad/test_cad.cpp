@@ -8,6 +8,7 @@
 
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <ShapeFix_ShapeTolerance.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BinTools.hxx>
@@ -305,6 +306,17 @@ static void bad_face_tables_are_refused(void **state) {
 #undef HEAD
 }
 
+// In metres: a box of 10 mm is exact to 1e-7 mm, which is less than the least; healed solids are not.
+static void places_are_one_within_the_tolerance(void **state) {
+  for (double tolerance : {1e-7, 2e-3}) {
+    TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
+    ShapeFix_ShapeTolerance().SetTolerance(box, tolerance);
+    CwCad *cad = open_solid(box);
+    assert_near(cw_cad_tolerance(cad), tolerance > 1e-6 ? 1e-3 * tolerance : 1e-9, 1e-15);
+    cw_cad_close(&cad);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(box_has_its_parts_and_patches),
@@ -315,6 +327,7 @@ int main(void) {
       cmocka_unit_test(spline_faces_do_the_same),
       cmocka_unit_test(edges_lie_on_both_faces),
       cmocka_unit_test(bad_solids_are_refused),
+      cmocka_unit_test(places_are_one_within_the_tolerance),
       cmocka_unit_test(bad_face_tables_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
