@@ -9,6 +9,7 @@
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
 #   make -C cases NAME                       another case; `make -C cases` lists them
 #   make measurements [SECTIONS="scale cases"]  the benches, for docs/measurements.md (hours)
+#   make dist                                an archive of the last commit that builds without git, in build/
 #   make clean                               removes build/ (runs/ stays)
 #
 # CELLS: asked number of cells (default: of the case file); NP: ranks; OUT: folder of the run (default runs/paper);
@@ -18,7 +19,7 @@ include pipeline/build.mk
 include pipeline/run.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help solve curve check check-long check-sanitized measurements clean
+.PHONY: help solve curve check check-long check-sanitized measurements dist clean
 
 help:
 	@sed -n '/^#   make/s/^#  //p; /^# \(CELLS\|HOSTS\)/s/^# //p' Makefile
@@ -40,6 +41,15 @@ check-sanitized:
 
 measurements: everything
 	@python3 $(ROOT)/tests/bench/measurements.py $(SECTIONS)
+
+# The last commit, and what it is.
+dist:
+	@mkdir -p $(BUILD) && cmake -DROOT=$(ROOT) -DOUT=$(BUILD)/VERSION -P $(ROOT)/pipeline/cmake/version.cmake
+	@! grep -q '\.changed$$' $(BUILD)/VERSION || echo 'dist: warning: changes that are not committed are left out' >&2
+	@version=$$(sed 's/\.changed$$//' $(BUILD)/VERSION) && echo "$$version" > $(BUILD)/VERSION && \
+	  git -C $(ROOT) archive --prefix=cutwater-$$version/pipeline/ --add-file=$(BUILD)/VERSION \
+	    --prefix=cutwater-$$version/ -o $(BUILD)/cutwater-$$version.tar.gz HEAD && \
+	  echo $(BUILD)/cutwater-$$version.tar.gz
 
 clean:
 	@rm -rf $(BUILD)

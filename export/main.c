@@ -11,11 +11,13 @@
 #include "pipeline/mpi_settings.h"
 #include "pipeline/stage_args.h"
 #include "pipeline/stop_line.h"
+#include "pipeline/version.h"
 
 int main(int argc, char **argv) {
   CwStatus status = CW_OK;
   static const CwStageUsage usage = {
       .stage = "export",
+      .version = cw_version,
       .summary = "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
                  "Runs under mpirun with any number of ranks; what it writes is the same for all.\n",
       .reads = {"geometry", "mesh"}};

@@ -17,9 +17,11 @@
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 #include "pipeline/stage_args.h"
+#include "pipeline/version.h"
 
 static const CwStageUsage usage = {
     .stage = "geometry",
+    .version = cw_version,
     .summary = "Designs the pump of the case file and writes its solids, with named faces, to RUN/geometry:\n"
                "a .brep file a domain, faces.csv, model.json, pump.step, design.json, record.json and pictures.\n",
 };

@@ -12,6 +12,7 @@
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
 #include "pipeline/stop_line.h"
+#include "pipeline/version.h"
 
 static const CwStageOption OPTIONS[] = {
     {"stop-after", "STAGE", "end after a stage, without a mesh: surface, layers or interfaces"},
@@ -21,6 +22,7 @@ enum { STOP_AFTER, VTK, OPTION_COUNT };
 
 static const CwStageUsage USAGE = {
     .stage = "mesh",
+    .version = cw_version,
     .summary =
         "Meshes RUN/geometry into region files and a manifest in RUN/mesh. Regions that an earlier run left whole\n"
         "are kept. Start it under mpirun for more than one rank; the mesh is the same for any number.\n",

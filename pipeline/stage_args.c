@@ -92,7 +92,7 @@ CwStatus cw_stage_args_read(int argc, char **argv, const CwStageUsage *usage, FI
       args->verbose = 1;
       break;
     case VERSION:
-      if (out) fprintf(out, "cutwater-%s %s\n", usage->stage, CUTWATER_VERSION);
+      if (out) fprintf(out, "cutwater-%s %s\n", usage->stage, usage->version);
       args->finished = 1;
       goto done;
     case HELP:

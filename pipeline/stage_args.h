@@ -37,6 +37,7 @@ typedef struct {
 // What a stage says of itself in its help.
 typedef struct {
   const char *stage;            // "mesh": the program is cutwater-mesh
+  const char *version;          // cw_version of version.h
   const char *summary;          // lines that follow the usage line, each ended by a newline
   const CwStageOption *options; // may be NULL
   int option_count;             // at most CW_STAGE_OPTION_LIMIT

@@ -8,9 +8,11 @@
 #include "pipeline/record.h"
 #include "pipeline/report/page.h"
 #include "pipeline/stage_args.h"
+#include "pipeline/version.h"
 
 static const CwStageUsage usage = {
     .stage = "report",
+    .version = cw_version,
     .summary = "Writes RUN/report/index.html: figures, charts and pictures of RUN/geometry, RUN/mesh and, "
                "where it is\n"
                "there, RUN/export. The page is one file that refers to nothing outside itself.\n",

@@ -19,7 +19,12 @@ static const CwStageOption own_options[] = {
     {"whole", NULL, "all passages"},
 };
 static const CwStageUsage usage = {
-    .stage = "export", .summary = "Writes the solver's files.\n", .options = own_options, .option_count = 2};
+    .stage = "export",
+    .version = "1.2+3",
+    .summary = "Writes the solver's files.\n",
+    .options = own_options,
+    .option_count = 2,
+};
 
 // Splits a command line at its blanks and reads it.
 static CwStatus read_line(const char *line, FILE *out, CwStageArgs *args) {
@@ -126,8 +131,7 @@ static void help_and_version_are_answered(void **state) {
   assert_int_equal(read_line("--version", out, &args), CW_OK);
   assert_true(args.finished);
   fflush(out);
-  int major = -1, minor = -1;
-  assert_int_equal(sscanf(text, "cutwater-export %d.%d.", &major, &minor), 2);
+  assert_string_equal(text, "cutwater-export 1.2+3\n");
   assert_int_equal(read_line("--help", out, &args), CW_OK);
   assert_true(args.finished);
   fclose(out);

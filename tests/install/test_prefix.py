@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""`cmake --install` into a prefix: what is there names no path of the source, and runs a case through all stages. The
+source is hidden from that run where mount namespaces are allowed. Manual pages are those of --help."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from cutwater import BIN, SOURCE
+
+PROGRAMS = ["cutwater", *(f"cutwater-{stage}" for stage in ("geometry", "mesh", "export", "report"))]
+HIDE = ["unshare", "--mount", "--propagation", "private", "sh", "-c", f'mount -t tmpfs none {SOURCE} && exec "$@"', "sh"]
+
+
+def call(*line, folder="/", path=""):
+    clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
+    clean["PATH"] = f"{path}:{clean['PATH']}"
+    return subprocess.run([str(word) for word in line], cwd=folder, env=clean, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=900)
+
+
+class Prefix(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.top = Path(tempfile.mkdtemp(prefix="cutwater"))
+        cls.prefix, cls.work = cls.top / "prefix", cls.top / "work"
+        cls.work.mkdir()
+        cls.told = call("cmake", "--install", BIN.parent, "--prefix", cls.prefix, "--strip")
+        cls.hide = HIDE if call(*HIDE, "true").returncode == 0 else []
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.top)
+
+    def run_here(self, *line):
+        return call(*self.hide, *line, folder=self.work, path=self.prefix / "bin")
+
+    def test_the_files(self):
+        self.assertEqual(self.told.returncode, 0, self.told.stdout)
+        share = self.prefix / "share"
+        for program in PROGRAMS:
+            for path in (f"bin/{program}", f"share/man/man1/{program}.1",
+                         f"share/bash-completion/completions/{program}"):
+                self.assertTrue((self.prefix / path).is_file(), path)
+        self.assertTrue((share / "doc/cutwater/docs/user-guide.md").is_file())
+        for path in self.prefix.rglob("*"):
+            if path.is_file() and not path.read_bytes().startswith(b"\x7fELF"):
+                self.assertNotIn(os.fsencode(SOURCE), path.read_bytes(), path)
+
+    def test_a_case_runs_through_all_stages(self):
+        shutil.copytree(self.prefix / "share/cutwater/cases/paper", self.work / "cases/mine")
+        names = self.run_here("cutwater").stdout.split()
+        self.assertIn("mine", names)
+        self.assertIn("zones", names)
+        result = self.run_here("cutwater", "mine", "CELLS=40k", "OUT=here", "NP=2")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        for name in ("export/pump.cgns", "export/openfoam/Allrun", "report/index.html"):
+            self.assertTrue((self.work / "here" / name).is_file(), name)
+        self.assertNotIn(str(SOURCE), (self.work / "here/report/index.html").read_text())
+        again = self.run_here("cutwater", "mine", "CELLS=40k", "OUT=here", "NP=2")
+        self.assertNotIn("cutwater-", again.stdout, "no stage runs again")
+        refused = self.run_here("cutwater", "nothing")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("no case is called 'nothing'; allowed: ", refused.stdout)
+
+    def test_all_are_of_one_version(self):
+        told = [self.run_here(program, "--version").stdout for program in PROGRAMS]
+        self.assertEqual(told[0], told[1])
+        self.assertEqual(len({line.split()[1] for line in told}), 1, told)
+        self.assertRegex(told[0], r"^cutwater-geometry \d+\.\d+\.\d+\S*\n$")
+
+    def test_manual_pages_are_those_of_help(self):
+        made = self.top / "man"
+        made.mkdir()
+        call("python3", SOURCE / "pipeline/packaging/man_pages.py", BIN, made)
+        for program in PROGRAMS:
+            kept = SOURCE / f"docs/man/{program}.1"
+            self.assertEqual((made / kept.name).read_text(), kept.read_text(),
+                             "python3 pipeline/packaging/man_pages.py build/bin docs/man makes them anew")
+
+    def completed(self, *words):
+        """What bash offers for the last word."""
+        script = self.prefix / "share/bash-completion/completions/cutwater"
+        line = f'. {script}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _cutwater; echo "${{COMPREPLY[@]}}"'
+        return set(self.run_here("bash", "-c", line, "bash", *words).stdout.split())
+
+    def test_completion(self):
+        self.assertEqual(self.completed("cutwater-mesh", "--st"), {"--stop-after"})
+        self.assertEqual(self.completed("cutwater-report", "--c"), {"--case", "--cells"})
+        self.assertEqual(self.completed("cutwater-mesh", "--case", ""), set())
+        self.assertEqual(self.completed("cutwater", "nq24"), {"nq24", "nq24-solve", "nq24-curve", "nq24-sweep"})
+        self.assertEqual(self.completed("cutwater", "HO"), {"HOSTS="})
+        options = re.findall(r"^  (--[a-z-]+)", self.run_here("cutwater-mesh", "--help").stdout, re.M)
+        self.assertEqual(self.completed("cutwater-mesh", "--"), set(options))
+
+
+if __name__ == "__main__":
+    unittest.main()
