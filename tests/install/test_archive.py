@@ -28,7 +28,7 @@ class Archive(unittest.TestCase):
         (no_git / "git").write_text("#!/bin/sh\nexit 1\n")
         (no_git / "git").chmod(0o755)
         path = f"PATH={no_git}:{os.environ['PATH']}"
-        for line in (["cmake", "-S", source, "-B", top / "build", "-DBUILD_TESTING=OFF"],
+        for line in (["cmake", "-S", source, "-B", top / "build", "-DCUTWATER_TESTS=OFF"],
                      ["cmake", "--build", top / "build", "-j", 2, "--target", "cutwater-report"],
                      [top / "build/bin/cutwater-report", "--version"]):
             told = execute(["env", path, *line])
