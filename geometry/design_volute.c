@@ -77,7 +77,7 @@ done:
 
 // Mean width of the throat along the axis over its height: at 3 and more the diffuser's corners curl on their way from
 // the flat throat to the circle.
-static const double FLATTEST_THROAT = 2.9;
+static const double FLATTEST_THROAT = 2.9, LEAST_SIDE_WALL = 8 * M_PI / 180;
 static double flatness(const CwVolute *volute) {
   return volute->throat_area / (volute->throat_width * volute->throat_width);
 }
@@ -154,10 +154,16 @@ static void place_of_tongue(const CwVoluteTable *given, CwDesign *design) {
 CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const int width_open = !cw_case_given(given->inlet_width);
+  const int side_open = !cw_case_given(given->side_wall_angle) && given->section != CW_SECTION_RECTANGLE;
   CW_TRY(volute_that_fits(given, design));
   const double narrowest = 1.001 * (design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter);
   while (width_open && flatness(&design->volute) > FLATTEST_THROAT && design->inlet_width > narrowest) {
     SET(inlet_width, fmax(narrowest, 0.9 * design->inlet_width), "narrowed for a throat that is not too flat");
+    CW_TRY(volute_of(given, design));
+  }
+  while (side_open && flatness(&design->volute) > FLATTEST_THROAT && design->side_wall_angle > LEAST_SIDE_WALL) {
+    SET(side_wall_angle, fmax(LEAST_SIDE_WALL, design->side_wall_angle - 2 * degree),
+        "less open for a throat that is not too flat");
     CW_TRY(volute_of(given, design));
   }
   TAKE(throat_area, given->throat_area, design->volute.throat_area,

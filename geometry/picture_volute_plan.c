@@ -49,21 +49,18 @@ static void segment(CwPicture *picture, const Frame *frame, CwStroke stroke, con
   draw(picture, frame, stroke, x, 2);
 }
 
-// A wall of the diffuser from the throat, where it runs along `along` (upward), to the outlet; cubic.
+// A wall of the diffuser from the throat, where it runs along `along` (upward), to the outlet.
 static int diffuser_wall(const CwVolute *volute, const double from[2], const double along[2], double side,
                          double x[WALL_POINTS + 1][2]) {
   const double lean = volute->discharge_lean, radius = volute->input.outlet_diameter / 2;
-  const double end[2] = {volute->outlet_x + side * radius * cos(lean), volute->outlet_y + side * radius * sin(lean)};
+  const double end[3] = {volute->outlet_x + side * radius * cos(lean), volute->outlet_y + side * radius * sin(lean), 0};
   const double down[2] = {-sin(lean), cos(lean)};
-  const double bent = cw_diffuser_bent_tangent(volute, hypot(end[0] - from[0], end[1] - from[1]));
-  const double length = bent > 0 ? bent : CW_DIFFUSER_TANGENT * volute->diffuser_length;
-  const double across = bent > 0 ? hypot(along[0], along[1]) : along[1];
+  const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
+  const double start[3] = {from[0], from[1], 0}, leaving[3] = {lines.tangent * along[0] / along[1], lines.tangent, 0};
   for (int i = 0; i < WALL_POINTS; i++) {
-    const double t = (double)i / (WALL_POINTS - 1), u = 1 - t;
-    for (int k = 0; k < 2; k++) {
-      const double a = from[k] + along[k] / across * length / 3, b = end[k] - down[k] * length / 3;
-      x[i][k] = u * u * u * from[k] + 3 * u * u * t * a + 3 * u * t * t * b + t * t * t * end[k];
-    }
+    double point[3];
+    cw_diffuser_line(&lines, start, leaving, end, (double)i / (WALL_POINTS - 1), point);
+    for (int k = 0; k < 2; k++) x[i][k] = point[k];
   }
   for (int k = 0; k < 2; k++) x[WALL_POINTS][k] = end[k] + down[k] * volute->input.discharge_pipe_length;
   return WALL_POINTS + 1;

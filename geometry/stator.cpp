@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include <GeomAPI.hxx>
 #include <Geom_Circle.hxx>
@@ -253,6 +254,21 @@ private:
     }
   }
 
+  static void coordinates(const gp_Pnt &p, double x[3]) {
+    for (int i = 0; i < 3; i++) x[i] = p.Coord(i + 1);
+  }
+
+  // Places along the diffuser at which its surfaces are interpolated: four points of a cubic give the cubic back.
+  static std::vector<double> along_diffuser(double turning) {
+    const int turned = 12, rest = 12;
+    if (turning == 1) return {0, 1.0 / 3, 2.0 / 3, 1};
+    turning = std::min(turning, 0.5);
+    std::vector<double> v;
+    for (int i = 0; i < turned; i++) v.push_back(turning * i / turned);
+    for (int i = 0; i <= rest; i++) v.push_back(turning + (1 - turning) * i / rest);
+    return v;
+  }
+
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave
   // in the tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
@@ -293,14 +309,17 @@ private:
     auto on_circle = [&](double angle) {
       return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
     };
+    const CwDiffuserLines lines = cw_diffuser_lines(&v_, scale_);
+    const std::vector<double> along = along_diffuser(lines.turning);
     auto leaf = [&](int count, const PointOfOne &start, const PointOfOne &direction, const PointOfOne &finish) {
-      auto bent = [&](double t) { return cw_diffuser_bent_tangent(&v_, start(t).Distance(finish(t))); };
-      auto leaving = [&](double t) {
-        const gp_XYZ along = direction(t).XYZ();
-        return gp_Pnt(bent(t) > 0 ? along * (bent(t) / along.Modulus()) : along);
-      };
-      auto arriving = [&](double t) { return gp_Pnt((bent(t) > 0 ? bent(t) : length) * downstream().XYZ()); };
-      return hermite_surface(count, start, leaving, finish, arriving);
+      return spline_surface(count, along, [&](double u, double v) {
+        double from[3], leaving[3], to[3], x[3];
+        coordinates(start(u), from);
+        coordinates(direction(u), leaving);
+        coordinates(finish(u), to);
+        cw_diffuser_line(&lines, from, leaving, to, v, x);
+        return gp_Pnt(x[0], x[1], x[2]);
+      });
     };
     auto turn = [&](double from, double to) { return [=](double t) { return on_circle(from + t * (to - from)); }; };
     Handle(Geom_BSplineSurface) outer = leaf(across_, outer_start, outer_direction, turn(corner[0], corner[1]));

@@ -34,20 +34,14 @@ Handle(Geom2d_BSplineCurve) straight_plane_curve(double a, double b, const gp_Pn
   return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
 }
 
-Handle(Geom_BSplineSurface) spline_surface(int u_count, int v_count, const PointOfTwo &f) {
-  std::vector<double> u = even_parameters(u_count, 0, 1), v = even_parameters(v_count, 0, 1);
+Handle(Geom_BSplineSurface) spline_surface(int u_count, const std::vector<double> &v, const PointOfTwo &f) {
+  std::vector<double> u = even_parameters(u_count, 0, 1);
   std::vector<gp_Pnt> points;
   for (double at_u : u)
     for (double at_v : v) points.push_back(f(at_u, at_v));
   return cw_bspline_surface(u, v, points);
 }
 
-Handle(Geom_BSplineSurface) hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
-                                            const PointOfOne &end, const PointOfOne &end_derivative) {
-  // Four points of a cubic give the cubic back.
-  return spline_surface(u_count, 4, [&](double u, double v) {
-    double w = 1 - v;
-    return gp_Pnt(start(u).XYZ() * (w * w * (1 + 2 * v)) + start_derivative(u).XYZ() * (w * w * v) +
-                  end(u).XYZ() * (v * v * (1 + 2 * w)) - end_derivative(u).XYZ() * (v * v * w));
-  });
+Handle(Geom_BSplineSurface) spline_surface(int u_count, int v_count, const PointOfTwo &f) {
+  return spline_surface(u_count, even_parameters(v_count, 0, 1), f);
 }

@@ -5,6 +5,7 @@
 #define CUTWATER_GEOMETRY_STATOR_SPLINE_HPP
 
 #include <functional>
+#include <vector>
 
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -24,9 +25,7 @@ Handle(Geom2d_BSplineCurve) straight_plane_curve(double a, double b, const gp_Pn
 // Surface over [0,1] x [0,1] through f at u_count x v_count even parameters, both at least 4.
 Handle(Geom_BSplineSurface) spline_surface(int u_count, int v_count, const PointOfTwo &f);
 
-// Surface over [0,1] x [0,1]: splines in u; in v the cubic from start(u) to end(u) with the given derivatives
-// there.
-Handle(Geom_BSplineSurface) hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
-                                            const PointOfOne &end, const PointOfOne &end_derivative);
+// The same with v at the given places from 0 to 1.
+Handle(Geom_BSplineSurface) spline_surface(int u_count, const std::vector<double> &v, const PointOfTwo &f);
 
 #endif

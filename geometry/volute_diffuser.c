@@ -19,12 +19,42 @@ static const double LARGEST_BEND = 0.6 * M_PI; // rad
 static const double LARGEST_TURN = 0.6;        // rad, outward from the throat's direction
 static const double LEAST_WALL = 0.8;          // of the tongue's radius, between diffuser and spiral
 static const double BENT_TANGENT = 0.85;       // of a bent line's arc: less than 1, so that the bore does not shrink
+static const double LARGEST_NARROWING = 0.1;   // of the throat's width
 static const double STEP = 1 + 1e-9;           // past a bore, so that the next larger one is found
 
-double cw_diffuser_bent_tangent(const CwVolute *volute, double distance) {
-  const double bend = volute->throat_lean - volute->discharge_lean;
-  if (volute->input.discharge != CW_DISCHARGE_RADIAL || bend <= 0) return 0;
-  return BENT_TANGENT * distance * 0.5 * bend / sin(0.5 * bend);
+CwDiffuserLines cw_diffuser_lines(const CwVolute *volute, double scale) {
+  double x[3], x_phi[3];
+  CwDiffuserLines lines = {.tangent = CW_DIFFUSER_TANGENT * scale * volute->diffuser_length, .turning = 1};
+  const double lean[2] = {volute->throat_lean, volute->discharge_lean};
+  const int radial = volute->input.discharge == CW_DISCHARGE_RADIAL;
+  if (radial) lines.bend = fmax(0, lean[0] - lean[1]);
+  lines.axis[0] = -sin(lean[0]);
+  lines.axis[1] = cos(lean[0]);
+  lines.down[0] = -sin(lean[1]);
+  lines.down[1] = cos(lean[1]);
+  cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, x, x_phi, NULL);
+  const double closing = -x_phi[0] / x_phi[1]; // of the throat's width by length
+  const double tangent = (lines.bend > 0 ? BENT_TANGENT : CW_DIFFUSER_TANGENT) * volute->diffuser_length;
+  const double narrowing = closing * tangent / (LARGEST_NARROWING * volute->throat_width);
+  // The largest values of t (1 - t)^2 and t (1 - t)^3.
+  if (narrowing * 4 / 27 > 1) lines.turning = fmin(1, 256.0 / 27 / narrowing);
+  return lines;
+}
+
+void cw_diffuser_line(const CwDiffuserLines *lines, const double start[3], const double leaving[3], const double end[3],
+                      double v, double point[3]) {
+  const double w = 1 - v, t = v / lines->turning, bend = lines->bend;
+  const double chord = sqrt(pow(end[0] - start[0], 2) + pow(end[1] - start[1], 2) + pow(end[2] - start[2], 2));
+  const double bent = bend > 0 ? BENT_TANGENT * chord * 0.5 * bend / sin(0.5 * bend) : 0;
+  const double whole = sqrt(leaving[0] * leaving[0] + leaving[1] * leaving[1] + leaving[2] * leaving[2]);
+  for (int i = 0; i < 3; i++) {
+    const double own = bent > 0 ? leaving[i] * (bent / whole) : leaving[i], tangent = bent > 0 ? bent : lines->tangent;
+    const double first = lines->turning < 1 ? (i < 2 ? tangent * lines->axis[i] : 0) : own;
+    const double last = i < 2 ? tangent * lines->down[i] : 0;
+    point[i] =
+        start[i] * (w * w * (1 + 2 * v)) + first * (w * w * v) + end[i] * (v * v * (1 + 2 * w)) - last * (v * v * w);
+    if (lines->turning < 1 && t < 1) point[i] += (own - first) * lines->turning * t * pow(1 - t, 3);
+  }
 }
 
 static double bore_ratio(double bore, double throat_area) {
@@ -80,7 +110,7 @@ done:
 }
 
 // The inner half of the diffuser's wall above z = 0 as the solid has it: lines from the throat's contour to the
-// outlet's circle, cubics that leave along the walls before the throat and arrive along the pipe.
+// outlet's circle.
 typedef struct {
   double throat_half_width, outer_x, lean; // at the flank; of the outer corner; dx/dy of the wall there
   double inner_angle, outer_angle;         // where the corners meet the circle, from the outer side on
@@ -107,31 +137,31 @@ static InnerWall inner_wall(const CwVolute *volute) {
 
 // Point of the line that begins on the flank (along < 1: its share of the way from z = 0 to the corner) or on the side
 // (along - 1: its share of the way to the outer corner), at the share s of its length.
-static void inner_wall_point(const CwVolute *volute, const InnerWall *wall, double along, double s, double point[3]) {
-  const double side = fmax(0, along - 1), up = fmin(1, along), y = volute->throat_y, w = 1 - s;
+static void inner_wall_point(const CwVolute *volute, const CwDiffuserLines *lines, const InnerWall *wall, double along,
+                             double s, double point[3]) {
+  const double side = fmax(0, along - 1), up = fmin(1, along), y = volute->throat_y;
   const double x = volute->inner_wall_x + side * (wall->outer_x - volute->inner_wall_x), r = hypot(x, y);
   const double slope = tan(volute->input.side_wall_angle) * (x * wall->lean * side + y) / r;
+  const double tangent = lines->tangent;
   const double start[3] = {x, y, up * cw_volute_half_width(volute, r)};
-  const double leaving[3] = {wall->lean * side, 1, up * slope}, tangent = CW_DIFFUSER_TANGENT * volute->diffuser_length;
+  const double leaving[3] = {tangent * wall->lean * side, tangent, tangent * up * slope};
   const double lean = volute->discharge_lean, radius = 0.5 * volute->input.outlet_diameter;
   const double angle = M_PI + up * (wall->inner_angle - M_PI) + side * (wall->outer_angle - wall->inner_angle);
   const double end[3] = {volute->outlet_x + radius * cos(angle) * cos(lean),
                          volute->outlet_y + radius * cos(angle) * sin(lean), radius * sin(angle)};
-  const double arriving[3] = {-sin(lean), cos(lean), 0};
-  for (int i = 0; i < 3; i++)
-    point[i] = start[i] * w * w * (1 + 2 * s) + leaving[i] * tangent * w * w * s + end[i] * s * s * (1 + 2 * w) -
-               arriving[i] * tangent * s * s * w;
+  cw_diffuser_line(lines, start, leaving, end, s, point);
 }
 
 // Least radial distance of the diffuser's inner wall from the spiral's outer wall, m.
 static double clearance(const CwVolute *volute) {
   enum { LINES = 8, POINTS = 16 };
   const InnerWall wall = inner_wall(volute);
+  const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
   double least = HUGE_VAL;
   for (int i = 0; i <= 2 * LINES; i++)
     for (int j = 0; j <= POINTS; j++) {
       double p[3];
-      inner_wall_point(volute, &wall, (double)i / LINES, (double)j / POINTS, p);
+      inner_wall_point(volute, &lines, &wall, (double)i / LINES, (double)j / POINTS, p);
       const CwVoluteSection section = cw_volute_section(volute, atan2(p[1], p[0]));
       if (p[2] > section.kink_height + volute->input.tongue_radius) continue;
       least = fmin(least, hypot(p[0], p[1]) - cw_volute_wall_radius(&section, fmin(p[2], section.kink_height)));

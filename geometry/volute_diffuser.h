@@ -23,13 +23,29 @@ extern "C" {
 // ones while the flow there is faster than the economic speed of pipes, 4 m/s, up to CW_DIFFUSER_LARGEST_RATIO. m.
 double cw_diffuser_bore(double flow_rate, double throat_area);
 
-// The wall's lines from the throat's contour to the outlet's circle are cubics. Their tangents at both ends have, where
-// the diffuser is straight, this share of its length across the throat; an even larger one lets the area fall at first.
+// The wall's lines from the throat's contour to the outlet's circle: they leave in the direction of the wall before the
+// throat and arrive along the pipe. Where the diffuser is straight they are cubics with tangents of CW_DIFFUSER_TANGENT
+// of its length; where it is bent (a radial discharge), the tangents are nearly as long as the arc, as an arc has them.
+//
+// The walls before the throat converge: cubics narrow the throat, the more, the longer they are. Where that would be
+// more than a tenth of its width, the lines follow the diffuser's axis instead, and turn from their own direction into
+// it over the share `turning` of their length, d the difference of both tangents:
+//   line(v) = cubic along the axis + d turning t (1 - t)^3, t = v / turning <= 1
+typedef struct {
+  double tangent;          // CW_DIFFUSER_TANGENT of the diffuser's length, in units of which `scale` make a metre
+  double axis[2], down[2]; // unit vectors of the diffuser's axis at throat and outlet
+  double bend;             // rad, to the right; 0: straight
+  double turning;          // 1: plain cubics
+} CwDiffuserLines;
+
 #define CW_DIFFUSER_TANGENT 0.4
 
-// The same where it is bent (a radial discharge), for a line whose ends are `distance` apart, in the unit of that:
-// nearly the length of the arc, as an arc has it. 0 where the diffuser is straight.
-double cw_diffuser_bent_tangent(const CwVolute *volute, double distance);
+CwDiffuserLines cw_diffuser_lines(const CwVolute *volute, double scale);
+
+// Point of the line from `start` to `end` at its share v, all in the lines' unit. `leaving`: the wall's direction at
+// the throat, with `tangent` along y.
+void cw_diffuser_line(const CwDiffuserLines *lines, const double start[3], const double leaving[3], const double end[3],
+                      double v, double point[3]);
 
 // Sets outlet diameter, length, angle and area ratio of the diffuser, and its axis from the throat to the outlet's
 // centre, of a volute whose spiral and throat are known. Fails with CW_ERR_DESIGN and one line that names the key and

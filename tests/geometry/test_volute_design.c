@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "geometry/volute_design.h"
+#include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 #include "geometry/volute_tongue.h"
 #include "tests/geometry/near_to.h"
@@ -299,6 +300,37 @@ static void diffuser(void **state) {
   near_to(volute.diffuser_angle, 2 * atan((50 - 33.945) / 240), 1e-4);
 }
 
+// Least distance of the diffuser's walls at z = 0, square to its axis at the throat, over that of the throat.
+static double narrowest(const CwVolute *volute) {
+  const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
+  const double radius = 0.5 * volute->input.outlet_diameter, throat = volute->throat_width * lines.axis[1];
+  double wall[3], along[3], least = HUGE_VAL;
+  cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, wall, along, NULL);
+  for (int i = 0; i <= 200; i++) {
+    double x[2][3];
+    for (int k = 0; k < 2; k++) {
+      const double start[3] = {k ? wall[0] : volute->inner_wall_x, volute->throat_y, 0}, side = k ? radius : -radius;
+      const double leaving[3] = {k ? lines.tangent * along[0] / along[1] : 0, lines.tangent, 0};
+      const double end[3] = {volute->outlet_x + side * lines.down[1], volute->outlet_y - side * lines.down[0], 0};
+      cw_diffuser_line(&lines, start, leaving, end, i / 200.0, x[k]);
+    }
+    least = fmin(least, hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) / throat);
+  }
+  return least;
+}
+
+// The walls before the throat converge; however long the diffuser is, they narrow it by a tenth or little more.
+static void long_diffusers_are_not_pinched(void **state) {
+  for (double length = 0.05; length < 2; length *= 1.5) {
+    CwVoluteInput input = paper();
+    input.diffuser_length = length;
+    const CwVolute volute = designed(&input);
+    assert_true(narrowest(&volute) > 0.85);
+    if (length < 0.11) assert_true(cw_diffuser_lines(&volute, 1).turning == 1);
+    if (length > 0.2) assert_true(cw_diffuser_lines(&volute, 1).turning < 1 && narrowest(&volute) > 0.89);
+  }
+}
+
 // A chosen gap is that of the default wedge, 26 degrees, where it lies in its range, else the range's nearer end.
 static void chosen_gap(void **state) {
   CwVoluteInput input = paper();
@@ -442,6 +474,7 @@ int main(void) {
       cmocka_unit_test(throat_by_strips),
       cmocka_unit_test(tongue_touches),
       cmocka_unit_test(diffuser),
+      cmocka_unit_test(long_diffusers_are_not_pinched),
       cmocka_unit_test(chosen_gap),
       cmocka_unit_test(free_gap),
       cmocka_unit_test(slim_gap),
