@@ -99,7 +99,7 @@ typedef struct {
   const CwLayerWork *work;
   int32_t v;
   int constrained;
-  double g[3], stretch, offset, best, far;
+  double x[3], g[3], stretch, offset, best, far;
   double core; // between two layer tops, that a tetrahedron fits in, m
 } Ray;
 
@@ -140,7 +140,7 @@ static int meet(void *context, int32_t f) {
   Ray *ray = context;
   const CwLayerInput *in = ray->work->in;
   int wall = f < in->triangle_count;
-  double facing = 0, way = hit(in, f, in->x[ray->v], ray->g, &facing);
+  double facing = 0, way = hit(in, f, ray->x, ray->g, &facing);
   if (way <= ray->offset || way > ray->far) return 0;
   if (wall) {
     if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
@@ -152,6 +152,18 @@ static int meet(void *context, int32_t f) {
     ray->best = fmin(ray->best, CW_OPEN_SHARE * way / ray->stretch);
   }
   return 0;
+}
+
+// Where the ray of v begins. Beside an open patch it is the middle of its neighbours: on a bent patch the chords of the
+// rim opposite lie within it, and a ray along it would miss the wall behind them.
+static void ray_start(const CwLayerWork *work, int32_t v, double x[3]) {
+  const CwLayerInput *in = work->in;
+  cw_copy(in->x[v], x);
+  if (!in->constraint_stays || !in->constraint_stays[v]) return;
+  double count = work->near_start[v + 1] - work->near_start[v];
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    for (int i = 0; i < 3; i++) x[i] += (in->x[work->near[k]][i] - in->x[v][i]) / count;
+  }
 }
 
 // Columns to look along.
@@ -169,13 +181,14 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   int32_t v = gaps->vertex[i];
   Ray ray = {
       .work = work, .v = v, .constrained = in->constraint_count && in->constraint_count[v] > 0, .best = INFINITY};
+  ray_start(work, v, ray.x);
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
   ray.core = cw_policy.core_height * mean_edge(work, v);
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
-  cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
+  cw_box_tree_ray(gaps->tree, ray.x, ray.g, &ray.far, meet, &ray);
   *(double *)out = ray.best;
   return CW_OK;
 }

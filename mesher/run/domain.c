@@ -316,7 +316,7 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double
     open_edge[p] = cw_policy.prism_longest_open * domain->patch_layers[p].first_height;
     if (wall) wall[p] = longest_on_wall(domain, p) / wall_scale;
   }
-  CwSizeLimits limits = {open_edge, wall};
+  CwSizeLimits limits = {open_edge, wall, table->mesh.gradation / gradation};
   CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, domain->base_size, &limits, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:

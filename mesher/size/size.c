@@ -83,7 +83,7 @@ static CwScanlines lines_in(void *bytes) {
   return lines;
 }
 
-enum { MORE_PARTS = 2 }; // than faces: edges and lines
+enum { MORE_PARTS = 2, WIDTHS = 2 }; // than faces: edges and lines; of a narrow face, its longest edges
 
 int cw_size_seed_parts(const CwCad *cad) {
   return cw_cad_face_count(cad) + MORE_PARTS;
@@ -220,6 +220,12 @@ static double longest_of(const CwCad *cad, const CwSizeLimits *limits, int face)
   return cw_cad_face_is_wall(cad, face) ? limits->wall[cw_cad_face_patch(cad, face)] : INFINITY;
 }
 
+// What the list behind the faces, of edges, is multiplied by. Edges of the mesh twice as long as a face is wide have
+// triangles of 45 and 90 degrees across it; longer ones leave needles.
+static double share_of(const CwCad *cad, const CwSizeLimits *limits, int face) {
+  return limits && limits->scale > WIDTHS && face == cw_cad_face_count(cad) ? WIDTHS / limits->scale : 1;
+}
+
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                       const double *patch_size, double base_size, const CwSizeLimits *limits, void *const *seeds,
                       CwSizePart part, void **bytes, int64_t *byte_count) {
@@ -237,7 +243,8 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   CwSize made = arrays_in(&head, block);
   grid.value = part == CW_SIZE_SEEDS ? made.grid.value : made.open_edge.value;
   cw_size_grid_clear(&grid);
-  for (int i = 0; i < lists; i++) cw_size_take_seeds(&grid, seeds[i], longest_of(cad, limits, i));
+  for (int i = 0; i < lists; i++)
+    cw_size_take_seeds(&grid, seeds[i], share_of(cad, limits, i), base_size, longest_of(cad, limits, i));
   CW_TRY(mark_inside(&grid, &lines, &within));
   if (part == CW_SIZE_SEEDS) {
     memcpy(made.lines.start, lines.start, head.starts * sizeof *lines.start);

@@ -40,9 +40,9 @@ void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
 // through a facing triangle; walls that meet in a crease there are not a gap.
 CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count);
 
-// Lowers the nodes of the grid by packed seeds, of which none counts for more than `most` (m); the order of faces does
-// not matter.
-void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double most);
+// Lowers the nodes of the grid by packed seeds; the order of faces does not matter. Of a seed counts
+// `share`, but no less than open edges are granted of it or, where it is longer, of `base` (m), and no more than `most`.
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double share, double base, double most);
 
 // The same for those CAD edges that are creases: the length of a short one, and the width of the face between two that
 // have no vertex in common.

@@ -326,12 +326,13 @@ CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines)
   return cw_scanlines_make(surface->input.background, &box.low[1], &box.high[1], surface->grid.spacing, lines);
 }
 
-void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double most) {
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double share, double base, double most) {
   int64_t count;
   memcpy(&count, bytes, sizeof count);
   const Seed *seed = (const Seed *)((const char *)bytes + sizeof count);
   for (int64_t i = 0; i < count; i++) {
-    float value = fminf(seed[i].value, (float)most);
-    if (value < grid->value[seed[i].node]) grid->value[seed[i].node] = value;
+    double size = seed[i].value, least = cw_policy.size_least_open * fmin(size, base);
+    double value = fmin(fmin(fmax(share * size, least), size), most);
+    if (value < grid->value[seed[i].node]) grid->value[seed[i].node] = (float)value;
   }
 }

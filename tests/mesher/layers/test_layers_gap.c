@@ -95,6 +95,43 @@ static void hollow(void **state) {
   case_free(&c);
 }
 
+enum { ROUND = 24 };
+
+// Two rings between 5 and 10 mm from the y axis, 1 mm apart; the rim's points of one lie between those of the other.
+static void ring_point(const void *context, double u, double v, double x[3]) {
+  const double *p = context, angle = 2 * M_PI * (u + p[1]); // height, turn
+  x[0] = (5 + 5 * v) * MM * cos(angle);
+  x[1] = p[0];
+  x[2] = (5 + 5 * v) * MM * sin(angle);
+}
+
+static int radial_at_rim(const void *context, const double x[3], double normal[2][3]) {
+  double r = hypot(x[0], x[2]);
+  normal[0][0] = x[0] / r;
+  normal[0][2] = x[2] / r;
+  return r > 9.99 * MM;
+}
+
+// Columns on the rim run along an open cylinder. The chords of the other rim lie within it, and are met all the same.
+static void gap_beside_bent_patch(void **state) {
+  Case c = {.target = 0.6 * MM, .constraint = radial_at_rim};
+  surface_grid(&c.wall, ring_point, (const double[2]){0, 0}, ROUND, 20, 1);
+  surface_grid(&c.wall, ring_point, (const double[2]){1 * MM, 0.5 / ROUND}, ROUND, 20, 0);
+  assert_int_equal(case_make(&c), CW_OK);
+  cw_layers_free(&c.out);
+  uint8_t *stays = calloc(c.wall.point_count, 1);
+  for (int32_t v = 0; v < c.wall.point_count; v++) stays[v] = c.in.constraint_count[v] > 0;
+  c.in.constraint_stays = stays;
+  assert_int_equal(cw_layers_make(&c.in, &c.out, &c.outcome), CW_OK);
+  for (int32_t v = 0; v < c.wall.point_count; v++) {
+    if (!stays[v]) continue;
+    assert_true(c.out.thickness[v] < 0.35 * MM + 1e-9);
+    assert_int_equal(c.out.reason[v], CW_LAYER_GAP);
+  }
+  free(stays);
+  case_free(&c);
+}
+
 // The thickness of the layer top on the wall between v and w: at the thickness of the lower one, columns stand so far
 // apart.
 static double apart(const Case *c, int32_t v, int32_t w) {
@@ -144,7 +181,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(thin_gap),          cmocka_unit_test(coarse_gap), cmocka_unit_test(room_by_hand),
       cmocka_unit_test(gap_to_open_patch), cmocka_unit_test(gradation),  cmocka_unit_test(hollow),
-      cmocka_unit_test(low_crease),
+      cmocka_unit_test(low_crease),        cmocka_unit_test(gap_beside_bent_patch),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

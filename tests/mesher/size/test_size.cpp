@@ -32,7 +32,7 @@ struct Model {
 
   Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
         std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall,
-        const std::vector<double> &open_edge_size = {}, const std::vector<double> &wall_size = {})
+        const std::vector<double> &open_edge_size = {}, const std::vector<double> &wall_size = {}, double scale = 0)
       : cad(open_solid(solid, patch_of)) {
     CwMeshTable table = {};
     table.gradation = gradation;
@@ -47,7 +47,7 @@ struct Model {
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
     for (int i = (int)parts.size() - 1; i >= 0; i--) check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
     cw_size_seeds_free(&seeds);
-    const CwSizeLimits limits = {open_edge_size.data(), wall_size.empty() ? nullptr : wall_size.data()};
+    const CwSizeLimits limits = {open_edge_size.data(), wall_size.empty() ? nullptr : wall_size.data(), scale};
     const CwSizeLimits *open_edge = open_edge_size.empty() ? nullptr : &limits;
     check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, open_edge, parts.data(),
                        CW_SIZE_SEEDS, &block, &bytes));
@@ -150,6 +150,19 @@ static void narrow_faces_get_their_width(void **state) {
   assert_near(block.at(1, 29, 15), 3, 0.02);
   Model coarse(bevelled_block(), 10, 0.5, 1, {1});
   assert_near(coarse.at(30 - middle, middle, 15), 0.15 * 10, 0.15);
+}
+
+// The bevel is 1 mm wide: made for a scale of 4 its edges are as long as twice its width; made for 20, where that would
+// be a thirtieth of what is wanted beside it, they are granted two fifths of what the scale alone would give them.
+static void coarse_meshes_hold_narrow_faces(void **state) {
+  const double middle = 0.5 / std::sqrt(2.0), made_for[2] = {4, 20}, longest[2] = {2, 0.4 * 20};
+  for (int i = 0; i < 2; i++) {
+    Model block(bevelled_block(), 3, 0.5, 1, {1}, all_wall, {1}, {}, made_for[i]);
+    cw_size_set_scale(block.size, made_for[i]);
+    double h = block.at(30 - middle, middle, 15);
+    assert_true(h >= longest[i] - 0.01 && h <= longest[i] + made_for[i] * (gradation * 0.5 + 0.01));
+    assert_near(block.at(1, 29, 15), made_for[i] * 3, 0.02 * made_for[i]);
+  }
 }
 
 static void growth_is_limited(void **state) {
@@ -281,6 +294,7 @@ int main(void) {
       cmocka_unit_test(gaps_get_their_cells),
       cmocka_unit_test(walls_of_a_wedge_are_no_gap),
       cmocka_unit_test(narrow_faces_get_their_width),
+      cmocka_unit_test(coarse_meshes_hold_narrow_faces),
       cmocka_unit_test(growth_is_limited),
       cmocka_unit_test(samples_fill_the_domain),
       cmocka_unit_test(two_runs_are_the_same),
