@@ -19,8 +19,9 @@ endef
 
 # Checks need the programs of others too, solving one of them.
 packages:
-	@$(ROOT)/pipeline/packages.sh $(if $(filter check check-long measurements,$(MAKECMDGOALS)),check,$\
-	  $(if $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS)),solve,build))
+	@$(ROOT)/pipeline/packages.sh $(if $(filter check-long,$(MAKECMDGOALS)),check-long,$\
+	  $(if $(filter check measurements,$(MAKECMDGOALS)),check,$\
+	  $(if $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS)),solve,build)))
 
 configure: packages
 	@mkdir -p $(BUILD)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """needs.py FOLDER [--solve] CELLS...: tells what runs of so many cells need of disk and memory, before they start, and
-ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M.
+ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. needs.py --table CELLS...: prints a row of
+a table for each number.
 
 The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 8 million cells, on 2 ranks (tests/bench/scale.py
 prints them); layers and size change them by a third."""
@@ -30,7 +31,21 @@ def existing(folder):
     return folder
 
 
+def row(text):
+    """What a run of so many cells needs, in a row of a table."""
+    cells = read_count(text)
+    disk = [cells * bytes_a_cell for bytes_a_cell in (*BYTES_A_CELL.values(), SOLVED_BYTES_A_CELL)]
+    memory = [MEMORY_AT_LEAST + cells * bytes_a_cell for bytes_a_cell in MEMORY_A_CELL.values()]
+    return f"| {text} | " + " | ".join(f"{value / 1e9:,.2g}" if value < 1e11 else f"{value / 1e9:,.0f}"
+                                       for value in disk + memory) + " |"
+
+
 def main(words):
+    if words[0] == "--table":
+        print("| cells | disk: mesh, GB | export, GB | solved flow, GB | memory: mesher, all ranks, GB | OpenFOAM, GB |")
+        print("|---|---|---|---|---|---|")
+        print("\n".join(row(text) for text in words[1:]))
+        return
     solve = "--solve" in words
     folder, *sizes = [word for word in words if word != "--solve"]
     cells = [read_count(text) for text in sizes]

@@ -1,20 +1,22 @@
 #!/bin/sh
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# Installs what is missing from Debian: packages.sh build|solve|check. `build` is what the programs need, `solve` also
-# the flow solver, `check` also what the tests hold them against: programs of others.
+# Installs what is missing from Debian: packages.sh build|solve|check|check-long. `build` is what the programs need, `solve`
+# also the flow solver, `check` also what the tests hold them against: programs of others, `check-long` another MPI too.
 set -eu
 
 build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmocka-dev libcairo2-dev
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libcgns-dev libcgal-dev libtet1.5-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libocct-data-exchange-dev"
+other_mpi="libmpich-dev mpich libhdf5-mpich-dev iproute2"
 judges="cgns-convert gmsh python3-gmsh openfoam tetgen valgrind"
 
 case "${1:-}" in
 build) wanted=$build ;;
 solve) wanted="$build openfoam" ;;
 check) wanted="$build $judges" ;;
-*) echo "packages: usage: packages.sh build|solve|check" >&2; exit 2 ;;
+check-long) wanted="$build $judges $other_mpi" ;;
+*) echo "packages: usage: packages.sh build|solve|check|check-long" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query > /dev/null; then

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The archive of `make dist`: it builds where there is no git, and its programs say which commit they are. Ends with 77,
-skipped, where the source itself is no checkout of git."""
+"""The archive of `make dist`: it builds where there is no git, and its programs say which commit they are. Ends with
+77, skipped, where the source itself is no checkout of git."""
 import os
 import subprocess
 import sys

@@ -80,6 +80,12 @@ class Sweep(unittest.TestCase):
         self.assertRegex(call(WORK, "2G", "2000G").stderr, r"needs: error: .* make room, or ask for fewer cells\n$")
         self.assertEqual(call(WORK, "2000G").returncode, 1)
 
+    def test_the_table_of_the_documents_is_that_of_the_script(self):
+        command = re.search(r"`pipeline/(needs.py --table [^`]+)`", (SOURCE / "docs/cluster.md").read_text())[1].split()
+        told = subprocess.run([sys.executable, SOURCE / "pipeline" / command[0], *command[1:]], stdout=subprocess.PIPE,
+                              text=True, check=True).stdout
+        self.assertIn(told, (SOURCE / "docs/cluster.md").read_text())
+
     def test_the_parts_of_a_run_on_the_disk_are_about_what_is_told(self):
         cells = record(RUN, "mesh")["results"]["cells"]
         for stage, bytes_a_cell in needs.BYTES_A_CELL.items():
