@@ -274,8 +274,8 @@ static CwStatus solve_spiral(CwVolute *volute) {
   const double largest = cw_volute_law(volute, LARGEST_SPIRAL * r3, volute->end_half_angle) - volute->law_start;
   double growth = asked;
   CW_REQUIRE(asked < largest, CW_ERR_DESIGN,
-             "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s (raise the head "
-             "or b3, or lower the flow rate)",
+             "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s: raise inlet_width_mm, "
+             "side_wall_angle_deg or outlet_diameter_mm",
              velocity ? "Q / (K3 sqrt(2 g H))" : "Q / (c_u2 r2)", scale * asked, velocity ? "mm2" : "mm",
              LARGEST_SPIRAL, scale * largest, velocity ? "mm2" : "mm");
   if (!isnan(in->throat_area)) {
