@@ -6,11 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "pipeline/file_digest.h"
 #include "pipeline/json_read.h"
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
-#include "pipeline/file_digest.h"
 #include "pipeline/stage_files.h"
 
 enum { PATH_SIZE = 4096 };

@@ -10,12 +10,12 @@
 #ifndef CUTWATER_MESHER_BOUNDARY_BOUNDARY_H
 #define CUTWATER_MESHER_BOUNDARY_BOUNDARY_H
 
+#include "mesher/boundary/interfaces.h"
+#include "mesher/boundary/surface_mesh.h"
 #include "mesher/common/polygons.h"
 #include "mesher/layers/layers.h"
 #include "mesher/network/network.h"
 #include "mesher/network/periodic_images.h"
-#include "mesher/boundary/interfaces.h"
-#include "mesher/boundary/surface_mesh.h"
 #include "mesher/surface/patch_mesh.h"
 
 // A CAD edge whose division is given: parameters of its points but for corners of the network, ascending.

@@ -4,8 +4,8 @@
 #ifndef CUTWATER_MESHER_BOUNDARY_BOUNDARY_CURVES_H
 #define CUTWATER_MESHER_BOUNDARY_BOUNDARY_CURVES_H
 
-#include "mesher/network/plane_map.h"
 #include "mesher/boundary/boundary.h"
+#include "mesher/network/plane_map.h"
 #include "mesher/surface/patch_task.h"
 
 // Places (arc lengths) that divide a curve between two lengths so that each edge is as long as the size field asks,

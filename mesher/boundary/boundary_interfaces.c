@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/boundary_curves.h"
+#include "mesher/boundary/periodic_boundary.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/plane_map.h"
-#include "mesher/boundary/periodic_boundary.h"
-#include "mesher/boundary/boundary_curves.h"
 #include "mesher/surface/patch_task.h"
 
 static const double BESIDE = 1e-7; // of the model's unit: where the two regions beside an interface are asked for

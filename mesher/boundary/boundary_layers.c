@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/boundary.h"
+#include "mesher/boundary/concave_edges.h"
+#include "mesher/boundary/periodic_boundary.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/layer_top_flip.h"
 #include "mesher/layers/layers.h"
 #include "mesher/layers/wall_unfold.h"
 #include "mesher/parallel/profiler.h"
-#include "mesher/boundary/concave_edges.h"
-#include "mesher/boundary/periodic_boundary.h"
-#include "mesher/boundary/boundary.h"
 #include "pipeline/log.h"
 
 static const double DIRECTION_LENGTH = 1e-5; // of the model's unit

@@ -5,8 +5,8 @@
 #ifndef CUTWATER_MESHER_BOUNDARY_CONCAVE_EDGES_H
 #define CUTWATER_MESHER_BOUNDARY_CONCAVE_EDGES_H
 
-#include "mesher/layers/layers.h"
 #include "mesher/boundary/boundary.h"
+#include "mesher/layers/layers.h"
 
 // Turns columns at narrow concave edges and changes their thicknesses by a tenth, never below `least` of `wall`, each
 // up to eight times where the least bound of the triangles round it rises by that, up to 26 degrees; alike in all

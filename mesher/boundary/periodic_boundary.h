@@ -3,8 +3,8 @@
 #ifndef CUTWATER_MESHER_BOUNDARY_PERIODIC_BOUNDARY_H
 #define CUTWATER_MESHER_BOUNDARY_PERIODIC_BOUNDARY_H
 
-#include "mesher/layers/layers.h"
 #include "mesher/boundary/boundary.h"
+#include "mesher/layers/layers.h"
 
 // Finds the image sets of the outlines on all planes. Outcome: CW_OUTCOME_ASYMMETRIC where they are not symmetric.
 CwStatus cw_image_outlines(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome);

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/boundary_curves.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/region/encroach.h"
 #include "mesher/region/region_boundary.h"
-#include "mesher/boundary/boundary_curves.h"
 
 // The refined interfaces of a region, packed: their number, and of each a header, the inserted points and the
 // triangles. Corners below 0 are inserted points: -1 - k.

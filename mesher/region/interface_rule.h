@@ -10,8 +10,8 @@
 #ifndef CUTWATER_MESHER_REGION_INTERFACE_RULE_H
 #define CUTWATER_MESHER_REGION_INTERFACE_RULE_H
 
-#include "mesher/fill/lattice_core.h"
 #include "mesher/boundary/boundary.h"
+#include "mesher/fill/lattice_core.h"
 
 // Region (0-based) of the smaller number beside interface `outline`.
 int32_t cw_interface_owner(const CwBoundary *boundary, const int32_t *number, int32_t outline);

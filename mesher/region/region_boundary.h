@@ -4,8 +4,8 @@
 #ifndef CUTWATER_MESHER_REGION_REGION_BOUNDARY_H
 #define CUTWATER_MESHER_REGION_REGION_BOUNDARY_H
 
-#include "mesher/fill/fill.h"
 #include "mesher/boundary/boundary.h"
+#include "mesher/fill/fill.h"
 
 typedef struct {
   int32_t wall_count, open_patch_count, interface_count; // triangles

@@ -8,11 +8,11 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_with_fallback.h"
-#include "mesher/thickness/layer_thickness.h"
+#include "mesher/policy.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
-#include "mesher/policy.h"
 #include "mesher/source_hash.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "pipeline/hash.h"
 #include "pipeline/mesh/interface_tolerance.h"
 

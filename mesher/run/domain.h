@@ -5,11 +5,11 @@
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/symmetry.h"
-#include "mesher/thickness/column_targets.h"
-#include "mesher/thickness/wall_targets.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_build.h"
 #include "mesher/size/size.h"
+#include "mesher/thickness/column_targets.h"
+#include "mesher/thickness/wall_targets.h"
 
 #define CW_LAYER_SHARE 1.0 // before the walls are known
 

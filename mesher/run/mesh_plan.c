@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/parallel/profiler.h"
 #include "mesher/parallel/groups.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/layer_record.h"

@@ -4,8 +4,8 @@
 #ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
 #define CUTWATER_MESHER_RUN_PASS_STATE_H
 
-#include "pipeline/model.h"
 #include "pipeline/hash.h"
+#include "pipeline/model.h"
 
 typedef struct {
   int pass;                              // the pass to run, from 1

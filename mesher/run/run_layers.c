@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run/run_layers.h"
 
+#include "mesher/parallel/groups.h"
+#include "mesher/parallel/profiler.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
-#include "mesher/parallel/profiler.h"
-#include "mesher/parallel/groups.h"
 #include "pipeline/log.h"
 
 // Of the work, what every rank of a group does for itself, and of that on a wall triangle what one takes that is a

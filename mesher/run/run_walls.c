@@ -4,12 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mesher/thickness/coupled_edges.h"
 #include "mesher/parallel/profiler.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_layers.h"
 #include "mesher/run/run_step.h"
+#include "mesher/thickness/coupled_edges.h"
 #include "pipeline/log.h"
 
 enum { WALL_PASSES = 3 };

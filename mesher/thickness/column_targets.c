@@ -7,11 +7,11 @@
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
-#include "mesher/thickness/layer_count.h"
-#include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
+#include "mesher/thickness/layer_count.h"
+#include "mesher/thickness/layer_thickness.h"
 
 static const double LITTLE_GROWTH = 1.1;
 // further, some made angles of 16 degrees where others have 19

@@ -8,9 +8,9 @@
 #ifndef CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
 #define CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
 
+#include "mesher/boundary/boundary.h"
 #include "mesher/common/incident.h"
 #include "mesher/thickness/wall_targets.h"
-#include "mesher/boundary/boundary.h"
 
 // Of each wall vertex.
 typedef struct {

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/parallel_for.h"
+#include "mesher/thickness/layer_thickness.h"
 
 static const double LEAST = 1.05 * CW_SMALL_DETERMINANT;   // asked for
 static const double ENOUGH = 1.005 * CW_SMALL_DETERMINANT; // of columns as even as they may become

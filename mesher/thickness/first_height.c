@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "mesher/thickness/layer_count.h"
-#include "mesher/thickness/layer_thickness.h"
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/policy.h"
+#include "mesher/thickness/layer_count.h"
+#include "mesher/thickness/layer_thickness.h"
 
 double cw_column_room(const CwWallFlow *flow) {
   double across = cw_policy.gap_share * flow->width;

@@ -13,8 +13,8 @@
 #include "geometry/measure.h"
 #include "geometry/rotor.h"
 #include "geometry/rotor_volume.h"
-#include "pipeline/case_schema.h"
 #include "pipeline/case.h"
+#include "pipeline/case_schema.h"
 #include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;

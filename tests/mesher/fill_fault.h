@@ -3,8 +3,8 @@
 #ifndef CUTWATER_TESTS_MESHER_FILL_FAULT_H
 #define CUTWATER_TESTS_MESHER_FILL_FAULT_H
 
-#include "mesher/fill/fill.h"
 #include "closed_surfaces.h"
+#include "mesher/fill/fill.h"
 
 // Size field of a constant length; both must outlive the input.
 CwFillInput fill_input(const Surface *surface, const double *size);

@@ -19,9 +19,9 @@
 #include <gp_Pln.hxx>
 
 extern "C" {
+#include "mesher/boundary/boundary.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/plan/sector_plan.h"
-#include "mesher/boundary/boundary.h"
 }
 
 #include "solids.h"

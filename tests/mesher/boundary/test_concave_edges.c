@@ -12,9 +12,9 @@
 #include <cmocka.h>
 
 #include "flat_ring.h"
+#include "mesher/boundary/concave_edges.h"
 #include "mesher/common/incident.h"
 #include "mesher/layers/prism_quality.h"
-#include "mesher/boundary/concave_edges.h"
 #include "mesher/policy.h"
 
 static const double HIGH = 5.5e-3, LOW = 0.5e-3;

@@ -4,8 +4,8 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-#include "mesher/cad/inside.h"
 #include "closed_surfaces.h"
+#include "mesher/cad/inside.h"
 
 static CwInside *inside_of(const Surface *s) {
   CwInside *inside = NULL;

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "mesher/fill/fill_columns.h"
 #include "closed_surfaces.h"
+#include "mesher/fill/fill_columns.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 

@@ -9,9 +9,9 @@
 #include <cmocka.h>
 
 #include "joined_mesh.h"
-#include "shaken_lattice.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill_mesh.h"
+#include "shaken_lattice.h"
 
 // The inside of a Delaunay mesh as a fill, as a mesh, and as a fill again: all neighbours know one another, and points
 // and tetrahedra come back as they were.

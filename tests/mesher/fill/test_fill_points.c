@@ -8,11 +8,11 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "closed_surfaces.h"
+#include "mesher/common/vec.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/offset_points.h"
 #include "mesher/policy.h"
-#include "mesher/common/vec.h"
-#include "closed_surfaces.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 

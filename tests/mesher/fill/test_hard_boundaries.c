@@ -15,11 +15,11 @@
 
 #include "fill_fault.h"
 #include "hard_boundaries.h"
-#include "random_boundary.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/fill_with_fallback.h"
 #include "mesher/fill/kernel.h"
 #include "pipeline/log.h"
+#include "random_boundary.h"
 
 // Of the random ones.
 static int random_count = 40;

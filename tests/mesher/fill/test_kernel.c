@@ -9,9 +9,9 @@
 #include <cmocka.h>
 
 #include "fill_fault.h"
-#include "surface_shapes.h"
-#include "mesher/fill/kernel.h"
 #include "mesher/common/quality.h"
+#include "mesher/fill/kernel.h"
+#include "surface_shapes.h"
 
 typedef struct {
   double dihedral_least, aspect_mean;

@@ -11,9 +11,9 @@
 #include "draw.h"
 #include "fill_fault.h"
 #include "joined_mesh.h"
-#include "surface_shapes.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel_recover.h"
+#include "surface_shapes.h"
 
 static const double origin[3] = {0, 0, 0};
 

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "closed_surfaces.h"
+#include "mesher/common/quality.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/lattice_core.h"
-#include "mesher/common/quality.h"
-#include "closed_surfaces.h"
 
 enum { LEVEL = 3, EDGE = 2 << LEVEL };
 

@@ -4,9 +4,9 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include "closed_surfaces.h"
 #include "mesher/fill/tet_improve.h"
 #include "mesher/fill/tet_quality.h"
-#include "closed_surfaces.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "mesher/region/audit.h"
-#include "mesher/fill/tetgen_fill.h"
-#include "mesher/fill/fill_shape.h"
 #include "closed_surfaces.h"
+#include "mesher/fill/fill_shape.h"
+#include "mesher/fill/tetgen_fill.h"
+#include "mesher/region/audit.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 

@@ -7,10 +7,10 @@
 #include <cmocka.h>
 
 #include "launch.h"
+#include "mesher/parallel/groups.h"
+#include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/profiler.h"
 #include "mesher/parallel/ranks.h"
-#include "mesher/parallel/parallel_for.h"
-#include "mesher/parallel/groups.h"
 #include "pipeline/log.h"
 
 enum { DOMAINS = 3, MOST = 20000 };

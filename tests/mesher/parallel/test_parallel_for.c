@@ -5,9 +5,9 @@
 #include <cmocka.h>
 
 #include "launch.h"
+#include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
-#include "mesher/parallel/parallel_for.h"
 #include "pipeline/log.h"
 
 enum { COUNT = 10000 }; // more than one block, and one that is not full

@@ -8,10 +8,10 @@
 
 #include <cmocka.h>
 
+#include "mesher/layers/thin_prism.h"
 #include "mesher/policy.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
-#include "mesher/layers/thin_prism.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
 
