@@ -40,12 +40,12 @@ static uint64_t open_face_hash(const CwRegionData *data, int32_t open) {
 // All faces, or those of shared points alone; adds up the open ones.
 static CwStatus check_faces(const CwRegionMesh *r, int only_shared, uint64_t *sum) {
   CwStatus status = CW_OK;
-  CwRegionData data = cw_region_data(r);
+  const CwRegionData *data = &r->cells;
   int32_t *open = NULL, count = 0;
   char name[40];
   snprintf(name, sizeof name, "%s region %d", r->domain, r->region);
-  CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, &data, only_shared, &open, &count));
-  for (int32_t k = 0; k < count; k++) *sum += open_face_hash(&data, open[k]);
+  CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, data, only_shared, &open, &count));
+  for (int32_t k = 0; k < count; k++) *sum += open_face_hash(data, open[k]);
 done:
   free(open);
   return status;
@@ -54,30 +54,30 @@ done:
 static CwStatus check_indices(const CwRegionMesh *r) {
   CwStatus status = CW_OK;
   uint8_t *used = NULL;
-  CW_NEW(used, r->point_count);
-  CwRegionData data = cw_region_data(r);
-  for (int32_t c = 0, cells = cw_region_cell_count(&data); c < cells; c++) {
+  CW_NEW(used, r->cells.point_count);
+  const CwRegionData *data = &r->cells;
+  for (int32_t c = 0, cells = cw_region_cell_count(data); c < cells; c++) {
     int corners;
-    const int32_t *corner = cw_cell_nodes(&data, c, &corners);
+    const int32_t *corner = cw_cell_nodes(data, c, &corners);
     for (int k = 0; k < corners; k++) {
-      CW_REQUIRE(corner[k] >= 0 && corner[k] < r->point_count, CW_ERR_MESH,
+      CW_REQUIRE(corner[k] >= 0 && corner[k] < r->cells.point_count, CW_ERR_MESH,
                  "%s region %d: cell %d names point %d; 0 to %d are allowed", r->domain, r->region, c, corner[k],
-                 r->point_count - 1);
+                 r->cells.point_count - 1);
       used[corner[k]] = 1;
     }
   }
-  for (int64_t k = 0; k < (int64_t)r->triangle_count + r->quad_count; k++) {
-    int quad = k >= r->triangle_count;
-    const int32_t *corner = quad ? r->quad[k - r->triangle_count] : r->triangle[k];
+  for (int64_t k = 0; k < (int64_t)r->cells.triangle_count + r->cells.quad_count; k++) {
+    int quad = k >= r->cells.triangle_count;
+    const int32_t *corner = quad ? r->cells.quads[k - r->cells.triangle_count] : r->cells.triangles[k];
     for (int i = 0; i < (quad ? 4 : 3); i++) {
-      CW_REQUIRE(corner[i] >= 0 && corner[i] < r->point_count, CW_ERR_MESH,
+      CW_REQUIRE(corner[i] >= 0 && corner[i] < r->cells.point_count, CW_ERR_MESH,
                  "%s region %d: boundary face %lld names point %d; 0 to %d are allowed", r->domain, r->region,
-                 (long long)k, corner[i], r->point_count - 1);
+                 (long long)k, corner[i], r->cells.point_count - 1);
     }
   }
-  for (int32_t p = 0; p < r->point_count; p++) {
+  for (int32_t p = 0; p < r->cells.point_count; p++) {
     CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell", r->domain,
-               r->region, p, CW_MM(r->x[p]));
+               r->region, p, CW_MM(r->cells.points[p]));
   }
 done:
   free(used);
@@ -130,14 +130,14 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
   double aspects = 0.0;
-  CwRegionData data = cw_region_data(r);
-  quality->cells = cw_region_cell_count(&data);
-  quality->prism_count = r->prism_count;
+  const CwRegionData *data = &r->cells;
+  quality->cells = cw_region_cell_count(data);
+  quality->prism_count = r->cells.prism_count;
   for (int32_t c = 0; c < quality->cells; c++) {
     const double *x[6];
     double volume;
     int corners;
-    CW_TRY(check_volume(r, &data, c, &corners, x, &volume));
+    CW_TRY(check_volume(r, data, c, &corners, x, &volume));
     quality->volume += volume;
     quality->least_volume = fmin(quality->least_volume, volume);
     if (corners == 4) {
@@ -146,7 +146,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       double aspect = shape.edge_longest / shape.edge_shortest;
       aspects += aspect;
       int beside = 0;
-      for (int k = 0; k < 4; k++) beside |= r->tetrahedron[c][k] < r->shared_count;
+      for (int k = 0; k < 4; k++) beside |= r->cells.tetrahedra[c][k] < r->cells.shared_count;
       add_tet(beside ? &quality->beside : &quality->apart, &shape, aspect);
       quality->aspect_max = fmax(quality->aspect_max, aspect);
       int class = 0;
@@ -161,7 +161,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       quality->prism_jacobian_bin[bin_of(jacobian, 1.0 / CW_QUALITY_BINS, CW_QUALITY_BINS)]++;
     }
   }
-  if (r->tetrahedron_count) quality->aspect_mean = aspects / r->tetrahedron_count;
+  if (r->cells.tetrahedron_count) quality->aspect_mean = aspects / r->cells.tetrahedron_count;
 done:
   return status;
 }
@@ -182,9 +182,9 @@ CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces) {
   double volume;
   int corners;
   *open_faces = 0;
-  CwRegionData data = cw_region_data(copy);
-  for (int32_t c = 0, cells = cw_region_cell_count(&data); c < cells; c++)
-    CW_TRY(check_volume(copy, &data, c, &corners, x, &volume));
+  const CwRegionData *data = &copy->cells;
+  for (int32_t c = 0, cells = cw_region_cell_count(data); c < cells; c++)
+    CW_TRY(check_volume(copy, data, c, &corners, x, &volume));
   CW_TRY(check_faces(copy, 1, open_faces));
 done:
   return status;

@@ -47,8 +47,8 @@ static Meeting meet(const CwRegionMesh *mesh, int32_t prism, const int32_t *tetr
   Meeting meeting = {0};
   const double *x[6], *y[4];
   double normal[3], below[3], above[3];
-  for (int k = 0; k < 6; k++) x[k] = mesh->x[mesh->prism[prism][k]];
-  for (int k = 0; k < 4; k++) y[k] = mesh->x[tetrahedron[k]];
+  for (int k = 0; k < 6; k++) x[k] = mesh->cells.points[mesh->cells.prisms[prism][k]];
+  for (int k = 0; k < 4; k++) y[k] = mesh->cells.points[tetrahedron[k]];
   for (int k = 0; k < 3; k++) meeting.centre[k] = (x[3][k] + x[4][k] + x[5][k]) / 3;
   cw_normal(x[3], x[4], x[5], normal);
   meeting.prism = cw_cell_volume(6, x);
@@ -80,25 +80,26 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, CwLay
   CwStatus status = CW_OK;
   End *end = NULL;
   uint8_t *on_end = NULL;
-  int32_t ends = 0, met = 0, last = layers - 1 - mesh->tetrahedron_count - mesh->pyramid_count; // beside the first
-  CW_NEW(end, mesh->triangle_count);
-  CW_NEW(on_end, mesh->point_count);
-  for (int32_t t = 0; t < mesh->triangle_count; t++) {
-    if (mesh->triangle_cell[t] < mesh->tetrahedron_count) continue;
-    const int32_t *top = mesh->prism[mesh->triangle_cell[t] + last] + 3;
+  int32_t ends = 0, met = 0,
+          last = layers - 1 - mesh->cells.tetrahedron_count - mesh->cells.pyramid_count; // beside the first
+  CW_NEW(end, mesh->cells.triangle_count);
+  CW_NEW(on_end, mesh->cells.point_count);
+  for (int32_t t = 0; t < mesh->cells.triangle_count; t++) {
+    if (mesh->cells.triangle_cell[t] < mesh->cells.tetrahedron_count) continue;
+    const int32_t *top = mesh->cells.prisms[mesh->cells.triangle_cell[t] + last] + 3;
     end[ends++] = end_of(top[0], top[1], top[2], t);
     for (int k = 0; k < 3; k++) on_end[top[k]] = 1;
   }
   qsort(end, (size_t)ends, sizeof *end, compare_ends);
-  for (int32_t c = 0; c < mesh->tetrahedron_count; c++) {
-    const int32_t *corner = mesh->tetrahedron[c];
+  for (int32_t c = 0; c < mesh->cells.tetrahedron_count; c++) {
+    const int32_t *corner = mesh->cells.tetrahedra[c];
     if (on_end[corner[0]] + on_end[corner[1]] + on_end[corner[2]] + on_end[corner[3]] < 3) continue;
     for (int k = 0; k < 4; k++) {
       End key = end_of(corner[(k + 1) % 4], corner[(k + 2) % 4], corner[(k + 3) % 4], 0);
       const End *found = bsearch(&key, end, (size_t)ends, sizeof *end, compare_ends);
       if (!found) continue;
-      int32_t patch = mesh->triangle_patch[found->triangle];
-      Meeting meeting = meet(mesh, mesh->triangle_cell[found->triangle] + last, corner);
+      int32_t patch = mesh->cells.triangle_patch[found->triangle];
+      Meeting meeting = meet(mesh, mesh->cells.triangle_cell[found->triangle] + last, corner);
       met++;
       if (patch < patches) count(&meeting, &ratio[patch]);
     }

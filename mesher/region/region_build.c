@@ -162,10 +162,10 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
     if (on_top) total += levels;
     if (is_shared) shared += on_top ? levels + 1 : 1;
   }
-  mesh->point_count = total;
-  mesh->shared_count = shared;
-  CW_NEW(mesh->x, total);
-  CW_NEW(mesh->shared_id, shared);
+  mesh->cells.point_count = total;
+  mesh->cells.shared_count = shared;
+  CW_NEW(mesh->cells.points, total);
+  CW_NEW(mesh->cells.shared_id, shared);
   CW_NEW(build->place, build->fill.point_count);
   CW_NEW(build->column, build->inner.node_count);
   int32_t next_shared = 0, next_own = shared;
@@ -179,13 +179,13 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
       cw_layer_fractions(boundary->layers.thickness[node], context->first_height[node], levels, context->growth[node],
                          fraction);
       for (int k = 0; k < levels; k++) {
-        if (base >= 0) mesh->shared_id[*next] = base + k;
-        cw_column_place(boundary, &context->open_edge_places, node, fraction[k], mesh->x[(*next)++]);
+        if (base >= 0) mesh->cells.shared_id[*next] = base + k;
+        cw_column_place(boundary, &context->open_edge_places, node, fraction[k], mesh->cells.points[(*next)++]);
       }
     }
-    if (base >= 0) mesh->shared_id[*next] = base + (on_top ? levels : 0);
+    if (base >= 0) mesh->cells.shared_id[*next] = base + (on_top ? levels : 0);
     build->place[i] = *next;
-    cw_copy(build->fill.x[i], mesh->x[(*next)++]);
+    cw_copy(build->fill.x[i], mesh->cells.points[(*next)++]);
   }
 done:
   return status;
@@ -211,7 +211,7 @@ static CwStatus check_on_open_patch(const Build *build, const CwRegionMesh *mesh
   const double *x[4];
   int patch = cw_cad_face_patch(cad, face);
   if (cw_cad_patch_kind(cad, patch) != CW_PATCH_INTERFACE) return CW_OK;
-  for (int c = 0; c < count; c++) x[c] = mesh->x[corner[c]];
+  for (int c = 0; c < count; c++) x[c] = mesh->cells.points[corner[c]];
   double allowed = cw_interface_tolerance(count, x);
   for (int c = 0; c < count; c++) {
     double off = cw_cad_face_distance(cad, face, x[c]);
@@ -230,46 +230,46 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
   const CwRegionContext *context = build->context;
   const CwBoundary *boundary = context->boundary;
   int levels = context->layer_count;
-  mesh->prism_count = build->inner.wall_count * levels;
-  CW_NEW(mesh->prism, mesh->prism_count);
+  mesh->cells.prism_count = build->inner.wall_count * levels;
+  CW_NEW(mesh->cells.prisms, mesh->cells.prism_count);
   int32_t sides = 0;
   for (int pass = 0; pass < 2; pass++) {
     if (pass == 1) {
-      CW_NEW(mesh->quad, (size_t)sides * (size_t)levels);
-      CW_NEW(mesh->quad_patch, (size_t)sides * (size_t)levels);
-      CW_NEW(mesh->quad_cell, (size_t)sides * (size_t)levels);
+      CW_NEW(mesh->cells.quads, (size_t)sides * (size_t)levels);
+      CW_NEW(mesh->cells.quad_patch, (size_t)sides * (size_t)levels);
+      CW_NEW(mesh->cells.quad_cell, (size_t)sides * (size_t)levels);
     }
     for (int32_t t = 0; t < build->inner.wall_count; t++) {
       const int32_t *corner = build->inner.triangle[t];
-      int32_t first_cell = mesh->tetrahedron_count + t * levels;
+      int32_t first_cell = mesh->cells.tetrahedron_count + t * levels;
       for (int e = 0; e < 3; e++) {
         int32_t a = corner[e], b = corner[(e + 1) % 3],
                 open_patch = open_edge_open_patch(context, build->inner.node[a], build->inner.node[b]);
         if (open_patch < 0) continue;
         sides += pass == 0;
         for (int k = 0; pass == 1 && k < levels; k++) {
-          int32_t q = mesh->quad_count++;
-          mesh->quad[q][0] = column_point(build, b, k);
-          mesh->quad[q][1] = column_point(build, a, k);
-          mesh->quad[q][2] = column_point(build, a, k + 1);
-          mesh->quad[q][3] = column_point(build, b, k + 1);
-          mesh->quad_patch[q] = cw_cad_face_patch(boundary->cad, open_patch);
-          mesh->quad_cell[q] = first_cell + k;
-          CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->quad[q], 4));
+          int32_t q = mesh->cells.quad_count++;
+          mesh->cells.quads[q][0] = column_point(build, b, k);
+          mesh->cells.quads[q][1] = column_point(build, a, k);
+          mesh->cells.quads[q][2] = column_point(build, a, k + 1);
+          mesh->cells.quads[q][3] = column_point(build, b, k + 1);
+          mesh->cells.quad_patch[q] = cw_cad_face_patch(boundary->cad, open_patch);
+          mesh->cells.quad_cell[q] = first_cell + k;
+          CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.quads[q], 4));
         }
       }
       if (pass == 0) continue;
       for (int k = 0; k < levels; k++) {
-        int32_t *prism = mesh->prism[t * levels + k];
+        int32_t *prism = mesh->cells.prisms[t * levels + k];
         for (int c = 0; c < 3; c++) { // turned, so that the base looks into the fluid
           prism[c] = column_point(build, corner[(3 - c) % 3], k);
           prism[c + 3] = column_point(build, corner[(3 - c) % 3], k + 1);
         }
       }
-      int32_t w = mesh->triangle_count++;
-      for (int c = 0; c < 3; c++) mesh->triangle[w][c] = column_point(build, corner[c], 0);
-      mesh->triangle_patch[w] = cw_cad_face_patch(boundary->cad, boundary->surface.face[build->inner.source[t]]);
-      mesh->triangle_cell[w] = first_cell;
+      int32_t w = mesh->cells.triangle_count++;
+      for (int c = 0; c < 3; c++) mesh->cells.triangles[w][c] = column_point(build, corner[c], 0);
+      mesh->cells.triangle_patch[w] = cw_cad_face_patch(boundary->cad, boundary->surface.face[build->inner.source[t]]);
+      mesh->cells.triangle_cell[w] = first_cell;
     }
   }
 done:
@@ -307,12 +307,12 @@ static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
   for (int32_t t = 0; t < build->inner.open_patch_count; t++) {
     const int32_t *corner = build->inner.triangle[first + t];
     face[t] = face_of(corner[0], corner[1], corner[2], t);
-    int32_t made = mesh->triangle_count++;
-    for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
+    int32_t made = mesh->cells.triangle_count++;
+    for (int c = 0; c < 3; c++) mesh->cells.triangles[made][c] = build->place[corner[c]];
     int32_t open_patch = boundary->interfaces.open_patch.face[build->inner.source[first + t]];
-    mesh->triangle_patch[made] = cw_cad_face_patch(boundary->cad, open_patch);
-    mesh->triangle_cell[made] = -1;
-    CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->triangle[made], 3));
+    mesh->cells.triangle_patch[made] = cw_cad_face_patch(boundary->cad, open_patch);
+    mesh->cells.triangle_cell[made] = -1;
+    CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made], 3));
   }
   qsort(face, (size_t)build->inner.open_patch_count, sizeof *face, compare_faces);
   for (int32_t t = 0; t < build->fill.tetrahedron_count; t++) {
@@ -322,15 +322,15 @@ static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
       if (a >= build->inner.node_count || b >= build->inner.node_count || c >= build->inner.node_count) continue;
       Face key = face_of(a, b, c, 0);
       const Face *found = bsearch(&key, face, (size_t)build->inner.open_patch_count, sizeof *face, compare_faces);
-      if (found) mesh->triangle_cell[build->inner.wall_count + found->index] = t;
+      if (found) mesh->cells.triangle_cell[build->inner.wall_count + found->index] = t;
     }
   }
   for (int32_t t = 0; t < build->inner.open_patch_count; t++) {
-    const double *x = mesh->x[mesh->triangle[build->inner.wall_count + t][0]];
-    CW_REQUIRE(mesh->triangle_cell[build->inner.wall_count + t] >= 0, CW_ERR_MESH,
+    const double *x = mesh->cells.points[mesh->cells.triangles[build->inner.wall_count + t][0]];
+    CW_REQUIRE(mesh->cells.triangle_cell[build->inner.wall_count + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
-               build->region + 1, cw_cad_patch_name(boundary->cad, mesh->triangle_patch[build->inner.wall_count + t]),
-               CW_MM(x));
+               build->region + 1,
+               cw_cad_patch_name(boundary->cad, mesh->cells.triangle_patch[build->inner.wall_count + t]), CW_MM(x));
   }
 done:
   free(face);
@@ -359,14 +359,14 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_TRY(cw_fill_with_fallback(&input, context->fill, &build.fill));
   mesh->recovery = build.fill.recovery;
   CW_TRY(place_points(&build, mesh));
-  mesh->tetrahedron_count = build.fill.tetrahedron_count;
-  CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);
-  for (int32_t t = 0; t < mesh->tetrahedron_count; t++) {
-    for (int k = 0; k < 4; k++) mesh->tetrahedron[t][k] = build.place[build.fill.tetrahedron[t][k]];
+  mesh->cells.tetrahedron_count = build.fill.tetrahedron_count;
+  CW_NEW(mesh->cells.tetrahedra, mesh->cells.tetrahedron_count);
+  for (int32_t t = 0; t < mesh->cells.tetrahedron_count; t++) {
+    for (int k = 0; k < 4; k++) mesh->cells.tetrahedra[t][k] = build.place[build.fill.tetrahedron[t][k]];
   }
-  CW_NEW(mesh->triangle, build.inner.wall_count + build.inner.open_patch_count);
-  CW_NEW(mesh->triangle_patch, build.inner.wall_count + build.inner.open_patch_count);
-  CW_NEW(mesh->triangle_cell, build.inner.wall_count + build.inner.open_patch_count);
+  CW_NEW(mesh->cells.triangles, build.inner.wall_count + build.inner.open_patch_count);
+  CW_NEW(mesh->cells.triangle_patch, build.inner.wall_count + build.inner.open_patch_count);
+  CW_NEW(mesh->cells.triangle_cell, build.inner.wall_count + build.inner.open_patch_count);
   CW_TRY(add_layers(&build, mesh));
   CW_TRY(add_open_patches(&build, mesh));
 done:

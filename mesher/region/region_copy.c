@@ -75,44 +75,48 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
                         const char *fingerprint, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   *mesh = *first;
-  mesh->x = NULL;
-  mesh->shared_id = NULL;
-  mesh->tetrahedron = NULL;
-  mesh->pyramid = NULL;
-  mesh->prism = NULL;
-  mesh->triangle = NULL;
-  mesh->triangle_patch = mesh->triangle_cell = NULL;
-  mesh->quad = NULL;
-  mesh->quad_patch = mesh->quad_cell = NULL;
+  mesh->cells.points = NULL;
+  mesh->cells.shared_id = NULL;
+  mesh->cells.tetrahedra = NULL;
+  mesh->cells.pyramids = NULL;
+  mesh->cells.prisms = NULL;
+  mesh->cells.triangles = NULL;
+  mesh->cells.triangle_patch = mesh->cells.triangle_cell = NULL;
+  mesh->cells.quads = NULL;
+  mesh->cells.quad_patch = mesh->cells.quad_cell = NULL;
   mesh->region = copied_region(context, first->region - 1, turns) + 1;
   mesh->number = number;
   snprintf(mesh->fingerprint, sizeof mesh->fingerprint, "%s", fingerprint);
-  CW_NEW(mesh->x, mesh->point_count);
-  CW_NEW(mesh->shared_id, mesh->shared_count);
-  for (int32_t i = 0; i < mesh->point_count; i++) {
+  CW_NEW(mesh->cells.points, mesh->cells.point_count);
+  CW_NEW(mesh->cells.shared_id, mesh->cells.shared_count);
+  for (int32_t i = 0; i < mesh->cells.point_count; i++) {
     double turned[3];
-    cw_image_point(&context->boundary->images, turns, first->x[i], turned);
-    cw_copy(turned, mesh->x[i]);
-    if (i >= mesh->shared_count) continue;
-    CW_TRY(turned_point(context, first->shared_id[i], turns, &mesh->shared_id[i], mesh->x[i]));
-    CW_REQUIRE(cw_distance(turned, mesh->x[i]) < SAME_POINT, CW_ERR_MESH,
+    cw_image_point(&context->boundary->images, turns, first->cells.points[i], turned);
+    cw_copy(turned, mesh->cells.points[i]);
+    if (i >= mesh->cells.shared_count) continue;
+    CW_TRY(turned_point(context, first->cells.shared_id[i], turns, &mesh->cells.shared_id[i], mesh->cells.points[i]));
+    CW_REQUIRE(cw_distance(turned, mesh->cells.points[i]) < SAME_POINT, CW_ERR_MESH,
                "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its periodic image",
-               context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, mesh->x[i])));
+               context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, mesh->cells.points[i])));
   }
   struct {
     const void *from;
     int32_t count;
     size_t size;
     void *to;
-  } arrays[] = {{first->tetrahedron, first->tetrahedron_count, sizeof *first->tetrahedron, &mesh->tetrahedron},
-                {first->pyramid, first->pyramid_count, sizeof *first->pyramid, &mesh->pyramid},
-                {first->prism, first->prism_count, sizeof *first->prism, &mesh->prism},
-                {first->triangle, first->triangle_count, sizeof *first->triangle, &mesh->triangle},
-                {first->triangle_patch, first->triangle_count, sizeof *first->triangle_patch, &mesh->triangle_patch},
-                {first->triangle_cell, first->triangle_count, sizeof *first->triangle_cell, &mesh->triangle_cell},
-                {first->quad, first->quad_count, sizeof *first->quad, &mesh->quad},
-                {first->quad_patch, first->quad_count, sizeof *first->quad_patch, &mesh->quad_patch},
-                {first->quad_cell, first->quad_count, sizeof *first->quad_cell, &mesh->quad_cell}};
+  } arrays[] = {
+      {first->cells.tetrahedra, first->cells.tetrahedron_count, sizeof *first->cells.tetrahedra,
+       &mesh->cells.tetrahedra},
+      {first->cells.pyramids, first->cells.pyramid_count, sizeof *first->cells.pyramids, &mesh->cells.pyramids},
+      {first->cells.prisms, first->cells.prism_count, sizeof *first->cells.prisms, &mesh->cells.prisms},
+      {first->cells.triangles, first->cells.triangle_count, sizeof *first->cells.triangles, &mesh->cells.triangles},
+      {first->cells.triangle_patch, first->cells.triangle_count, sizeof *first->cells.triangle_patch,
+       &mesh->cells.triangle_patch},
+      {first->cells.triangle_cell, first->cells.triangle_count, sizeof *first->cells.triangle_cell,
+       &mesh->cells.triangle_cell},
+      {first->cells.quads, first->cells.quad_count, sizeof *first->cells.quads, &mesh->cells.quads},
+      {first->cells.quad_patch, first->cells.quad_count, sizeof *first->cells.quad_patch, &mesh->cells.quad_patch},
+      {first->cells.quad_cell, first->cells.quad_count, sizeof *first->cells.quad_cell, &mesh->cells.quad_cell}};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     CW_TRY(copy_array(arrays[i].from, (size_t)arrays[i].count, arrays[i].size, arrays[i].to));
   }

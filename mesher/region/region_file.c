@@ -9,6 +9,7 @@
 
 #include "mesher/common/model_unit.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/mesh/region_read.h"
 
 // The attributes that are integers.
 static const struct {
@@ -21,49 +22,6 @@ static const struct {
                 {"tetgen", offsetof(CwRegionMesh, recovery.tetgen)}};
 enum { INTEGERS = sizeof integers / sizeof *integers };
 
-CwRegionData cw_region_data(const CwRegionMesh *r) {
-  return (CwRegionData){.point_count = r->point_count,
-                        .shared_count = r->shared_count,
-                        .tetrahedron_count = r->tetrahedron_count,
-                        .pyramid_count = r->pyramid_count,
-                        .prism_count = r->prism_count,
-                        .triangle_count = r->triangle_count,
-                        .quad_count = r->quad_count,
-                        .points = r->x,
-                        .shared_id = r->shared_id,
-                        .tetrahedra = r->tetrahedron,
-                        .pyramids = r->pyramid,
-                        .prisms = r->prism,
-                        .triangles = r->triangle,
-                        .triangle_patch = r->triangle_patch,
-                        .triangle_cell = r->triangle_cell,
-                        .quads = r->quad,
-                        .quad_patch = r->quad_patch,
-                        .quad_cell = r->quad_cell};
-}
-
-// The other way round.
-static void take_data(const CwRegionData *data, CwRegionMesh *r) {
-  r->point_count = data->point_count;
-  r->shared_count = data->shared_count;
-  r->tetrahedron_count = data->tetrahedron_count;
-  r->pyramid_count = data->pyramid_count;
-  r->prism_count = data->prism_count;
-  r->triangle_count = data->triangle_count;
-  r->quad_count = data->quad_count;
-  r->x = data->points;
-  r->shared_id = data->shared_id;
-  r->tetrahedron = data->tetrahedra;
-  r->pyramid = data->pyramids;
-  r->prism = data->prisms;
-  r->triangle = data->triangles;
-  r->triangle_patch = data->triangle_patch;
-  r->triangle_cell = data->triangle_cell;
-  r->quad = data->quads;
-  r->quad_patch = data->quad_patch;
-  r->quad_cell = data->quad_cell;
-}
-
 static void multiply(int32_t count, const double (*x)[3], double by, double (*to)[3]) {
   for (int32_t p = 0; p < count; p++) {
     for (int k = 0; k < 3; k++) to[p][k] = by * x[p][k];
@@ -72,10 +30,10 @@ static void multiply(int32_t count, const double (*x)[3], double by, double (*to
 
 static CwStatus write_items(hid_t file, CwRegionMesh *r) {
   CwStatus status = CW_OK;
-  CwRegionData data = cw_region_data(r);
+  CwRegionData data = r->cells;
   double(*metres)[3] = NULL;
-  CW_NEW_UNSET(metres, r->point_count);
-  multiply(r->point_count, (const double(*)[3])r->x, cw_model_unit(), metres);
+  CW_NEW_UNSET(metres, r->cells.point_count);
+  multiply(r->cells.point_count, (const double(*)[3])r->cells.points, cw_model_unit(), metres);
   data.points = metres;
   CW_TRY(cw_region_items_put_integer(file, "format", CW_REGION_FORMAT));
   CW_TRY(cw_region_items_put_text(file, "domain", r->domain));
@@ -115,22 +73,16 @@ done:
 // Of an open file.
 static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   CwStatus status = CW_OK;
-  CwRegionData data = {.point_count = -1,
-                       .shared_count = -1,
-                       .tetrahedron_count = -1,
-                       .pyramid_count = -1,
-                       .prism_count = -1,
-                       .triangle_count = -1,
-                       .quad_count = -1};
+  CwRegionData *cells = &r->cells;
+  cells->point_count = cells->shared_count = cells->tetrahedron_count = cells->pyramid_count = -1;
+  cells->prism_count = cells->triangle_count = cells->quad_count = -1; // not known before
   for (size_t k = 0; k < INTEGERS; k++)
     CW_TRY(cw_region_items_integer(file, path, integers[k].name, (int32_t *)((char *)r + integers[k].place)));
   CW_TRY(cw_region_items_text(file, path, "domain", r->domain, sizeof r->domain));
   CW_TRY(cw_region_items_text(file, path, "fingerprint", r->fingerprint, sizeof r->fingerprint));
-  status = cw_region_items_read(file, path, CW_REGION_WHOLE, &data);
-  take_data(&data, r); // what was read before a failure is freed with the region
-  CW_TRY(status);
-  CW_TRY(cw_region_items_check(path, CW_REGION_WHOLE, INT32_MAX, INT64_MAX, &data));
-  multiply(r->point_count, (const double(*)[3])r->x, 1 / cw_model_unit(), r->x);
+  CW_TRY(cw_region_items_read(file, path, CW_REGION_WHOLE, cells));
+  CW_TRY(cw_region_items_check(path, CW_REGION_WHOLE, INT32_MAX, INT64_MAX, cells));
+  multiply(r->cells.point_count, (const double(*)[3])r->cells.points, 1 / cw_model_unit(), r->cells.points);
 done:
   return status;
 }
@@ -174,16 +126,6 @@ CwStatus cw_region_digest_read(const char *path, char digest[CW_HASH_TEXT]) {
 }
 
 void cw_region_free(CwRegionMesh *region) {
-  free(region->x);
-  free(region->shared_id);
-  free(region->tetrahedron);
-  free(region->pyramid);
-  free(region->prism);
-  free(region->triangle);
-  free(region->triangle_patch);
-  free(region->triangle_cell);
-  free(region->quad);
-  free(region->quad_patch);
-  free(region->quad_cell);
+  cw_mesh_region_free(&region->cells);
   memset(region, 0, sizeof *region);
 }

@@ -21,15 +21,8 @@ typedef struct {
   int32_t number;
   char fingerprint[CW_HASH_TEXT]; // hex of all that the region follows from
   char digest[CW_HASH_TEXT];      // of its file; "" before there is one
-  CwFillRecovery recovery;                  // how its boundary was recovered
-  int32_t point_count, shared_count;
-  double (*x)[3]; // shared points first
-  int64_t *shared_id;
-  int32_t tetrahedron_count, pyramid_count, prism_count;
-  int32_t (*tetrahedron)[4], (*pyramid)[5], (*prism)[6];
-  int32_t triangle_count, quad_count;
-  int32_t (*triangle)[3], *triangle_patch, *triangle_cell;
-  int32_t (*quad)[4], *quad_patch, *quad_cell;
+  CwFillRecovery recovery;        // how its boundary was recovered
+  CwRegionData cells;             // as the file has them, but in the unit of the model; shared points first
 } CwRegionMesh;
 
 // Writes under a temporary name and renames. Equal regions give equal bytes. Sets the digest.
@@ -49,8 +42,6 @@ CwStatus cw_region_take_up(const char *path, const char *fingerprint, CwRegionMe
 // Reads the digest, by which files are told apart, and holds the attributes against it, not the arrays. CW_ERR_IO,
 // CW_ERR_INPUT.
 CwStatus cw_region_digest_read(const char *path, char digest[CW_HASH_TEXT]);
-// The arrays of a region as its file has them, in the same memory.
-CwRegionData cw_region_data(const CwRegionMesh *region);
 void cw_region_free(CwRegionMesh *region);
 
 #ifdef __cplusplus

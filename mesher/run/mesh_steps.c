@@ -47,8 +47,8 @@ static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int cor
   double sum[3] = {0, 0, 0};
   for (int i = 2; i < corners; i++) {
     double u[3], v[3], n[3];
-    cw_sub(mesh->x[corner[i - 1]], mesh->x[corner[0]], u);
-    cw_sub(mesh->x[corner[i]], mesh->x[corner[0]], v);
+    cw_sub(mesh->cells.points[corner[i - 1]], mesh->cells.points[corner[0]], u);
+    cw_sub(mesh->cells.points[corner[i]], mesh->cells.points[corner[0]], v);
     cw_cross(u, v, n);
     for (int k = 0; k < 3; k++) sum[k] += n[k] / 2;
   }
@@ -56,20 +56,20 @@ static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int cor
 }
 
 static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
-  summary->points = mesh->point_count;
-  summary->own_points = mesh->point_count - mesh->shared_count;
-  summary->tetrahedra = mesh->tetrahedron_count;
-  summary->pyramids = mesh->pyramid_count;
-  summary->prisms = mesh->prism_count;
-  summary->triangles = mesh->triangle_count;
-  summary->quads = mesh->quad_count;
+  summary->points = mesh->cells.point_count;
+  summary->own_points = mesh->cells.point_count - mesh->cells.shared_count;
+  summary->tetrahedra = mesh->cells.tetrahedron_count;
+  summary->pyramids = mesh->cells.pyramid_count;
+  summary->prisms = mesh->cells.prism_count;
+  summary->triangles = mesh->cells.triangle_count;
+  summary->quads = mesh->cells.quad_count;
   summary->recovery = mesh->recovery;
   strcpy(summary->digest, mesh->digest);
-  for (int32_t i = 0; i < mesh->triangle_count; i++) {
-    summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
+  for (int32_t i = 0; i < mesh->cells.triangle_count; i++) {
+    summary->patch_area[mesh->cells.triangle_patch[i]] += face_area(mesh, mesh->cells.triangles[i], 3);
   }
-  for (int32_t i = 0; i < mesh->quad_count; i++) {
-    summary->patch_area[mesh->quad_patch[i]] += face_area(mesh, mesh->quad[i], 4);
+  for (int32_t i = 0; i < mesh->cells.quad_count; i++) {
+    summary->patch_area[mesh->cells.quad_patch[i]] += face_area(mesh, mesh->cells.quads[i], 4);
   }
 }
 

@@ -155,12 +155,12 @@ static CwStatus measure(const char *geometry, const char *folder, const char *na
   for (int32_t r = 0; r < mesh.region_count; r++) {
     const CwRegionMesh *region = &mesh.region[r];
     const double *x[6];
-    for (int32_t t = 0; t < region->tetrahedron_count; t++) {
-      for (int k = 0; k < 4; k++) x[k] = region->x[region->tetrahedron[t][k]];
+    for (int32_t t = 0; t < region->cells.tetrahedron_count; t++) {
+      for (int k = 0; k < 4; k++) x[k] = region->cells.points[region->cells.tetrahedra[t][k]];
       count_cell(x, 4, probe, count);
     }
-    for (int32_t t = 0; t < region->prism_count; t++) {
-      for (int k = 0; k < 6; k++) x[k] = region->x[region->prism[t][k]];
+    for (int32_t t = 0; t < region->cells.prism_count; t++) {
+      for (int k = 0; k < 6; k++) x[k] = region->cells.points[region->cells.prisms[t][k]];
       count_cell(x, 6, probe, count);
     }
   }

@@ -55,14 +55,14 @@ done:
 
 static void triangle_normal(const CwRegionMesh *mesh, const int32_t *corner, double normal[3]) {
   double u[3], v[3];
-  cw_sub(mesh->x[corner[1]], mesh->x[corner[0]], u);
-  cw_sub(mesh->x[corner[2]], mesh->x[corner[0]], v);
+  cw_sub(mesh->cells.points[corner[1]], mesh->cells.points[corner[0]], u);
+  cw_sub(mesh->cells.points[corner[2]], mesh->cells.points[corner[0]], v);
   cw_cross(u, v, normal);
   cw_unit(normal);
 }
 
 static int is_wall(const CwRegionMesh *mesh, int32_t triangle) {
-  return mesh->triangle_cell[triangle] >= mesh->tetrahedron_count + mesh->pyramid_count;
+  return mesh->cells.triangle_cell[triangle] >= mesh->cells.tetrahedron_count + mesh->cells.pyramid_count;
 }
 
 // Points of one region that make up a place.
@@ -70,22 +70,22 @@ static CwStatus find_points(const CwRegionMesh *mesh, int patch, int other, Poin
   CwStatus status = CW_OK;
   uint8_t *on = NULL;
   double(*normal)[3] = NULL;
-  CW_NEW(on, mesh->point_count);
-  CW_NEW(normal, mesh->point_count);
-  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+  CW_NEW(on, mesh->cells.point_count);
+  CW_NEW(normal, mesh->cells.point_count);
+  for (int32_t t = 0; t < mesh->cells.triangle_count; t++) {
     double n[3];
-    triangle_normal(mesh, mesh->triangle[t], n);
+    triangle_normal(mesh, mesh->cells.triangles[t], n);
     for (int k = 0; k < 3; k++) {
-      int32_t v = mesh->triangle[t][k];
-      if (mesh->triangle_patch[t] == other) on[v] |= 2;
-      if (mesh->triangle_patch[t] != patch) continue;
+      int32_t v = mesh->cells.triangles[t][k];
+      if (mesh->cells.triangle_patch[t] == other) on[v] |= 2;
+      if (mesh->cells.triangle_patch[t] != patch) continue;
       if (other < 0 && (on[v] & 1) && cw_dot(n, normal[v]) < 0.7) on[v] |= 2; // more than 45 degrees
       on[v] |= 1;
       cw_copy(n, normal[v]);
     }
   }
-  for (int32_t v = 0; v < mesh->point_count; v++) {
-    if (on[v] == 3) CW_TRY(add_point(points, mesh->x[v]));
+  for (int32_t v = 0; v < mesh->cells.point_count; v++) {
+    if (on[v] == 3) CW_TRY(add_point(points, mesh->cells.points[v]));
   }
 done:
   free(on);
@@ -107,8 +107,8 @@ typedef struct {
 // The column over a wall triangle: how many prisms stand on one another.
 static int column_height(const CwRegionMesh *mesh, int32_t prism) {
   int count = 1;
-  for (; prism + 1 < mesh->prism_count; prism++, count++) {
-    if (memcmp(mesh->prism[prism] + 3, mesh->prism[prism + 1], sizeof(int32_t[3])) != 0) break;
+  for (; prism + 1 < mesh->cells.prism_count; prism++, count++) {
+    if (memcmp(mesh->cells.prisms[prism] + 3, mesh->cells.prisms[prism + 1], sizeof(int32_t[3])) != 0) break;
   }
   return count;
 }
@@ -116,10 +116,11 @@ static int column_height(const CwRegionMesh *mesh, int32_t prism) {
 // Least normal distance of the prism's top from the plane of the wall triangle.
 static double height_over(const CwRegionMesh *mesh, int32_t triangle, int32_t prism) {
   double normal[3], least = INFINITY;
-  triangle_normal(mesh, mesh->triangle[triangle], normal);
+  triangle_normal(mesh, mesh->cells.triangles[triangle], normal);
   for (int k = 0; k < 3; k++) {
     double away[3];
-    cw_sub(mesh->x[mesh->triangle[triangle][0]], mesh->x[mesh->prism[prism][3 + k]], away);
+    cw_sub(mesh->cells.points[mesh->cells.triangles[triangle][0]], mesh->cells.points[mesh->cells.prisms[prism][3 + k]],
+           away);
     least = fmin(least, cw_dot(normal, away));
   }
   return least;
@@ -127,22 +128,22 @@ static double height_over(const CwRegionMesh *mesh, int32_t triangle, int32_t pr
 
 static void measure_region(const CwRegionMesh *mesh, const Points *points, double reach, int layers,
                            const double *first, Figures *figures) {
-  for (int32_t t = 0; t < mesh->triangle_count; t++) {
-    if (!(first[mesh->triangle_patch[t]] > 0)) continue; // no wall
+  for (int32_t t = 0; t < mesh->cells.triangle_count; t++) {
+    if (!(first[mesh->cells.triangle_patch[t]] > 0)) continue; // no wall
     double centre[3] = {0};
-    for (int k = 0; k < 9; k++) centre[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3;
-    const double *corner = mesh->x[mesh->triangle[t][0]];
+    for (int k = 0; k < 9; k++) centre[k % 3] += mesh->cells.points[mesh->cells.triangles[t][k / 3]][k % 3] / 3;
+    const double *corner = mesh->cells.points[mesh->cells.triangles[t][0]];
     if (distance_to(points, centre) > fmax(reach, cw_distance(corner, centre))) continue;
     figures->columns++;
     if (!is_wall(mesh, t)) continue;
-    int32_t prism = mesh->triangle_cell[t] - mesh->tetrahedron_count - mesh->pyramid_count;
+    int32_t prism = mesh->cells.triangle_cell[t] - mesh->cells.tetrahedron_count - mesh->cells.pyramid_count;
     int made = column_height(mesh, prism);
     figures->covered += made == layers;
-    figures->met += fabs(height_over(mesh, t, prism) / first[mesh->triangle_patch[t]] - 1) <= 0.1;
+    figures->met += fabs(height_over(mesh, t, prism) / first[mesh->cells.triangle_patch[t]] - 1) <= 0.1;
     figures->thickness = fmin(figures->thickness, height_over(mesh, t, prism + made - 1));
     for (int k = 0; k < made; k++) {
       const double *x[6];
-      for (int c = 0; c < 6; c++) x[c] = mesh->x[mesh->prism[prism + k][c]];
+      for (int c = 0; c < 6; c++) x[c] = mesh->cells.points[mesh->cells.prisms[prism + k][c]];
       figures->jacobian = fmin(figures->jacobian, cw_prism_scaled_jacobian(x));
     }
   }
@@ -198,7 +199,7 @@ static void draw_cell(FILE *file, const CwRegionMesh *mesh, const int32_t *corne
   double page[9][2], middle[2] = {0, 0}, turn[9];
   int count = 0, inside = 0;
   for (int e = 0; e < edges; e++) {
-    const double *a = mesh->x[corner[edge[e][0]]], *b = mesh->x[corner[edge[e][1]]];
+    const double *a = mesh->cells.points[corner[edge[e][0]]], *b = mesh->cells.points[corner[edge[e][1]]];
     double from[3], to[3], at[3];
     cw_sub(a, plane->origin, from);
     cw_sub(b, plane->origin, to);
@@ -242,14 +243,14 @@ static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points 
           PIXELS, PIXELS);
   for (int32_t r = 0; r < mesh->region_count; r++) {
     const CwRegionMesh *region = &mesh->region[r];
-    for (int32_t c = 0; c < region->tetrahedron_count; c++) {
-      if (cw_distance(region->x[region->tetrahedron[c][0]], plane.origin) < 2 * plane.half) {
-        draw_cell(file, region, region->tetrahedron[c], 6, tet_edge, &plane, "#f0ead8");
+    for (int32_t c = 0; c < region->cells.tetrahedron_count; c++) {
+      if (cw_distance(region->cells.points[region->cells.tetrahedra[c][0]], plane.origin) < 2 * plane.half) {
+        draw_cell(file, region, region->cells.tetrahedra[c], 6, tet_edge, &plane, "#f0ead8");
       }
     }
-    for (int32_t c = 0; c < region->prism_count; c++) {
-      if (cw_distance(region->x[region->prism[c][0]], plane.origin) < 2 * plane.half) {
-        draw_cell(file, region, region->prism[c], 9, prism_edge, &plane, c % layers % 2 ? "#c4d8ee" : "#9fbfe2");
+    for (int32_t c = 0; c < region->cells.prism_count; c++) {
+      if (cw_distance(region->cells.points[region->cells.prisms[c][0]], plane.origin) < 2 * plane.half) {
+        draw_cell(file, region, region->cells.prisms[c], 9, prism_edge, &plane, c % layers % 2 ? "#c4d8ee" : "#9fbfe2");
       }
     }
   }

@@ -23,24 +23,26 @@ done:
 
 static CwStatus compare(const CwRegionMesh *a, const CwRegionMesh *b, int power) {
   CwStatus status = CW_OK;
-#define SAME(items, count) CW_TRY(same_items(#items, a, a->count, b->count, sizeof *a->items, a->items, b->items))
+#define SAME(items, count)                                                                                             \
+  CW_TRY(same_items(#items, a, a->cells.count, b->cells.count, sizeof *a->cells.items, a->cells.items, b->cells.items))
   SAME(shared_id, shared_count);
-  SAME(tetrahedron, tetrahedron_count);
-  SAME(pyramid, pyramid_count);
-  SAME(prism, prism_count);
-  SAME(triangle, triangle_count);
+  SAME(tetrahedra, tetrahedron_count);
+  SAME(pyramids, pyramid_count);
+  SAME(prisms, prism_count);
+  SAME(triangles, triangle_count);
   SAME(triangle_patch, triangle_count);
   SAME(triangle_cell, triangle_count);
-  SAME(quad, quad_count);
+  SAME(quads, quad_count);
   SAME(quad_patch, quad_count);
   SAME(quad_cell, quad_count);
 #undef SAME
-  CW_REQUIRE(a->point_count == b->point_count, CW_ERR_INPUT, "%s region %d: %d and %d points", a->domain, a->region,
-             a->point_count, b->point_count);
-  for (int32_t p = 0; p < a->point_count; p++) {
+  CW_REQUIRE(a->cells.point_count == b->cells.point_count, CW_ERR_INPUT, "%s region %d: %d and %d points", a->domain,
+             a->region, a->cells.point_count, b->cells.point_count);
+  for (int32_t p = 0; p < a->cells.point_count; p++) {
     for (int k = 0; k < 3; k++)
-      CW_REQUIRE(ldexp(a->x[p][k], power) == b->x[p][k], CW_ERR_INPUT, "%s region %d: point %d: %.17g and %.17g m",
-                 a->domain, a->region, p, a->x[p][k], b->x[p][k]);
+      CW_REQUIRE(ldexp(a->cells.points[p][k], power) == b->cells.points[p][k], CW_ERR_INPUT,
+                 "%s region %d: point %d: %.17g and %.17g m", a->domain, a->region, p, a->cells.points[p][k],
+                 b->cells.points[p][k]);
   }
 done:
   return status;

@@ -68,17 +68,17 @@ static CwStatus measure(const char *geometry, const char *folder, const char *na
   CW_TRY(cw_cad_open(geometry, name, &cad));
   CW_TRY(cw_background_make(cad, 4e-5, 0.2, &background));
   CW_TRY(cw_domain_mesh_read(folder, name, &mesh));
-  for (int32_t r = 0; r < mesh.region_count; r++) triangles += mesh.region[r].triangle_count;
+  for (int32_t r = 0; r < mesh.region_count; r++) triangles += mesh.region[r].cells.triangle_count;
   CW_NEW(angle, triangles);
   for (int patch = 0; patch < cw_cad_patch_count(cad); patch++) {
     double sum = 0, off = 0;
     int64_t count = 0, poor = 0, node = 0;
     for (int32_t r = 0; r < mesh.region_count; r++) {
       const CwRegionMesh *region = &mesh.region[r];
-      for (int32_t t = 0; t < region->triangle_count; t++) {
-        if (region->triangle_patch[t] != patch) continue;
+      for (int32_t t = 0; t < region->cells.triangle_count; t++) {
+        if (region->cells.triangle_patch[t] != patch) continue;
         const double *x[3];
-        for (int k = 0; k < 3; k++) x[k] = region->x[region->triangle[t][k]];
+        for (int k = 0; k < 3; k++) x[k] = region->cells.points[region->cells.triangles[t][k]];
         angle[count] = least_angle(x);
         sum += angle[count];
         poor += angle[count++] < 20;

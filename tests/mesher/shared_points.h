@@ -16,11 +16,11 @@ class SharedPoints {
 public:
   // All regions that hold a point have the same bits for it.
   void add(const CwRegionMesh &mesh) {
-    for (int i = 0; i < mesh.shared_count; i++) {
-      std::vector<double> x(mesh.x[i], mesh.x[i] + 3);
-      auto found = point.emplace(mesh.shared_id[i], x);
+    for (int i = 0; i < mesh.cells.shared_count; i++) {
+      std::vector<double> x(mesh.cells.points[i], mesh.cells.points[i] + 3);
+      auto found = point.emplace(mesh.cells.shared_id[i], x);
       assert_memory_equal(found.first->second.data(), x.data(), sizeof(double[3]));
-      held[mesh.shared_id[i]]++;
+      held[mesh.cells.shared_id[i]]++;
     }
   }
 

@@ -299,7 +299,8 @@ static void make_surfaces(Box &box) {
   Box::check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
-    if (!cw_cad_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
+    if (!cw_cad_face_is_wall(box.cad, f))
+      Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
   }
   interfaces.resize(boundary.interfaces.outline_count);
   for (int i = 0; i < boundary.interfaces.outline_count; i++) {
@@ -342,11 +343,11 @@ static void fill_the_box(int rule) {
     CwQuality quality;
     Box::check(cw_region_build(&context, r, number[r], &mesh));
     Box::check(cw_audit_region(&mesh, &quality));
-    assert_int_equal(mesh.prism_count % 4, 0);
+    assert_int_equal(mesh.cells.prism_count % 4, 0);
     volume += quality.volume;
     assert_true(quality.open_faces != 0);
     assert_true(quality.beside.count > 0 && quality.apart.count > 0);
-    assert_int_equal(quality.beside.count + quality.apart.count, mesh.tetrahedron_count);
+    assert_int_equal(quality.beside.count + quality.apart.count, mesh.cells.tetrahedron_count);
     open_faces += quality.open_faces;
     shared.add(mesh);
     cw_region_free(&mesh);

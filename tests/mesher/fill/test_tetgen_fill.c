@@ -72,14 +72,14 @@ static CwQuality check_fill(const Surface *s, const CwFill *fill) {
   }
   CwRegionMesh region = {.domain = "rotor",
                          .region = 3,
-                         .point_count = fill->point_count,
-                         .x = fill->x,
-                         .tetrahedron_count = fill->tetrahedron_count,
-                         .tetrahedron = fill->tetrahedron,
-                         .triangle_count = s->triangle_count,
-                         .triangle = s->triangle,
-                         .triangle_patch = patch,
-                         .triangle_cell = cell};
+                         .cells.point_count = fill->point_count,
+                         .cells.points = fill->x,
+                         .cells.tetrahedron_count = fill->tetrahedron_count,
+                         .cells.tetrahedra = fill->tetrahedron,
+                         .cells.triangle_count = s->triangle_count,
+                         .cells.triangles = s->triangle,
+                         .cells.triangle_patch = patch,
+                         .cells.triangle_cell = cell};
   if (cw_audit_region(&region, &quality) != CW_OK) fail_msg("%s", cw_fail_message());
   double volume = surface_volume(s);
   NEAR(quality.volume, volume, 1e-12 * volume);

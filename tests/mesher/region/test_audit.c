@@ -30,11 +30,12 @@ static CwRegionMesh prism_and_tet(void) {
   memcpy(quad, quads, sizeof quads);
   for (int k = 0; k < 3; k++) quad_cell[k] = 1;
   CwRegionMesh r = {.domain = "rotor", .region = 3, .number = 1};
-  r.point_count = 7, r.x = x;
-  r.tetrahedron_count = 1, r.tetrahedron = tet;
-  r.prism_count = 1, r.prism = prism;
-  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch, r.triangle_cell = triangle_cell;
-  r.quad_count = 3, r.quad = quad, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
+  r.cells.point_count = 7, r.cells.points = x;
+  r.cells.tetrahedron_count = 1, r.cells.tetrahedra = tet;
+  r.cells.prism_count = 1, r.cells.prisms = prism;
+  r.cells.triangle_count = 4, r.cells.triangles = triangle, r.cells.triangle_patch = triangle_patch,
+  r.cells.triangle_cell = triangle_cell;
+  r.cells.quad_count = 3, r.cells.quads = quad, r.cells.quad_patch = quad_patch, r.cells.quad_cell = quad_cell;
   return r;
 }
 
@@ -68,7 +69,7 @@ static void single_tetrahedron(void **state) {
   memcpy(tet[0], corner, sizeof corner);
   memcpy(triangle, faces, sizeof faces);
   memset(triangle_cell, 0, sizeof triangle_cell);
-  r.point_count = 4, r.prism_count = 0, r.quad_count = 0;
+  r.cells.point_count = 4, r.cells.prism_count = 0, r.cells.quad_count = 0;
   CwQuality q;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   NEAR(q.volume, 1.0 / 6.0, 1e-16);
@@ -99,10 +100,14 @@ static void cells_above_and_below_one_face(void **state) {
                                        "triangle of cell 2 at (1000, 1000, 0) mm belongs to more than two cells",
                                        "triangle of cell 2 at (1000, 1000, 0) mm belongs to more than two cells"};
   for (int count = 1; count <= 4; count++) {
-    CwRegionMesh r = {.domain = "rotor", .region = 3, .x = points, .tetrahedron = cells, .shared_id = shared_id};
+    CwRegionMesh r = {.domain = "rotor",
+                      .region = 3,
+                      .cells.points = points,
+                      .cells.tetrahedra = cells,
+                      .cells.shared_id = shared_id};
     CwQuality q;
-    r.tetrahedron_count = count;
-    r.point_count = r.shared_count = 3 + count;
+    r.cells.tetrahedron_count = count;
+    r.cells.point_count = r.cells.shared_count = 3 + count;
     if (fault[count])
       fails_with(&r, fault[count]);
     else
@@ -113,7 +118,8 @@ static void cells_above_and_below_one_face(void **state) {
 static void two_cells_on_one_side(void **state) {
   CwRegionMesh r = prism_and_tet();
   memcpy(tet[1], (int32_t[4]){3, 4, 5, 7}, sizeof tet[1]);
-  r.tetrahedron_count = 2, r.prism_count = 0, r.triangle_count = 0, r.quad_count = 0, r.point_count = 5;
+  r.cells.tetrahedron_count = 2, r.cells.prism_count = 0, r.cells.triangle_count = 0, r.cells.quad_count = 0,
+  r.cells.point_count = 5;
   // Points 3..7 alone, renumbered 0..4.
   memmove(x, x + 3, 5 * sizeof x[0]);
   for (int k = 0; k < 2; k++) {
@@ -125,13 +131,13 @@ static void two_cells_on_one_side(void **state) {
 static void open_face_is_allowed_only_on_dividing_planes(void **state) {
   CwRegionMesh r = prism_and_tet();
   CwQuality q;
-  r.quad_count = 2; // quad 2, 0, 3, 5 is no longer listed
+  r.cells.quad_count = 2; // quad 2, 0, 3, 5 is no longer listed
   fails_with(&r, "is open");
-  r.shared_count = 5;
+  r.cells.shared_count = 5;
   fails_with(&r, "quadrilateral of cell 1 at (0, 500, 500) mm is open");
   int64_t shared_id[7] = {10, 11, 12, 13, 14, 15, 16};
-  r.shared_count = 6;
-  r.shared_id = shared_id;
+  r.cells.shared_count = 6;
+  r.cells.shared_id = shared_id;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   // The sum tells of the open face's numbers and coordinates, and of nothing else.
   uint64_t sum = q.open_faces;
@@ -143,11 +149,11 @@ static void open_face_is_allowed_only_on_dividing_planes(void **state) {
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_true(q.open_faces != sum);
   shared_id[0] = 10;
-  double x = r.x[5][2];
-  r.x[5][2] = nextafter(x, 2 * x);
+  double x = r.cells.points[5][2];
+  r.cells.points[5][2] = nextafter(x, 2 * x);
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_true(q.open_faces != sum);
-  r.x[5][2] = x;
+  r.cells.points[5][2] = x;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_true(q.open_faces == sum);
 }
@@ -167,12 +173,12 @@ static void corners_may_be_turned(void **state) {
       prism[0][k] = (k + prism_turn) % 3;
       prism[0][3 + k] = 3 + (k + prism_turn) % 3;
     }
-    for (int f = 0; f < r.triangle_count; f++) {
+    for (int f = 0; f < r.cells.triangle_count; f++) {
       int32_t was[3];
       memcpy(was, triangle[f], sizeof was);
       for (int k = 0; k < 3; k++) triangle[f][k] = was[(k + face_turn) % 3];
     }
-    for (int f = 0; f < r.quad_count; f++) {
+    for (int f = 0; f < r.cells.quad_count; f++) {
       int32_t was[4];
       memcpy(was, quad[f], sizeof was);
       for (int k = 0; k < 4; k++) quad[f][k] = was[(k + face_turn) % 4];
@@ -198,9 +204,10 @@ static void many_faces_at_one_point(void **state) {
     memcpy(faces[2 * k + 1], (int32_t[3]){a, b, 1}, sizeof faces[0]);
     of_cell[2 * k] = of_cell[2 * k + 1] = k;
   }
-  CwRegionMesh r = {.domain = "rotor", .region = 3, .point_count = RING + 2, .x = points};
-  r.tetrahedron_count = RING, r.tetrahedron = cells;
-  r.triangle_count = 2 * RING, r.triangle = faces, r.triangle_patch = patches, r.triangle_cell = of_cell;
+  CwRegionMesh r = {.domain = "rotor", .region = 3, .cells.point_count = RING + 2, .cells.points = points};
+  r.cells.tetrahedron_count = RING, r.cells.tetrahedra = cells;
+  r.cells.triangle_count = 2 * RING, r.cells.triangles = faces, r.cells.triangle_patch = patches,
+  r.cells.triangle_cell = of_cell;
   CwQuality q;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   for (int k = 0; k < 2 * RING; k++) {
@@ -214,15 +221,15 @@ static void many_faces_at_one_point(void **state) {
     memcpy(kept, faces[k], sizeof kept);
     memcpy(faces[k], faces[last], sizeof kept);
     of_cell[k] = of_cell[last];
-    r.triangle_count = last; // all but this one
+    r.cells.triangle_count = last; // all but this one
     fails_with(&r, fault);
     assert_non_null(strstr(cw_fail_message(), "is open"));
     memcpy(faces[k], kept, sizeof kept);
     of_cell[k] = k / 2;
-    r.triangle_count = 2 * RING;
+    r.cells.triangle_count = 2 * RING;
   }
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
-  r.tetrahedron_count = RING - 1; // its faces are listed, and two of its neighbours' are open
+  r.cells.tetrahedron_count = RING - 1; // its faces are listed, and two of its neighbours' are open
   fails_with(&r, "is listed as boundary but is no face of a cell");
 }
 
@@ -232,7 +239,7 @@ static void copies_are_audited_by_what_is_their_own(void **state) {
   CwQuality q;
   uint64_t sum = 0;
   int64_t shared_id[6] = {10, 11, 12, 13, 14, 15};
-  r.quad_count = 2, r.shared_count = 6, r.shared_id = shared_id; // quad 2, 0, 3, 5 lies on a plane
+  r.cells.quad_count = 2, r.cells.shared_count = 6, r.cells.shared_id = shared_id; // quad 2, 0, 3, 5 lies on a plane
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_int_equal(cw_audit_copy(&r, &sum), CW_OK);
   assert_true(sum != 0 && sum == q.open_faces);
@@ -247,12 +254,12 @@ static void wrong_lists_are_found(void **state) {
   CwRegionMesh r = prism_and_tet();
   memcpy(triangle[4], triangle[1], sizeof triangle[1]);
   triangle_cell[4] = triangle_cell[1];
-  r.triangle_count = 5;
+  r.cells.triangle_count = 5;
   fails_with(&r, "more than once");
   r = prism_and_tet();
   memcpy(triangle[4], (int32_t[3]){3, 5, 4}, sizeof triangle[4]); // of the tetrahedron and the prism
   triangle_cell[4] = 0;
-  r.triangle_count = 5;
+  r.cells.triangle_count = 5;
   fails_with(&r, "belongs to more than two cells or boundary faces");
   r = prism_and_tet();
   memcpy(triangle[0], (int32_t[3]){0, 1, 2}, sizeof triangle[0]);
@@ -262,7 +269,7 @@ static void wrong_lists_are_found(void **state) {
   fails_with(&r, "wrong cell");
   r = prism_and_tet();
   memcpy(triangle[4], (int32_t[3]){0, 1, 6}, sizeof triangle[4]);
-  r.triangle_count = 5;
+  r.cells.triangle_count = 5;
   fails_with(&r, "no face of a cell");
   r = prism_and_tet();
   memcpy(quad[0], (int32_t[4]){0, 4, 1, 3}, sizeof quad[0]); // corners in a wrong order
@@ -271,7 +278,7 @@ static void wrong_lists_are_found(void **state) {
 
 static void points_and_indices_are_checked(void **state) {
   CwRegionMesh r = prism_and_tet();
-  r.point_count = 8;
+  r.cells.point_count = 8;
   fails_with(&r, "point 7 at (5000, 5000, 5000) mm belongs to no cell");
   r = prism_and_tet();
   tet[0][3] = 7;

@@ -20,16 +20,16 @@ static CwStatus count(double height, int with_tet, CwLayerRatio ratio[2]) {
   int32_t triangle[1][3] = {{0, 2, 1}}, patch[1] = {1}, cell[1] = {with_tet};
   CwRegionMesh mesh = {.domain = "rotor",
                        .region = 1,
-                       .point_count = 10,
-                       .x = x,
-                       .tetrahedron_count = with_tet,
-                       .tetrahedron = tet,
-                       .prism_count = 2,
-                       .prism = prism,
-                       .triangle_count = 1,
-                       .triangle = triangle,
-                       .triangle_patch = patch,
-                       .triangle_cell = cell};
+                       .cells.point_count = 10,
+                       .cells.points = x,
+                       .cells.tetrahedron_count = with_tet,
+                       .cells.tetrahedra = tet,
+                       .cells.prism_count = 2,
+                       .cells.prisms = prism,
+                       .cells.triangle_count = 1,
+                       .cells.triangles = triangle,
+                       .cells.triangle_patch = patch,
+                       .cells.triangle_cell = cell};
   return cw_layer_ratio(&mesh, 2, 2, ratio);
 }
 

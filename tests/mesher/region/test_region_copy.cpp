@@ -89,8 +89,8 @@ static void fill_the_tank(bool divided) {
     assert_int_equal(mesh.region, r + 1);
     check(cw_audit_region(&mesh, &quality));
     volume += quality.volume;
-    for (int i = 0; i < mesh.point_count; i++) { // every point lies in its own region
-      assert_true(cw_plan_in_region(&tank.plan, r, mesh.x[i], 1e-9));
+    for (int i = 0; i < mesh.cells.point_count; i++) { // every point lies in its own region
+      assert_true(cw_plan_in_region(&tank.plan, r, mesh.cells.points[i], 1e-9));
     }
     shared.add(mesh);
     cw_region_free(&mesh);

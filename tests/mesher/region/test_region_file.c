@@ -40,11 +40,12 @@ static int32_t quads[1][4] = {{0, 1, 4, 3}}, quad_patch[1] = {2}, quad_cell[1] =
 
 static CwRegionMesh region_by_hand(void) {
   CwRegionMesh r = {.domain = "rotor", .region = 1, .number = 4, .fingerprint = "0123456789abcdef0123456789abcdef"};
-  r.point_count = 7, r.shared_count = 2, r.x = points, r.shared_id = ids;
-  r.tetrahedron_count = 1, r.tetrahedron = tetrahedra;
-  r.prism_count = 1, r.prism = prisms;
-  r.triangle_count = 2, r.triangle = triangles, r.triangle_patch = triangle_patch, r.triangle_cell = triangle_cell;
-  r.quad_count = 1, r.quad = quads, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
+  r.cells.point_count = 7, r.cells.shared_count = 2, r.cells.points = points, r.cells.shared_id = ids;
+  r.cells.tetrahedron_count = 1, r.cells.tetrahedra = tetrahedra;
+  r.cells.prism_count = 1, r.cells.prisms = prisms;
+  r.cells.triangle_count = 2, r.cells.triangles = triangles, r.cells.triangle_patch = triangle_patch,
+  r.cells.triangle_cell = triangle_cell;
+  r.cells.quad_count = 1, r.cells.quads = quads, r.cells.quad_patch = quad_patch, r.cells.quad_cell = quad_cell;
   return r;
 }
 
@@ -56,19 +57,19 @@ static void comes_back_as_it_was(void **state) {
   assert_string_equal(got.fingerprint, r.fingerprint);
   assert_int_equal(got.region, 1);
   assert_int_equal(got.number, 4);
-  assert_int_equal(got.point_count, 7);
-  assert_int_equal(got.shared_count, 2);
-  assert_int_equal(got.pyramid_count, 0);
-  assert_memory_equal(got.x, points, sizeof points);
-  assert_memory_equal(got.shared_id, ids, sizeof ids);
-  assert_memory_equal(got.tetrahedron, tetrahedra, sizeof tetrahedra);
-  assert_memory_equal(got.prism, prisms, sizeof prisms);
-  assert_memory_equal(got.triangle, triangles, sizeof triangles);
-  assert_memory_equal(got.triangle_patch, triangle_patch, sizeof triangle_patch);
-  assert_memory_equal(got.triangle_cell, triangle_cell, sizeof triangle_cell);
-  assert_memory_equal(got.quad, quads, sizeof quads);
-  assert_memory_equal(got.quad_patch, quad_patch, sizeof quad_patch);
-  assert_memory_equal(got.quad_cell, quad_cell, sizeof quad_cell);
+  assert_int_equal(got.cells.point_count, 7);
+  assert_int_equal(got.cells.shared_count, 2);
+  assert_int_equal(got.cells.pyramid_count, 0);
+  assert_memory_equal(got.cells.points, points, sizeof points);
+  assert_memory_equal(got.cells.shared_id, ids, sizeof ids);
+  assert_memory_equal(got.cells.tetrahedra, tetrahedra, sizeof tetrahedra);
+  assert_memory_equal(got.cells.prisms, prisms, sizeof prisms);
+  assert_memory_equal(got.cells.triangles, triangles, sizeof triangles);
+  assert_memory_equal(got.cells.triangle_patch, triangle_patch, sizeof triangle_patch);
+  assert_memory_equal(got.cells.triangle_cell, triangle_cell, sizeof triangle_cell);
+  assert_memory_equal(got.cells.quads, quads, sizeof quads);
+  assert_memory_equal(got.cells.quad_patch, quad_patch, sizeof quad_patch);
+  assert_memory_equal(got.cells.quad_cell, quad_cell, sizeof quad_cell);
   cw_region_free(&got);
 }
 
@@ -77,12 +78,12 @@ static void file_is_in_metres(void **state) {
   cw_model_unit_set(3);
   assert_int_equal(cw_region_write(path, &r), CW_OK);
   assert_int_equal(cw_region_read(path, &got), CW_OK);
-  assert_memory_equal(got.x, points, sizeof points);
+  assert_memory_equal(got.cells.points, points, sizeof points);
   cw_region_free(&got);
   cw_model_unit_set(0);
   assert_int_equal(cw_region_read(path, &got), CW_OK);
   for (int p = 0; p < 7; p++) {
-    for (int k = 0; k < 3; k++) assert_true(got.x[p][k] == 8 * points[p][k]);
+    for (int k = 0; k < 3; k++) assert_true(got.cells.points[p][k] == 8 * points[p][k]);
   }
   cw_region_free(&got);
 }
@@ -126,7 +127,7 @@ static void taken_up_only_with_the_fingerprint_and_whole(void **state) {
   assert_int_equal(cw_region_digest_read(path, digest), CW_ERR_IO);
   assert_int_equal(cw_region_write(path, &r), CW_OK);
   assert_int_equal(take_up(r.fingerprint, &got), CW_REGION_TAKEN);
-  assert_memory_equal(got.x, points, sizeof points);
+  assert_memory_equal(got.cells.points, points, sizeof points);
   assert_string_equal(got.digest, r.digest);
   cw_region_free(&got);
   assert_int_equal(cw_region_digest_read(path, digest), CW_OK);
