@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "geometry/cad/cad_stage.h"
 #include "geometry/design_check.h"
 #include "geometry/design_file.h"
 #include "geometry/design_value.h"
@@ -14,6 +15,7 @@
 #include "geometry/pump_model.h"
 #include "geometry/remedy.h"
 #include "geometry/step_file.h"
+#include "pipeline/case_read.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 #include "pipeline/stage_args.h"
@@ -246,23 +248,26 @@ static CwStatus add_remedy(const CwCase *table, CwStatus status) {
 int main(int argc, char **argv) {
   CwStatus status = CW_OK;
   CwStageArgs args;
-  CwCase table;
+  CwCase table = {0};
   CwRecord *record = NULL;
   char *record_path = NULL;
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
   if (args.finished) goto done;
   CW_TRY(in_folder(&args, "record.json", &record_path));
   CW_TRY(cw_record_start("geometry", &record));
-  CW_TRY(make_geometry(&args, &table, record));
+  CW_TRY(table.cad ? cw_cad_stage(&args, &table, record) : make_geometry(&args, &table, record));
   CW_TRY(cw_record_write(record, record_path));
 done:;
-  if (status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY) {
+  if (table.cad && (status == CW_ERR_INPUT || status == CW_ERR_GEOMETRY)) {
+    cw_fail_place(args.case_path);
+  } else if (status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY) {
     add_remedy(&table, status);
     cw_fail_place(args.case_path); // what to change stands there
   }
   const int code = cw_log_error(status);
   free(record_path);
   cw_record_free(record);
+  cw_case_free(&table);
   cw_log_close();
   return code;
 }

@@ -172,6 +172,7 @@ typedef struct {
   CwVoluteTable volute;
   CwWalls walls;
   CwMeshTable mesh;
+  struct CwCaseCad *cad; // case_cad.h; NULL: the pump is designed. Copies of the case share it
 } CwCase;
 
 #ifdef __cplusplus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/case_check.h"
 
+#include <string.h>
+
 #include "pipeline/case_points.h"
 
 static const double pi = 3.14159265358979323846;
@@ -187,8 +189,25 @@ done:
   return status;
 }
 
+// The hydraulic design has no part in a pump from CAD files.
+static CwStatus check_cad(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  static const char *const sections[] = {"design", "impeller", "volute"};
+  for (size_t i = 0; table->cad && i < cw_case_key_count; ++i) {
+    const CwCaseKey *key = &cw_case_keys[i];
+    int of_design = 0;
+    for (size_t k = 0; k < sizeof sections / sizeof *sections; ++k) of_design |= !strcmp(key->section, sections[k]);
+    CW_REQUIRE(!of_design || !places[i].given, CW_ERR_INPUT,
+               "%s:%d:%d: %s.%s: contradicts the section cad, whose solids come from files; allowed: one of both", path,
+               places[i].line, places[i].column, key->section, key->key);
+  }
+done:
+  return status;
+}
+
 CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places) {
   CwStatus status = CW_OK;
+  CW_TRY(check_cad(path, table, places));
   CW_TRY(check_priority(path, table, places));
   for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i) CW_TRY(check_rule(path, table, places, &rules[i]));
   CW_TRY(check_operating_point(path, table, places));

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "pipeline/case_cad.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/sealed_json.h"
 
@@ -37,6 +38,10 @@ json_t *cw_case_origin(const CwCase *table) {
       return NULL;
     }
   }
+  if (table->cad && json_object_set_new(origin, "cad", json_string(table->cad->digest))) {
+    json_decref(origin);
+    return NULL;
+  }
   return origin;
 }
 
@@ -65,6 +70,10 @@ CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *
   of = json_object_get(record, "case");
   CW_REQUIRE(json_is_object(of), CW_ERR_INPUT,
              "%s: does not say of which case; run cutwater-%s on this case file first", path, stage);
+  CW_REQUIRE(same(json_object_get(of, "cad"), json_object_get(origin, "cad")), CW_ERR_INPUT,
+             "%s/%s: made with another section cad than that of the case file; allowed: the same pump, run cutwater-%s "
+             "on this case file first",
+             run, stage, stage);
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     cw_case_key_path(&cw_case_keys[i], key_path);
     const json_t *theirs = json_object_get(of, key_path), *ours = json_object_get(origin, key_path);

@@ -2,146 +2,66 @@
 #include "pipeline/case_read.h"
 
 #include <errno.h>
-#include <libfyaml.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "pipeline/case_cad.h"
 #include "pipeline/case_check.h"
+#include "pipeline/case_event.h"
 #include "pipeline/case_fluid.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
 
-// The file is read as a stream of YAML events and not as a document, since only events show a key given
-// twice.
-enum { FILE_LIMIT = 1 << 20, TEXT_SIZE = 256, PATH_SHOWN = 300 };
+enum { FILE_LIMIT = 1 << 20, PATH_SHOWN = 300 };
 
 typedef struct {
-  int line, column; // 1-based
-} Place;
-
-// One event with what is asked of it, so that it can be freed at once.
-typedef struct {
-  enum fy_event_type type;
-  int plain, tagged;
-  Place place;
-  char text[TEXT_SIZE]; // of a scalar, cut
-} Event;
-
-typedef struct {
-  const char *path; // as shown
-  struct fy_parser *parser;
-  Place root, last; // of the mapping that is the file, and of the newest event
+  CwEventStream stream;
+  const char *case_path;
+  CwEventPlace root; // of the mapping that is the file
+  CwCasePlace cad;   // of the section cad
   CwCase table;
   CwCasePlace *places;   // one a key
   CwCasePlace *sections; // one a key: the place of the section that begins with that key
-  char complaint[500];   // the library's first "LINE:COLUMN: error: text"
 } Reader;
 
-static void keep_complaint(struct fy_diag *diag, void *user, const char *text, size_t length) {
-  Reader *reader = user;
-  if (reader->complaint[0] || !memmem(text, length, ": error: ", 9)) return;
-  snprintf(reader->complaint, sizeof reader->complaint, "%.*s", (int)length, text);
-}
-
-// Turns "NAME:LINE:COLUMN: error: text" of the library into our line. The name holds no colon of its own.
-static CwStatus fail_syntax(const Reader *reader) {
-  int line = 1, column = 1;
-  const char *what = strstr(reader->complaint, ": error: ");
-  const char *numbers = strchr(reader->complaint, ':');
-  if (!what || !numbers || sscanf(numbers, ":%d:%d", &line, &column) != 2)
-    return CW_FAIL(CW_ERR_INPUT, "%s:1:1: case file: it is not YAML; allowed: YAML as in docs/case-reference.md",
-                   reader->path);
-  what += strlen(": error: ");
-  return CW_FAIL(CW_ERR_INPUT,
-                 "%s:%d:%d: case file: it is not YAML, %.*s; allowed: one \"key: value\" a line, sections "
-                 "indented by blanks",
-                 reader->path, line, column, (int)strcspn(what, "\r\n"), what);
-}
-
-static CwStatus next_event(Reader *reader, Event *event) {
+static CwStatus require_once(const Reader *reader, const char *path, CwCasePlace *found, CwEventPlace key,
+                             CwEventPlace value) {
   CwStatus status = CW_OK;
-  memset(event, 0, sizeof *event);
-  struct fy_event *raw = fy_parser_parse(reader->parser);
-  if (!raw) {
-    status = fail_syntax(reader);
-    goto done;
-  }
-  event->type = raw->type;
-  const struct fy_mark *mark = fy_event_start_mark(raw);
-  // An empty key or value has no mark: it lies behind what came before.
-  event->place = mark ? (Place){mark->line + 1, mark->column + 1} : reader->last;
-  event->tagged = fy_event_get_tag_token(raw) != NULL;
-  if (raw->type == FYET_SCALAR) {
-    size_t length = 0;
-    const char *text = raw->scalar.value ? fy_token_get_text(raw->scalar.value, &length) : "";
-    if (!text) length = 0;
-    // A value that is cut here is longer than any that is allowed, so it is refused all the same.
-    if (length >= TEXT_SIZE) length = TEXT_SIZE - 1;
-    memcpy(event->text, text ? text : "", length);
-    // An escape in quotes can make any character; behind a zero byte nothing may hide.
-    for (size_t i = 0; i < length; ++i)
-      if (!event->text[i]) event->text[i] = '?';
-    enum fy_scalar_style style = raw->scalar.value ? fy_token_scalar_style(raw->scalar.value) : FYSS_PLAIN;
-    event->plain = style == FYSS_PLAIN;
-    // The library's mark stands behind the opening quote, and behind the star of an alias.
-    if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED) --event->place.column;
-  }
-  if (raw->type == FYET_ALIAS) --event->place.column;
-  reader->last = event->place;
-done:
-  if (raw) fy_parser_event_free(reader->parser, raw);
-  return status;
-}
-
-static const char *event_words(enum fy_event_type type) {
-  switch (type) {
-  case FYET_MAPPING_START:
-    return "a mapping";
-  case FYET_SEQUENCE_START:
-    return "a list";
-  case FYET_ALIAS:
-    return "an alias (*name)";
-  default:
-    return "something else";
-  }
-}
-
-static CwStatus require_once(const Reader *reader, const char *path, CwCasePlace *found, Place key, Place value) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(!found->given, CW_ERR_INPUT, "%s:%d:%d: %s: given twice, first in line %d; allowed: once", reader->path,
-             key.line, key.column, path, found->line);
+  CW_REQUIRE(!found->given, CW_ERR_INPUT, "%s:%d:%d: %s: given twice, first in line %d; allowed: once",
+             reader->stream.path, key.line, key.column, path, found->line);
   *found = (CwCasePlace){1, value.line, value.column};
 done:
   return status;
 }
 
 // Reads one value of key `index`, of a list one of its values.
-static CwStatus read_value(Reader *reader, int index, const CwUnit *unit, const char *path, const Event *value) {
+static CwStatus read_value(Reader *reader, int index, const CwUnit *unit, const char *path, const CwEvent *value) {
   CwStatus status = CW_OK;
   char wrong[CW_WRONG_SIZE], allowed[CW_KEY_ALLOWED_SIZE];
   cw_case_key_allowed(&cw_case_keys[index], allowed);
   CW_REQUIRE(value->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: it is %s, not one value; allowed: %s",
-             reader->path, value->place.line, value->place.column, path, event_words(value->type), allowed);
-  CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s", reader->path,
-             value->place.line, value->place.column, path, allowed);
+             reader->stream.path, value->place.line, value->place.column, path, cw_event_words(value->type), allowed);
+  CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s",
+             reader->stream.path, value->place.line, value->place.column, path, allowed);
   CW_REQUIRE(cw_case_value_read(&cw_case_keys[index], unit, value->text, value->plain, &reader->table, wrong),
-             CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, value->place.line, value->place.column, path, wrong);
+             CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->stream.path, value->place.line, value->place.column, path,
+             wrong);
 done:
   return status;
 }
 
 static CwStatus read_list(Reader *reader, int index, const CwUnit *unit, const char *path) {
   CwStatus status = CW_OK;
-  Event value;
+  CwEvent value;
   char allowed[CW_KEY_ALLOWED_SIZE];
   for (int count = 0;; ++count) {
-    CW_TRY(next_event(reader, &value));
+    CW_TRY(cw_event_next(&reader->stream, &value));
     cw_case_key_allowed(&cw_case_keys[index], allowed);
     int ends = value.type == FYET_SEQUENCE_END;
     CW_REQUIRE(ends ? count > 0 : count < CW_LIST_MOST, CW_ERR_INPUT, "%s:%d:%d: %s: the list has %s; allowed: %s",
-               reader->path, value.place.line, value.place.column, path, ends ? "no value" : "too many values",
+               reader->stream.path, value.place.line, value.place.column, path, ends ? "no value" : "too many values",
                allowed);
     if (ends) break;
     CW_TRY(read_value(reader, index, unit, path, &value));
@@ -152,7 +72,7 @@ done:
 
 // Reads the pair of `key` (a scalar) and `value` that stand in `section`. The value has been taken from the
 // stream.
-static CwStatus read_pair(Reader *reader, const char *section, const Event *key, Event *value) {
+static CwStatus read_pair(Reader *reader, const char *section, const CwEvent *key, CwEvent *value) {
   CwStatus status = CW_OK;
   char wrong[CW_WRONG_SIZE], name[CW_SHOWN_SIZE];
   int scalar = value->type == FYET_SCALAR;
@@ -163,7 +83,8 @@ static CwStatus read_pair(Reader *reader, const char *section, const Event *key,
   snprintf(path, sizeof path, "%s%s%s", section, section[0] ? "." : "", name);
   if (index < 0) {
     cw_case_key_unknown(section, key->text, scalar ? value->text : NULL, wrong);
-    CW_REQUIRE(0, CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, key->place.line, key->place.column, path, wrong);
+    CW_REQUIRE(0, CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->stream.path, key->place.line, key->place.column, path,
+               wrong);
   }
   CW_TRY(require_once(reader, path, &reader->places[index], key->place, value->place));
   if (cw_case_keys[index].type == CW_KEY_LIST && value->type == FYET_SEQUENCE_START && !value->tagged)
@@ -174,22 +95,23 @@ done:
   return status;
 }
 
-static CwStatus require_scalar_key(const Reader *reader, const char *section, const Event *key) {
+static CwStatus require_scalar_key(const Reader *reader, const char *section, const CwEvent *key) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(key->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: a key is %s; allowed: a plain word", reader->path,
-             key->place.line, key->place.column, section[0] ? section : "case file", event_words(key->type));
+  CW_REQUIRE(key->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: a key is %s; allowed: a plain word",
+             reader->stream.path, key->place.line, key->place.column, section[0] ? section : "case file",
+             cw_event_words(key->type));
 done:
   return status;
 }
 
 static CwStatus read_section(Reader *reader, const char *section) {
   CwStatus status = CW_OK;
-  Event key, value;
+  CwEvent key, value;
   for (;;) {
-    CW_TRY(next_event(reader, &key));
+    CW_TRY(cw_event_next(&reader->stream, &key));
     if (key.type == FYET_MAPPING_END) break;
     CW_TRY(require_scalar_key(reader, section, &key));
-    CW_TRY(next_event(reader, &value));
+    CW_TRY(cw_event_next(&reader->stream, &value));
     CW_TRY(read_pair(reader, section, &key, &value));
   }
 done:
@@ -203,15 +125,31 @@ static CwCasePlace *section_place(const Reader *reader, const char *section) {
   return &reader->sections[i];
 }
 
+static CwStatus read_cad(Reader *reader, const CwEvent *key, const CwEvent *value) {
+  CwStatus status = CW_OK;
+  CwCaseNode section = {0};
+  CW_TRY(require_once(reader, "cad", &reader->cad, key->place, key->place));
+  CW_TRY(cw_case_tree_read(&reader->stream, "cad", value, &section));
+  section.place = key->place;
+  CW_TRY(cw_case_cad_read(reader->stream.path, reader->case_path, &section, &reader->table.cad));
+done:
+  cw_case_tree_free(&section);
+  return status;
+}
+
 static CwStatus read_top(Reader *reader) {
   CwStatus status = CW_OK;
-  Event key, value;
+  CwEvent key, value;
   char shown[CW_SHOWN_SIZE];
   for (;;) {
-    CW_TRY(next_event(reader, &key));
+    CW_TRY(cw_event_next(&reader->stream, &key));
     if (key.type == FYET_MAPPING_END) break;
     CW_TRY(require_scalar_key(reader, "", &key));
-    CW_TRY(next_event(reader, &value));
+    CW_TRY(cw_event_next(&reader->stream, &value));
+    if (!strcmp(key.text, "cad")) {
+      CW_TRY(read_cad(reader, &key, &value));
+      continue;
+    }
     if (!key.text[0] || !cw_case_section_known(key.text)) {
       CW_TRY(read_pair(reader, "", &key, &value));
       continue;
@@ -220,8 +158,8 @@ static CwStatus read_top(Reader *reader) {
     cw_show(value.text, shown);
     CW_REQUIRE(value.type == FYET_MAPPING_START, CW_ERR_INPUT,
                "%s:%d:%d: %s: %s is not a mapping; allowed: the section's keys, one a line, indented below it",
-               reader->path, value.place.line, value.place.column, key.text,
-               value.type == FYET_SCALAR ? shown : event_words(value.type));
+               reader->stream.path, value.place.line, value.place.column, key.text,
+               value.type == FYET_SCALAR ? shown : cw_event_words(value.type));
     CW_TRY(read_section(reader, key.text));
   }
 done:
@@ -230,21 +168,21 @@ done:
 
 static CwStatus read_stream(Reader *reader) {
   CwStatus status = CW_OK;
-  Event event;
-  do CW_TRY(next_event(reader, &event));
+  CwEvent event;
+  do CW_TRY(cw_event_next(&reader->stream, &event));
   while (event.type == FYET_STREAM_START || event.type == FYET_DOCUMENT_START);
   CW_REQUIRE(event.type != FYET_STREAM_END, CW_ERR_INPUT,
-             "%s:1:1: case file: it is empty; allowed: the keys of docs/case-reference.md", reader->path);
+             "%s:1:1: case file: it is empty; allowed: the keys of docs/case-reference.md", reader->stream.path);
   CW_REQUIRE(event.type == FYET_MAPPING_START, CW_ERR_INPUT,
-             "%s:%d:%d: case file: it is not a mapping; allowed: the keys of docs/case-reference.md", reader->path,
-             event.place.line ? event.place.line : 1, event.place.line ? event.place.column : 1);
+             "%s:%d:%d: case file: it is not a mapping; allowed: the keys of docs/case-reference.md",
+             reader->stream.path, event.place.line ? event.place.line : 1, event.place.line ? event.place.column : 1);
   reader->root = event.place;
   CW_TRY(read_top(reader));
-  do CW_TRY(next_event(reader, &event));
+  do CW_TRY(cw_event_next(&reader->stream, &event));
   while (event.type == FYET_DOCUMENT_END);
   CW_REQUIRE(event.type == FYET_STREAM_END, CW_ERR_INPUT,
-             "%s:%d:%d: case file: a second document begins; allowed: one document", reader->path, event.place.line,
-             event.place.column);
+             "%s:%d:%d: case file: a second document begins; allowed: one document", reader->stream.path,
+             event.place.line, event.place.column);
 done:
   return status;
 }
@@ -262,7 +200,7 @@ static CwStatus require_all(Reader *reader) {
     cw_case_key_path(key, path);
     cw_case_key_allowed(key, allowed);
     CW_REQUIRE(key->presence != CW_KEY_REQUIRED, CW_ERR_INPUT, "%s:%d:%d: %s: the key is missing; allowed: %s",
-               reader->path, place->line, place->column, path, allowed);
+               reader->stream.path, place->line, place->column, path, allowed);
   }
 done:
   return status;
@@ -319,12 +257,16 @@ done:
   return status;
 }
 
+void cw_case_free(CwCase *table) {
+  cw_case_cad_free(table->cad);
+  table->cad = NULL;
+}
+
 CwStatus cw_case_read(const char *path, CwCase *table) {
   CwStatus status = CW_OK;
   char *text = NULL, shown_path[PATH_SHOWN + 4];
   size_t length = 0;
-  struct fy_diag *diag = NULL;
-  Reader reader = {.path = shown_path, .last = {1, 1}};
+  Reader reader = {.case_path = path};
   // A path of thousands of characters would push the rest out of the message.
   size_t path_length = strlen(path);
   int cut = path_length > PATH_SHOWN;
@@ -334,27 +276,16 @@ CwStatus cw_case_read(const char *path, CwCase *table) {
   CW_NEW(reader.sections, cw_case_key_count);
   CW_TRY(read_file(path, shown_path, &text, &length));
   CW_TRY(require_utf8(shown_path, text, length));
-
-  struct fy_diag_cfg diag_settings;
-  fy_diag_cfg_default(&diag_settings);
-  diag_settings.fp = NULL;
-  diag_settings.output_fn = keep_complaint;
-  diag_settings.user = &reader;
-  diag_settings.colorize = false;
-  diag = fy_diag_create(&diag_settings);
-  CW_REQUIRE(diag, CW_ERR_MEMORY, "out of memory: the reader of %s", shown_path);
-  struct fy_parse_cfg settings = {.flags = FYPCF_DEFAULT_PARSE | FYPCF_JSON_NONE, .diag = diag};
-  reader.parser = fy_parser_create(&settings);
-  CW_REQUIRE(reader.parser && !fy_parser_set_string(reader.parser, text, length), CW_ERR_LIBRARY,
-             "%s: libfyaml cannot start", shown_path);
+  CW_TRY(cw_event_stream_open(shown_path, text, length, &reader.stream));
   CW_TRY(read_stream(&reader));
   CW_TRY(require_all(&reader));
   CW_TRY(cw_case_fluid(shown_path, reader.places, &reader.table));
   CW_TRY(cw_case_check(shown_path, &reader.table, reader.places));
   *table = reader.table;
+  reader.table.cad = NULL;
 done:
-  if (reader.parser) fy_parser_destroy(reader.parser);
-  if (diag) fy_diag_destroy(diag);
+  cw_case_free(&reader.table);
+  cw_event_stream_close(&reader.stream);
   free(text);
   free(reader.places);
   free(reader.sections);

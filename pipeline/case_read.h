@@ -13,6 +13,8 @@ extern "C" {
 // bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then
 // *table stays as it was.
 CwStatus cw_case_read(const char *path, CwCase *table);
+// Frees what a case with solids from CAD files holds; one without holds nothing.
+void cw_case_free(CwCase *table);
 
 #ifdef __cplusplus
 }

@@ -41,10 +41,7 @@ static const char *number_end(const char *text) {
   return c;
 }
 
-// Reads a finite decimal number that fills the whole text. Returns NULL, or what is wrong in a few words.
-// Hexadecimal and octal numbers, infinities, nan, a decimal comma, a leading zero and anything behind the
-// number are wrong.
-static const char *number_read(const char *text, double *number) {
+const char *cw_number_text_read(const char *text, double *number) {
   const char *bare = text + (*text == '+' || *text == '-');
   const char *end = number_end(text);
   if (!strcasecmp(bare, ".inf") || !strcasecmp(bare, "inf") || !strcasecmp(bare, "infinity") ||
@@ -68,7 +65,7 @@ const char *cw_count_text_read(const char *text, double *count) {
   char last = text[length - 1];
   double factor = last == 'k' || last == 'K' ? 1e3 : last == 'M' ? 1e6 : last == 'G' ? 1e9 : 1;
   if (factor > 1) digits[length - 1] = '\0';
-  if (number_read(digits, count)) return wrong;
+  if (cw_number_text_read(digits, count)) return wrong;
   *count = round(*count * factor * 1e3) / 1e3; // 1.1 M is 1100000 and not its neighbour
   return *count == floor(*count) ? NULL : wrong;
 }
@@ -107,7 +104,7 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
   } else {
     what = !plain                      ? "is text, not a number (it stands in quotes)"
            : key->type == CW_KEY_INT64 ? cw_count_text_read(text, &number)
-                                       : number_read(text, &number);
+                                       : cw_number_text_read(text, &number);
     if (!what && key->type == CW_KEY_INT && strspn(text, "+-0123456789") < strlen(text)) what = "is not a whole number";
     double in_own = number;
     if (!what && own && unit != own) {
@@ -174,7 +171,7 @@ static void wrong_unit(const CwCaseKey *key, const char *name, const char *text,
     snprintf(wrong, CW_WRONG_SIZE, "the key lacks its unit, %s; allowed: %s, %s", asked->text, key->key, allowed);
     return;
   }
-  if (text && !strcmp(unit->quantity, asked->quantity) && !number_read(text, &number))
+  if (text && !strcmp(unit->quantity, asked->quantity) && !cw_number_text_read(text, &number))
     snprintf(converted, sizeof converted, " (%.6g %s is %.6g %s)", number, unit->text,
              number * unit->numerator / unit->denominator * asked->denominator / asked->numerator, asked->text);
   snprintf(wrong, CW_WRONG_SIZE, "wrong unit in the key, %s instead of %s; allowed: %s, %s%s", unit->text, asked->text,

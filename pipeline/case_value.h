@@ -16,6 +16,10 @@ enum { CW_SHOWN_SIZE = 64, CW_WRONG_SIZE = 400 };
 // (nothing).
 void cw_show(const char *text, char shown[CW_SHOWN_SIZE]);
 
+// Reads a finite decimal number that fills the whole text. Returns NULL, or what is wrong in a few words. Hexadecimal
+// and octal numbers, infinities, nan, a decimal comma, a leading zero and anything behind the number are wrong.
+const char *cw_number_text_read(const char *text, double *number);
+
 // Reads a count as people write it: 500000, 500k, 2M, 1.5M, 2G. Returns NULL, or what is wrong: it must be whole and
 // not negative.
 const char *cw_count_text_read(const char *text, double *count);

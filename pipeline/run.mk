@@ -44,6 +44,10 @@ $(1)-solve $(1)-curve: $(1)-%: $(2) $(3)/export/record.json
 	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 
+.PHONY: $(1)-faces
+$(1)-faces: $(3)/geometry/record.json
+	@echo '$(3)/geometry/faces_sheet.csv'
+
 $(1): $(3)/report/record.json
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/cad_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <BinTools.hxx>
+#include <Bnd_Box.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <gp_Trsf.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+
+namespace {
+
+const double millimetre = 1e-3; // m
+
+class Document {
+public:
+  Document() {
+    Message::DefaultMessenger()->ChangePrinters().Clear(); // else the translator chats on standard output
+    XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", handle);
+    shapes = XCAFDoc_DocumentTool::ShapeTool(handle->Main());
+    colours = XCAFDoc_DocumentTool::ColorTool(handle->Main());
+    layers = XCAFDoc_DocumentTool::LayerTool(handle->Main());
+  }
+  ~Document() {
+    try {
+      XCAFApp_Application::GetApplication()->Close(handle);
+    } catch (const Standard_Failure &) { // nothing is left to do about it
+    }
+  }
+  Handle(TDocStd_Document) handle;
+  Handle(XCAFDoc_ShapeTool) shapes;
+  Handle(XCAFDoc_ColorTool) colours;
+  Handle(XCAFDoc_LayerTool) layers;
+};
+
+std::string label_name(const TDF_Label &label) {
+  Handle(TDataStd_Name) name;
+  if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return "";
+  const TCollection_AsciiString text(name->Get());
+  return text.ToCString();
+}
+
+int label_colour(const Document &document, const TDF_Label &label) {
+  Quantity_Color colour;
+  const XCAFDoc_ColorType types[] = {XCAFDoc_ColorSurf, XCAFDoc_ColorGen};
+  for (XCAFDoc_ColorType type : types) {
+    if (!document.colours->GetColor(label, type, colour)) continue;
+    Standard_Real red, green, blue;
+    colour.Values(red, green, blue, Quantity_TOC_sRGB);
+    const auto byte = [](double share) { return (int)std::lround(255 * share); };
+    return byte(red) << 16 | byte(green) << 8 | byte(blue);
+  }
+  return -1;
+}
+
+std::string label_layer(const Document &document, const TDF_Label &label) {
+  Handle(TColStd_HSequenceOfExtendedString) names;
+  if (!document.layers->GetLayers(label, names) || names->IsEmpty()) return "";
+  return TCollection_AsciiString(names->First()).ToCString();
+}
+
+CwCadFaceOrigin label_origin(const Document &document, const TDF_Label &label) {
+  return {label_name(label), label_layer(document, label), label_colour(document, label)};
+}
+
+// The solids of one product that is no assembly, as often as it is placed.
+class Product {
+public:
+  Product(const Document &document, const TDF_Label &label) : name(label_name(label)) {
+    shape = document.shapes->GetShape(label);
+    whole = label_origin(document, label);
+    TDF_LabelSequence parts;
+    document.shapes->GetSubShapes(label, parts);
+    for (int i = 1; i <= parts.Length(); i++) {
+      const TopoDS_Shape part = document.shapes->GetShape(parts(i));
+      const CwCadFaceOrigin origin = label_origin(document, parts(i));
+      if (part.ShapeType() == TopAbs_FACE) {
+        faces.emplace_back(part, origin);
+      } else {
+        for (TopExp_Explorer at(part, TopAbs_FACE); at.More(); at.Next())
+          inherited.emplace_back(at.Current(), CwCadFaceOrigin{"", origin.layer, origin.colour});
+        if (part.ShapeType() == TopAbs_SOLID && !origin.name.empty()) solids.emplace_back(part, origin.name);
+      }
+    }
+  }
+  void add(const std::string &file, const std::string &instance, const TopLoc_Location &place, CwCadBodies &bodies) {
+    for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) {
+      CwCadBody body = {file, name, instance, at.Current().Moved(place), {}};
+      for (const auto &[solid, its_name] : solids)
+        if (solid.IsSame(at.Current())) body.name = its_name;
+      const TopTools_IndexedMapOfShape map = cw_cad_faces(at.Current());
+      body.origin.resize(map.Extent(), {"", whole.layer, whole.colour});
+      take(map, inherited, body);
+      take(map, faces, body);
+      bodies.body.push_back(body);
+    }
+  }
+
+private:
+  using Of = std::vector<std::pair<TopoDS_Shape, CwCadFaceOrigin>>;
+  std::string name;
+  TopoDS_Shape shape;
+  CwCadFaceOrigin whole;
+  Of faces, inherited;
+  std::vector<std::pair<TopoDS_Shape, std::string>> solids;
+
+  static void take(const TopTools_IndexedMapOfShape &map, const Of &of, CwCadBody &body) {
+    for (const auto &[face, origin] : of) {
+      const int index = map.FindIndex(face);
+      if (!index) continue;
+      CwCadFaceOrigin &its = body.origin[index - 1];
+      if (!origin.name.empty()) its.name = origin.name;
+      if (!origin.layer.empty()) its.layer = origin.layer;
+      if (origin.colour >= 0) its.colour = origin.colour;
+    }
+  }
+};
+
+void add_label(const Document &document, const TDF_Label &label, const TopLoc_Location &place,
+               const std::string &instance, const std::string &file, CwCadBodies &bodies) {
+  TDF_Label referred;
+  TDF_LabelSequence components;
+  if (XCAFDoc_ShapeTool::IsReference(label) && XCAFDoc_ShapeTool::GetReferredShape(label, referred)) {
+    add_label(document, referred, place * XCAFDoc_ShapeTool::GetLocation(label), label_name(label), file, bodies);
+  } else if (XCAFDoc_ShapeTool::GetComponents(label, components)) {
+    for (int i = 1; i <= components.Length(); i++) add_label(document, components(i), place, instance, file, bodies);
+  } else {
+    Product(document, label).add(file, instance, place, bodies);
+  }
+}
+
+TopoDS_Shape scaled(const TopoDS_Shape &shape, double factor) {
+  if (std::fabs(factor - 1) < 1e-12) return shape;
+  gp_Trsf scale;
+  scale.SetScale(gp_Pnt(0, 0, 0), factor);
+  return BRepBuilderAPI_Transform(shape, scale, Standard_True).Shape();
+}
+
+// Length of one unit of a STEP file, mm.
+double own_unit(STEPControl_Reader &reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  static const std::map<std::string, double> known = {{"millimetre", 1}, {"metre", 1000}, {"centimetre", 10},
+                                                      {"inch", 25.4},    {"foot", 304.8}, {"micrometre", 1e-3}};
+  if (lengths.IsEmpty()) return 1;
+  const auto found = known.find(lengths(1).ToCString());
+  return found == known.end() ? 1 : found->second;
+}
+
+// All faces of the shapes, sewn, as solids.
+CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double tolerance, CwCadBodies &bodies) {
+  BRepBuilderAPI_Sewing sewing(tolerance / millimetre);
+  int faces = 0;
+  for (const TopoDS_Shape &shape : shapes)
+    for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next(), faces++) sewing.Add(at.Current());
+  if (!faces) return CW_FAIL(CW_ERR_INPUT, "%s: holds no solid and no face; allowed: the water as closed solids", path);
+  sewing.Perform();
+  if (sewing.NbFreeEdges() > 0) {
+    const TopoDS_Edge &edge = sewing.FreeEdge(1);
+    const TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
+    const gp_Pnt at = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
+    return CW_FAIL(
+        CW_ERR_INPUT,
+        "%s: holds no solid, and its %d faces do not close within %.3g mm: %d edges stay open, one at (%.3f, "
+        "%.3f, %.3f) mm; allowed: the water as closed solids, or a greater cad.tolerance_mm",
+        path, faces, tolerance / millimetre, sewing.NbFreeEdges(), at.X(), at.Y(), at.Z());
+  }
+  for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_SHELL); at.More(); at.Next()) {
+    BRepBuilderAPI_MakeSolid maker(TopoDS::Shell(at.Current()));
+    TopoDS_Solid solid = maker.Solid();
+    BRepLib::OrientClosedSolid(solid);
+    bodies.body.push_back({path, "", "", solid, std::vector<CwCadFaceOrigin>(cw_cad_faces(solid).Extent())});
+  }
+  return CW_OK;
+}
+
+CwStatus read_step(const char *path, double unit, double tolerance, CwCadBodies &bodies) {
+  Document document;
+  STEPCAFControl_Reader reader;
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  reader.SetNameMode(Standard_True);
+  reader.SetColorMode(Standard_True);
+  reader.SetLayerMode(Standard_True);
+  if (reader.ReadFile(path) != IFSelect_RetDone) return CW_FAIL(CW_ERR_INPUT, "%s: is not a STEP file", path);
+  const double factor = unit > 0 ? unit / millimetre / own_unit(reader.ChangeReader()) : 1;
+  if (!reader.Transfer(document.handle)) return CW_FAIL(CW_ERR_INPUT, "%s: holds no shape; allowed: solids", path);
+  TDF_LabelSequence labels;
+  document.shapes->GetFreeShapes(labels);
+  const size_t before = bodies.body.size();
+  std::vector<TopoDS_Shape> all;
+  for (int i = 1; i <= labels.Length(); i++) {
+    add_label(document, labels(i), TopLoc_Location(), "", path, bodies);
+    all.push_back(document.shapes->GetShape(labels(i)));
+  }
+  if (bodies.body.size() == before) {
+    const CwStatus status = sew(path, all, tolerance, bodies);
+    if (status != CW_OK) return status;
+  }
+  for (size_t i = before; i < bodies.body.size(); i++) bodies.body[i].solid = scaled(bodies.body[i].solid, factor);
+  return CW_OK;
+}
+
+bool read_shape(const char *path, TopoDS_Shape &shape) {
+  char head[64] = {0};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head - 1);
+  const std::string start(head);
+  std::streambuf *out = std::cout.rdbuf(nullptr); // the reader has words of its own for a damaged file
+  bool read = false;
+  try {
+    BRep_Builder builder;
+    if (start.find("Open CASCADE Topology") != std::string::npos)
+      read = BinTools::Read(shape, path);
+    else if (start.find("DBRep_DrawableShape") != std::string::npos || start.find("CASCADE") != std::string::npos)
+      read = BRepTools::Read(shape, path, builder);
+  } catch (const Standard_Failure &) {
+  }
+  std::cout.rdbuf(out);
+  return read && !shape.IsNull();
+}
+
+CwStatus read_brep(const char *path, double unit, double tolerance, CwCadBodies &bodies) {
+  TopoDS_Shape shape;
+  if (!read_shape(path, shape))
+    return CW_FAIL(CW_ERR_INPUT, "%s: is neither STEP nor a B-rep file of OpenCASCADE; allowed: .step, .stp, .brep",
+                   path);
+  if (unit > 0) shape = scaled(shape, unit / millimetre);
+  const size_t before = bodies.body.size();
+  for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next())
+    bodies.body.push_back(
+        {path, "", "", at.Current(), std::vector<CwCadFaceOrigin>(cw_cad_faces(at.Current()).Extent())});
+  return bodies.body.size() > before ? CW_OK : sew(path, {shape}, tolerance, bodies);
+}
+
+bool is_step(const char *path) {
+  char head[512] = {0};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head - 1);
+  return std::string(head).find("ISO-10303-21") != std::string::npos;
+}
+
+} // namespace
+
+CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &run) {
+  try {
+    return run();
+  } catch (const Standard_Failure &failure) {
+    const char *text = failure.GetMessageString();
+    return CW_FAIL(CW_ERR_GEOMETRY, "%s: OpenCASCADE: %s", what.c_str(),
+                   text && *text ? text : "failed without a word");
+  } catch (const std::exception &failure) {
+    return CW_FAIL(CW_ERR_GEOMETRY, "%s: %s", what.c_str(), failure.what());
+  }
+}
+
+CwStatus cw_cad_file_read(const char *path, double unit, double tolerance, CwCadBodies **bodies) {
+  if (!std::ifstream(path).good())
+    return CW_FAIL(CW_ERR_IO, "%s: cannot be read; cad.files names it, counted from the folder of the case file", path);
+  if (!*bodies) *bodies = new CwCadBodies;
+  return cw_cad_guard(path, [&] {
+    return is_step(path) ? read_step(path, unit, tolerance, **bodies) : read_brep(path, unit, tolerance, **bodies);
+  });
+}
+
+void cw_cad_bodies_free(CwCadBodies **bodies) {
+  delete *bodies;
+  *bodies = nullptr;
+}
+
+int cw_cad_body_count(const CwCadBodies *bodies) {
+  return (int)bodies->body.size();
+}
+
+const char *cw_cad_body_name(const CwCadBodies *bodies, int body) {
+  return bodies->body[body].name.c_str();
+}
+
+const char *cw_cad_body_instance(const CwCadBodies *bodies, int body) {
+  return bodies->body[body].instance.c_str();
+}
+
+CwStatus cw_cad_body_box(const CwCadBodies *bodies, int body, double box[2][3]) {
+  return cw_cad_guard(bodies->body[body].file, [&] {
+    Bnd_Box bounds;
+    BRepBndLib::AddOptimal(bodies->body[body].solid, bounds, Standard_False, Standard_False);
+    bounds.Get(box[0][0], box[0][1], box[0][2], box[1][0], box[1][1], box[1][2]);
+    for (int i = 0; i < 6; i++) box[i / 3][i % 3] *= millimetre;
+    return CW_OK;
+  });
+}
+
+CwStatus cw_cad_body_holds(const CwCadBodies *bodies, int body, const double point[3], int *holds) {
+  return cw_cad_guard(bodies->body[body].file, [&] {
+    const gp_Pnt at(point[0] / millimetre, point[1] / millimetre, point[2] / millimetre);
+    BRepClass3d_SolidClassifier classifier(bodies->body[body].solid, at, 1e-6);
+    *holds = classifier.State() == TopAbs_IN;
+    return CW_OK;
+  });
+}

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/cad_model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double gravity = 9.80665;           // m/s2
+static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medium pumps
+static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
+// Lengths along which the boundary layers grow, over the radius of the interface: as pump_model.c has them.
+static const double BLADE_LENGTH = 1.2, VOLUTE_LENGTH = 3, PIPE_LENGTH = 3;
+
+typedef struct {
+  double inlet_area, outlet_area, wheel_radius, interface_radius, interface_width;
+} Sizes;
+
+typedef struct {
+  CwWallFlow wheel, volute, suction, discharge;
+} Flows;
+
+static CwStatus check_turned(const CwCaseCad *cad, const CwSurvey *survey, int face, const CwContact *contact) {
+  CwStatus status = CW_OK;
+  const CwSurveyFace *of = &survey->face[face];
+  const CwCadDomain *own = &cad->domain[of->part], *other = &cad->domain[contact[face].part];
+  CW_REQUIRE(
+      of->turned || own->rotating == other->rotating, CW_ERR_GEOMETRY,
+      "cad.axis: the interface between %s and %s is no surface of revolution about the axis (face %d of %s, at "
+      "radius %.4g to %.4g mm); allowed: cylinders, cones, planes across it and the like; does the axis run through "
+      "the wheel?",
+      own->name, other->name, face + 1, own->name, 1e3 * of->radius[0], 1e3 * of->radius[1]);
+done:
+  return status;
+}
+
+// What both sides of an interface lie on.
+static void set_surface(const CwSurvey *survey, const CwFacePatches *patches, CwCadInterface *between) {
+  double radius[2] = {INFINITY, 0};
+  int plane = 1;
+  for (int f = 0; f < survey->face_count; f++) {
+    const CwSurveyFace *face = &survey->face[f];
+    for (int s = 0; s < 2; s++) {
+      if (patches->of_face[f] != between->patch[s]) continue;
+      between->area[s] += face->area;
+      plane &= face->form == CW_FORM_PLANE;
+      radius[0] = fmin(radius[0], face->form == CW_FORM_REVOLVED ? face->radius[0] : 0);
+      radius[1] = fmax(radius[1], face->radius[1]);
+    }
+  }
+  const int cylinder = radius[1] - radius[0] < 1e-4 * radius[1];
+  between->surface = plane ? CW_SURFACE_PLANE : cylinder ? CW_SURFACE_CYLINDER : CW_SURFACE_OTHER;
+  between->radius = cylinder ? radius[1] : 0;
+}
+
+CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, const CwContact *contact,
+                                const CwFacePatches *patches, int *count, CwCadInterface **interfaces) {
+  CwStatus status = CW_OK;
+  CwCadInterface *made = NULL;
+  *count = 0;
+  CW_NEW(made, patches->count);
+  for (int f = 0; f < survey->face_count; f++) {
+    if (contact[f].part < 0) continue;
+    const int own = patches->of_face[f], other = patches->of_face[contact[f].other];
+    CW_TRY(check_turned(cad, survey, f, contact));
+    int i = 0;
+    while (i < *count && made[i].patch[0] != own && made[i].patch[1] != own) i++;
+    if (i == *count) made[(*count)++] = (CwCadInterface){.patch = {own, other}};
+    const int fits = (made[i].patch[0] == own && made[i].patch[1] == other) ||
+                     (made[i].patch[1] == own && made[i].patch[0] == other);
+    CW_REQUIRE(fits, CW_ERR_INPUT,
+               "cad.patches: patch %s touches both %s and %s; allowed: one patch on either side of an interface, give "
+               "them names in cad.patches with domain",
+               patches->patch[own].name, patches->patch[other].name,
+               patches->patch[made[i].patch[made[i].patch[0] == own]].name);
+  }
+  for (int i = 0; i < *count; i++) {
+    set_surface(survey, patches, &made[i]);
+    const double *area = made[i].area;
+    CW_REQUIRE(
+        fabs(area[0] - area[1]) <= SAME_AREA * fmax(area[0], area[1]), CW_ERR_GEOMETRY,
+        "cad.domains: the interface has %.6g mm2 as %s and %.6g mm2 as %s; allowed: the same surface on both sides",
+        1e6 * area[0], patches->patch[made[i].patch[0]].name, 1e6 * area[1], patches->patch[made[i].patch[1]].name);
+  }
+  *interfaces = made;
+  made = NULL;
+done:
+  free(made);
+  return status;
+}
+
+static void measure(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches, int interface_count,
+                    const CwCadInterface *interfaces, Sizes *sizes) {
+  *sizes = (Sizes){0};
+  double blade_radius = 0, widest = 0;
+  for (int f = 0; f < survey->face_count; f++) {
+    const CwSurveyFace *face = &survey->face[f];
+    const CwFacePatch *patch = &patches->patch[patches->of_face[f]];
+    const int rotating = cad->domain[face->part].rotating;
+    if (patch->kind == CW_PATCH_INLET) sizes->inlet_area += face->area;
+    if (patch->kind == CW_PATCH_OUTLET) sizes->outlet_area += face->area;
+    if (rotating) widest = fmax(widest, face->radius[1]);
+    if (rotating && patch->role == CW_ROLE_BLADE) blade_radius = fmax(blade_radius, face->radius[1]);
+  }
+  sizes->wheel_radius = blade_radius > 0 ? blade_radius : widest;
+  // The wheel's outlet: of the interfaces between what rotates and what does not the one farthest out.
+  for (int i = 0; i < interface_count; i++) {
+    const CwCadInterface *between = &interfaces[i];
+    const int a = patches->patch[between->patch[0]].part, b = patches->patch[between->patch[1]].part;
+    if (cad->domain[a].rotating == cad->domain[b].rotating) continue;
+    double radius = 0;
+    for (int f = 0; f < survey->face_count; f++)
+      if (patches->of_face[f] == between->patch[0]) radius = fmax(radius, survey->face[f].radius[1]);
+    if (radius <= sizes->interface_radius) continue;
+    sizes->interface_radius = radius;
+    sizes->interface_width = between->area[0] / (2 * M_PI * radius);
+  }
+}
+
+static double diameter(double area) {
+  return sqrt(4 * area / M_PI);
+}
+
+static Flows flows_of(const CwOperatingPoint *point, const Sizes *of, int blade_count) {
+  Flows flows;
+  const double r2 = of->wheel_radius, r3 = of->interface_radius, u2 = point->speed * r2, width = of->interface_width;
+  const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
+  const double swirl = fmin(gravity * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
+  const double w2 = hypot(u2 - swirl, meridional), before = point->flow_rate / of->inlet_area;
+  const double w1 = hypot(point->speed * diameter(of->inlet_area) / 2, before);
+  // Between two blades at the outlet, across w2.
+  const double pitch = 2 * M_PI * r2 / blade_count * fmin(1, meridional / w2);
+  flows.wheel =
+      (CwWallFlow){(w1 + w2) / 2, BLADE_LENGTH * r3, 2 * width * pitch / (width + pitch), fmin(width, pitch), 0};
+  const double outlet = diameter(of->outlet_area), after = point->flow_rate / of->outlet_area;
+  flows.volute = (CwWallFlow){fmax(swirl * r2 / r3, after), VOLUTE_LENGTH * r3, outlet, fmin(width, outlet), 0};
+  const double eye = diameter(of->inlet_area);
+  flows.suction = (CwWallFlow){before, PIPE_LENGTH * r3, eye, eye, 0};
+  flows.discharge = (CwWallFlow){after, PIPE_LENGTH * r3, outlet, outlet, 0};
+  return flows;
+}
+
+static CwPatchGroup group_of(const CwCaseCad *cad, const CwFacePatch *patch) {
+  static const CwPatchGroup of_rule[] = {CW_GROUP_VOLUTE, CW_GROUP_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_VOLUTE,
+                                         CW_GROUP_PIPE};
+  if (patch->rule >= 0 && cad->patch[patch->rule].walls != CW_CAD_WALLS_OPEN)
+    return of_rule[cad->patch[patch->rule].walls];
+  if (patch->role == CW_ROLE_BLADE) return CW_GROUP_BLADE;
+  if (patch->role == CW_ROLE_PIPE) return CW_GROUP_PIPE;
+  return cad->domain[patch->part].rotating ? CW_GROUP_HUB_SHROUD : CW_GROUP_VOLUTE;
+}
+
+// Whether the water in a part has not yet been through the wheel: it has the inlet, or none of both openings.
+static int is_before(const CwFacePatches *patches, int part) {
+  int before = 0;
+  for (int i = 0; i < patches->count; i++) {
+    if (patches->patch[i].part != part) continue;
+    if (patches->patch[i].kind == CW_PATCH_INLET) before = 1;
+    if (patches->patch[i].kind == CW_PATCH_OUTLET) return 0;
+  }
+  return before;
+}
+
+static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of, const Flows *flows,
+                     CwModelPatch *patch) {
+  patch->size = patch->group = group_of(cad, of);
+  const int before = is_before(patches, of->part);
+  const int wheel = patch->group == CW_GROUP_BLADE || patch->group == CW_GROUP_HUB_SHROUD;
+  patch->flow = wheel                                        ? flows->wheel
+                : patch->group == CW_GROUP_VOLUTE && !before ? flows->volute
+                : before                                     ? flows->suction
+                                                             : flows->discharge;
+  if (of->rule < 0) return;
+  const CwCadPatch *rule = &cad->patch[of->rule];
+  if (cw_case_given(rule->velocity)) patch->flow.speed = rule->velocity;
+  if (rule->turns >= 0) patch->turns = rule->turns;
+  patch->y_plus = rule->y_plus;
+  patch->monitored = rule->monitored;
+}
+
+static CwStatus check(const CwCaseCad *cad, const CwOperatingPoint *point, const CwFacePatches *patches,
+                      int interface_count, const Sizes *sizes) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < cad->domain_count; d++) {
+    int open = 0;
+    for (int i = 0; i < patches->count; i++)
+      open |= patches->patch[i].part == d && patches->patch[i].kind != CW_PATCH_WALL;
+    CW_REQUIRE(
+        open, CW_ERR_GEOMETRY,
+        "cad.domains.%s: touches no other domain and has neither inlet nor outlet; allowed: a solid of the water "
+        "(is it the metal?) that shares faces with another domain",
+        cad->domain[d].name);
+  }
+  CW_REQUIRE(
+      sizes->inlet_area > 0, CW_ERR_INPUT,
+      "cad.patches: no face is an inlet; allowed: one with kind: inlet, such as inlet: {near_mm: [x, y, z], kind: "
+      "inlet}");
+  CW_REQUIRE(sizes->outlet_area > 0, CW_ERR_INPUT,
+             "cad.patches: no face is an outlet; allowed: one with kind: outlet, such as outlet: {near_mm: [x, y, z], "
+             "kind: outlet}");
+  CW_REQUIRE(sizes->interface_radius > 0, CW_ERR_GEOMETRY,
+             "cad.domains: what rotates touches nothing that stands still; allowed: domains that share the surface "
+             "between wheel and casing%s",
+             interface_count ? "" : " (there is no interface at all)");
+  const double tip = point->speed * sizes->wheel_radius;
+  CW_REQUIRE(
+      point->head < tip * tip / gravity, CW_ERR_INPUT,
+      "operating_point.head_m: %.6g contradicts speed_rpm and the wheel, whose radius of %.4g mm gives the tip speed "
+      "%.4g m/s; allowed: below %.4g m (u2^2/g); is the unit of cad.files right?",
+      point->head, 1e3 * sizes->wheel_radius, tip, tip * tip / gravity);
+done:
+  return status;
+}
+
+static double outlet_share(const CwSurvey *survey, const CwFacePatches *patches, int patch, double all) {
+  double area = 0;
+  for (int f = 0; f < survey->face_count; f++)
+    if (patches->of_face[f] == patch) area += survey->face[f].area;
+  return area / all;
+}
+
+CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const CwFacePatches *patches,
+                           int interface_count, const CwCadInterface *interfaces, int blade_count, double unit,
+                           CwModel *model) {
+  CwStatus status = CW_OK;
+  const CwCaseCad *cad = table->cad;
+  Sizes sizes;
+  measure(cad, survey, patches, interface_count, interfaces, &sizes);
+  CW_TRY(check(cad, &table->operating_point, patches, interface_count, &sizes));
+  const Flows flows = flows_of(&table->operating_point, &sizes, blade_count);
+  model->unit = unit;
+  for (int d = 0; d < cad->domain_count; d++) {
+    CW_TRY(cw_model_add_domain(model, cad->domain[d].name, cad->domain[d].rotating));
+    for (int i = 0; i < patches->count; i++) {
+      const CwFacePatch *of = &patches->patch[i];
+      CwModelPatch *patch;
+      if (of->part != d) continue;
+      CW_TRY(cw_model_add_patch(model, of->name, of->kind, &patch));
+      if (of->kind == CW_PATCH_WALL) set_wall(cad, patches, of, &flows, patch);
+      if (of->kind == CW_PATCH_OUTLET) patch->flow_share = outlet_share(survey, patches, i, sizes.outlet_area);
+    }
+  }
+  for (int i = 0; i < interface_count; i++) {
+    const char *names[] = {patches->patch[interfaces[i].patch[0]].name, patches->patch[interfaces[i].patch[1]].name};
+    CW_TRY(cw_model_add_interface(model, names, interfaces[i].surface, interfaces[i].radius));
+  }
+  model->flow = (CwModelFlow){flows.suction.speed, flows.suction.diameter, flows.wheel.speed,
+                              flows.wheel.width,   2 * sizes.wheel_radius, blade_count};
+done:
+  return status;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the patches of a pump from CAD files are to mesher and solver: the flow along each wall, from the operating
+// point and from radii and areas as measured; groups; what turns; interfaces. Fills the model of pipeline/model.h.
+//
+// Speeds: at the wheel the mean of w1 and w2, with u2 at the wheel's radius, Q over the area of its interface, and the
+// swirl that the head needs (Euler, at a hydraulic efficiency of 0.85); downstream of it the swirl at the interface; in
+// pipes the flow over the area of the opening.
+#ifndef CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
+#define CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
+
+#include "geometry/cad/face_patches.h"
+#include "pipeline/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// One surface between two parts, as a patch of either.
+typedef struct {
+  int patch[2]; // into CwFacePatches.patch
+  CwInterfaceSurface surface;
+  double radius; // of a cylinder, m
+  double area[2];
+} CwCadInterface;
+
+// Pairs of patches that touch; *interfaces is the caller's to free. CW_ERR_GEOMETRY where a patch touches several,
+// areas differ, or one beside a part that rotates is no surface of revolution about the axis.
+CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, const CwContact *contact,
+                                const CwFacePatches *patches, int *count, CwCadInterface **interfaces);
+
+// The model of unit `unit`, m. Free with cw_model_free(), also after a failure; zeroed `model` on entry. CW_ERR_INPUT
+// where the pump has no inlet, no outlet, no interface of its wheel, or parts that no water leads to.
+CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const CwFacePatches *patches,
+                           int interface_count, const CwCadInterface *interfaces, int blade_count, double unit,
+                           CwModel *model);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What is behind CwCadBodies and CwCadParts, for the C++ files of this room only. Lengths in here are millimetres in
+// bodies and model units in parts.
+#ifndef CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
+#define CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <TopoDS_Vertex.hxx>
+
+#include "geometry/cad/cad_file.h"
+#include "geometry/cad/cad_parts.h"
+
+// What the file says of a face.
+struct CwCadFaceOrigin {
+  std::string name, layer;
+  int colour = -1; // 0xRRGGBB
+};
+
+struct CwCadBody {
+  std::string file, name, instance; // of the product, and of its place in an assembly
+  TopoDS_Shape solid;
+  std::vector<CwCadFaceOrigin> origin; // in the order of TopExp::MapShapes(solid, TopAbs_FACE)
+};
+
+struct CwCadBodies {
+  std::vector<CwCadBody> body;
+};
+
+struct CwCadPart {
+  std::string domain;
+  TopoDS_Shape solid;
+  std::vector<CwCadFaceOrigin> origin; // in the order of TopExp::MapShapes(solid, TopAbs_FACE)
+};
+
+struct CwCadParts {
+  double unit; // m
+  std::vector<CwCadPart> part;
+};
+
+// Runs what uses OpenCASCADE; its exceptions become CW_ERR_GEOMETRY with `what` before their text.
+CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &run);
+
+// Gives each face of `part` what the file says of the face of `from` that it lies on.
+void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part);
+
+// The faces of a shape, in the order that counts.
+inline TopTools_IndexedMapOfShape cw_cad_faces(const TopoDS_Shape &shape) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  return faces;
+}
+
+#endif

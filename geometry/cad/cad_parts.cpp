@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/cad_parts.h"
+
+#include <cmath>
+#include <memory>
+
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepClass_FaceClassifier.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom_Surface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <gp_Ax3.hxx>
+#include <gp_Trsf.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+#include "geometry/model_unit.h"
+#include "geometry/solid.hpp"
+
+namespace {
+
+const double millimetre = 1e-3; // m
+
+// A point inside the face; false where the face has none that can be found.
+bool inner_point(const TopoDS_Face &face, gp_Pnt &point) {
+  double u0, u1, v0, v1;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  for (int n = 2; n <= 32; n *= 2) {
+    for (int i = 1; i < n; i += 1) {
+      for (int j = 1; j < n; j += 1) {
+        const gp_Pnt2d uv(u0 + (u1 - u0) * i / n, v0 + (v1 - v0) * j / n);
+        BRepClass_FaceClassifier classifier(face, uv, 1e-7);
+        if (classifier.State() != TopAbs_IN) continue;
+        point = surface->Value(uv.X(), uv.Y());
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+gp_Trsf to_pump(const CwCadFrame &frame) {
+  const auto point = [](const double *x, double by) { return gp_Pnt(by * x[0], by * x[1], by * x[2]); };
+  const auto along = [](const double *x) { return gp_Dir(x[0], x[1], x[2]); };
+  gp_Trsf motion;
+  motion.SetTransformation(gp_Ax3(point(frame.origin, 1 / millimetre), along(frame.axis[2]), along(frame.axis[0])));
+  return motion;
+}
+
+TopoDS_Shape moved(const TopoDS_Shape &shape, const gp_Trsf &motion) {
+  return BRepBuilderAPI_Transform(shape, motion, Standard_True).Shape();
+}
+
+// Half the extent across the axis, mm.
+double radius_of(const TopoDS_Shape &shape) {
+  Bnd_Box bounds;
+  double x0, y0, z0, x1, y1, z1;
+  BRepBndLib::AddOptimal(shape, bounds, Standard_False, Standard_False);
+  bounds.Get(x0, y0, z0, x1, y1, z1);
+  return std::max(std::max(std::fabs(x0), std::fabs(x1)), std::max(std::fabs(y0), std::fabs(y1)));
+}
+
+// A body in the pump's coordinates, mm, as a part of its own.
+CwCadPart placed(const CwCadBody &body, const CwCadFrame &frame, const std::string &domain) {
+  CwCadPart part = {domain, body.solid, body.origin};
+  if (!frame.same || !body.solid.Location().IsIdentity()) {
+    part.solid = moved(body.solid, frame.same ? gp_Trsf() : to_pump(frame));
+  }
+  return part;
+}
+
+CwStatus fuse(CwCadPart &part, const CwCadPart &other) {
+  BRepAlgoAPI_Fuse fusion(part.solid, other.solid);
+  int solids = 0;
+  TopoDS_Shape whole;
+  for (TopExp_Explorer at(fusion.Shape(), TopAbs_SOLID); at.More(); at.Next(), solids++) whole = at.Current();
+  if (fusion.HasErrors() || solids != 1)
+    return CW_FAIL(
+        CW_ERR_GEOMETRY,
+        "cad.domains.%s: its solids do not make one when they are fused, but %d; allowed: solids that touch, "
+        "or a domain for each",
+        part.domain.c_str(), solids);
+  CwCadPart fused = {part.domain, whole, {}};
+  cw_cad_carry({part, other}, fused);
+  part = fused;
+  return CW_OK;
+}
+
+CwStatus check_size(const CwCaseCad &cad, double radius) {
+  if (!(radius > 0)) return CW_FAIL(CW_ERR_INPUT, "cad.domains: none rotates; allowed: rotating: true in the wheel's");
+  if (radius * millimetre > 5 || radius * millimetre < 2.5e-3)
+    return CW_FAIL(
+        CW_ERR_INPUT,
+        "cad.files: the rotating domain reaches %.6g mm from the axis, so that the wheel would have a diameter "
+        "of %.4g m; allowed: 5 mm to 10 m; where %s has another unit give cad.unit_mm, such as %s",
+        radius, 2 * radius * millimetre, cad.files.text[0], radius > 5e3 ? "0.001" : "1000");
+  return CW_OK;
+}
+
+} // namespace
+
+void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part) {
+  struct Old {
+    TopoDS_Face face;
+    Bnd_Box box;
+    const CwCadFaceOrigin *origin;
+  };
+  std::vector<Old> olds;
+  for (const CwCadPart &of : from) {
+    const TopTools_IndexedMapOfShape map = cw_cad_faces(of.solid);
+    for (int i = 1; i <= map.Extent(); i++) {
+      Old old = {TopoDS::Face(map(i)), {}, &of.origin[i - 1]};
+      BRepBndLib::Add(old.face, old.box, Standard_False);
+      olds.push_back(old);
+    }
+  }
+  const TopTools_IndexedMapOfShape map = cw_cad_faces(part.solid);
+  part.origin.assign(map.Extent(), {});
+  for (int i = 1; i <= map.Extent(); i++) {
+    const Old *best = nullptr;
+    for (const Old &old : olds)
+      if (old.face.IsSame(map(i))) best = &old;
+    gp_Pnt at;
+    double nearest = 0;
+    if (!best && inner_point(TopoDS::Face(map(i)), at)) {
+      const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(at).Vertex();
+      Bnd_Box point;
+      point.Add(at);
+      for (const Old &old : olds) {
+        if (best && old.box.Distance(point) > nearest) continue;
+        BRepExtrema_DistShapeShape distance(vertex, old.face);
+        if (!distance.IsDone() || (best && distance.Value() >= nearest)) continue;
+        best = &old;
+        nearest = distance.Value();
+      }
+    }
+    if (best) part.origin[i - 1] = *best->origin;
+  }
+}
+
+CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadBodies *bodies, const int *domain,
+                           CwCadParts **parts) {
+  *parts = new CwCadParts{millimetre, {}};
+  return cw_cad_guard("cad.domains", [&]() -> CwStatus {
+    CwStatus status = CW_OK;
+    double radius = 0;
+    for (int d = 0; d < cad->domain_count; d++) {
+      bool begun = false;
+      for (size_t i = 0; i < bodies->body.size(); i++) {
+        if (domain[i] != d) continue;
+        const CwCadPart part = placed(bodies->body[i], *frame, cad->domain[d].name);
+        if (begun) {
+          status = fuse((*parts)->part.back(), part);
+          if (status != CW_OK) return status;
+        } else {
+          (*parts)->part.push_back(part);
+        }
+        begun = true;
+      }
+      if (cad->domain[d].rotating) radius = std::max(radius, radius_of((*parts)->part.back().solid));
+    }
+    status = check_size(*cad, radius);
+    if (status != CW_OK) return status;
+    (*parts)->unit = cw_model_unit(2 * radius * millimetre);
+    const double factor = millimetre / (*parts)->unit;
+    gp_Trsf scale;
+    scale.SetScale(gp_Pnt(0, 0, 0), factor);
+    for (CwCadPart &part : (*parts)->part)
+      if (factor != 1) part.solid = moved(part.solid, scale);
+    return CW_OK;
+  });
+}
+
+void cw_cad_parts_free(CwCadParts **parts) {
+  delete *parts;
+  *parts = nullptr;
+}
+
+int cw_cad_part_count(const CwCadParts *parts) {
+  return (int)parts->part.size();
+}
+
+double cw_cad_parts_unit(const CwCadParts *parts) {
+  return parts->unit;
+}
+
+int cw_cad_part_face_count(const CwCadParts *parts, int part) {
+  return (int)parts->part[part].origin.size();
+}
+
+const char *cw_cad_part_face_name(const CwCadParts *parts, int part, int face) {
+  return parts->part[part].origin[face].name.c_str();
+}
+
+const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face) {
+  return parts->part[part].origin[face].layer.c_str();
+}
+
+int cw_cad_part_face_colour(const CwCadParts *parts, int part, int face) {
+  return parts->part[part].origin[face].colour;
+}
+
+CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const char *const *kind,
+                           CwSolid **solid) {
+  const CwCadPart &of = parts->part[part];
+  return cw_cad_guard("cad.domains." + of.domain, [&] {
+    std::unique_ptr<CwSolid> made(new CwSolid);
+    made->domain = of.domain;
+    made->unit = parts->unit;
+    made->solid = TopoDS::Solid(of.solid);
+    const TopTools_IndexedMapOfShape map = cw_cad_faces(of.solid);
+    for (int i = 0; i < map.Extent(); i++)
+      made->faces.push_back({TopoDS::Face(map(i + 1)), patch[i], kind[i], of.domain + "_" + std::to_string(i + 1)});
+    *solid = made.release();
+    return CW_OK;
+  });
+}

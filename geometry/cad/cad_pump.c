@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/cad_pump.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "geometry/cad/divide.h"
+#include "geometry/cad/heal.h"
+#include "geometry/cad/solid_choice.h"
+
+// Gap that is closed where the case gives none, over the model unit: the wheel has 128 to 256 of them.
+static const double TOLERANCE = 0.01;
+static const double TOLERANCE_BEFORE = 1e-5; // m, where faces are sewn before the unit is known
+enum { PIECES = 3 };                         // of a closed face that does not rotate
+
+static CwStatus read_parts(const CwCaseCad *cad, CwCadPump *pump) {
+  CwStatus status = CW_OK;
+  CwCadBodies *bodies = NULL;
+  int *domain = NULL;
+  const double tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE_BEFORE;
+  cw_cad_frame_make(cad, &pump->frame);
+  for (int i = 0; i < cad->files.count; i++)
+    CW_TRY(cw_cad_file_read(cad->files.text[i], cad->unit, tolerance, &bodies));
+  CW_NEW(domain, cw_cad_body_count(bodies));
+  CW_TRY(cw_cad_solid_choice(cad, bodies, domain));
+  CW_TRY(cw_cad_parts_make(cad, &pump->frame, bodies, domain, &pump->parts));
+  const double unit = cw_cad_parts_unit(pump->parts);
+  pump->tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE * unit;
+  CW_TRY(cw_cad_heal(pump->tolerance / unit, &pump->frame, pump->parts));
+done:
+  free(domain);
+  cw_cad_bodies_free(&bodies);
+  return status;
+}
+
+// Looks at the faces as they are now.
+static CwStatus look(const CwCaseCad *cad, CwCadPump *pump) {
+  CwStatus status = CW_OK;
+  int *rotating = NULL;
+  cw_survey_free(&pump->survey);
+  free(pump->contact);
+  free(pump->role);
+  pump->contact = NULL;
+  pump->role = NULL;
+  CW_TRY(cw_survey_make(pump->parts, &pump->survey));
+  CW_NEW(pump->contact, pump->survey.face_count);
+  CW_NEW(pump->role, pump->survey.face_count);
+  CW_NEW(rotating, cad->domain_count);
+  for (int d = 0; d < cad->domain_count; d++) rotating[d] = cad->domain[d].rotating;
+  CW_TRY(cw_contact_find(pump->parts, &pump->survey, &pump->frame, cad, pump->tolerance, pump->contact));
+  CW_TRY(cw_proposal_make(&pump->survey, pump->contact, rotating, pump->role, &pump->blade_count));
+done:
+  free(rotating);
+  return status;
+}
+
+static CwStatus cut_contacts(const CwCaseCad *cad, CwCadPump *pump) {
+  CwStatus status = CW_OK;
+  int cut = 0;
+  CW_TRY(cw_contact_imprint(&pump->survey, pump->contact, pump->tolerance, pump->parts, &cut));
+  if (!cut) goto done;
+  CW_TRY(look(cad, pump));
+  for (int f = 0; f < pump->survey.face_count; f++)
+    CW_REQUIRE(pump->contact[f].part < 0 || pump->contact[f].share >= 1, CW_ERR_GEOMETRY,
+               "cad.domains: face %d of %s still touches %s with a part of it; allowed: domains that touch along whole "
+               "faces",
+               pump->survey.face[f].face + 1, cad->domain[pump->survey.face[f].part].name,
+               cad->domain[pump->contact[f].part].name);
+done:
+  return status;
+}
+
+CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwCadPump *pump) {
+  CwStatus status = CW_OK;
+  int *pieces = NULL;
+  CW_TRY(read_parts(cad, pump));
+  CW_TRY(look(cad, pump));
+  CW_NEW(pieces, cad->domain_count);
+  for (int d = 0; d < cad->domain_count; d++)
+    pieces[d] = cad->domain[d].rotating && pump->blade_count > 1 ? pump->blade_count : PIECES;
+  CW_TRY(cw_cad_divide(pieces, &pump->frame, pump->parts));
+  CW_TRY(look(cad, pump));
+  CW_TRY(cut_contacts(cad, pump));
+done:
+  free(pieces);
+  return status;
+}
+
+CwStatus cw_cad_pump_name(const CwCaseCad *cad, CwCadPump *pump) {
+  CwStatus status = CW_OK;
+  CW_TRY(
+      cw_face_patches_make(cad, &pump->frame, pump->parts, &pump->survey, pump->contact, pump->role, &pump->patches));
+  CW_TRY(cw_cad_interfaces_make(cad, &pump->survey, pump->contact, &pump->patches, &pump->interface_count,
+                                &pump->interface));
+done:
+  return status;
+}
+
+CwStatus cw_cad_pump_solids(const CwCadPump *pump, CwSolid **solids) {
+  CwStatus status = CW_OK;
+  const char **patch = NULL, **kind = NULL;
+  CW_NEW(patch, pump->survey.face_count);
+  CW_NEW(kind, pump->survey.face_count);
+  for (int p = 0, f = 0; p < cw_cad_part_count(pump->parts); p++) {
+    int count = 0;
+    for (; f < pump->survey.face_count && pump->survey.face[f].part == p; f++, count++) {
+      const CwFacePatch *of = &pump->patches.patch[pump->patches.of_face[f]];
+      patch[count] = of->name;
+      kind[count] = cw_patch_kind_name(of->kind);
+    }
+    CW_TRY(cw_cad_part_solid(pump->parts, p, patch, kind, &solids[p]));
+  }
+done:
+  free(patch);
+  free(kind);
+  return status;
+}
+
+void cw_cad_pump_free(CwCadPump *pump) {
+  cw_cad_parts_free(&pump->parts);
+  cw_survey_free(&pump->survey);
+  cw_face_patches_free(&pump->patches);
+  free(pump->contact);
+  free(pump->role);
+  free(pump->interface);
+  memset(pump, 0, sizeof *pump);
+}

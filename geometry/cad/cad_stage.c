@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/cad_stage.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "geometry/cad/cad_pump.h"
+#include "geometry/cad/faces_sheet.h"
+#include "geometry/faces_table.h"
+#include "geometry/step_file.h"
+#include "pipeline/case_cad.h"
+#include "pipeline/log.h"
+
+enum { FILE_FACES, FILE_MODEL, FILE_STEP, FILE_STEP_FACES, FILES };
+static const char *const file_names[] = {"faces.csv", "model.json", "pump.step", "pump_faces.step"};
+
+typedef struct {
+  const CwCaseCad *cad;
+  CwCadPump pump;
+  CwModel model;
+  CwSolid **solid;
+} Work;
+
+static CwStatus in_folder(const CwStageArgs *args, const char *name, char **path) {
+  char inside[80];
+  snprintf(inside, sizeof inside, "geometry/%s", name);
+  return cw_stage_path(args, inside, path);
+}
+
+static CwStatus write_sheet(const CwStageArgs *args, const Work *work, int named) {
+  CwStatus status = CW_OK;
+  const CwCadPump *pump = &work->pump;
+  char *path = NULL;
+  CW_TRY(in_folder(args, "faces_sheet.csv", &path));
+  CW_TRY(cw_faces_sheet_write(work->cad, &pump->frame, pump->parts, &pump->survey, pump->role,
+                              named ? &pump->patches : NULL, path));
+done:
+  free(path);
+  return status;
+}
+
+static void show(const Work *work) {
+  const CwCadPump *pump = &work->pump;
+  for (int d = 0; d < work->cad->domain_count; d++)
+    cw_log("%s: %d faces, %s", work->cad->domain[d].name, cw_cad_part_face_count(pump->parts, d),
+           work->cad->domain[d].rotating ? "rotating" : "at rest");
+  if (pump->blade_count > 1) cw_log("the wheel has %d equal passages", pump->blade_count);
+  for (int i = 0; i < pump->patches.count; i++) {
+    const CwFacePatch *patch = &pump->patches.patch[i];
+    int faces = 0;
+    for (int f = 0; f < pump->survey.face_count; f++) faces += pump->patches.of_face[f] == i;
+    cw_log("%-10s %-22s %-9s %4d faces %12.2f mm2%s", work->cad->domain[patch->part].name, patch->name,
+           cw_patch_kind_name(patch->kind), faces, 1e6 * patch->area,
+           patch->source == CW_FROM_RULE   ? ""
+           : patch->source == CW_FROM_FILE ? "  named by the file"
+                                           : "  proposed: name it in cad.patches");
+  }
+}
+
+static CwStatus write_file(const Work *work, int file, const char *path) {
+  const CwSolid *const *solids = (const CwSolid *const *)work->solid;
+  const int count = work->cad->domain_count;
+  switch (file) {
+  case FILE_FACES:
+    return cw_faces_table_write(solids, count, path);
+  case FILE_MODEL:
+    return cw_model_write(&work->model, path);
+  case FILE_STEP:
+    return cw_step_write(solids, count, path);
+  default:
+    return cw_step_write_with_faces(solids, count, path);
+  }
+}
+
+static CwStatus write_files(const CwStageArgs *args, const Work *work, CwRecord *record) {
+  CwStatus status = CW_OK;
+  char *folder = NULL, *path = NULL;
+  CW_TRY(cw_stage_path(args, "geometry", &folder));
+  for (int d = 0; d < work->cad->domain_count; d++) {
+    char name[CW_NAME_SIZE + 8];
+    snprintf(name, sizeof name, "%s.brep", work->cad->domain[d].name);
+    CW_TRY(in_folder(args, name, &path));
+    CW_TRY(cw_solid_write_brep(work->solid[d], path));
+    CW_TRY(cw_record_file(record, folder, name));
+    free(path);
+    path = NULL;
+  }
+  for (int i = 0; i < FILES; i++) {
+    CW_TRY(in_folder(args, file_names[i], &path));
+    CW_TRY(write_file(work, i, path));
+    CW_TRY(cw_record_file(record, folder, file_names[i]));
+    free(path);
+    path = NULL;
+  }
+done:
+  free(folder);
+  free(path);
+  return status;
+}
+
+static CwStatus note(const Work *work, const CwCase *table, CwRecord *record) {
+  CwStatus status = CW_OK;
+  const CwCadPump *pump = &work->pump;
+  int proposed = 0;
+  for (int i = 0; i < pump->patches.count; i++) proposed += pump->patches.patch[i].source == CW_FROM_PROPOSAL;
+  if (proposed)
+    cw_log_warn("%d patches are proposals by geometry alone; look at geometry/faces_sheet.csv and name them in "
+                "cad.patches",
+                proposed);
+  CW_TRY(cw_record_case(record, table));
+  CW_TRY(cw_record_number(record, "faces", pump->survey.face_count));
+  CW_TRY(cw_record_number(record, "proposed_patches", proposed));
+  CW_TRY(cw_record_number(record, "tolerance_m", pump->tolerance));
+  CW_TRY(cw_record_number(record, "blade_count", pump->blade_count));
+done:
+  return status;
+}
+
+CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
+  CwStatus status = CW_OK;
+  Work work = {.cad = table->cad};
+  double begin = cw_seconds();
+  CW_NEW(work.solid, work.cad->domain_count);
+  CW_TRY(cw_cad_pump_read(work.cad, &work.pump));
+  CW_TRY(write_sheet(args, &work, 0));
+  CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, work.pump.survey.face_count, "faces"));
+  begin = cw_seconds();
+  CW_TRY(cw_cad_pump_name(work.cad, &work.pump));
+  CW_TRY(write_sheet(args, &work, 1));
+  show(&work);
+  CW_TRY(cw_cad_model_make(table, &work.pump.survey, &work.pump.patches, work.pump.interface_count, work.pump.interface,
+                           work.pump.blade_count, cw_cad_parts_unit(work.pump.parts), &work.model));
+  CW_TRY(cw_cad_pump_solids(&work.pump, work.solid));
+  CW_TRY(write_files(args, &work, record));
+  CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + work.cad->domain_count, "files"));
+  CW_TRY(note(&work, table, record));
+done:
+  for (int d = 0; work.solid && d < work.cad->domain_count; d++) cw_solid_free(&work.solid[d]);
+  free(work.solid);
+  cw_model_free(&work.model);
+  cw_cad_pump_free(&work.pump);
+  return status;
+}

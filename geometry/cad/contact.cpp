@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <BRepAlgoAPI_Splitter.hxx>
+#include <BRep_Builder.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Compound.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+#include "pipeline/log.h"
+
+namespace {
+
+const int TRIANGLES = 24;      // that are looked from in a face, about
+const double NEAR = 1e-3;      // of the size: a gap up to it is meant to be none
+const double PARALLEL = -0.99; // cosine of the normals of faces that face one another
+
+double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+struct Seen {
+  int touching = 0, near = 0, looked = 0, other = -1;
+  double gap = 0;
+  const double *at = nullptr;
+};
+
+// Looks from a point of a face at one other part.
+CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, const CwSurveyFace &of, const double at[3],
+                   int part, double tolerance, Seen &seen) {
+  double distance;
+  int other;
+  const CwStatus status = cw_survey_nearest(&parts, &survey, part, at, NEAR * survey.size, &other, &distance, nullptr);
+  if (status != CW_OK) return status;
+  seen.looked++;
+  if (other < 0) return CW_OK;
+  if (distance <= tolerance) {
+    seen.touching++;
+    seen.other = other;
+  } else if (survey.face[other].form != CW_FORM_PLANE || of.form != CW_FORM_PLANE ||
+             dot(of.normal, survey.face[other].normal) < PARALLEL) {
+    seen.near++;
+    if (distance > seen.gap) seen.gap = distance, seen.at = at;
+  }
+  return CW_OK;
+}
+
+// Looks from points of a face: in the middle and near the corners of some of its triangles.
+CwStatus look(const CwCadParts &parts, const CwSurvey &survey, int face, int part, double tolerance, Seen &seen) {
+  CwStatus status = CW_OK;
+  const CwSurveyFace &of = survey.face[face];
+  const int step = std::max(1, of.triangle_count / TRIANGLES);
+  for (int t = of.first_triangle; t < of.first_triangle + of.triangle_count; t += step) {
+    CW_TRY(look_from(parts, survey, of, survey.middle[t], part, tolerance, seen));
+    for (int k = 0; k < 3; k++) CW_TRY(look_from(parts, survey, of, survey.corner[t][k], part, tolerance, seen));
+  }
+done:
+  return status;
+}
+
+TopoDS_Shape unified(const std::vector<TopoDS_Shape> &faces) {
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  for (const TopoDS_Shape &face : faces) builder.Add(shell, face);
+  ShapeUpgrade_UnifySameDomain unify(shell, Standard_True, Standard_True, Standard_False);
+  unify.Build();
+  return unify.Shape().IsNull() ? TopoDS_Shape(shell) : unify.Shape();
+}
+
+// Cuts the faces of a part along the outlines of `tools`.
+CwStatus cut_part(const std::vector<TopoDS_Shape> &tools, double tolerance, CwCadPart &part) {
+  TopTools_ListOfShape arguments, with;
+  arguments.Append(part.solid);
+  with.Append(unified(tools));
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(with);
+  splitter.SetFuzzyValue(tolerance);
+  splitter.SetNonDestructive(Standard_True);
+  splitter.Build();
+  int solids = 0;
+  TopoDS_Shape cut;
+  if (!splitter.HasErrors())
+    for (TopExp_Explorer at(splitter.Shape(), TopAbs_SOLID); at.More(); at.Next(), solids++) cut = at.Current();
+  if (solids != 1)
+    return CW_FAIL(CW_ERR_GEOMETRY,
+                   "cad.domains.%s: the outline of its neighbour's faces cannot be cut into its own; "
+                   "allowed: domains that touch along whole faces",
+                   part.domain.c_str());
+  const CwCadPart before = part;
+  part.solid = cut;
+  cw_cad_carry({before}, part);
+  return CW_OK;
+}
+
+} // namespace
+
+CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
+                         double tolerance, CwContact *contact) {
+  for (int f = 0; f < survey->face_count; f++) {
+    contact[f] = {-1, 0, -1};
+    for (int p = 0; p < (int)parts->part.size(); p++) {
+      const int own = survey->face[f].part;
+      if (p == own) continue;
+      Seen seen;
+      const CwStatus status = look(*parts, *survey, f, p, tolerance, seen);
+      if (status != CW_OK) return status;
+      if (!seen.touching && seen.near == seen.looked && seen.at) {
+        double x[3];
+        cw_cad_frame_to_file(frame, seen.at, x);
+        return CW_FAIL(CW_ERR_GEOMETRY,
+                       "cad.domains: between %s and %s is a gap or an overlap of %.4g mm, at (%.3f, %.3f, %.3f) mm; "
+                       "allowed: at the most cad.tolerance_mm, %.3g; draw the interface once and use it for both",
+                       cad->domain[own].name, cad->domain[p].name, 1e3 * seen.gap, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
+                       1e3 * tolerance);
+      }
+      if (!seen.touching) continue;
+      if (contact[f].part >= 0 && contact[f].share + (double)seen.touching / seen.looked > 1)
+        return CW_FAIL(CW_ERR_GEOMETRY,
+                       "cad.domains: face %d of %s touches both %s and %s; allowed: one neighbour at any "
+                       "place, domains must not overlap",
+                       survey->face[f].face + 1, cad->domain[own].name, cad->domain[contact[f].part].name,
+                       cad->domain[p].name);
+      contact[f] = {p, (double)seen.touching / seen.looked, seen.other};
+    }
+  }
+  return CW_OK;
+}
+
+CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwCadParts *parts,
+                            int *cut) {
+  *cut = 0;
+  return cw_cad_guard("cad.domains", [&]() -> CwStatus {
+    const std::vector<CwCadPart> before = parts->part;
+    for (size_t p = 0; p < before.size(); p++) {
+      std::set<int> others;
+      for (int f = 0; f < survey->face_count; f++) {
+        if (survey->face[f].part != (int)p || contact[f].part < 0 || contact[f].share >= 1) continue;
+        others.insert(contact[f].part);
+        ++*cut;
+      }
+      std::vector<TopoDS_Shape> tools;
+      for (int g = 0; g < survey->face_count; g++) {
+        const CwSurveyFace &face = survey->face[g];
+        if (!others.count(face.part) || contact[g].part != (int)p) continue;
+        tools.push_back(cw_cad_faces(before[face.part].solid)(face.face + 1));
+      }
+      if (tools.empty()) continue;
+      const CwStatus status = cut_part(tools, tolerance / parts->unit, parts->part[p]);
+      if (status != CW_OK) return status;
+      cw_log("%s: cut along the faces of its neighbours where they touch in part", before[p].domain.c_str());
+    }
+    return CW_OK;
+  });
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Where parts touch: faces that coincide with faces of another part, wholly or in part, however they are cut there.
+// Found by points inside the faces, so that it needs no boolean operation.
+#ifndef CUTWATER_GEOMETRY_CAD_CONTACT_H
+#define CUTWATER_GEOMETRY_CAD_CONTACT_H
+
+#include "geometry/cad/survey.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int part;     // that the face touches; -1: none
+  double share; // of the face's points that touch it
+  int other;    // a face of that part that it touches, into CwSurvey.face
+} CwContact;
+
+// One contact for each face of the survey; `contact` holds face_count of them. `tolerance`: greatest distance, m.
+// CW_ERR_GEOMETRY where a face touches two parts, or runs along one at a gap that is greater, but so small that it must
+// be meant to touch: with its size and place in the file.
+CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
+                         double tolerance, CwContact *contact);
+
+// Cuts the faces that touch another part with a share of theirs along the outline of the other's faces, so that each
+// touches wholly or not at all. *cut: how many there were. Faces are counted anew after it.
+CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwCadParts *parts,
+                            int *cut);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/face_patches.h"
+
+#include <ctype.h>
+#include <fnmatch.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double NEAR = 0.05;  // of the size: how far a point may lie from the face that it chooses
+static const double CLEAR = 1e-3; // of the size: by which the next face must lie farther off
+enum { ROLES = CW_ROLE_PIPE + 1 };
+
+static const char *const role_names[] = {"wall", "interface", "inlet", "outlet", "hub", "shroud", "blade", "pipe"};
+
+typedef struct {
+  const CwCaseCad *cad;
+  const CwCadFrame *frame;
+  const CwCadParts *parts;
+  const CwSurvey *survey;
+  const CwContact *contact;
+  const CwFaceRole *role;
+  int *rule; // of each face; -1: none
+} Work;
+
+const char *cw_face_role_name(CwFaceRole role) {
+  return role_names[role];
+}
+
+const char *cw_patch_source_name(CwPatchSource source) {
+  static const char *const names[] = {"case", "file", "proposed"};
+  return names[source];
+}
+
+static const char *file_name(const Work *work, int face) {
+  const CwSurveyFace *of = &work->survey->face[face];
+  return cw_cad_part_face_name(work->parts, of->part, of->face);
+}
+
+static int in_domain(const Work *work, const CwCadPatch *rule, int face) {
+  return !rule->domain[0] || !strcmp(work->cad->domain[work->survey->face[face].part].name, rule->domain);
+}
+
+// A word of the rule: the number of a face over all parts, or a name or pattern.
+static int word_takes(const Work *work, const char *word, int face) {
+  char *end;
+  const long number = strtol(word, &end, 10);
+  if (!*end) return number == face + 1;
+  return !fnmatch(word, file_name(work, face), 0);
+}
+
+static void take(const Work *work, int rule, int face, int *found) {
+  ++*found;
+  if (work->rule[face] < 0) work->rule[face] = rule;
+}
+
+static CwStatus take_points(const Work *work, int r, int *found) {
+  CwStatus status = CW_OK;
+  const CwCadPatch *rule = &work->cad->patch[r];
+  int part = -1;
+  for (int d = 0; d < work->cad->domain_count; d++)
+    if (rule->domain[0] && !strcmp(work->cad->domain[d].name, rule->domain)) part = d;
+  for (int i = 0; i < rule->near.count; i++) {
+    const double *at = rule->near.at[i];
+    double x[3], distance, second;
+    int face;
+    cw_cad_frame_from_file(work->frame, at, x);
+    CW_TRY(cw_survey_nearest(work->parts, work->survey, part, x, NEAR * work->survey->size, &face, &distance, &second));
+    CW_REQUIRE(
+        face >= 0, CW_ERR_INPUT,
+        "cad.patches.%s.near_mm: no face lies within %.3g mm of (%.6g, %.6g, %.6g); allowed: a point on the face",
+        rule->name, 1e3 * NEAR * work->survey->size, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
+    CW_REQUIRE(
+        second > distance + CLEAR * work->survey->size || work->contact[face].part >= 0, CW_ERR_INPUT,
+        "cad.patches.%s.near_mm: (%.6g, %.6g, %.6g) lies as near to another face as to face %d; allowed: a point "
+        "on the face, off its edges",
+        rule->name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], face + 1);
+    take(work, r, face, found);
+  }
+done:
+  return status;
+}
+
+static int attribute_takes(const Work *work, const CwCadPatch *rule, int face) {
+  const CwSurveyFace *of = &work->survey->face[face];
+  const char *layer = cw_cad_part_face_layer(work->parts, of->part, of->face);
+  int takes = rule->colour >= 0 && rule->colour == cw_cad_part_face_colour(work->parts, of->part, of->face);
+  for (int i = 0; i < rule->layers.count; i++) takes |= !fnmatch(rule->layers.text[i], layer, 0);
+  return takes;
+}
+
+static CwStatus apply_rule(const Work *work, int r) {
+  CwStatus status = CW_OK;
+  const CwCadPatch *rule = &work->cad->patch[r];
+  int all = 0;
+  for (int i = 0; i < rule->faces.count; i++) {
+    int found = 0;
+    for (int f = 0; f < work->survey->face_count; f++)
+      if (in_domain(work, rule, f) && word_takes(work, rule->faces.text[i], f)) take(work, r, f, &found);
+    CW_REQUIRE(found, CW_ERR_INPUT,
+               "cad.patches.%s.faces: '%s' matches no face%s%s; allowed: names, patterns and numbers of "
+               "geometry/faces_sheet.csv",
+               rule->name, rule->faces.text[i], rule->domain[0] ? " of " : "", rule->domain);
+    all += found;
+  }
+  for (int f = 0; f < work->survey->face_count; f++)
+    if (in_domain(work, rule, f) && attribute_takes(work, rule, f)) take(work, r, f, &all);
+  CW_TRY(take_points(work, r, &all));
+  CW_REQUIRE(all, CW_ERR_INPUT,
+             "cad.patches.%s: no face has its colour or lies in its layer; allowed: those of geometry/faces_sheet.csv",
+             rule->name);
+done:
+  return status;
+}
+
+static CwPatchKind role_kind(CwFaceRole role) {
+  return role == CW_ROLE_INLET     ? CW_PATCH_INLET
+         : role == CW_ROLE_OUTLET  ? CW_PATCH_OUTLET
+         : role == CW_ROLE_CONTACT ? CW_PATCH_INTERFACE
+                                   : CW_PATCH_WALL;
+}
+
+// The kind of a face by what it is called; else by itself.
+static CwPatchKind kind_of(const Work *work, int face, const char *name) {
+  static const CwPatchKind of_rule[] = {CW_PATCH_WALL, CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET,
+                                        CW_PATCH_SYMMETRY};
+  const int rule = work->rule[face];
+  if (work->role[face] == CW_ROLE_CONTACT) return CW_PATCH_INTERFACE;
+  if (rule >= 0 && work->cad->patch[rule].kind != CW_CAD_KIND_OPEN) return of_rule[work->cad->patch[rule].kind];
+  for (int kind = 0; kind < CW_PATCH_KINDS; kind++)
+    if (kind != CW_PATCH_INTERFACE && !strcmp(name, cw_patch_kind_name((CwPatchKind)kind))) return (CwPatchKind)kind;
+  return role_kind(work->role[face]);
+}
+
+// A name that solvers take, of one that may have any characters.
+static void clean_name(const char *from, char name[CW_NAME_SIZE]) {
+  int used = 0;
+  for (const char *c = from; *c && used < CW_PATCH_NAME_MOST; c++) {
+    const int fine = (unsigned char)*c < 0x80 && (isalnum((unsigned char)*c) || *c == '_');
+    if (used == 0 && !(fine && isalpha((unsigned char)*c))) continue;
+    name[used++] = fine ? *c : '_';
+  }
+  name[used] = '\0';
+}
+
+// Names that translators give to faces that have none.
+static int says_nothing(const char *name) {
+  static const char *const empty[] = {"", "NONE", "Face", "face", "Unnamed", "unnamed"};
+  for (size_t i = 0; i < sizeof empty / sizeof *empty; i++)
+    if (!strcmp(name, empty[i])) return 1;
+  return 0;
+}
+
+static void proposed_name(const Work *work, int face, char name[CW_NAME_SIZE]) {
+  const int part = work->survey->face[face].part, other = work->contact[face].part;
+  const char *domain = work->cad->domain[part].name;
+  char text[3 * CW_NAME_SIZE];
+  if (work->role[face] == CW_ROLE_CONTACT) {
+    snprintf(text, sizeof text, "%s_to_%s", domain, work->cad->domain[other].name);
+    if (strlen(text) > CW_PATCH_NAME_MOST) snprintf(text, sizeof text, "domain%d_to_%d", part + 1, other + 1);
+  } else if (work->role[face] == CW_ROLE_WALL || work->role[face] == CW_ROLE_PIPE) {
+    snprintf(text, sizeof text, "%s_%s", domain, role_names[work->role[face]]);
+  } else {
+    snprintf(text, sizeof text, "%s", role_names[work->role[face]]);
+  }
+  memcpy(name, text, CW_NAME_SIZE - 1);
+  name[CW_NAME_SIZE - 1] = '\0';
+}
+
+static CwPatchSource name_of(const Work *work, int face, char name[CW_NAME_SIZE]) {
+  const int rule = work->rule[face];
+  if (rule >= 0) {
+    strcpy(name, work->cad->patch[rule].name);
+    return CW_FROM_RULE;
+  }
+  clean_name(work->cad->names_are_patches && !says_nothing(file_name(work, face)) ? file_name(work, face) : "", name);
+  if (name[0]) return CW_FROM_FILE;
+  proposed_name(work, face, name);
+  return CW_FROM_PROPOSAL;
+}
+
+static int find(const CwFacePatches *patches, const char *name) {
+  for (int i = 0; i < patches->count; i++)
+    if (!strcmp(patches->patch[i].name, name)) return i;
+  return -1;
+}
+
+// The patch of that name, part and kind; where another part or kind has the name, one with a number behind it.
+static CwStatus patch_for(CwFacePatches *patches, const char *name, int part, CwPatchKind kind, int *patch) {
+  CwStatus status = CW_OK;
+  char own[CW_NAME_SIZE];
+  snprintf(own, sizeof own, "%s", name);
+  for (int number = 2;; number++) {
+    *patch = find(patches, own);
+    if (*patch < 0) break;
+    const CwFacePatch *of = &patches->patch[*patch];
+    if (of->part == part && of->kind == kind) goto done;
+    snprintf(own, sizeof own, "%.*s_%d", CW_PATCH_NAME_MOST - 3, name, number);
+  }
+  CwFacePatch *grown = realloc(patches->patch, (size_t)(patches->count + 1) * sizeof *grown);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d patches", patches->count + 1);
+  patches->patch = grown;
+  *patch = patches->count++;
+  grown[*patch] = (CwFacePatch){.part = part, .kind = kind, .rule = -1};
+  strcpy(grown[*patch].name, own);
+done:
+  return status;
+}
+
+// The role that most of the area of each patch has.
+static void set_roles(const Work *work, CwFacePatches *patches) {
+  for (int p = 0; p < patches->count; p++) {
+    double area[ROLES] = {0};
+    for (int f = 0; f < work->survey->face_count; f++)
+      if (patches->of_face[f] == p) area[work->role[f]] += work->survey->face[f].area;
+    for (int role = 0; role < ROLES; role++) {
+      patches->patch[p].area += area[role];
+      if (area[role] > area[patches->patch[p].role]) patches->patch[p].role = (CwFaceRole)role;
+    }
+  }
+}
+
+CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadParts *parts,
+                              const CwSurvey *survey, const CwContact *contact, const CwFaceRole *role,
+                              CwFacePatches *patches) {
+  CwStatus status = CW_OK;
+  Work work = {cad, frame, parts, survey, contact, role, NULL};
+  CW_NEW(work.rule, survey->face_count);
+  CW_NEW(patches->of_face, survey->face_count);
+  for (int f = 0; f < survey->face_count; f++) work.rule[f] = -1;
+  for (int r = 0; r < cad->patch_count; r++) CW_TRY(apply_rule(&work, r));
+  for (int f = 0; f < survey->face_count; f++) {
+    char name[CW_NAME_SIZE];
+    const CwPatchSource source = name_of(&work, f, name);
+    int *patch = &patches->of_face[f];
+    CW_TRY(patch_for(patches, name, survey->face[f].part, kind_of(&work, f, name), patch));
+    patches->patch[*patch].source = source;
+    patches->patch[*patch].rule = work.rule[f];
+  }
+  set_roles(&work, patches);
+done:
+  free(work.rule);
+  return status;
+}
+
+void cw_face_patches_free(CwFacePatches *patches) {
+  free(patches->patch);
+  free(patches->of_face);
+  memset(patches, 0, sizeof *patches);
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/heal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepCheck_Result.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <ShapeAnalysis_ShapeTolerance.hxx>
+#include <ShapeFix_FixSmallFace.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <ShapeFix_Wireframe.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+#include "pipeline/log.h"
+
+namespace {
+
+// Greatest tolerance of a sound part, over the gap that is closed.
+const double LARGEST_TOLERANCE = 10;
+
+struct Place {
+  gp_Pnt at;
+  bool found = false;
+};
+
+Place place_of(const TopoDS_Shape &shape) {
+  for (TopExp_Explorer at(shape, TopAbs_VERTEX); at.More(); at.Next())
+    return {BRep_Tool::Pnt(TopoDS::Vertex(at.Current())), true};
+  return {};
+}
+
+std::string words(const Place &place, double unit, const CwCadFrame &frame) {
+  if (!place.found) return "";
+  double x[3] = {place.at.X() * unit, place.at.Y() * unit, place.at.Z() * unit};
+  char text[80];
+  cw_cad_frame_to_file(&frame, x, x);
+  snprintf(text, sizeof text, " at (%.3f, %.3f, %.3f) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  return text;
+}
+
+double volume_of(const TopoDS_Shape &shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+// What is unsound in a shape: "" where nothing is.
+struct Fault {
+  std::string what;
+  Place place;
+};
+
+Fault open_edge(const TopoDS_Shape &shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  int open = 0;
+  Fault fault;
+  for (int i = 1; i <= faces.Extent(); i++) {
+    const TopoDS_Edge &edge = TopoDS::Edge(faces.FindKey(i));
+    if (BRep_Tool::Degenerated(edge) || faces(i).Extent() == 2) continue;
+    if (faces(i).Extent() == 1 && BRep_Tool::IsClosed(edge, TopoDS::Face(faces(i).First()))) continue;
+    if (!open++) fault.place = place_of(edge);
+    fault.what = std::to_string(open) + " edges do not lie between two faces, one";
+  }
+  return fault;
+}
+
+Fault invalid_part(const TopoDS_Shape &shape) {
+  BRepCheck_Analyzer analyzer(shape);
+  if (analyzer.IsValid()) return {};
+  const TopAbs_ShapeEnum kinds[] = {TopAbs_VERTEX, TopAbs_EDGE, TopAbs_WIRE, TopAbs_FACE};
+  static const char *const names[] = {"a vertex", "an edge", "the outline of a face", "a face"};
+  for (int k = 3; k >= 0; k--)
+    for (TopExp_Explorer at(shape, kinds[k]); at.More(); at.Next())
+      if (!analyzer.IsValid(at.Current()))
+        return {std::string(names[k]) + " is invalid or crosses itself", place_of(at.Current())};
+  return {"its shells do not bound a volume", {}};
+}
+
+Fault fault_of(const TopoDS_Shape &shape, double tolerance) {
+  int solids = 0;
+  for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) solids++;
+  if (solids != 1) return {"it makes " + std::to_string(solids) + " solids", {}};
+  Fault fault = open_edge(shape);
+  if (fault.what.empty()) fault = invalid_part(shape);
+  if (!fault.what.empty()) return fault;
+  ShapeAnalysis_ShapeTolerance measure;
+  const double largest = measure.Tolerance(shape, 1);
+  if (largest > LARGEST_TOLERANCE * tolerance) {
+    const Handle(TopTools_HSequenceOfShape) where = measure.OverTolerance(shape, LARGEST_TOLERANCE * tolerance);
+    return {"edges and faces fit one another within no less than " + std::to_string(largest) + " units",
+            where.IsNull() || where->IsEmpty() ? Place() : place_of(where->Value(1))};
+  }
+  if (!(std::fabs(volume_of(shape)) > 0)) return {"it has no volume", {}};
+  return {};
+}
+
+TopoDS_Shape one_solid(const TopoDS_Shape &shape) {
+  TopExp_Explorer at(shape, TopAbs_SOLID);
+  return at.More() ? at.Current() : shape;
+}
+
+TopoDS_Shape sewn(const TopoDS_Shape &shape, double tolerance) {
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) sewing.Add(at.Current());
+  sewing.Perform();
+  TopExp_Explorer shell(sewing.SewedShape(), TopAbs_SHELL);
+  if (!shell.More()) return shape;
+  return BRepBuilderAPI_MakeSolid(TopoDS::Shell(shell.Current())).Solid();
+}
+
+TopoDS_Shape fixed(const TopoDS_Shape &shape, double tolerance) {
+  ShapeFix_Shape fix(shape);
+  fix.SetPrecision(tolerance);
+  fix.SetMaxTolerance(LARGEST_TOLERANCE * tolerance);
+  fix.Perform();
+  return one_solid(fix.Shape());
+}
+
+// Edges and faces smaller than the tolerance go.
+TopoDS_Shape without_small(const TopoDS_Shape &shape, double tolerance) {
+  const Handle(ShapeFix_Wireframe) wires = new ShapeFix_Wireframe(shape);
+  wires->SetPrecision(tolerance);
+  wires->SetMaxTolerance(LARGEST_TOLERANCE * tolerance);
+  wires->ModeDropSmallEdges() = Standard_True;
+  wires->FixSmallEdges();
+  wires->FixWireGaps();
+  ShapeFix_FixSmallFace faces;
+  faces.Init(wires->Shape());
+  faces.SetPrecision(tolerance);
+  faces.SetMaxTolerance(LARGEST_TOLERANCE * tolerance);
+  faces.Perform();
+  return one_solid(faces.FixShape());
+}
+
+bool has_small_edge(const TopoDS_Shape &shape, double tolerance) {
+  for (TopExp_Explorer at(shape, TopAbs_EDGE); at.More(); at.Next()) {
+    if (BRep_Tool::Degenerated(TopoDS::Edge(at.Current()))) continue;
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(at.Current(), properties);
+    if (properties.Mass() < tolerance) return true;
+  }
+  return false;
+}
+
+CwStatus heal_part(double tolerance, const CwCadFrame &frame, double unit, CwCadPart &part) {
+  const TopoDS_Shape given = part.solid;
+  Fault fault = fault_of(part.solid, tolerance);
+  const std::string first = fault.what;
+  if (!fault.what.empty()) part.solid = fixed(part.solid, tolerance), fault = fault_of(part.solid, tolerance);
+  if (!fault.what.empty())
+    part.solid = fixed(sewn(given, tolerance), tolerance), fault = fault_of(part.solid, tolerance);
+  if (fault.what.empty() && has_small_edge(part.solid, tolerance)) {
+    const TopoDS_Shape whole = part.solid;
+    part.solid = without_small(part.solid, tolerance);
+    if (!fault_of(part.solid, tolerance).what.empty()) part.solid = fixed(part.solid, tolerance);
+    if (!fault_of(part.solid, tolerance).what.empty()) part.solid = whole;
+  }
+  if (!fault.what.empty())
+    return CW_FAIL(CW_ERR_GEOMETRY,
+                   "cad.domains.%s: the solid cannot be healed within %.3g mm: %s%s; allowed: a closed, "
+                   "valid solid; mend it in CAD, or try a greater cad.tolerance_mm",
+                   part.domain.c_str(), tolerance * unit * 1e3, fault.what.c_str(),
+                   words(fault.place, unit, frame).c_str());
+  if (volume_of(part.solid) < 0) {
+    TopoDS_Solid turned = TopoDS::Solid(part.solid);
+    BRepLib::OrientClosedSolid(turned);
+    part.solid = turned;
+  }
+  if (part.solid.IsSame(given)) return CW_OK;
+  CwCadPart before = part;
+  before.solid = given;
+  cw_cad_carry({before}, part);
+  cw_log("%s: healed%s%s", part.domain.c_str(), first.empty() ? "" : ": ", first.c_str());
+  return CW_OK;
+}
+
+} // namespace
+
+CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts) {
+  for (CwCadPart &part : parts->part) {
+    const CwStatus status =
+        cw_cad_guard("cad.domains." + part.domain, [&] { return heal_part(tolerance, *frame, parts->unit, part); });
+    if (status != CW_OK) return status;
+  }
+  return CW_OK;
+}

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/survey.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLProp_SLProps.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <gp_Vec.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+
+namespace {
+
+const double DEFLECTION = 1e-3;  // of the size, chord to surface
+const double ANGLE = 0.35;       // rad, between neighbouring chords
+const double CORNER = 0.95;      // of the way from the middle of a triangle to its corners
+const double SAME_NORMAL = 1e-5; // sine of the angle within which normals are alike
+
+using Points = std::vector<std::array<double, 3>>;
+
+struct Lists {
+  std::vector<CwSurveyFace> face;
+  std::vector<CwSurveyEdge> edge;
+  std::vector<std::array<int, 3>> triangle;
+  Points point, middle, corner;
+  std::vector<std::array<double, 6>> box;
+};
+
+std::array<double, 3> metres(const gp_Pnt &p, double unit) {
+  return {p.X() * unit, p.Y() * unit, p.Z() * unit};
+}
+
+std::array<double, 6> box_of(const TopoDS_Shape &face, double unit) {
+  Bnd_Box bounds;
+  std::array<double, 6> box;
+  BRepBndLib::Add(face, bounds, Standard_False);
+  bounds.Get(box[0], box[1], box[2], box[3], box[4], box[5]);
+  for (double &x : box) x *= unit;
+  return box;
+}
+
+// Unit normal out of the part; false where the face has none.
+bool normal_at(const BRepAdaptor_Surface &surface, bool reversed, const gp_Pnt2d &uv, gp_Vec &normal) {
+  gp_Pnt point;
+  gp_Vec du, dv;
+  surface.D1(uv.X(), uv.Y(), point, du, dv);
+  normal = du.Crossed(dv);
+  if (!(normal.Magnitude() > 1e-12 * du.Magnitude() * dv.Magnitude()) || normal.Magnitude() == 0) return false;
+  normal.Normalize();
+  if (reversed) normal.Reverse();
+  return true;
+}
+
+struct Normals {
+  gp_Vec first, sum;
+  double most_off = 0;   // from the first
+  double most_twist = 0; // |normal times direction of rotation|
+  double twist = 0, area = 0;
+  void add(const gp_Pnt &at, const gp_Vec &normal, double weight) {
+    if (area == 0) first = normal;
+    const gp_Vec around = gp_Vec(-at.Y(), at.X(), 0);
+    const double along = around.Magnitude() > 0 ? normal.Dot(around) / around.Magnitude() : 0;
+    most_off = std::max(most_off, normal.Crossed(first).Magnitude() + (normal.Dot(first) < 0 ? 2 : 0));
+    most_twist = std::max(most_twist, std::fabs(along));
+    twist += weight * along;
+    sum += normal * weight;
+    area += weight;
+  }
+};
+
+void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &lists) {
+  CwSurveyFace made = {};
+  made.part = part;
+  made.face = index;
+  made.first_triangle = (int)lists.triangle.size();
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  made.area = std::fabs(properties.Mass()) * unit * unit;
+  const std::array<double, 3> centre = metres(properties.CentreOfMass(), unit);
+  std::memcpy(made.centre, centre.data(), sizeof made.centre);
+  made.radius[0] = made.height[0] = INFINITY;
+  made.height[1] = -INFINITY;
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  if (mesh.IsNull()) throw Standard_Failure(("face " + std::to_string(index + 1) + " has no triangulation").c_str());
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  const bool reversed = face.Orientation() == TopAbs_REVERSED;
+  const int first_point = (int)lists.point.size();
+  for (int i = 1; i <= mesh->NbNodes(); i++) {
+    const std::array<double, 3> x = metres(mesh->Node(i).Transformed(place.Transformation()), unit);
+    const double r = std::hypot(x[0], x[1]);
+    made.radius[0] = std::min(made.radius[0], r);
+    made.radius[1] = std::max(made.radius[1], r);
+    made.height[0] = std::min(made.height[0], x[2]);
+    made.height[1] = std::max(made.height[1], x[2]);
+    lists.point.push_back(x);
+  }
+  Normals normals;
+  double nearest = INFINITY;
+  for (int i = 1; i <= mesh->NbTriangles(); i++) {
+    int n[3];
+    mesh->Triangle(i).Get(n[0], n[1], n[2]);
+    if (reversed) std::swap(n[1], n[2]);
+    lists.triangle.push_back({first_point + n[0] - 1, first_point + n[1] - 1, first_point + n[2] - 1});
+    gp_XY uv(0, 0);
+    gp_Pnt p[3];
+    for (int k = 0; k < 3; k++) uv += mesh->UVNode(n[k]).XY() / 3, p[k] = mesh->Node(n[k]);
+    const gp_Pnt at = surface.Value(uv.X(), uv.Y());
+    const std::array<double, 3> middle = metres(at, unit);
+    lists.middle.push_back(middle);
+    for (int k = 0; k < 3; k++) {
+      const gp_XY near = uv * (1 - CORNER) + mesh->UVNode(n[k]).XY() * CORNER;
+      lists.corner.push_back(metres(surface.Value(near.X(), near.Y()), unit));
+    }
+    gp_Vec normal;
+    if (normal_at(surface, reversed, gp_Pnt2d(uv), normal))
+      normals.add(at, normal, gp_Vec(p[0], p[1]).Crossed(gp_Vec(p[0], p[2])).Magnitude() / 2);
+    const double off = std::hypot(std::hypot(middle[0] - centre[0], middle[1] - centre[1]), middle[2] - centre[2]);
+    if (off < nearest) nearest = off, std::memcpy(made.at, middle.data(), sizeof made.at);
+  }
+  made.triangle_count = mesh->NbTriangles();
+  if (normals.area > 0)
+    for (int i = 0; i < 3; i++) made.normal[i] = normals.sum.Coord(i + 1) / normals.area;
+  if (normals.area > 0) made.twist = normals.twist / normals.area;
+  made.turned = normals.most_twist < SAME_NORMAL;
+  made.form = normals.most_off < SAME_NORMAL ? CW_FORM_PLANE : made.turned ? CW_FORM_REVOLVED : CW_FORM_OTHER;
+  lists.face.push_back(made);
+  lists.box.push_back(box_of(face, unit));
+}
+
+// Angle between two faces through the water, at the middle of their edge.
+double angle_at(const TopoDS_Edge &edge, const TopoDS_Face &a, const TopoDS_Face &b) {
+  double first, last;
+  const BRepAdaptor_Curve curve(edge);
+  first = curve.FirstParameter(), last = curve.LastParameter();
+  const double t = (first + last) / 2;
+  gp_Vec normal[2];
+  const TopoDS_Face *faces[] = {&a, &b};
+  for (int s = 0; s < 2; s++) {
+    double from, to;
+    const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(edge, *faces[s], from, to);
+    if (flat.IsNull()) return M_PI;
+    const BRepAdaptor_Surface surface(*faces[s], Standard_False);
+    if (!normal_at(surface, faces[s]->Orientation() == TopAbs_REVERSED, flat->Value(t), normal[s])) return M_PI;
+  }
+  // Along the edge as face a runs about it, the water lies on its left: a convex edge of the water has the normal of b
+  // turned outward.
+  gp_Pnt at;
+  gp_Vec along;
+  curve.D1(t, at, along);
+  TopAbs_Orientation sense = TopAbs_FORWARD;
+  for (TopExp_Explorer it(a, TopAbs_EDGE); it.More(); it.Next())
+    if (it.Current().IsSame(edge)) sense = it.Current().Orientation();
+  if (sense == TopAbs_REVERSED) along.Reverse();
+  const gp_Vec into_a = normal[0].Crossed(along); // within face a, away from the edge
+  const double turn = std::atan2(normal[0].Crossed(normal[1]).Magnitude(), normal[0].Dot(normal[1]));
+  return into_a.Dot(normal[1]) < 0 ? M_PI - turn : M_PI + turn;
+}
+
+void add_edges(const TopoDS_Shape &shape, int first_face, double unit, Lists &lists) {
+  const TopTools_IndexedMapOfShape map = cw_cad_faces(shape);
+  TopTools_IndexedDataMapOfShapeListOfShape faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); i++) {
+    const TopoDS_Edge &edge = TopoDS::Edge(faces.FindKey(i));
+    if (BRep_Tool::Degenerated(edge) || faces(i).Extent() != 2) continue;
+    const int a = map.FindIndex(faces(i).First()), b = map.FindIndex(faces(i).Last());
+    if (a == b) continue;
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(edge, properties);
+    lists.edge.push_back({{first_face + a - 1, first_face + b - 1},
+                          properties.Mass() * unit,
+                          angle_at(edge, TopoDS::Face(map(a)), TopoDS::Face(map(b)))});
+  }
+}
+
+double box_distance(const double box[2][3], const double x[3]) {
+  double sum = 0;
+  for (int i = 0; i < 3; i++) {
+    const double off = std::max(std::max(box[0][i] - x[i], x[i] - box[1][i]), 0.0);
+    sum += off * off;
+  }
+  return std::sqrt(sum);
+}
+
+double extent(const CwCadParts &parts) {
+  Bnd_Box bounds;
+  double x0, y0, z0, x1, y1, z1;
+  for (const CwCadPart &part : parts.part) BRepBndLib::Add(part.solid, bounds, Standard_False);
+  bounds.Get(x0, y0, z0, x1, y1, z1);
+  return std::max(std::max(x1 - x0, y1 - y0), z1 - z0);
+}
+
+template <class To, class From> CwStatus copy(const std::vector<From> &from, To *&to, int &count) {
+  static_assert(sizeof(To) == sizeof(From), "copied as bytes");
+  to = (To *)std::malloc(std::max<size_t>(from.size(), 1) * sizeof(From));
+  if (!to) return CW_FAIL(CW_ERR_MEMORY, "out of memory: the survey of the faces");
+  std::memcpy((void *)to, from.data(), from.size() * sizeof(From));
+  count = (int)from.size();
+  return CW_OK;
+}
+
+std::vector<std::array<double, 9>> threes(const Points &points) {
+  std::vector<std::array<double, 9>> made(points.size() / 3);
+  for (size_t i = 0; i < points.size(); i++) std::copy(points[i].begin(), points[i].end(), &made[i / 3][3 * (i % 3)]);
+  return made;
+}
+
+} // namespace
+
+CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
+  return cw_cad_guard("cad", [&]() -> CwStatus {
+    CwStatus status = CW_OK;
+    Lists lists;
+    const double size = extent(*parts);
+    survey->size = size * parts->unit;
+    for (size_t p = 0; p < parts->part.size(); p++) {
+      const TopoDS_Shape &solid = parts->part[p].solid;
+      const int first = (int)lists.face.size();
+      BRepTools::Clean(solid);
+      BRepMesh_IncrementalMesh mesh(solid, DEFLECTION * size, Standard_False, ANGLE);
+      const TopTools_IndexedMapOfShape faces = cw_cad_faces(solid);
+      for (int i = 1; i <= faces.Extent(); i++) add_face(TopoDS::Face(faces(i)), (int)p, i - 1, parts->unit, lists);
+      BRepTools::Clean(solid); // a stored triangulation would go into the files
+      add_edges(solid, first, parts->unit, lists);
+    }
+    int triangles, boxes, corners;
+    CW_TRY(copy(lists.face, survey->face, survey->face_count));
+    CW_TRY(copy(lists.edge, survey->edge, survey->edge_count));
+    CW_TRY(copy(lists.triangle, survey->triangle, survey->triangle_count));
+    CW_TRY(copy(lists.point, survey->point, survey->point_count));
+    CW_TRY(copy(lists.middle, survey->middle, triangles));
+    CW_TRY(copy(threes(lists.corner), survey->corner, corners));
+    CW_TRY(copy(lists.box, survey->box, boxes));
+  done:
+    return status;
+  });
+}
+
+void cw_survey_free(CwSurvey *survey) {
+  std::free(survey->face);
+  std::free(survey->edge);
+  std::free(survey->triangle);
+  std::free(survey->point);
+  std::free(survey->middle);
+  std::free(survey->corner);
+  std::free(survey->box);
+  *survey = CwSurvey();
+}
+
+CwStatus cw_survey_nearest(const CwCadParts *parts, const CwSurvey *survey, int part, const double point[3],
+                           double reach, int *face, double *distance, double *second) {
+  return cw_cad_guard("cad", [&] {
+    const gp_Pnt at(point[0] / parts->unit, point[1] / parts->unit, point[2] / parts->unit);
+    const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(at).Vertex();
+    TopTools_IndexedMapOfShape faces;
+    double best = reach, next = reach;
+    *face = -1;
+    for (int i = 0, p = -1; i < survey->face_count; i++) {
+      const CwSurveyFace &of = survey->face[i];
+      if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= next) continue;
+      if (of.part != p) p = of.part, faces = cw_cad_faces(parts->part[p].solid);
+      BRepExtrema_DistShapeShape measure(vertex, faces(of.face + 1));
+      if (!measure.IsDone()) continue;
+      const double d = measure.Value() * parts->unit;
+      if (d < best) {
+        next = best;
+        best = d;
+        *face = i;
+      } else if (d < next) {
+        next = d;
+      }
+    }
+    *distance = best;
+    if (second) *second = next;
+    return CW_OK;
+  });
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the faces of all parts look like: form, area, place, edges between them, and a coarse triangulation. Plain data
+// in metres and in the pump's coordinates, from which patches are proposed, chosen and drawn.
+#ifndef CUTWATER_GEOMETRY_CAD_SURVEY_H
+#define CUTWATER_GEOMETRY_CAD_SURVEY_H
+
+#include "geometry/cad/cad_parts.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum { CW_FORM_PLANE, CW_FORM_REVOLVED, CW_FORM_OTHER } CwSurveyForm; // revolved: about the axis, no plane
+
+typedef struct {
+  int part, face; // from 0; faces of a part stand together, in their order
+  CwSurveyForm form;
+  int turned; // 1: of revolution about the axis, a plane across it too
+  double area;
+  double centre[3]; // of the area
+  double normal[3]; // mean, out of the part: of length 1 on a plane, less on others
+  double at[3];     // a point of the face, near its middle
+  double radius[2]; // least and greatest distance from the axis
+  double height[2]; // least and greatest z
+  double twist;     // mean of normal times the direction of rotation
+  int first_triangle, triangle_count;
+} CwSurveyFace;
+
+typedef struct {
+  int face[2]; // into CwSurvey.face, of one part
+  double length;
+  double angle; // through the water, rad: pi where smooth, less where the edge is concave as seen from the water
+} CwSurveyEdge;
+
+typedef struct {
+  int face_count, edge_count, triangle_count, point_count;
+  CwSurveyFace *face;
+  CwSurveyEdge *edge;
+  int (*triangle)[3];
+  double (*point)[3];
+  double (*middle)[3];    // of each triangle, on the exact face
+  double (*corner)[3][3]; // of each triangle, on the exact face, a little inside of its corners
+  double (*box)[2][3];    // of each face
+  double size;            // greatest extent of all
+} CwSurvey;
+
+// Free also after a failure; zeroed `survey` on entry.
+CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey);
+void cw_survey_free(CwSurvey *survey);
+
+// The face nearest to a point, of one part or (-1) of all, and its distance; -1 where none is within `reach`. `second`,
+// where not NULL: the distance of the second nearest, or `reach`.
+CwStatus cw_survey_nearest(const CwCadParts *parts, const CwSurvey *survey, int part, const double point[3],
+                           double reach, int *face, double *distance, double *second);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// STEP written by XCAF and read back: names, colours and layers of faces, placement in an assembly, units; and shells
+// that are sewn or left open.
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include <BRep_Builder.hxx>
+#include <Interface_Static.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+#include "cad/small_pump.hpp"
+
+extern "C" {
+#include <cmocka.h> // last: its macros have names of the C++ library
+}
+
+static std::string folder;
+
+// A box of 10 x 20 x 30 as part "water" of an assembly, moved by 100 along x; its first face is named, coloured and in
+// a layer.
+static void write_step(const std::string &path, const char *unit) {
+  Handle(TDocStd_Document) document;
+  XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
+  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 20, 30).Shape();
+  const TDF_Label part = shapes->AddShape(box, Standard_False);
+  TDataStd_Name::Set(part, "water");
+  const TDF_Label face = shapes->AddSubShape(part, cw_cad_faces(box)(1));
+  TDataStd_Name::Set(face, "BLADE_PS_1");
+  XCAFDoc_DocumentTool::ColorTool(document->Main())
+      ->SetColor(face, Quantity_Color(0, 1, 0, Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
+  XCAFDoc_DocumentTool::LayerTool(document->Main())->SetLayer(face, "wet");
+  const TDF_Label assembly = shapes->NewShape();
+  TDataStd_Name::Set(assembly, "pump");
+  gp_Trsf move;
+  move.SetTranslation(gp_Vec(100, 0, 0));
+  TDataStd_Name::Set(shapes->AddComponent(assembly, part, TopLoc_Location(move)), "wheel_1");
+  shapes->UpdateAssemblies();
+  STEPCAFControl_Writer writer;
+  Interface_Static::SetCVal("write.step.unit", unit);
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  writer.SetNameMode(Standard_True);
+  writer.SetColorMode(Standard_True);
+  writer.SetLayerMode(Standard_True);
+  assert_true(writer.Transfer(document, STEPControl_AsIs));
+  assert_int_equal(writer.Write(path.c_str()), IFSelect_RetDone);
+  Interface_Static::SetCVal("write.step.unit", "MM");
+}
+
+static void check_box(const CwCadBodies *bodies, double x0, double x1) {
+  double box[2][3];
+  assert_int_equal(cw_cad_body_box(bodies, 0, box), CW_OK);
+  assert_float_equal(box[0][0], x0, 1e-7);
+  assert_float_equal(box[1][0], x1, 1e-7);
+}
+
+static void step_tells_all(void **) {
+  for (const char *unit : {"MM"}) {
+    CwCadBodies *bodies = nullptr;
+    const std::string path = folder + "/box.step";
+    write_step(path, unit);
+    if (cw_cad_file_read(path.c_str(), 0, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
+    assert_int_equal(cw_cad_body_count(bodies), 1);
+    assert_string_equal(cw_cad_body_name(bodies, 0), "water");
+    assert_string_equal(cw_cad_body_instance(bodies, 0), "wheel_1");
+    check_box(bodies, 0.1, 0.11);
+    int named = 0;
+    for (const CwCadFaceOrigin &origin : bodies->body[0].origin) {
+      if (origin.name != "BLADE_PS_1") continue;
+      named++;
+      assert_int_equal(origin.colour, 0x00ff00);
+      assert_string_equal(origin.layer.c_str(), "wet");
+    }
+    assert_int_equal(named, 1);
+    cw_cad_bodies_free(&bodies);
+    remove(path.c_str());
+  }
+}
+
+static void points_and_units_of_brep_files(void **) {
+  CwCadBodies *bodies = nullptr;
+  const std::string path = folder + "/box.brep";
+  small_write(path, {BRepPrimAPI_MakeBox(1, 1, 1).Shape()});
+  if (cw_cad_file_read(path.c_str(), 0.0254, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
+  check_box(bodies, 0, 0.0254);
+  const double inside[] = {0.02, 0.02, 0.02}, outside[] = {0.03, 0.02, 0.02};
+  int holds;
+  assert_int_equal(cw_cad_body_holds(bodies, 0, inside, &holds), CW_OK);
+  assert_true(holds);
+  assert_int_equal(cw_cad_body_holds(bodies, 0, outside, &holds), CW_OK);
+  assert_false(holds);
+  cw_cad_bodies_free(&bodies);
+  remove(path.c_str());
+}
+
+static void write_faces(const std::string &path, int count) {
+  BRep_Builder builder;
+  TopoDS_Compound faces;
+  builder.MakeCompound(faces);
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  for (int i = 1; i <= count; i++) builder.Add(faces, cw_cad_faces(box)(i));
+  BRepTools::Write(faces, path.c_str());
+}
+
+static void shells_are_sewn_or_refused(void **) {
+  const std::string path = folder + "/faces.brep";
+  CwCadBodies *bodies = nullptr;
+  write_faces(path, 6);
+  if (cw_cad_file_read(path.c_str(), 0, 1e-6, &bodies)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(cw_cad_body_count(bodies), 1);
+  cw_cad_bodies_free(&bodies);
+  write_faces(path, 5);
+  assert_int_equal(cw_cad_file_read(path.c_str(), 0, 1e-6, &bodies), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "4 edges stay open"));
+  cw_cad_bodies_free(&bodies);
+  remove(path.c_str());
+}
+
+static int make_folder(void **) {
+  char name[] = "/tmp/cutwater_cad_XXXXXX";
+  if (!mkdtemp(name)) return -1;
+  folder = name;
+  return 0;
+}
+
+static int remove_folder(void **) {
+  return remove(folder.c_str());
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all), cmocka_unit_test(points_and_units_of_brep_files),
+                                     cmocka_unit_test(shells_are_sewn_or_refused)};
+  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A pump of primitives from a B-rep file to its model: seams are divided, the strip of the casing that the wheel's
+// outlet leaves free is cut off, patches are proposed by form and place, and what is wrong is told.
+#include <cmath>
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "geometry/cad/cad_pump.h"
+#include "pipeline/case_read.h"
+#include "cad/small_pump.hpp"
+
+extern "C" {
+#include <cmocka.h> // last: its macros have names of the C++ library
+}
+
+static std::string folder;
+static const double mm = 1e-3;
+
+static CwStatus read_case(const std::string &cad, CwCase *table) {
+  const std::string path = folder + "/case.yaml";
+  FILE *file = fopen(path.c_str(), "w");
+  fprintf(file, "name: small\noperating_point: {flow_rate_m3_per_h: 4, head_m: 2, speed_rpm: 1450}\ncad:\n%s",
+          cad.c_str());
+  fclose(file);
+  return cw_case_read(path.c_str(), table);
+}
+
+static const char *const whole = "  files: pump.brep\n"
+                                 "  domains:\n"
+                                 "    rotor: {inside_mm: [0, 0, -30], rotating: true}\n"
+                                 "    stator: {solid: 2}\n";
+
+static double area_of(const CwCadPump &pump, const char *name, CwPatchKind kind) {
+  double area = 0;
+  for (int i = 0; i < pump.patches.count; i++)
+    if (!strcmp(pump.patches.patch[i].name, name) && pump.patches.patch[i].kind == kind)
+      area += pump.patches.patch[i].area;
+  return area / (mm * mm);
+}
+
+static void near_to(double value, double wanted) {
+  if (std::fabs(value - wanted) > 1e-5 * wanted) fail_msg("%.9g where %.9g is wanted", value, wanted);
+}
+
+// Areas by hand: the wheel's outlet is a cylinder of radius 50 and width 10, the casing's inner wall 16 wide.
+static void patches_are_proposed(void **) {
+  CwCase table;
+  CwCadPump pump = {};
+  CwModel model = {};
+  if (read_case(whole, &table) || cw_cad_pump_read(table.cad, &pump) || cw_cad_pump_name(table.cad, &pump) ||
+      cw_cad_model_make(&table, &pump.survey, &pump.patches, pump.interface_count, pump.interface, pump.blade_count,
+                        cw_cad_parts_unit(pump.parts), &model))
+    fail_msg("%s", cw_fail_message());
+  assert_int_equal(pump.blade_count, 6);
+  near_to(area_of(pump, "inlet", CW_PATCH_INLET), M_PI * 20 * 20);
+  near_to(area_of(pump, "outlet", CW_PATCH_OUTLET), 20 * 16);
+  near_to(area_of(pump, "rotor_to_stator", CW_PATCH_INTERFACE), 2 * M_PI * 50 * 10);
+  near_to(area_of(pump, "stator_to_rotor", CW_PATCH_INTERFACE), 2 * M_PI * 50 * 10);
+  near_to(area_of(pump, "blade", CW_PATCH_WALL), 6 * (2 * 20 + 2 * 3) * 10);
+  near_to(area_of(pump, "hub", CW_PATCH_WALL), M_PI * 50 * 50 - 6 * 20 * 3);
+  near_to(area_of(pump, "shroud", CW_PATCH_WALL), M_PI * (50 * 50 - 20 * 20) - 6 * 20 * 3 + 2 * M_PI * 20 * 55);
+  assert_int_equal(model.interface_count, 1);
+  assert_int_equal(model.interface[0].surface, CW_SURFACE_CYLINDER);
+  near_to(model.interface[0].radius, 0.05);
+  near_to(model.flow.inlet_speed, 4. / 3600 / (M_PI * 0.02 * 0.02));
+  const int blade = cw_model_patch_find(&model, "blade");
+  assert_int_equal(model.patch[blade].group, CW_GROUP_BLADE);
+  assert_int_equal(model.patch[blade].turns, 1);
+  cw_model_free(&model);
+  cw_cad_pump_free(&pump);
+  cw_case_free(&table);
+}
+
+// The first rule that takes a face has it; a point chooses one; a number is that of the sheet.
+static void rules_name_patches(void **) {
+  CwCase table;
+  CwCadPump pump = {};
+  const std::string rules = std::string(whole) + "  patches:\n"
+                                                 "    suction: {near_mm: [0, 0, -60], kind: inlet}\n"
+                                                 "    back: {near_mm: [47, 0, 5], walls: hub_shroud, y_plus: 5}\n"
+                                                 "    again: {faces: '*', domain: rotor}\n";
+  if (read_case(rules, &table) || cw_cad_pump_read(table.cad, &pump) || cw_cad_pump_name(table.cad, &pump))
+    fail_msg("%s", cw_fail_message());
+  near_to(area_of(pump, "suction", CW_PATCH_INLET), M_PI * 20 * 20);
+  near_to(area_of(pump, "back", CW_PATCH_WALL), M_PI * 50 * 50 - 6 * 20 * 3);
+  near_to(area_of(pump, "again", CW_PATCH_INTERFACE), 2 * M_PI * 50 * 10);
+  assert_true(area_of(pump, "stator_wall", CW_PATCH_WALL) > 0);
+  cw_cad_pump_free(&pump);
+  cw_case_free(&table);
+}
+
+static void wrong_input_is_told(void **) {
+  static const struct {
+    const char *cad, *message;
+  } wrong[] = {
+      {"  files: none.brep\n  domains: {rotor: {solid: 1, rotating: true}}\n", "none.brep: cannot be read"},
+      {"  files: case.yaml\n  domains: {rotor: {solid: 1, rotating: true}}\n", "is neither STEP nor a B-rep"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: wheel, rotating: true}}\n", "'wheel' matches no solid"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: 1}}\n", "none rotates"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 1}}\n",
+       "belongs to cad.domains.rotor"},
+      {"  files: pump.brep\n  domains: {rotor: {inside_mm: [0, 0, 300], rotating: true}}\n", "lies in 0 solids"},
+      {"  files: pump.brep\n  unit_m: 1\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n",
+       "a diameter of 100 m"},
+      {"  files: pump.brep\n  axis: {point_mm: [3, 0, 0]}\n  domains: {rotor: {solid: 1, rotating: true}, stator: "
+       "{solid: 2}}\n",
+       "no surface of revolution about the axis"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n  patches: {wall: "
+       "{faces: WALL*}}\n",
+       "cad.patches.wall.faces: 'WALL*' matches no face"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n  patches: {lid: "
+       "{colour: '#00ff00'}}\n",
+       "cad.patches.lid: no face has its colour"},
+      {"  files: apart.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n",
+       "a gap or an overlap of 0.02"},
+  };
+  for (const auto &at : wrong) {
+    CwCase table = {};
+    CwCadPump pump = {};
+    CwModel model = {};
+    CwStatus status = read_case(at.cad, &table);
+    if (status == CW_OK) status = cw_cad_pump_read(table.cad, &pump);
+    if (status == CW_OK) status = cw_cad_pump_name(table.cad, &pump);
+    if (status == CW_OK)
+      status = cw_cad_model_make(&table, &pump.survey, &pump.patches, pump.interface_count, pump.interface,
+                                 pump.blade_count, cw_cad_parts_unit(pump.parts), &model);
+    assert_int_not_equal(status, CW_OK);
+    if (!strstr(cw_fail_message(), at.message)) fail_msg("'%s' has no '%s'", cw_fail_message(), at.message);
+    cw_model_free(&model);
+    cw_cad_pump_free(&pump);
+    cw_case_free(&table);
+  }
+}
+
+static int make_files(void **) {
+  char name[] = "/tmp/cutwater_cad_XXXXXX";
+  if (!mkdtemp(name)) return -1;
+  folder = name;
+  const TopoDS_Shape rotor = small_rotor(), stator = small_stator();
+  gp_Trsf wider;
+  wider.SetScale(gp::Origin(), 50.02 / 50);
+  small_write(folder + "/pump.brep", {rotor, stator});
+  small_write(folder + "/apart.brep", {rotor, BRepBuilderAPI_Transform(stator, wider, Standard_True).Shape()});
+  return 0;
+}
+
+static int remove_files(void **) {
+  for (const char *name : {"/pump.brep", "/apart.brep", "/case.yaml", ""}) remove((folder + name).c_str());
+  return 0;
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_proposed), cmocka_unit_test(rules_name_patches),
+                                     cmocka_unit_test(wrong_input_is_told)};
+  return cmocka_run_group_tests(tests, make_files, remove_files);
+}
