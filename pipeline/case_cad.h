@@ -66,7 +66,7 @@ typedef struct {
 
 typedef struct CwCaseCad {
   CwCadTexts files;         // as the case has them, beside the folder of the case file
-  double unit;              // of B-rep files, m
+  double unit;              // of the files, m; 0: STEP files have their own, B-rep files are in mm
   double point[3], axis[3]; // m; unit vector about which the wheel turns by the right hand
   double tolerance;         // of sewing, m; NAN: computed
   int names_are_patches;    // 1: a face that no patch takes goes by its name in the file

@@ -166,15 +166,24 @@ TopoDS_Shape scaled(const TopoDS_Shape &shape, double factor) {
   return BRepBuilderAPI_Transform(shape, scale, Standard_True).Shape();
 }
 
-// Length of one unit of a STEP file, mm.
-double own_unit(STEPControl_Reader &reader) {
+// Length of one unit of a STEP file, mm; files name converted units as they like (INCH, inch).
+CwStatus own_unit(const char *path, STEPControl_Reader &reader, double *unit) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   static const std::map<std::string, double> known = {{"millimetre", 1}, {"metre", 1000}, {"centimetre", 10},
                                                       {"inch", 25.4},    {"foot", 304.8}, {"micrometre", 1e-3}};
-  if (lengths.IsEmpty()) return 1;
-  const auto found = known.find(lengths(1).ToCString());
-  return found == known.end() ? 1 : found->second;
+  *unit = 1;
+  if (lengths.IsEmpty()) return CW_OK;
+  TCollection_AsciiString name = lengths(1);
+  name.LowerCase();
+  const auto found = known.find(name.ToCString());
+  if (found == known.end())
+    return CW_FAIL(CW_ERR_INPUT,
+                   "%s: its lengths are in '%s'; with cad.unit_mm allowed: millimetre, metre, centimetre, micrometre, "
+                   "inch, foot; without the key its own unit is taken",
+                   path, lengths(1).ToCString());
+  *unit = found->second;
+  return CW_OK;
 }
 
 // All faces of the shapes, sewn, as solids.
@@ -213,7 +222,13 @@ CwStatus read_step(const char *path, double unit, double tolerance, CwCadBodies 
   reader.SetColorMode(Standard_True);
   reader.SetLayerMode(Standard_True);
   if (reader.ReadFile(path) != IFSelect_RetDone) return CW_FAIL(CW_ERR_INPUT, "%s: is not a STEP file", path);
-  const double factor = unit > 0 ? unit / millimetre / own_unit(reader.ChangeReader()) : 1;
+  double factor = 1;
+  if (unit > 0) {
+    double own;
+    const CwStatus status = own_unit(path, reader.ChangeReader(), &own);
+    if (status != CW_OK) return status;
+    factor = unit / millimetre / own;
+  }
   if (!reader.Transfer(document.handle)) return CW_FAIL(CW_ERR_INPUT, "%s: holds no shape; allowed: solids", path);
   TDF_LabelSequence labels;
   document.shapes->GetFreeShapes(labels);

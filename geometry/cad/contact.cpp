@@ -17,12 +17,43 @@
 
 namespace {
 
-const int TRIANGLES = 24;      // that are looked from in a face, about
-const double NEAR = 1e-3;      // of the size: a gap up to it is meant to be none
-const double PARALLEL = -0.99; // cosine of the normals of faces that face one another
+const int TRIANGLES = 24;   // that are looked from in a face, about
+const double NEAR = 1e-3;   // of the size: a gap up to it is meant to be none
+const double FACING = -0.7; // cosine of the normals of faces that face one another, by their triangles
 
 double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double off(const double a[3], const double b[3]) {
+  const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return dot(d, d);
+}
+
+void normal_of(const CwSurvey &survey, int triangle, double n[3]) {
+  const double *a = survey.point[survey.triangle[triangle][0]], *b = survey.point[survey.triangle[triangle][1]],
+               *c = survey.point[survey.triangle[triangle][2]];
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    n[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
+  }
+  const double length = std::sqrt(dot(n, n));
+  for (int i = 0; i < 3 && length > 0; i++) n[i] /= length;
+}
+
+// Whether a triangle has the other face before it: faces that only share an edge come as near as those that coincide.
+bool faces(const CwSurvey &survey, int triangle, int other, const double at[3]) {
+  const CwSurveyFace &face = survey.face[other];
+  int nearest = face.first_triangle;
+  double best = INFINITY, n[3], m[3];
+  for (int t = face.first_triangle; t < face.first_triangle + face.triangle_count; t++) {
+    double least = off(survey.middle[t], at);
+    for (int k = 0; k < 3; k++) least = std::min(least, off(survey.corner[t][k], at));
+    if (least < best) best = least, nearest = t;
+  }
+  normal_of(survey, triangle, n);
+  normal_of(survey, nearest, m);
+  return dot(n, m) < FACING;
 }
 
 struct Seen {
@@ -31,20 +62,19 @@ struct Seen {
   const double *at = nullptr;
 };
 
-// Looks from a point of a face at one other part.
-CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, const CwSurveyFace &of, const double at[3],
-                   int part, double tolerance, Seen &seen) {
+// Looks from a point of a triangle at one other part.
+CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, int triangle, const double at[3], int part,
+                   double tolerance, Seen &seen) {
   double distance;
   int other;
   const CwStatus status = cw_survey_nearest(&parts, &survey, part, at, NEAR * survey.size, &other, &distance, nullptr);
   if (status != CW_OK) return status;
   seen.looked++;
-  if (other < 0) return CW_OK;
+  if (other < 0 || !faces(survey, triangle, other, at)) return CW_OK;
   if (distance <= tolerance) {
     seen.touching++;
     seen.other = other;
-  } else if (survey.face[other].form != CW_FORM_PLANE || of.form != CW_FORM_PLANE ||
-             dot(of.normal, survey.face[other].normal) < PARALLEL) {
+  } else {
     seen.near++;
     if (distance > seen.gap) seen.gap = distance, seen.at = at;
   }
@@ -57,8 +87,8 @@ CwStatus look(const CwCadParts &parts, const CwSurvey &survey, int face, int par
   const CwSurveyFace &of = survey.face[face];
   const int step = std::max(1, of.triangle_count / TRIANGLES);
   for (int t = of.first_triangle; t < of.first_triangle + of.triangle_count; t += step) {
-    CW_TRY(look_from(parts, survey, of, survey.middle[t], part, tolerance, seen));
-    for (int k = 0; k < 3; k++) CW_TRY(look_from(parts, survey, of, survey.corner[t][k], part, tolerance, seen));
+    CW_TRY(look_from(parts, survey, t, survey.middle[t], part, tolerance, seen));
+    for (int k = 0; k < 3; k++) CW_TRY(look_from(parts, survey, t, survey.corner[t][k], part, tolerance, seen));
   }
 done:
   return status;

@@ -208,6 +208,23 @@ double extent(const CwCadParts &parts) {
   return std::max(std::max(x1 - x0, y1 - y0), z1 - z0);
 }
 
+// Whether a point may be within `reach` of a face: its triangles stand within the deflection of it. Boxes of curved
+// faces alone are of no use, for a volute's hold the whole wheel.
+bool may_reach(const CwSurvey &survey, const CwSurveyFace &face, const double x[3], double reach) {
+  const double far = reach + 2 * DEFLECTION * survey.size;
+  for (int t = face.first_triangle; t < face.first_triangle + face.triangle_count; t++) {
+    double box[2][3];
+    for (int i = 0; i < 3; i++) {
+      const double a = survey.point[survey.triangle[t][0]][i], b = survey.point[survey.triangle[t][1]][i],
+                   c = survey.point[survey.triangle[t][2]][i];
+      box[0][i] = std::min(a, std::min(b, c));
+      box[1][i] = std::max(a, std::max(b, c));
+    }
+    if (box_distance(box, x) < far) return true;
+  }
+  return false;
+}
+
 template <class To, class From> CwStatus copy(const std::vector<From> &from, To *&to, int &count) {
   static_assert(sizeof(To) == sizeof(From), "copied as bytes");
   to = (To *)std::malloc(std::max<size_t>(from.size(), 1) * sizeof(From));
@@ -276,6 +293,7 @@ CwStatus cw_survey_nearest(const CwCadParts *parts, const CwSurvey *survey, int 
     for (int i = 0, p = -1; i < survey->face_count; i++) {
       const CwSurveyFace &of = survey->face[i];
       if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= next) continue;
+      if (std::isfinite(next) && !may_reach(*survey, of, point, next)) continue;
       if (of.part != p) p = of.part, faces = cw_cad_faces(parts->part[p].solid);
       BRepExtrema_DistShapeShape measure(vertex, faces(of.face + 1));
       if (!measure.IsDone()) continue;

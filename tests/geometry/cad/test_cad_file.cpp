@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include <BRep_Builder.hxx>
@@ -31,7 +33,7 @@ static std::string folder;
 
 // A box of 10 x 20 x 30 as part "water" of an assembly, moved by 100 along x; its first face is named, coloured and in
 // a layer.
-static void write_step(const std::string &path, const char *unit) {
+static void write_step(const std::string &path) {
   Handle(TDocStd_Document) document;
   XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
@@ -50,44 +52,81 @@ static void write_step(const std::string &path, const char *unit) {
   TDataStd_Name::Set(shapes->AddComponent(assembly, part, TopLoc_Location(move)), "wheel_1");
   shapes->UpdateAssemblies();
   STEPCAFControl_Writer writer;
-  Interface_Static::SetCVal("write.step.unit", unit);
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   writer.SetNameMode(Standard_True);
   writer.SetColorMode(Standard_True);
   writer.SetLayerMode(Standard_True);
   assert_true(writer.Transfer(document, STEPControl_AsIs));
   assert_int_equal(writer.Write(path.c_str()), IFSelect_RetDone);
-  Interface_Static::SetCVal("write.step.unit", "MM");
 }
 
 static void check_box(const CwCadBodies *bodies, double x0, double x1) {
   double box[2][3];
   assert_int_equal(cw_cad_body_box(bodies, 0, box), CW_OK);
-  assert_float_equal(box[0][0], x0, 1e-7);
-  assert_float_equal(box[1][0], x1, 1e-7);
+  assert_float_equal(box[0][0], x0, 1e-6 * x1);
+  assert_float_equal(box[1][0], x1, 1e-6 * x1);
+}
+
+// The file says that its lengths are in another unit: by its text alone, so that no writer's idea of units counts.
+static const char millimetre_text[] = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )";
+
+static void say_unit(const std::string &path, const std::string &unit) {
+  std::ifstream in(path);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string millimetre = millimetre_text;
+  size_t found = 0;
+  for (size_t at = text.find(millimetre); at != std::string::npos; at = text.find(millimetre, at + 1), found++)
+    text.replace(at, millimetre.size(), unit);
+  assert_true(found > 0);
+  const std::string inch = std::string("#9001 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#9002);\n#9002 = ") +
+                           millimetre_text + ";\n#9003 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n";
+  text.insert(text.rfind("ENDSEC;"), inch);
+  std::ofstream(path) << text;
 }
 
 static void step_tells_all(void **) {
-  for (const char *unit : {"MM"}) {
-    CwCadBodies *bodies = nullptr;
-    const std::string path = folder + "/box.step";
-    write_step(path, unit);
-    if (cw_cad_file_read(path.c_str(), 0, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
-    assert_int_equal(cw_cad_body_count(bodies), 1);
-    assert_string_equal(cw_cad_body_name(bodies, 0), "water");
-    assert_string_equal(cw_cad_body_instance(bodies, 0), "wheel_1");
-    check_box(bodies, 0.1, 0.11);
-    int named = 0;
-    for (const CwCadFaceOrigin &origin : bodies->body[0].origin) {
-      if (origin.name != "BLADE_PS_1") continue;
-      named++;
-      assert_int_equal(origin.colour, 0x00ff00);
-      assert_string_equal(origin.layer.c_str(), "wet");
-    }
-    assert_int_equal(named, 1);
-    cw_cad_bodies_free(&bodies);
-    remove(path.c_str());
+  CwCadBodies *bodies = nullptr;
+  const std::string path = folder + "/box.step";
+  write_step(path);
+  if (cw_cad_file_read(path.c_str(), 0, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(cw_cad_body_count(bodies), 1);
+  assert_string_equal(cw_cad_body_name(bodies, 0), "water");
+  assert_string_equal(cw_cad_body_instance(bodies, 0), "wheel_1");
+  check_box(bodies, 0.1, 0.11);
+  int named = 0;
+  for (const CwCadFaceOrigin &origin : bodies->body[0].origin) {
+    if (origin.name != "BLADE_PS_1") continue;
+    named++;
+    assert_int_equal(origin.colour, 0x00ff00);
+    assert_string_equal(origin.layer.c_str(), "wet");
   }
+  assert_int_equal(named, 1);
+  cw_cad_bodies_free(&bodies);
+  remove(path.c_str());
+}
+
+static void step_files_have_their_own_unit(void **) {
+  static const struct {
+    const char *text;
+    double metres;
+  } units[] = {{millimetre_text, 1e-3},
+               {"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.) )", 1},
+               {"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.CENTI.,.METRE.) )", 1e-2},
+               {"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MICRO.,.METRE.) )", 1e-6},
+               {"( CONVERSION_BASED_UNIT('INCH',#9001) LENGTH_UNIT() NAMED_UNIT(#9003) )", 0.0254}};
+  const std::string path = folder + "/box.step";
+  for (const auto &unit : units) {
+    for (const double asked : {0.0, 0.0254}) { // of the file; given in its place
+      CwCadBodies *bodies = nullptr;
+      const double one = asked > 0 ? asked : unit.metres;
+      write_step(path);
+      say_unit(path, unit.text);
+      if (cw_cad_file_read(path.c_str(), asked, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
+      check_box(bodies, 100 * one, 110 * one);
+      cw_cad_bodies_free(&bodies);
+    }
+  }
+  remove(path.c_str());
 }
 
 static void points_and_units_of_brep_files(void **) {
@@ -141,7 +180,8 @@ static int remove_folder(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all), cmocka_unit_test(points_and_units_of_brep_files),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all), cmocka_unit_test(step_files_have_their_own_unit),
+                                     cmocka_unit_test(points_and_units_of_brep_files),
                                      cmocka_unit_test(shells_are_sewn_or_refused)};
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
