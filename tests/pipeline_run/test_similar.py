@@ -81,12 +81,13 @@ class Similar(unittest.TestCase):
                 shutil.rmtree(run)
 
     def test_so_do_solids_in_another_unit(self):
-        """The B-rep itself 8 times as large or small, with the millimetre as its unit."""
+        """The B-rep itself 8 times as large or small, in the unit of the pump that it is made from."""
         for power in (-3, 3):
             with self.subTest(power=power):
                 run = similar(2.0 ** power, f"solid-2^{power}")
                 self.meshed(run, ["geometry"])
-                shutil.copyfile(self.one / "geometry/model.json", run / "geometry/model.json")
+                model, one = (json.loads((folder / "geometry/model.json").read_text()) for folder in (run, self.one))
+                (run / "geometry/model.json").write_text(json.dumps({**model, "unit_m": one["unit_m"]}))
                 for domain in ("rotor", "stator"):
                     solid = f"geometry/{domain}.brep"
                     scaled = execute([BIN / "scaled_solid", self.one / solid, run / solid, power])

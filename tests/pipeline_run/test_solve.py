@@ -17,7 +17,7 @@ sys.path.insert(0, str(SOURCE / "pipeline/solve"))
 import reports  # noqa: E402
 import settling  # noqa: E402
 
-CELLS = 20000
+CELLS = 40000
 
 
 def history(value, count=1000, step=10):
