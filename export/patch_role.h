@@ -17,8 +17,8 @@ int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_rotates(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_is_shaft(const CwMesh *mesh, const CwModelPatch *patch);
 
-// Whether the layers of a wall, by the y+ that they were made for, resolve the viscous sublayer or laminar flow; whether
-// those of any wall do.
+// Whether the layers of a wall, by the y+ that they were made for, resolve the viscous sublayer or laminar flow;
+// whether those of any wall do.
 int cw_patch_resolved(const CwModelPatch *patch);
 int cw_walls_resolved(const CwMesh *mesh);
 

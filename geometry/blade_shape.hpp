@@ -33,7 +33,7 @@ struct CwBladePatch {
 };
 
 // A blade, a splitter or a seam. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a
-// sharp one no cut.
+// sharp one no cut. The fields are its sections and what its patches and the lines on both walls are made of.
 struct CwBladeShape {
   const char *name;
   std::vector<CwBladeSection> section;

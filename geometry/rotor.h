@@ -13,8 +13,8 @@
 extern "C" {
 #endif
 
-// Builds the rotor of a design in the model unit of its D2. Free with cw_solid_free(). Fails with CW_ERR_DESIGN where the blade
-// has no solution and with CW_ERR_GEOMETRY where the solid cannot be built or is not valid.
+// Builds the rotor of a design in the model unit of its D2. Free with cw_solid_free(). Fails with CW_ERR_DESIGN where
+// the blade has no solution and with CW_ERR_GEOMETRY where the solid cannot be built or is not valid.
 CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor);
 
 #ifdef __cplusplus

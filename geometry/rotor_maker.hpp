@@ -23,7 +23,7 @@
 enum { WALL_LEVELS = 4 }; // curves along the blade: hub, ends of both root fillets, shroud
 
 // A blade in the shell. Levels run from the hub's (0) to the shroud's, one more than bands; inner levels are
-// where root fillets end.
+// where root fillets end. The fields are the vertices and edges of its faces, by the names of blade.h.
 struct RotorBlade {
   const CwBladeShape *shape;
   int turns; // multiples of the pitch

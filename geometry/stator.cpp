@@ -41,7 +41,8 @@ const double U_MARGIN = 0.1;      // rad: keeps the faces of cylinders and cones
 enum { BOTTOM, TOP };
 
 // The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the
-// start of the kink line at the tongue. Names of the points as in volute.h.
+// start of the kink line at the tongue. Names of the points as in volute.h. The fields are vertices and edges that
+// faces made in different steps have in common.
 class StatorMaker {
 public:
   StatorMaker(const CwVolute &volute, double unit)

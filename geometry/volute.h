@@ -53,6 +53,7 @@
 extern "C" {
 #endif
 
+// The fields are what the keys of the case, the design of the impeller and the correlations leave.
 typedef struct {
   double flow_rate; // Q, m3/s
   CwAreaLaw area_law;
@@ -78,6 +79,7 @@ typedef struct {
   double discharge_pipe_length; // m, behind the diffuser; NAN: two outlet diameters
 } CwVoluteInput;
 
+// The fields are the dimensions of the sections, the tongue and the diffuser, in that order.
 typedef struct {
   CwVoluteInput input;
   double arc_half_angle;      // k0, rad

@@ -71,6 +71,7 @@ typedef struct {
   double warn_share;           // a given value that differs more from its correlation is warned of
 } CwDesignTable;
 
+// The fields are the keys of the table `impeller`.
 typedef struct {
   CwPriority priority; // which constraint of an over-determined table is the law
   CwRotation rotation;
@@ -107,6 +108,7 @@ typedef struct {
   CwPipeZone suction_pipe_zone;  // whether most of it is a zone of its own
 } CwImpellerTable;
 
+// The fields are the keys of the table `volute`.
 typedef struct {
   double base_diameter;   // D3, m
   double inlet_width;     // b3, m

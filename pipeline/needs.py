@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """needs.py FOLDER [--solve] CELLS...: tells what runs of so many cells need of disk and memory, before they start, and
-ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. needs.py --table CELLS...: prints a row of
-a table for each number.
+ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. needs.py --table CELLS...: prints a row
+of a table for each number.
 
 The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 8 million cells, on 2 ranks (tests/bench/scale.py
 prints them); layers and size change them by a third."""
@@ -42,7 +42,8 @@ def row(text):
 
 def main(words):
     if words[0] == "--table":
-        print("| cells | disk: mesh, GB | export, GB | solved flow, GB | memory: mesher, all ranks, GB | OpenFOAM, GB |")
+        print("| cells | disk: mesh, GB | export, GB | solved flow, GB | memory: mesher, all ranks, GB | "
+              "OpenFOAM, GB |")
         print("|---|---|---|---|---|---|")
         print("\n".join(row(text) for text in words[1:]))
         return

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# Installs what is missing from Debian: packages.sh build|solve|check|check-long. `build` is what the programs need, `solve`
-# also the flow solver, `check` also what the tests hold them against: programs of others, `check-long` another MPI too.
+# Installs what is missing from Debian: packages.sh build|solve|check|check-long. `build` is what the programs need,
+# `solve` also the flow solver, `check` also what the tests hold them against: programs of others, `check-long` another
+# MPI too.
 set -eu
 
 build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmocka-dev libcairo2-dev
@@ -25,7 +26,8 @@ if ! command -v dpkg-query > /dev/null; then
 fi
 missing=
 for package in $wanted; do
-  [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || :)" = installed ] || missing="$missing $package"
+  [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || :)" = installed ] ||
+    missing="$missing $package"
 done
 [ -n "$missing" ] || exit 0
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# What the variables of a call may be. Checked before anything is built or run. Included with ROOT, the top of the source,
-# set, and TOP, the folder that the paths of a call count from, where that is another one.
+# What the variables of a call may be. Checked before anything is built or run. Included with ROOT, the top of the
+# source, set, and TOP, the folder that the paths of a call count from, where that is another one.
 ifneq ($(origin TOP),file)
 TOP := $(ROOT)
 endif
@@ -10,8 +10,10 @@ endif
 cutwater_require = $(if $(shell echo '$(subst ','\'',$(2))' | grep -Ex '$(3)' > /dev/null || echo no),$\
   $(error $(1) is '$(2)'; allowed: $(4)))
 
-# $(call cutwater_require_cells,NAME,VALUE): empty, or as --cells takes it; whether it is in range the first stage tells.
-cutwater_require_cells = $(call cutwater_require,$(1),$(2),([0-9][0-9.]*[kKMG]?)?,a number of cells as 500000 or 500k or 2M)
+# $(call cutwater_require_cells,NAME,VALUE): empty, or as --cells takes it; whether it is in range the first stage
+# tells.
+cutwater_require_cells = $(call cutwater_require,$(1),$(2),([0-9][0-9.]*[kKMG]?)?,$\
+  a number of cells as 500000 or 500k or 2M)
 
 # Stops at a variable of the command line that is none of those in the list, such as CELL=2M.
 cutwater_variables := BUILD CELLS CHOICE HOSTS JOBS LAUNCHER NP OPTIONS OUT SECTIONS SOLVE SWEEP

@@ -24,8 +24,8 @@ $(if $(shell test -f $(HOSTS) && test -r $(HOSTS) || echo no),$\
   $(error HOSTS is '$(HOSTS)'; allowed: a file with a line 'NAME slots=NUMBER' for each host))
 endif
 
-# Also as root. On this machine also more ranks than it has cores, without binding, so that runs side by side do not share
-# a core while another is free, and without copies across processes, which containers forbid.
+# Also as root. On this machine also more ranks than it has cores, without binding, so that runs side by side do not
+# share a core while another is free, and without copies across processes, which containers forbid.
 LAUNCHER ?= env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 $(if $(HOSTS),mpirun -q --hostfile $(HOSTS),$\
   OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -q --oversubscribe --bind-to none) $(if $(NP),-n $(NP))
 
@@ -37,13 +37,14 @@ endef
 # $(call cutwater_cad,FOLDER): the CAD files in the folder of a case and in the folders in it.
 cutwater_cad = $(wildcard $(foreach kind,step stp brep STEP STP,$(1)*.$(kind) $(1)*/*.$(kind)))
 
-# $(call cutwater_run,TARGET,CASE FILE,RUN FOLDER,CELLS): TARGET makes the whole run and tells what it made, TARGET-solve
-# solves its steady flow too, and TARGET-curve the points of its characteristic curve. What is solved already stays.
-# CELLS may be empty: the number of the case file.
+# $(call cutwater_run,TARGET,CASE FILE,RUN FOLDER,CELLS): TARGET makes the whole run and tells what it made,
+# TARGET-solve solves its steady flow too, and TARGET-curve the points of its characteristic curve. What is solved
+# already stays. CELLS may be empty: the number of the case file.
 define cutwater_run
 .PHONY: $(1) $(1)-solve $(1)-curve
 $(1)-solve $(1)-curve: $(1)-%: $(2) $(3)/export/record.json
-	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(or $(NP),2) --bin $(BIN) $$(if $$(filter curve,$$*),--curve)
+	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(or $(NP),2) --bin $(BIN) \
+	  $$(if $$(filter curve,$$*),--curve)
 	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 

@@ -65,8 +65,8 @@ def mesh_lines(result):
         full = sum(wall["full_thickness_faces"] for wall in walls)
         jumps = sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls)
         yield "layers", (f"{result['layers']} on {faces:,} wall faces; first height as asked on "
-                         f"{100 * first / faces:.1f} %, full thickness on {100 * full / faces:.1f} %; volumes change by "
-                         f"up to 4 across the layer top on {100 * (1 - jumps / faces):.1f} %")
+                         f"{100 * first / faces:.1f} %, full thickness on {100 * full / faces:.1f} %; volumes change "
+                         f"by up to 4 across the layer top on {100 * (1 - jumps / faces):.1f} %")
     yield "volume", ", ".join(f"{domain['name']} {100 * domain['volume_error']:+.3f} %" for domain in domains) + \
         " from its solid; least cell " + f"{1e9 * min(domain['least_cell_volume_m3'] for domain in domains):.2g} mm3"
 

@@ -37,8 +37,10 @@ TEST_LIMIT, SUITE_LIMIT = 300, 1500  # s; a quick test takes less than a minute,
 OPPOSITE = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "+": "-", "-": "+", "*": "/", "/": "*",
             "&&": "||", "||": "&&"}
 # Binary operators stand between blanks, as clang-format leaves them; a pointer's star and a sign do not.
-TOKENS = [("comparison", r"(?<= )(<=|>=|==|!=|<|>)(?= )"), ("sign", r"(?<= )([-+*/])(?= )"), ("logic", r"(?<= )(&&|\|\|)(?= )"),
-          ("number", r"(?<![\w.])(\d+\.?\d*(?:[eE][-+]?\d+)?)(?![\w.])"), ("condition", r"(?<=\bif )(\([^;{}]*\))(?= [^)])"),
+TOKENS = [("comparison", r"(?<= )(<=|>=|==|!=|<|>)(?= )"), ("sign", r"(?<= )([-+*/])(?= )"),
+          ("logic", r"(?<= )(&&|\|\|)(?= )"),
+          ("number", r"(?<![\w.])(\d+\.?\d*(?:[eE][-+]?\d+)?)(?![\w.])"),
+          ("condition", r"(?<=\bif )(\([^;{}]*\))(?= [^)])"),
           ("call", r"^ +((?!free|cw_log|cw_progress|\w+_free)[a-z]\w*\([^;{}=]*\);)$")]
 
 
@@ -179,8 +181,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--near", action="store_true")
     options = parser.parse_args()
-    files = {path: len(path.read_text().splitlines()) for stage in STAGES for path in sorted((SOURCE / stage).rglob("*"))
-             if path.suffix in (".c", ".cpp")}
+    files = {path: len(path.read_text().splitlines()) for stage in STAGES
+             for path in sorted((SOURCE / stage).rglob("*")) if path.suffix in (".c", ".cpp")}
     tree, build, kept = options.work / "tree", options.work / "build", options.work / "mutations.jsonl"
     options.work.mkdir(parents=True, exist_ok=True)
     shutil.rmtree(tree, ignore_errors=True)

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with
 // (u,v) kept for every corner. What the size field samples and the planner clips; no node of it goes into the
-// mesh.
+// mesh. Made by background_make.h.
 #ifndef CUTWATER_MESHER_CAD_BACKGROUND_H
 #define CUTWATER_MESHER_CAD_BACKGROUND_H
 
 #include <stdint.h>
-
-#include "pipeline/status.h"
-
-#include "mesher/cad/cad.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,17 +20,13 @@ typedef struct {
   int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
 } CwBackground;
 
-// Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that
-// other ranks have made.
-CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
-
-// From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with
-// CW_ERR_GEOMETRY where the result is not closed (the place is named).
-CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
 void cw_background_free(CwBackground *background);
 
 // Unit normal of triangle t, out of the domain; zero where it has no area.
 void cw_background_normal(const CwBackground *background, int32_t t, double n[3]);
+
+// Area of triangle t, m2, and its centre.
+double cw_background_area(const CwBackground *background, int32_t t, double centre[3]);
 
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);

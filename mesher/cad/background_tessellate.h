@@ -5,6 +5,8 @@
 #define CUTWATER_MESHER_CAD_BACKGROUND_TESSELLATE_H
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/cad.h"
+#include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The exact geometry of one domain , read from the geometry stage. The one bridge of the
-// mesher to OpenCASCADE. The B-rep has a unit of its own; lengths here are metres until cw_cad_rescale brings them to
-// the unit of the model (common/model_unit). Indices are 0-based.
+// The exact geometry of one domain, read from the geometry stage. The one bridge of the mesher to OpenCASCADE. The
+// B-rep has a unit of its own; lengths here are metres until cw_cad_rescale brings them to the unit of the model
+// (common/model_unit). Indices are 0-based.
 #ifndef CUTWATER_MESHER_CAD_CAD_H
 #define CUTWATER_MESHER_CAD_CAD_H
 

@@ -41,6 +41,15 @@ static bool read_file(const char *path, TopoDS_Shape &shape) {
   return read && !shape.IsNull();
 }
 
+void cw_cad_map_parts(CwCad *cad) {
+  cad->face_map.Clear();
+  cad->edge_map.Clear();
+  cad->vertex_map.Clear();
+  TopExp::MapShapes(cad->solid, TopAbs_FACE, cad->face_map);
+  TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
+  TopExp::MapShapes(cad->solid, TopAbs_VERTEX, cad->vertex_map);
+}
+
 CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
   if (!std::ifstream(path).good()) return CW_FAIL(CW_ERR_IO, "%s: cannot be read", path);
   TopoDS_Shape shape;

@@ -22,6 +22,7 @@
 #include <gp_Trsf.hxx>
 #include <gp_Trsf2d.hxx>
 
+#include "mesher/cad/cad.h"
 #include "mesher/cad/cad_shape.h"
 
 namespace {
@@ -120,15 +121,6 @@ TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power) {
   BRepTools_Modifier modifier(shape, scaling);
   if (!modifier.IsDone()) throw Standard_Failure("the solid cannot be scaled");
   return modifier.ModifiedShape(shape);
-}
-
-void cw_cad_map_parts(CwCad *cad) {
-  cad->face_map.Clear();
-  cad->edge_map.Clear();
-  cad->vertex_map.Clear();
-  TopExp::MapShapes(cad->solid, TopAbs_FACE, cad->face_map);
-  TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
-  TopExp::MapShapes(cad->solid, TopAbs_VERTEX, cad->vertex_map);
 }
 
 CwStatus cw_cad_rescale(CwCad *cad, int power) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, background_tessellate.cpp).
+// Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, cad_scale.cpp,
+// background_tessellate.cpp).
 // Lengths in here are in the unit of the B-rep; only the C functions speak metres, or the unit of the model.
 #ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
 #define CUTWATER_MESHER_CAD_CAD_SHAPE_H
@@ -13,8 +14,8 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 
-#include "mesher/cad/cad.h"
 #include "mesher/cad/face_table.h"
+#include "pipeline/status.h"
 
 // Parameters at which a spline changes its polynomial. An adaptor keeps the polynomial of its last span; at a
 // parameter a rounding error off a knot the span, and with it the last bits, would follow from the call

@@ -3,8 +3,9 @@
 #ifndef CUTWATER_MESHER_CAD_FACE_TABLE_H
 #define CUTWATER_MESHER_CAD_FACE_TABLE_H
 
-#include "mesher/cad/cad.h"
 #include "pipeline/case.h"
+#include "pipeline/model.h"
+#include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {

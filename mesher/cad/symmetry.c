@@ -186,8 +186,8 @@ static int32_t vertex_image(const CwCad *cad, double near, int32_t count, int32_
 }
 
 // *whole: whether `count` turns bring the solid to itself.
-static CwStatus try_count(const CwCad *cad, double near, const FaceSamples *samples, int32_t count, CwSymmetry *symmetry,
-                          int *whole) {
+static CwStatus try_count(const CwCad *cad, double near, const FaceSamples *samples, int32_t count,
+                          CwSymmetry *symmetry, int *whole) {
   CwStatus status = CW_OK;
   int32_t *next = NULL, faces = cw_cad_face_count(cad), edges = cw_cad_edge_count(cad), turning = 0;
   symmetry->count = count;

@@ -29,8 +29,8 @@ typedef struct {
 } CwSymmetry;
 
 // Finds the greatest number of turns, at most 64, that brings the solid to itself: its patches, its faces with their
-// parameters (u,v), its edges with theirs, its vertices, all within the tolerance of the solid. A face may be fixed (a disk about the
-// axis), an edge or vertex not. The first faces of all image sets are chosen so that
+// parameters (u,v), its edges with theirs, its vertices, all within the tolerance of the solid. A face may be fixed (a
+// disk about the axis), an edge or vertex not. The first faces of all image sets are chosen so that
 // they hang together. *symmetry is NULL where there is none.
 CwStatus cw_symmetry_find(const CwCad *cad, const CwBackground *background, CwSymmetry **symmetry);
 void cw_symmetry_free(CwSymmetry **symmetry);

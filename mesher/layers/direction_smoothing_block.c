@@ -76,7 +76,7 @@ static double range(const CwLayerWork *work, int32_t v, const SmoothingAt *smoot
 }
 
 // One block: local numbers are those of its members and the halo, in order of distance, then of the vertices around
-// them, whose displacement stays.
+// them, whose displacement stays. The fields are arrays over these, made together for a block and freed with it.
 typedef struct {
   const CwLayerWork *work;
   int32_t count, all;

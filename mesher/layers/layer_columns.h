@@ -11,7 +11,7 @@
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
 
 // All normals point into the fluid. A column is t[v] * column[v]: `column` is the displacement for a unit normal
-// thickness.
+// thickness. The fields are arrays over all vertices, one for each step's result, which later steps read.
 typedef struct {
   const CwLayerInput *in;
   int32_t n;                        // vertices

@@ -21,6 +21,7 @@ typedef struct {
   const void *context;
 } CwLayerDivision;
 
+// The fields are four groups: the wall, the asked thickness, what holds columns, what they must not reach.
 typedef struct {
   int32_t point_count;
   const double (*x)[3]; // wall vertices, m

@@ -13,6 +13,7 @@
 #define CUTWATER_MESHER_NETWORK_NETWORK_H
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/cad.h"
 #include "mesher/cad/inside.h"
 #include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan.h"

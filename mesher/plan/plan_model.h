@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_PLAN_PLAN_MODEL_H
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/cad.h"
 #include "mesher/cad/inside.h"
 #include "mesher/common/box_tree.h"
 #include "mesher/common/cubes.h"
@@ -25,6 +26,8 @@ typedef struct {
   double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 
+// What cuts are judged by. The fields are points with their attributes: samples of the volume, background triangles,
+// CAD edges and walls.
 typedef struct {
   const CwInside *inside;
   const CwBackground *background;

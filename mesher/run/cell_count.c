@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "mesher/policy.h"
+#include "mesher/run/domain_size.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
 #include "pipeline/wall_group.h"
@@ -83,7 +84,8 @@ void cw_mesh_solve_scale(CwMeshRun *run) {
 static void set_layers(CwMeshRun *run, int count, double y_plus_auto) {
   run->layer_count = count;
   run->y_plus_auto = y_plus_auto;
-  for (int d = 0; d < run->model.domain_count; d++) cw_domain_set_layers(&run->domain[d], run->table, count, y_plus_auto);
+  for (int d = 0; d < run->model.domain_count; d++)
+    cw_domain_set_layers(&run->domain[d], run->table, count, y_plus_auto);
 }
 
 // More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. From below the

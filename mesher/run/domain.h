@@ -20,6 +20,7 @@ typedef struct {
   int32_t patch;
 } CwLayerSample;
 
+// The fields are the domain's products in the order in which stages make them.
 typedef struct {
   const char *name;
   const CwModelPatch *patch; // of the model
@@ -63,36 +64,17 @@ CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table);
 // Sets the number of layers and the first heights, of this y+ where the case leaves it open, and what patches ask of so
 // many.
 void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count, double y_plus_auto);
-// Adds the wall faces at a scale of the size field to needing[n] by the number of layers that they need, from 1 to
-// CW_LAYER_COUNT_MOST, to lead to the tetrahedra, but no more than fit the passage.
-void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needing);
-
-// What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
-// part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these
-// few, for ranks that none is left for, what each face adds to the exact volume. `deflection`: of chords of the
-// background.
+// The background triangulation, face by face: what one rank makes for all, packed, and how all take it up.
+// `deflection`: of its chords.
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 double cw_domain_background_cost(const CwDomain *domain, int face);
 CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);
 // Walls on which no layers can stand become bare, with a warning.
 CwStatus cw_domain_leave_bare(CwDomain *domain);
-void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part, zeroed
-CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
-int cw_domain_size_parts(const CwDomain *domain);
-void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
-// Its growth at scale 1 is `gradation`; edges on walls are no longer at the scale `wall_scale`, if that is not 0, than
-// their layers allow.
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
-                             void *const *seeds, int part, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
-// The same for part CW_SIZE_SEEDS made once more, for about this scale.
-CwStatus cw_domain_take_field(CwDomain *domain, double scale, void **bytes);
-// Adds up area / h^2 of the walls at a scale of the field, and what it would be with no edge longer than they allow.
-void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, double *asked);
-// Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
-// tetrahedra follows from.
-double cw_domain_tet_integral(const CwDomain *domain, double scale);
+
+// Longest edge on walls of a patch, m: longer edges make prisms of small determinant.
+double cw_domain_longest_edge(const CwDomain *domain, int patch);
 
 // What `least_regions` of the case comes to in a domain of so many predicted cells.
 int cw_domain_least_regions(const CwCase *table, double cells);
@@ -115,20 +97,6 @@ CwStatus cw_domain_number(CwDomain *domain);
 
 // What the regions share, once their interfaces are final.
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
-
-// How the layers of a patch cover it, as far as it bounds one region.
-enum { CW_LAYER_REASONS = 4 };
-typedef struct {
-  int64_t faces, full, first_met;   // wall faces; with the full thickness; with the first height
-  int64_t reason[CW_LAYER_REASONS]; // by CwLayerReason: why not the full thickness; [0]: it is
-  int64_t missed[CW_LAYER_REASONS]; // why not the first height
-  double thickness, least;          // sum over the faces, least of all, m
-  int64_t thin;                     // prisms whose determinant checkMesh calls small (thin_prism)
-  double thin_wanted;               // how many times as tall the thinnest would have to be
-  double thin_at[3];                // and a corner of its wall triangle, m
-} CwLayerCoverage;
-// Of the patches up to `patches`, zeroed before.
-void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
 
 void cw_domain_clear(CwDomain *domain); // the boundary and what follows from it
 void cw_domain_close(CwDomain *domain);

@@ -10,6 +10,7 @@
 #include "mesher/parallel/profiler.h"
 #include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
+#include "mesher/run/domain_size.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"

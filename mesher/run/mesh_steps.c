@@ -9,6 +9,7 @@
 #include "mesher/fill/tet_bound.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/region/region_copy.h"
+#include "mesher/run/domain_size.h"
 #include "mesher/run/mesh_steps.h"
 #include "pipeline/log.h"
 

@@ -9,6 +9,7 @@
 #include "mesher/region/layer_ratio.h"
 #include "mesher/region/region_failure.h"
 #include "mesher/run/domain.h"
+#include "mesher/run/layer_coverage.h"
 #include "pipeline/model.h"
 #include "pipeline/record.h"
 
@@ -19,7 +20,7 @@
 #define CW_AUDIT(call) ((void)0)
 #endif
 
-// What is known of a finished region; travels between ranks as bytes.
+// What is known of a finished region; travels between ranks as bytes, so that all fields lie in one block.
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCHES_MOST];  // m2, of the region's boundary faces
@@ -36,6 +37,7 @@ typedef struct {
 // The stages whose product can be looked at.
 typedef enum { CW_STAGE_NONE, CW_STAGE_SURFACE, CW_STAGE_LAYERS, CW_STAGE_INTERFACES, CW_STAGE_COUNT } CwStage;
 
+// The fields are what a run is asked, its domains, and what its passes have learnt.
 typedef struct {
   const CwCase *table;
   const char *run_path;

@@ -11,6 +11,7 @@
 #include "pipeline/status.h"
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/cad.h"
 #include "pipeline/case.h"
 
 #ifdef __cplusplus
@@ -36,7 +37,7 @@ void cw_size_seeds_free(CwSizeSeeds **seeds);
 typedef struct {
   const double *open_edge; // where a wall meets an open face, and prisms have a side on the boundary; at any scale
   const double *wall;      // all over the walls, at scale 1; NULL: any
-  double scale;            // that the field is made for: narrow faces get no edges longer than twice their width; 0: any
+  double scale;            // that the field is made for: narrow faces get no edges above twice their width; 0: any
 } CwSizeLimits;
 
 // The field that spreads from all parts of the seeds (seeds[part]) through the domain, within the limits, if given.

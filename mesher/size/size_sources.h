@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_SIZE_SIZE_SOURCES_H
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/cad.h"
 #include "mesher/cad/scanlines.h"
 #include "mesher/size/size_grid.h"
 #include "pipeline/case.h"
@@ -41,7 +42,8 @@ void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
 CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count);
 
 // Lowers the nodes of the grid by packed seeds; the order of faces does not matter. Of a seed counts
-// `share`, but no less than open edges are granted of it or, where it is longer, of `base` (m), and no more than `most`.
+// `share`, but no less than open edges are granted of it or, where it is longer, of `base` (m), and no more than
+// `most`.
 void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double share, double base, double most);
 
 // The same for those CAD edges that are creases: the length of a short one, and the width of the face between two that

@@ -18,7 +18,8 @@
 
 enum { CW_PATCH_RING = 48 }; // free points with more triangles than that are left alone
 
-// Corner i of a triangle faces its edge i, which runs from corner i+1 to corner i+2.
+// Corner i of a triangle faces its edge i, which runs from corner i+1 to corner i+2. The fields are arrays over points
+// and triangles, and the room of one insertion, kept from one to the next.
 typedef struct {
   const CwPatchInput *input;
   int32_t given_count; // points below are given, the others free

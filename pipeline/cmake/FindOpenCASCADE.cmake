@@ -6,7 +6,8 @@ find_package(OpenCASCADE QUIET CONFIG)
 if(NOT OpenCASCADE_INCLUDE_DIR)
   find_path(OpenCASCADE_INCLUDE_DIR Standard_Version.hxx PATH_SUFFIXES opencascade occt)
 endif()
-set(toolkits TKernel TKMath TKG2d TKG3d TKGeomBase TKBRep TKGeomAlgo TKTopAlgo TKPrim TKBO TKShHealing TKMesh TKCDF TKLCAF
+set(toolkits TKernel TKMath TKG2d TKG3d TKGeomBase TKBRep TKGeomAlgo TKTopAlgo TKPrim TKBO TKShHealing TKMesh TKCDF
+  TKLCAF
   TKCAF TKXSBase TKSTEPBase TKSTEPAttr TKSTEP TKXDESTEP TKDESTEP TKXCAF TKBinXCAF)
 foreach(toolkit ${toolkits})
   if(NOT TARGET ${toolkit})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# The HDF5 for MPI that goes with the MPI that is found: target ParallelHDF5::hdf5. Where HDF5_ROOT or HDF5_DIR names one,
-# that; else that of pkg-config, on Debian hdf5-openmpi or hdf5-mpich, elsewhere hdf5; else what CMake's FindHDF5 finds. One
-# without MPI, or with another MPI, is passed over.
+# The HDF5 for MPI that goes with the MPI that is found: target ParallelHDF5::hdf5. Where HDF5_ROOT or HDF5_DIR names
+# one, that; else that of pkg-config, on Debian hdf5-openmpi or hdf5-mpich, elsewhere hdf5; else what CMake's FindHDF5
+# finds. One without MPI, or with another MPI, is passed over.
 include(CheckCSourceCompiles)
 include(CMakePushCheckState)
 include(FindPackageHandleStandardArgs)
@@ -35,12 +35,14 @@ function(cutwater_one_mpi libraries result)
   set(${result} ${one} PARENT_SCOPE)
 endfunction()
 
-# Sets ParallelHDF5_LIBRARIES to that of the candidate where a program with it compiles and links, and it is of this MPI.
+# Sets ParallelHDF5_LIBRARIES to that of the candidate where a program with it compiles and links, and it is of this
+# MPI.
 function(cutwater_try_hdf5 includes libraries)
   if(ParallelHDF5_LIBRARIES)
     return()
   endif()
-  file(WRITE ${CMAKE_BINARY_DIR}/try_hdf5/try.c "#include <hdf5.h>\n#include <mpi.h>\n#ifndef H5_HAVE_PARALLEL\n#error\n"
+  file(WRITE ${CMAKE_BINARY_DIR}/try_hdf5/try.c
+    "#include <hdf5.h>\n#include <mpi.h>\n#ifndef H5_HAVE_PARALLEL\n#error\n"
     "#endif\nint main(void) { return H5Pset_fapl_mpio(0, MPI_COMM_WORLD, MPI_INFO_NULL); }\n")
   try_compile(links ${CMAKE_BINARY_DIR}/try_hdf5 ${CMAKE_BINARY_DIR}/try_hdf5/try.c
     CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${includes}" LINK_LIBRARIES ${libraries} MPI::MPI_C)

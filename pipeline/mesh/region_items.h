@@ -16,7 +16,8 @@ extern "C" {
 
 enum { CW_REGION_FORMAT = 2, CW_REGION_ARRAYS = 11 };
 
-// A region in memory, as its file has it; see docs/file-formats.md for shapes and orders.
+// A region in memory, as its file has it: the fields are its arrays and their counts; see docs/file-formats.md for
+// shapes and orders.
 typedef struct {
   int domain, region; // domain: of the manifest
   int32_t point_count, shared_count;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""man_pages.py BIN FOLDER: writes the manual pages of the programs in BIN, and of the front door, from their --help into
-FOLDER. That text is a usage line, sentences, an empty line, and entries: two blanks, an option or a word, blanks, what
-it means."""
+"""man_pages.py BIN FOLDER: writes the manual pages of the programs in BIN, and of the front door, from their --help
+into FOLDER. That text is a usage line, sentences, an empty line, and entries: two blanks, an option or a word, blanks,
+what it means."""
 import re
 import subprocess
 import sys

@@ -75,7 +75,8 @@ static void table(FILE *page, const Curve *curve, json_t *points) {
                              curve->efficiency[k]};
     fputs("<tr>", page);
     for (size_t c = 0; c < sizeof values / sizeof *values; c++)
-      fprintf(page, "<td class=\"n\">%s</td>", isfinite(values[c]) ? cw_format_number(values[c], c == SCATTER ? 2 : 4, text) : "");
+      fprintf(page, "<td class=\"n\">%s</td>",
+              isfinite(values[c]) ? cw_format_number(values[c], c == SCATTER ? 2 : 4, text) : "");
     fprintf(page, "<td>%s</td></tr>\n", json_is_true(json_object_get(point, "settled")) ? "" : "not settled");
   }
   fputs("</table>\n", page);

@@ -27,6 +27,7 @@ typedef enum {
   CW_TARGET_SHROUD, // at the shroud, in the meridional plane
 } CwPictureTarget;
 
+// One row of the table of pictures, whose columns are the fields.
 typedef struct {
   CwPictureSection section;
   const char *title, *caption;

@@ -156,8 +156,9 @@ def run_solver(case, ranks, most, within, name):
     if child.returncode:
         words = (case / "log.simpleFoam").read_text(errors="replace").splitlines()
         fatal = next((text for text in reversed(words) if "FOAM FATAL" in text or "Floating" in text), "")
-        raise Trouble(f"{name}: simpleFoam ended with {child.returncode} {fatal}: see {case / 'log.simpleFoam'}; a flow "
-                      f"that diverges wants relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells")
+        raise Trouble(f"{name}: simpleFoam ended with {child.returncode} {fatal}: see {case / 'log.simpleFoam'}; a "
+                      f"flow that diverges wants relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more "
+                      "cells")
 
 
 def iterate(case, ranks, most, within, name):

@@ -138,7 +138,8 @@ def main():
                 continue
             seen.add((faces, volume))
             if valid != "1" or degenerate != "0":
-                cause, shown = ("not healed", "invalid") if valid != "1" else ("poles", f"{degenerate} degenerate edges")
+                cause, shown = (("not healed", "invalid") if valid != "1" else
+                                ("poles", f"{degenerate} degenerate edges"))
                 beside = ""
             else:
                 cause, shown = mesh(folder, case, options.cells)

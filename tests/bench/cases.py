@@ -60,8 +60,8 @@ def table_row(name, run, told):
     for domain in domains:
         near, apart = domain["tetrahedra_beside_planes"], domain["tetrahedra_apart"]
         beside.append(f"{100 * (near['aspect_mean'] / apart['aspect_mean'] - 1):+.1f}")
-    print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}{results['layers']:>7}  {first:>6}"
-          f"  {even:>15}  {worst:22} {of_domains('least_dihedral_deg', '{:.1f}'):>12} "
+    print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}{results['layers']:>7}"
+          f"  {first:>6}  {even:>15}  {worst:22} {of_domains('least_dihedral_deg', '{:.1f}'):>12} "
           f"{of_domains('tetrahedron_aspect_mean', '{:.2f}'):>12} {' / '.join(beside):>12}  {told}", flush=True)
 
 

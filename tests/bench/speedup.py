@@ -8,8 +8,8 @@
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs
 on the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost
-first, each rank takes the next task when it is free and waits where that one comes after another; a schedule starts when the
-one before has ended on all ranks).
+first, each rank takes the next task when it is free and waits where that one comes after another; a schedule starts
+when the one before has ended on all ranks).
 What no task accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are
 grouped as the mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row
 of 2 ranks, measured and modelled, and --check tell how far it holds here.
@@ -120,8 +120,8 @@ def replay_waiting(tasks, before, ranks):
 
 
 def smaller_neighbours(record):
-    """For each task of the step "regions" but periodic images, in order, those of its neighbours of smaller number. Where
-    passages are copies of one another none waits."""
+    """For each task of the step "regions" but periodic images, in order, those of its neighbours of smaller number.
+    Where passages are copies of one another none waits."""
     before = []
     for domain in record["results"]["domains"]:
         firsts = [region for region in domain["region_list"] if region["copy_of"] == region["region"]]

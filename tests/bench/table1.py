@@ -91,7 +91,8 @@ def main():
                 sys.exit(f"table1: Gmsh failed on the {domain}:\n{run.text[-1000:]}")
             print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
             all_of, by_region = found[domain]
-            comparisons = (("beside partition planes against the others", by_region["beside"], by_region["apart"], 0.05),
+            comparisons = (("beside partition planes against the others", by_region["beside"], by_region["apart"],
+                            0.05),
                            ("by region numbers against the serial mesh", by_region["all"], all_of, 0.02))
             for label, here, there, most in comparisons:
                 aspect, ratio = here[2] / there[2] - 1, 1 - here[6] / there[6]

@@ -409,8 +409,8 @@ static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_r
   for (int r = 0; r < d.annulus->regions && !failed; ++r)
     failed = json_array_append_new(regions, write_region(run, &d, r));
   free(d.shared);
-  json_t *domain = json_pack("{s:s, s:b, s:i, s:f, s:o, s:o}", "name", d.name, "rotating", is_rotor,
-                             "shared_points", d.shared_count, "solid_volume_m3", d.volume, "patches", patches, "regions", regions);
+  json_t *domain = json_pack("{s:s, s:b, s:i, s:f, s:o, s:o}", "name", d.name, "rotating", is_rotor, "shared_points",
+                             d.shared_count, "solid_volume_m3", d.volume, "patches", patches, "regions", regions);
   if (failed) {
     json_decref(domain);
     return NULL;

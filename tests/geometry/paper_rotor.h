@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The paper's case and cases of a duty alone, and designs and rotors made of them, for tests; each fails the test where the program would.
+// The paper's case and cases of a duty alone, and designs and rotors made of them, for tests; each fails the test where
+// the program would.
 #ifndef CUTWATER_TESTS_GEOMETRY_PAPER_ROTOR_H
 #define CUTWATER_TESTS_GEOMETRY_PAPER_ROTOR_H
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Cases and sizes whose layers are hard at corners of blade and hub: no check of OpenFOAM's fails, no tetrahedron is flat,
-and the first height holds."""
+"""Cases and sizes whose layers are hard at corners of blade and hub: no check of OpenFOAM's fails, no tetrahedron is
+flat, and the first height holds."""
 import unittest
 
 from cutwater import SOURCE, done, execute, fresh, record
 
 # Cells; None: the case's own.
-CASES = (("splitters", None), ("splitters", 300000), ("nq24", None), ("ns40", None), ("ns40", 300000), ("ns100", 1000000),
-         ("ns200", None), ("ns200", 1000000), ("paper", 8000000))
+CASES = (("splitters", None), ("splitters", 300000), ("nq24", None), ("ns40", None), ("ns40", 300000),
+         ("ns100", 1000000), ("ns200", None), ("ns200", 1000000), ("paper", 8000000))
 LEAST_DIHEDRAL = 12  # degrees
 
 

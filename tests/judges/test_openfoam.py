@@ -53,7 +53,8 @@ class OpenFoam(unittest.TestCase):
             self.assertLess(float(most), 1.02, side)
 
     def solve(self):
-        """What the solver says: of a few iterations on one rank, or of as many as converge, by the case's script on two."""
+        """What the solver says: of a few iterations on one rank, or of as many as converge, by the case's script on
+        two."""
         execute(["foamDictionary", "-entry", "endTime", "-set", ITERATIONS, "system/controlDict"], self.case)
         if ITERATIONS < CONVERGED:
             result = execute(["simpleFoam"], self.case)

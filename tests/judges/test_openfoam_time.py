@@ -61,7 +61,8 @@ class InTime(unittest.TestCase):
                    key=lambda path: float(path.name))
 
     def turned(self, folder):
-        """Degrees that the rotor's first point has turned since the steady case, and those of the last of the stator."""
+        """Degrees that the rotor's first point has turned since the steady case, and those of the last of the
+        stator."""
         before, now = points(self.case / "constant/polyMesh/points"), points(self.latest(folder) / "polyMesh/points")
         self.assertEqual(len(before), len(now))
         return [math.degrees(cmath.phase(complex(*now[k][:2]) / complex(*before[k][:2]))) % 360 for k in (0, -1)]
@@ -95,7 +96,8 @@ class InTime(unittest.TestCase):
         """Of the parts of the tongue's pressure in the last turn that come once a turn or oftener, the blades' is the
         greatest, and the phase averages and planes are there."""
         pressure = [row[1] for row in rows(les, "pressure_tongue", "surfaceFieldValue.dat")][-360:]
-        part = [abs(sum(p * cmath.exp(-2j * math.pi * k * i / 360) for i, p in enumerate(pressure))) for k in range(1, 31)]
+        part = [abs(sum(p * cmath.exp(-2j * math.pi * k * i / 360) for i, p in enumerate(pressure)))
+                for k in range(1, 31)]
         self.assertEqual(1 + part.index(max(part)), BLADES, part)
         self.assertTrue((self.latest(les) / "UPhaseMean").exists())
         planes = list((les / "postProcessing/planes").glob("*/middle.vtp"))

@@ -64,7 +64,8 @@ class Step(unittest.TestCase):
         gmsh.model.add("faces")
         gmsh.model.occ.importShapes(str(RUN / "geometry/pump_faces.step"))
         gmsh.model.occ.synchronize()
-        shown = collections.Counter(gmsh.model.getEntityName(*face).split("/")[-1] for face in gmsh.model.getEntities(2))
+        shown = collections.Counter(gmsh.model.getEntityName(*face).split("/")[-1]
+                                    for face in gmsh.model.getEntities(2))
         rows = [row.split(",") for row in (RUN / "geometry/faces.csv").read_text().splitlines()[1:]]
         self.assertEqual(len(gmsh.model.getEntities(3)), 2)
         self.assertEqual(shown, collections.Counter(row[2] for row in rows))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// cad_solids CASE FILE FOLDER: writes FOLDER/1/geometry, FOLDER/2/geometry, ... as the geometry stage does, each with one
-// solid of a STEP, IGES or B-rep file: healed, brought to 200 mm, closed faces divided, all faces walls. A line for each:
-// its number, its faces, whether it is valid, its degenerate edges, its volume.
+// cad_solids CASE FILE FOLDER: writes FOLDER/1/geometry, FOLDER/2/geometry, ... as the geometry stage does, each with
+// one solid of a STEP, IGES or B-rep file: healed, brought to 200 mm, closed faces divided, all faces walls. A line for
+// each: its number, its faces, whether it is valid, its degenerate edges, its volume.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -103,7 +103,8 @@ static CwStatus write_geometry(const CwCase *table, const TopoDS_Shape &solid, c
   for (int f = 1; f <= faces; f++) std::fprintf(out, "part,%d,walls,wall,face_%d\n", f, f);
   std::fclose(out);
   CW_TRY(cw_model_write(&model, (folder + "/model.json").c_str()));
-  for (const char *name : {"part.brep", "faces.csv", "model.json"}) CW_TRY(cw_record_file(record, folder.c_str(), name));
+  for (const char *name : {"part.brep", "faces.csv", "model.json"})
+    CW_TRY(cw_record_file(record, folder.c_str(), name));
   CW_TRY(cw_record_case(record, table));
   CW_TRY(cw_record_write(record, (folder + "/record.json").c_str()));
 done:

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/cad/background.h"
+#include "mesher/cad/background_make.h"
 #include "mesher/cad/rays.h"
 #include "mesher/common/vec.h"
 #include "tests/measure/domain_mesh.h"

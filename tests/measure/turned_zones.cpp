@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// turned_zones CASE RUN: writes RUN/geometry as the geometry stage does, of a machine that no generator made: four zones
-// of revolution in an order of their own, of which the third turns; a cone, a plane and a cylinder between them, two
-// inlets, two outlets and a plane of symmetry. mm:
+// turned_zones CASE RUN: writes RUN/geometry as the geometry stage does, of a machine that no generator made: four
+// zones of revolution in an order of their own, of which the third turns; a cone, a plane and a cylinder between them,
+// two inlets, two outlets and a plane of symmetry. mm:
 //
 //   z 60  +---inlets---+
 //         |    pipe    |
@@ -87,7 +87,8 @@ static CwStatus write_zone(const Zone &zone, const std::string &folder, FILE *fa
   CW_TRY(cw_model_add_domain(model, zone.name, zone.rotating));
   for (int f = 1; f <= map.Extent(); f++) {
     auto patch = zone.patch_at(middle_of(TopoDS::Face(map(f))));
-    std::fprintf(faces, "%s,%d,%s,%s,%s_%d\n", zone.name, f, patch.first, cw_patch_kind_name(patch.second), zone.name, f);
+    std::fprintf(faces, "%s,%d,%s,%s,%s_%d\n", zone.name, f, patch.first, cw_patch_kind_name(patch.second), zone.name,
+                 f);
     if (cw_model_patch_find(model, patch.first) >= 0) continue;
     CwModelPatch *made;
     CW_TRY(cw_model_add_patch(model, patch.first, patch.second, &made));
@@ -106,7 +107,8 @@ static std::vector<Zone> make_zones() {
     return r > 60 ? std::make_pair("casing_out", CW_PATCH_INTERFACE) : std::make_pair("casing_in", CW_PATCH_INTERFACE);
   };
   auto pipe = [](const gp_Pnt &p) -> std::pair<const char *, CwPatchKind> {
-    if (at(p.Z(), 60)) return p.X() > 0 ? std::make_pair("in_a", CW_PATCH_INLET) : std::make_pair("in_b", CW_PATCH_INLET);
+    if (at(p.Z(), 60))
+      return p.X() > 0 ? std::make_pair("in_a", CW_PATCH_INLET) : std::make_pair("in_b", CW_PATCH_INLET);
     if (at(p.Z(), 20)) return {"pipe_end", CW_PATCH_INTERFACE};
     return {"tube", CW_PATCH_WALL};
   };

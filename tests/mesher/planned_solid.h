@@ -6,6 +6,7 @@
 #include <vector>
 
 extern "C" {
+#include "mesher/cad/background_make.h"
 #include "mesher/plan/plan_model.h"
 }
 

@@ -20,6 +20,7 @@
 
 extern "C" {
 #include "mesher/boundary/boundary.h"
+#include "mesher/cad/background_make.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/plan/sector_plan.h"
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The operating points of the characteristic curve: lists in the case file, and the flows, shares and names that follow.
+// The operating points of the characteristic curve: lists in the case file, and the flows, shares and names that
+// follow.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

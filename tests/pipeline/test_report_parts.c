@@ -187,8 +187,9 @@ static void survey_finds_places(void **state) {
                    {-0.1, -0.003, 0.004}, {-0.1, 0.003, 0.004}, {0, 0.3, 0.02},       {0.001, 0.3, -0.02},
                    {-0.001, 0.29, 0},     {0.05, 0, -0.01},     {0, 0.05, -0.01},     {0.0, -0.05, -0.01}};
   int32_t triangle[][3] = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, patch[] = {0, 0, 1, 2};
-  CwModelPatch names[] = {
-      {.name = "blade_trailing_edge", .kind = CW_PATCH_WALL}, {.name = "outlet", .kind = CW_PATCH_OUTLET}, {.name = "shroud", .kind = CW_PATCH_WALL}};
+  CwModelPatch names[] = {{.name = "blade_trailing_edge", .kind = CW_PATCH_WALL},
+                          {.name = "outlet", .kind = CW_PATCH_OUTLET},
+                          {.name = "shroud", .kind = CW_PATCH_WALL}};
   CwMesh mesh = {.patch_count = 3, .patches = names};
   CwRegionData cells = {
       .point_count = 12, .triangle_count = 4, .points = x, .triangles = triangle, .triangle_patch = patch};

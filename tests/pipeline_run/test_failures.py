@@ -93,7 +93,8 @@ class BadInput(unittest.TestCase):
 
     def test_a_broken_solid(self):
         for file, old, new in (("rotor.brep", None, ""), ("stator.brep", None, "DBRep_DrawableShape\n\n7\n"),
-                               ("stator.brep", "\nTShapes ", "\nTShape "), ("model.json", '"rotor_interface"', '"no_interface"'),
+                               ("stator.brep", "\nTShapes ", "\nTShape "),
+                               ("model.json", '"rotor_interface"', '"no_interface"'),
                                ("faces.csv", "rotor,1,", "rotor,999,"), ("faces.csv", ",wall,", ",wal,")):
             with self.subTest(f"{file} {new}"):
                 run = with_geometry("bad-solid")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Mesher and exporter over three hosts with addresses of their own, by mpirun's defaults: the bytes of one host. Ends with
-77, skipped, where such hosts cannot be made."""
+"""Mesher and exporter over three hosts with addresses of their own, by mpirun's defaults: the bytes of one host. Ends
+with 77, skipped, where such hosts cannot be made."""
 import sys
 import unittest
 from pathlib import Path

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """What a stage does where it is not given what it needs: room on the disk, size of a file, memory, or its life. It ends
 with one line and an exit status that is not 0, leaves nothing under a final name that is not whole, and called again
-without the limit ends in the bytes of a run that had none. CUTWATER_LIMITS tells how many limits of each kind are tried,
-spread over what the stage uses, CUTWATER_KILLS how many ranks are killed at random moments (seed 1)."""
+without the limit ends in the bytes of a run that had none. CUTWATER_LIMITS tells how many limits of each kind are
+tried, spread over what the stage uses, CUTWATER_KILLS how many ranks are killed at random moments (seed 1)."""
 import os
 import random
 import shutil

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""A run folder with a path of 900 characters: all stages run in it on two ranks, and the export writes the bytes that it
-writes where the same run has a short path."""
+"""A run folder with a path of 900 characters: all stages run in it on two ranks, and the export writes the bytes that
+it writes where the same run has a short path."""
 import unittest
 
 from cutwater import digests, done, fresh

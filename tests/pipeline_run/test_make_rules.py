@@ -20,10 +20,12 @@ while [ "$1" != --run ]; do shift; done
 mkdir -p "$2/$name"
 case $name in
 geometry) results='"predicted_head_m": 12' ;;
-mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "layers": 1, "headlines": ["laminar flow"], "domains": [%(domain)s]' ;;
+mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "layers": 1, "headlines": ["laminar flow"],
+  "domains": [%(domain)s]' ;;
 *) results= ;;
 esac
-echo "{\\"seconds\\": 1, \\"peak_memory_bytes\\": 1, \\"warnings\\": [], \\"results\\": {$results}}" > "$2/$name/record.json"
+echo "{\\"seconds\\": 1, \\"peak_memory_bytes\\": 1, \\"warnings\\": [], \\"results\\": {$results}}" \\
+  > "$2/$name/record.json"
 echo > "$2/$name/index.html"
 """
 LAUNCHER = """#!/bin/sh
@@ -183,7 +185,8 @@ class FrontDoor(unittest.TestCase):
                             (["NP=two"], "NP is 'two'"), (["NP="], "NP is ''"),
                             (["HOSTS=none"], "HOSTS is '%s/none'; allowed: a file with a line 'NAME slots" % SOURCE),
                             (["HOSTS=README.md", "LAUNCHER=srun"], "HOSTS is for mpirun, and LAUNCHER is given"),
-                            (["NP=4", "LAUNCHER=srun"], "NP is for mpirun, and LAUNCHER is given; allowed: the number"), (["JOBS=0"], "JOBS is '0'"),
+                            (["NP=4", "LAUNCHER=srun"], "NP is for mpirun, and LAUNCHER is given; allowed: the number"),
+                            (["JOBS=0"], "JOBS is '0'"),
                             (["OUT="], "OUT is ''; allowed: one folder, without blanks"), (["OUT=a b"], "OUT is 'a b'"),
                             (["CELL=2M"], "CELL is no variable of this project; allowed: BUILD CELLS "),
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),

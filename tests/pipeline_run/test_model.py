@@ -30,7 +30,8 @@ class Model(unittest.TestCase):
         self.assertEqual([domain["name"] for domain in manifest["domains"]], ["casing", "pipe", "wheel", "ring"])
         self.assertEqual([domain["rotating"] for domain in manifest["domains"]], [False, False, True, False])
         # Rings of quarter circles, exact: pi (R^2 - r^2) h, and a frustum.
-        volumes = {"pipe": 40 ** 2 * 40, "ring": (110 ** 2 - 90 ** 2) * 20, "wheel": (50 ** 2 + 50 * 40 + 40 ** 2) * 20 / 3}
+        volumes = {"pipe": 40 ** 2 * 40, "ring": (110 ** 2 - 90 ** 2) * 20,
+                   "wheel": (50 ** 2 + 50 * 40 + 40 ** 2) * 20 / 3}
         for name, units in volumes.items():
             self.assertAlmostEqual(self.export[name]["solid_volume_m3"] / (3.141592653589793e-9 * units), 1, delta=1e-6)
             self.assertAlmostEqual(self.export[name]["volume_m3"] / self.export[name]["solid_volume_m3"], 1, delta=0.02)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The stage `solve`: when a made-up history counts as settled, what is read of the solver's reports, and a real flow on a
-small mesh: killed, gone on with, its result beside the energy balance, its curve, and what is told where it cannot be
+"""The stage `solve`: when a made-up history counts as settled, what is read of the solver's reports, and a real flow on
+a small mesh: killed, gone on with, its result beside the energy balance, its curve, and what is told where it cannot be
 solved."""
 import csv
 import math

@@ -22,6 +22,7 @@ extern "C" {
 #include "mesher/region/region_failure.h"
 #include "mesher/region/region_number.h"
 #include "mesher/boundary/boundary.h"
+#include "mesher/cad/background_make.h"
 }
 
 #include "shared_points.h"
@@ -368,6 +369,64 @@ static void regions_fill_the_box_by_the_rule(void **) {
   fill_the_box(1);
 }
 
+// The file of a failed region: as many points and triangles as the boundary of region 0 has, all kinds of surface, some
+// crossing.
+static void check_failure_file(const CwBoundary &boundary, const std::string &path) {
+  std::ifstream file(path);
+  std::string word;
+  int points = 0, triangles = 0, of_surface[3] = {0, 0, 0}, crossing = 0;
+  while (file >> word && word != "POINTS") {
+  }
+  file >> points;
+  while (file >> word && word != "POLYGONS") {
+  }
+  file >> triangles;
+  while (file >> word && word != "default") {
+  }
+  for (int t = 0, kind; t < triangles; t++) {
+    file >> kind;
+    assert_true(kind >= 0 && kind < 3);
+    of_surface[kind]++;
+  }
+  while (file >> word && word != "default") {
+  }
+  for (int t = 0, one; t < triangles; t++) {
+    assert_true(bool(file >> one));
+    crossing += one;
+  }
+  CwRegionBoundary inner;
+  Box::check(cw_region_boundary_make(&boundary, 0, 0, &inner));
+  assert_int_equal(points, inner.node_count);
+  assert_int_equal(of_surface[0], inner.wall_count);
+  assert_int_equal(of_surface[1], inner.open_patch_count);
+  assert_int_equal(of_surface[2], inner.interface_count);
+  assert_true(crossing >= 2 && crossing < triangles / 4);
+  cw_region_boundary_free(&inner);
+}
+
+// Columns of `boundary` near the failed place are thinned, and no others; or all of region 0.
+static void check_thinning(const CwBoundary &boundary, CwRegionFailure failure) {
+  std::vector<double> most(boundary.surface.vertex_count, INFINITY);
+  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
+  int thinned = 0;
+  for (int v = 0; v < boundary.surface.vertex_count; v++) {
+    if (cw_distance(boundary.layers.top[v], failure.at) < 4 * 2.5e-3) {
+      assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
+      thinned++;
+    } else {
+      assert_true(std::isinf(most[v]));
+    }
+  }
+  assert_true(thinned > 3 && thinned < boundary.surface.vertex_count / 2);
+  failure.everywhere = 1;
+  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
+  for (int t = 0; t < boundary.surface.triangle_count; t++) {
+    for (int v : boundary.layers.triangle[t]) {
+      if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
+    }
+  }
+}
+
 // A column that stands through the plane x = 21 mm: both regions beside it fail, the place and the patch are told, the
 // boundary is kept, and columns there are thinned and no others.
 static void a_crossing_boundary_is_examined(void **) {
@@ -404,58 +463,9 @@ static void a_crossing_boundary_is_examined(void **) {
   assert_true(!strcmp(failure.patch, "side") || !strcmp(failure.patch, "partition plane"));
   assert_true(cw_distance(failure.at, through) < 0.012);
 
-  // The file: as many points and triangles as the boundary has, all kinds of surface, some crossing.
-  std::ifstream file(path);
-  std::string word;
-  int points = 0, triangles = 0, of_surface[3] = {0, 0, 0}, crossing = 0;
-  while (file >> word && word != "POINTS") {
-  }
-  file >> points;
-  while (file >> word && word != "POLYGONS") {
-  }
-  file >> triangles;
-  while (file >> word && word != "default") {
-  }
-  for (int t = 0, kind; t < triangles; t++) {
-    file >> kind;
-    assert_true(kind >= 0 && kind < 3);
-    of_surface[kind]++;
-  }
-  while (file >> word && word != "default") {
-  }
-  for (int t = 0, one; t < triangles; t++) {
-    assert_true(bool(file >> one));
-    crossing += one;
-  }
-  CwRegionBoundary inner;
-  Box::check(cw_region_boundary_make(&boundary, 0, 0, &inner));
-  assert_int_equal(points, inner.node_count);
-  assert_int_equal(of_surface[0], inner.wall_count);
-  assert_int_equal(of_surface[1], inner.open_patch_count);
-  assert_int_equal(of_surface[2], inner.interface_count);
-  assert_true(crossing >= 2 && crossing < triangles / 4);
-  cw_region_boundary_free(&inner);
+  check_failure_file(boundary, path);
   std::remove(path.c_str());
-
-  std::vector<double> most(boundary.surface.vertex_count, INFINITY);
-  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
-  int thinned = 0;
-  for (int v = 0; v < boundary.surface.vertex_count; v++) {
-    if (cw_distance(boundary.layers.top[v], failure.at) < 4 * 2.5e-3) {
-      assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
-      thinned++;
-    } else {
-      assert_true(std::isinf(most[v]));
-    }
-  }
-  assert_true(thinned > 3 && thinned < boundary.surface.vertex_count / 2);
-  failure.everywhere = 1;
-  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
-  for (int t = 0; t < boundary.surface.triangle_count; t++) {
-    for (int v : boundary.layers.triangle[t]) {
-      if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
-    }
-  }
+  check_thinning(boundary, failure);
   // A sound boundary: no place is known.
   cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
   boundary.layers.top[best][2] -= 1.5e-3;

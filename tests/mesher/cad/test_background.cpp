@@ -7,7 +7,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 
-#include "mesher/cad/background.h"
+#include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
 
 #include "solids.h"

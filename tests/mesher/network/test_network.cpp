@@ -5,6 +5,7 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 
 extern "C" {
+#include "mesher/cad/background_make.h"
 #include "mesher/network/network.h"
 }
 

@@ -16,7 +16,7 @@
 #include "mesher/network/network.h"
 #include "mesher/plan/plan_model.h"
 #include "mesher/run/cell_count.h"
-#include "mesher/run/domain.h"
+#include "mesher/run/domain_size.h"
 #include "mesher/run/mesh_plan.h"
 #include "pipeline/case_read.h"
 

@@ -10,10 +10,9 @@ extern "C" {
 #include "shared_points.h"
 #include "tank.h"
 
-// All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last
-// bit.
-static void fill_the_tank(bool divided) {
-  Tank tank(5, 1, divided);
+// Surfaces of a tank of five sectors: those of the first of each image set are made, the others copied. The layers
+// are periodic.
+static void make_surfaces(Tank &tank, bool divided) {
   CwBoundary &boundary = tank.boundary;
   const CwPeriodicImages &images = boundary.images;
   const int faces = cw_cad_face_count(tank.cad);
@@ -28,8 +27,7 @@ static void fill_the_tank(bool divided) {
   }
   check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
-  std::vector<double> target(boundary.surface.vertex_count, 1.5e-3), first(boundary.surface.vertex_count, 2e-4),
-      growth(boundary.surface.vertex_count, 1.5);
+  std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
   check(
       cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &boundary.layers, &tank.outcome));
   check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &tank.outcome));
@@ -54,7 +52,18 @@ static void fill_the_tank(bool divided) {
     for (int k = 0; k < 3; k++) assert_near(turned[k], boundary.layers.top[next][k], 1e-15);
     assert_int_equal(cw_image_node(&boundary.surface.images, v, 5), v);
   }
+  for (void *bytes : walls) free(bytes);
+  for (void *bytes : open_patches) free(bytes);
+  for (void *bytes : interfaces) free(bytes);
+}
 
+// All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last
+// bit.
+static void fill_the_tank(bool divided) {
+  Tank tank(5, 1, divided);
+  make_surfaces(tank, divided);
+  CwBoundary &boundary = tank.boundary;
+  std::vector<double> first(boundary.surface.vertex_count, 2e-4), growth(boundary.surface.vertex_count, 1.5);
   const int regions = tank.plan.region_count;
   int pair_count, colours;
   std::vector<int> number(regions);
@@ -101,9 +110,6 @@ static void fill_the_tank(bool divided) {
 
   cw_region_context_free(&context);
   free(pair);
-  for (void *bytes : walls) free(bytes);
-  for (void *bytes : open_patches) free(bytes);
-  for (void *bytes : interfaces) free(bytes);
 }
 
 static void copies_fill_the_tank(void **) {

@@ -13,7 +13,7 @@
 #include <gp_Vec.hxx>
 
 #include "draw.h"
-#include "mesher/cad/background.h"
+#include "mesher/cad/background_make.h"
 #include "mesher/size/size.h"
 
 #include "solids.h"

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Makes the background triangulation of a solid: its faces, welded, closed and with their normals out of the domain.
+#ifndef CUTWATER_MESHER_CAD_BACKGROUND_MAKE_H
+#define CUTWATER_MESHER_CAD_BACKGROUND_MAKE_H
+
+#include "mesher/cad/background.h"
+#include "mesher/cad/cad.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that
+// other ranks have made.
+CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
+
+// From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with
+// CW_ERR_GEOMETRY where the result is not closed (the place is named).
+CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the layers over a patch came to, against what was asked of them.
+#ifndef CUTWATER_MESHER_RUN_LAYER_COVERAGE_H
+#define CUTWATER_MESHER_RUN_LAYER_COVERAGE_H
+
+#include "mesher/run/domain.h"
+
+// How the layers of a patch cover it, as far as it bounds one region.
+enum { CW_LAYER_REASONS = 4 };
+typedef struct {
+  int64_t faces, full, first_met;   // wall faces; with the full thickness; with the first height
+  int64_t reason[CW_LAYER_REASONS]; // by CwLayerReason: why not the full thickness; [0]: it is
+  int64_t missed[CW_LAYER_REASONS]; // why not the first height
+  double thickness, least;          // sum over the faces, least of all, m
+  int64_t thin;                     // prisms whose determinant checkMesh calls small (thin_prism)
+  double thin_wanted;               // how many times as tall the thinnest would have to be
+  double thin_at[3];                // and a corner of its wall triangle, m
+} CwLayerCoverage;
+// Of the patches up to `patches`, zeroed before.
+void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
+
+#endif
