@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/solid_scale.hpp"
 
+#include <cmath>
+
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2dConvert.hxx>
 #include <Geom2d_BSplineCurve.hxx>
-#include <Geom2d_BezierCurve.hxx>
-#include <Geom2d_Circle.hxx>
+#include <Geom2d_Conic.hxx>
 #include <Geom2d_Line.hxx>
-#include <Geom_ConicalSurface.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
 #include <Geom_Curve.hxx>
-#include <Geom_CylindricalSurface.hxx>
-#include <Geom_Line.hxx>
-#include <Geom_Plane.hxx>
 #include <Geom_Surface.hxx>
-#include <Standard_Failure.hxx>
+#include <Precision.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopTools_DataMapOfShapeShape.hxx>
@@ -24,7 +23,9 @@
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <gp.hxx>
+#include <gp_GTrsf2d.hxx>
 #include <gp_Trsf.hxx>
+#include <gp_Trsf2d.hxx>
 
 namespace {
 
@@ -43,14 +44,17 @@ private:
 
   TopoDS_Vertex vertex(const TopoDS_Vertex &old);
   TopoDS_Edge edge(const TopoDS_Edge &old);
-  gp_Pnt2d point(const Handle(Geom_Surface) & surface, const gp_Pnt2d &uv) const;
-  Handle(Geom2d_Curve) curve(const Handle(Geom2d_Curve) & old, const Handle(Geom_Surface) & surface, double by) const;
+  double curve_scale(const TopoDS_Edge &old) const;
+  // `plane`: what the scale does to the surface's parameters; `by`: to the edge's, from first to last.
+  Handle(Geom2d_Curve) curve(const Handle(Geom2d_Curve) & old, const gp_GTrsf2d &plane, double by, double first,
+                             double last) const;
 };
 
-// A line has its length as parameter, all other curves a number.
-bool has_length(const TopoDS_Edge &edge) {
+// Of the parameter of an edge; 1 of a degenerate one.
+double Scaler::curve_scale(const TopoDS_Edge &old) const {
   double first, last;
-  return !Handle(Geom_Line)::DownCast(BRep_Tool::Curve(edge, first, last)).IsNull();
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(old, first, last);
+  return curve.IsNull() ? 1 : curve->ParametricTransformation(motion);
 }
 
 TopoDS_Vertex Scaler::vertex(const TopoDS_Vertex &old) {
@@ -67,9 +71,14 @@ TopoDS_Edge Scaler::edge(const TopoDS_Edge &old) {
     TopoDS_Edge fresh;
     double first, last;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(old, first, last);
-    const double by = has_length(old) ? factor : 1;
-    builder.MakeEdge(fresh, Handle(Geom_Curve)::DownCast(curve->Transformed(motion)),
-                     factor * BRep_Tool::Tolerance(old));
+    if (curve.IsNull()) BRep_Tool::Range(old, first, last);
+    const double by = curve_scale(old);
+    builder.MakeEdge(fresh);
+    if (curve.IsNull())
+      builder.Degenerated(fresh, Standard_True);
+    else
+      builder.UpdateEdge(fresh, Handle(Geom_Curve)::DownCast(curve->Transformed(motion)), 0);
+    builder.UpdateEdge(fresh, factor * BRep_Tool::Tolerance(old));
     for (TopoDS_Iterator at(old.Oriented(TopAbs_FORWARD)); at.More(); at.Next())
       builder.Add(fresh, vertex(TopoDS::Vertex(at.Value())));
     builder.Range(fresh, by * first, by * last);
@@ -80,39 +89,35 @@ TopoDS_Edge Scaler::edge(const TopoDS_Edge &old) {
   return TopoDS::Edge(made(old).Oriented(old.Orientation()));
 }
 
-// A plane has lengths as both parameters, cylinder and cone as the second, the others none.
-gp_Pnt2d Scaler::point(const Handle(Geom_Surface) & surface, const gp_Pnt2d &uv) const {
-  if (surface->IsKind(STANDARD_TYPE(Geom_Plane))) return gp_Pnt2d(factor * uv.X(), factor * uv.Y());
-  if (surface->IsKind(STANDARD_TYPE(Geom_CylindricalSurface)) || surface->IsKind(STANDARD_TYPE(Geom_ConicalSurface)))
-    return gp_Pnt2d(uv.X(), factor * uv.Y());
-  return uv;
-}
-
-// `by`: factor of the curve's parameter. Lines in the parameter plane run along an axis, or lie in a plane.
-Handle(Geom2d_Curve) Scaler::curve(const Handle(Geom2d_Curve) & old, const Handle(Geom_Surface) & surface,
-                                   double by) const {
-  const Handle(Geom2d_Curve) fresh = Handle(Geom2d_Curve)::DownCast(old->Copy());
-  if (const Handle(Geom2d_Line) line = Handle(Geom2d_Line)::DownCast(fresh); !line.IsNull()) {
-    line->SetLocation(point(surface, line->Location()));
-  } else if (const Handle(Geom2d_Circle) circle = Handle(Geom2d_Circle)::DownCast(fresh); !circle.IsNull()) {
-    circle->SetLocation(point(surface, circle->Location()));
-    circle->SetRadius(factor * circle->Radius());
-  } else if (const Handle(Geom2d_BezierCurve) bezier = Handle(Geom2d_BezierCurve)::DownCast(fresh); !bezier.IsNull()) {
-    for (int i = 1; i <= bezier->NbPoles(); i++) bezier->SetPole(i, point(surface, bezier->Pole(i)));
-  } else if (const Handle(Geom2d_BSplineCurve) spline = Handle(Geom2d_BSplineCurve)::DownCast(fresh);
-             !spline.IsNull()) {
-    for (int i = 1; i <= spline->NbPoles(); i++) spline->SetPole(i, point(surface, spline->Pole(i)));
-    TColStd_Array1OfReal knots(1, spline->NbKnots());
-    for (int i = 1; i <= spline->NbKnots(); i++) knots(i) = by * spline->Knot(i);
-    spline->SetKnots(knots);
-  } else {
-    throw Standard_Failure("a curve in a parameter plane that cannot be scaled");
+// Lines and conics stay what they are where the scale leaves them so; others become splines.
+Handle(Geom2d_Curve) Scaler::curve(const Handle(Geom2d_Curve) & old, const gp_GTrsf2d &plane, double by, double first,
+                                   double last) const {
+  const auto point = [&](const gp_Pnt2d &uv) { return gp_Pnt2d(plane.Transformed(uv.XY())); };
+  const Handle(Geom2d_TrimmedCurve) part = Handle(Geom2d_TrimmedCurve)::DownCast(old);
+  const Handle(Geom2d_Curve) whole = part.IsNull() ? old : part->BasisCurve();
+  const double u = plane.Value(1, 1), v = plane.Value(2, 2);
+  if (const Handle(Geom2d_Line) line = Handle(Geom2d_Line)::DownCast(whole); !line.IsNull()) {
+    const gp_Dir2d along = line->Direction();
+    const double none = Precision::Angular();
+    if ((u == by || std::fabs(along.X()) < none) && (v == by || std::fabs(along.Y()) < none))
+      return new Geom2d_Line(point(line->Location()), along);
   }
-  return fresh;
+  gp_Trsf2d even;
+  even.SetScale(gp_Pnt2d(), u);
+  if (u == v && whole->IsKind(STANDARD_TYPE(Geom2d_Conic)) && whole->ParametricTransformation(even) == by)
+    return Handle(Geom2d_Curve)::DownCast(whole->Transformed(even));
+  Handle(Geom2d_BSplineCurve) spline = Handle(Geom2d_BSplineCurve)::DownCast(whole->Copy());
+  if (spline.IsNull()) spline = Geom2dConvert::CurveToBSplineCurve(new Geom2d_TrimmedCurve(whole, first, last));
+  for (int i = 1; i <= spline->NbPoles(); i++) spline->SetPole(i, point(spline->Pole(i)));
+  TColStd_Array1OfReal knots(1, spline->NbKnots());
+  for (int i = 1; i <= spline->NbKnots(); i++) knots(i) = by * spline->Knot(i);
+  spline->SetKnots(knots);
+  return spline;
 }
 
 TopoDS_Face Scaler::face(const TopoDS_Face &old) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(old);
+  const gp_GTrsf2d plane = surface->ParametricTransformation(motion);
   const TopoDS_Face forward = TopoDS::Face(old.Oriented(TopAbs_FORWARD));
   TopoDS_Face fresh;
   builder.MakeFace(fresh, Handle(Geom_Surface)::DownCast(surface->Transformed(motion)),
@@ -125,8 +130,8 @@ TopoDS_Face Scaler::face(const TopoDS_Face &old) {
       const TopoDS_Edge scaled = edge(at);
       double first, last;
       const Handle(Geom2d_Curve) on_surface = BRep_Tool::CurveOnSurface(at, forward, first, last);
-      builder.UpdateEdge(scaled, curve(on_surface, surface, has_length(at) ? factor : 1), fresh,
-                         BRep_Tool::Tolerance(scaled));
+      const Handle(Geom2d_Curve) made_flat = curve(on_surface, plane, curve_scale(at), first, last);
+      builder.UpdateEdge(scaled, made_flat, fresh, BRep_Tool::Tolerance(scaled));
       builder.Add(wire, scaled);
     }
     wire.Closed(Standard_True);

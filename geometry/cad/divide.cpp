@@ -4,14 +4,26 @@
 #include <cmath>
 
 #include <BRep_Tool.hxx>
-#include <ShapeUpgrade_ShapeDivideAngle.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <Precision.hxx>
+#include <ShapeExtend.hxx>
+#include <ShapeUpgrade_FaceDivide.hxx>
 #include <ShapeUpgrade_ShapeDivideClosed.hxx>
+#include <ShapeUpgrade_SplitSurface.hxx>
 #include <TopExp_Explorer.hxx>
+#include <gp_Vec2d.hxx>
 
 #include "geometry/cad/cad_part.hpp"
 #include "pipeline/log.h"
 
 namespace {
+
+const double SAME = 1e-7; // of the face's extent in a parameter
+enum { SAMPLES = 8 };
 
 int seams(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
   const TopTools_IndexedMapOfShape faces = cw_cad_faces(shape);
@@ -25,14 +37,66 @@ int seams(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
   return count;
 }
 
-int poles(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
+// Whether a side of a surface is one point: u (0) or v (1) at `value`, the other from `first` to `last`.
+bool is_point(const Geom_Surface &surface, int constant, double value, double first, double last) {
+  const auto at = [&](double other) { return constant ? surface.Value(other, value) : surface.Value(value, other); };
+  const gp_Pnt begin = at(first);
+  for (int i = 1; i <= SAMPLES; i++)
+    if (at(first + (last - first) * i / SAMPLES).Distance(begin) > Precision::Confusion()) return false;
+  return true;
+}
+
+// Cuts a surface midway between its poles. Sides of it that are points lie opposite or side by side.
+class BetweenPoles : public ShapeUpgrade_SplitSurface {
+public:
+  void Compute(const Standard_Boolean) override {
+    const double u[] = {myUSplitValues->First(), myUSplitValues->Last()},
+                 v[] = {myVSplitValues->First(), myVSplitValues->Last()};
+    const int at_u = is_point(*mySurface, 0, u[0], v[0], v[1]) + is_point(*mySurface, 0, u[1], v[0], v[1]);
+    const int at_v = is_point(*mySurface, 1, v[0], u[0], u[1]) + is_point(*mySurface, 1, v[1], u[0], u[1]);
+    if (at_u + at_v < 2) return;
+    if (at_v == 2 || (at_u == 1 && at_v == 1)) myVSplitValues->InsertBefore(2, (v[0] + v[1]) / 2);
+    if (at_u == 2) myUSplitValues->InsertBefore(2, (u[0] + u[1]) / 2);
+    myStatus = ShapeExtend::EncodeStatus(ShapeExtend_DONE1);
+  }
+};
+
+class PolesTool : public ShapeUpgrade_ShapeDivide {
+public:
+  explicit PolesTool(const TopoDS_Shape &shape) : ShapeUpgrade_ShapeDivide(shape) {}
+
+protected:
+  Handle(ShapeUpgrade_FaceDivide) GetSplitFaceTool() const override {
+    const Handle(ShapeUpgrade_FaceDivide) tool = new ShapeUpgrade_FaceDivide;
+    tool->SetSplitSurfaceTool(new BetweenPoles);
+    return tool;
+  }
+};
+
+// Whether a face has more poles than one: degenerate edges that are lines in its parameters.
+bool has_several_poles(const TopoDS_Face &face, TopoDS_Edge *first) {
+  double range[4];
+  int count = 0;
+  BRepTools::UVBounds(face, range[0], range[1], range[2], range[3]);
+  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+    double begin, end;
+    const TopoDS_Edge &edge = TopoDS::Edge(at.Current());
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, begin, end);
+    if (!BRep_Tool::Degenerated(edge) || curve.IsNull()) continue;
+    const gp_Vec2d run(curve->Value(begin), curve->Value(end));
+    const double share[] = {std::fabs(run.X()) / (range[1] - range[0]), std::fabs(run.Y()) / (range[3] - range[2])};
+    if (std::max(share[0], share[1]) <= SAME) continue;
+    *first = edge;
+    count++;
+  }
+  return count > 1;
+}
+
+int several_poles(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
   const TopTools_IndexedMapOfShape faces = cw_cad_faces(shape);
   int count = 0;
-  for (int i = 1; i <= faces.Extent(); i++)
-    for (TopExp_Explorer at(faces(i), TopAbs_EDGE); at.More(); at.Next()) {
-      if (!BRep_Tool::Degenerated(TopoDS::Edge(at.Current()))) continue;
-      if (!count++) *first = TopoDS::Edge(at.Current()), *face = i;
-    }
+  for (int i = faces.Extent(); i >= 1; i--)
+    if (has_several_poles(TopoDS::Face(faces(i)), first)) count++, *face = i;
   return count;
 }
 
@@ -54,6 +118,9 @@ void replace(CwCadPart &part, const TopoDS_Shape &shape) {
   if (!solid.More()) throw Standard_Failure("the division leaves no solid");
   const CwCadPart before = part;
   part.solid = solid.Current();
+  if (!BRepCheck_Analyzer(part.solid).IsValid()) { // ends of lunes: their edges' parameters do not fit
+    BRepLib::SameParameter(part.solid, Precision::Confusion(), Standard_True);
+  }
   cw_cad_carry({before}, part);
 }
 
@@ -61,6 +128,11 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
   TopoDS_Edge edge;
   int face = 0;
   const int before = cw_cad_faces(part.solid).Extent();
+  if (several_poles(part.solid, &edge, &face)) {
+    PolesTool divide(part.solid);
+    divide.Perform();
+    replace(part, divide.Result());
+  }
   if (seams(part.solid, &edge, &face)) {
     ShapeUpgrade_ShapeDivideClosed divide(part.solid);
     divide.SetNbSplitPoints(std::max(pieces, 2) - 1);
@@ -71,7 +143,7 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
   if (after != before)
     cw_log("%s: closed faces divided, %d faces where the file has %d", part.domain.c_str(), after, before);
   if (seams(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "stays closed upon itself");
-  if (poles(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "has a pole");
+  if (several_poles(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "has several poles, one");
   return CW_OK;
 }
 

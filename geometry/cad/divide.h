@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Cuts faces where the mesher needs edges: closed faces, so that no edge is a seam; and faces about a point where their
-// parameters end (poles), so that none has a degenerate edge. Method: OpenCASCADE's ShapeUpgrade.
+// Cuts faces where the mesher needs edges: closed faces, so that no edge is a seam; faces with several points where a
+// side of their parameters ends (poles), so that each has one at the most. Method: OpenCASCADE's ShapeUpgrade.
 #ifndef CUTWATER_GEOMETRY_CAD_DIVIDE_H
 #define CUTWATER_GEOMETRY_CAD_DIVIDE_H
 
@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 // Divides the faces of all parts that need it; the others stay. Closed faces get `pieces[part]` pieces, at least 2.
-// CW_ERR_GEOMETRY, naming domain, face and the place in the file, where a seam or a degenerate edge stays.
+// CW_ERR_GEOMETRY, naming domain, face and the place in the file, where a seam or two poles of a face stay.
 CwStatus cw_cad_divide(const int *pieces, const CwCadFrame *frame, CwCadParts *parts);
 
 #ifdef __cplusplus

@@ -109,9 +109,12 @@ CwStatus weld_edge(const CwCad *cad, int e, Weld &weld) {
   return CW_OK;
 }
 
-void add_face(int face, Weld &weld) {
+void add_face(const CwCad *cad, int face, Weld &weld) {
   const Block &block = weld.block[face];
   std::vector<int32_t> &node = weld.node[face];
+  const int vertex = cad->face[face].pole.vertex;
+  for (int32_t n = 0; vertex >= 0 && n < block.head.nodes; n++)
+    if (block.node[n].uv[0] == 0 && block.node[n].uv[1] == 0) node[n] = vertex;
   for (int32_t t = 0; t < block.head.triangles; t++) {
     std::array<int32_t, 3> corner;
     std::array<double, 6> uv;
@@ -250,6 +253,7 @@ CwStatus make_face(const CwTessellation &tessellation, int face, void **bytes, i
   for (int n = 0; n < made->NbNodes(); n++) {
     gp_Pnt2d parameter = made->UVNode(n + 1);
     node[n] = {{parameter.X(), parameter.Y()}, {0, 0, 0}};
+    if (cad->face[face].pole.is) cad->face[face].pole.to_plane(node[n].uv);
     cw_cad_face_point(cad, face, node[n].uv, node[n].x, nullptr, nullptr);
   }
   for (int t = 0; t < made->NbTriangles(); t++) {
@@ -297,7 +301,7 @@ CwStatus weld_faces(const CwCad *cad, void *const *bytes, CwBackground *backgrou
     CwStatus status = weld_edge(cad, e, weld);
     if (status != CW_OK) return status;
   }
-  for (int f = 0; f < cw_cad_face_count(cad); f++) add_face(f, weld);
+  for (int f = 0; f < cw_cad_face_count(cad); f++) add_face(cad, f, weld);
   return hand_over(weld, background);
 }
 

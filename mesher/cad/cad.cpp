@@ -37,6 +37,36 @@ double CwCadKnots::snap(double parameter) const {
   return parameter;
 }
 
+gp_Pnt CwCadFace::point(const double uv[2]) const {
+  double at[2] = {uv[0], uv[1]};
+  gp_Pnt p;
+  if (pole.is) pole.to_surface(at);
+  surface.D0(u_knots.snap(at[0]), v_knots.snap(at[1]), p);
+  return p;
+}
+
+void CwCadFace::derive(const double uv[2], gp_Pnt &p, gp_Vec first[2], CwCadSecond *second) const {
+  double off[2] = {uv[0], uv[1]};
+  if (pole.is) pole.keep_off(off);
+  double at[2] = {off[0], off[1]};
+  if (pole.is) pole.to_surface(at);
+  const double u = u_knots.snap(at[0]), v = v_knots.snap(at[1]);
+  if (second)
+    surface.D2(u, v, p, first[0], first[1], second->uu, second->vv, second->uv);
+  else
+    surface.D1(u, v, p, first[0], first[1]);
+  if (!pole.is) return;
+  pole.derive(off, first, second);
+  p = point(uv);
+}
+
+void CwCadFace::clamp(double uv[2]) const {
+  if (pole.is) pole.to_surface(uv);
+  uv[0] = std::clamp(uv[0], u_range[0], u_range[1]);
+  uv[1] = std::clamp(uv[1], v_range[0], v_range[1]);
+  if (pole.is) pole.to_plane(uv);
+}
+
 static CwStatus open_cad(const std::string &folder, const char *domain, CwCad *cad) {
   std::string path = folder + "/" + domain + ".brep";
   CwStatus status = cw_cad_unit_read(folder.c_str(), &cad->unit);
@@ -140,15 +170,14 @@ static void to_metres(const CwCad *cad, const gp_XYZ &p, double x[3]) {
 
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]) {
   const CwCadFace &f = cad->face[face];
-  double u = f.u_knots.snap(uv[0]), v = f.v_knots.snap(uv[1]);
   gp_Pnt p;
   if (!xu && !xv) {
-    f.surface.D0(u, v, p);
+    p = f.point(uv);
   } else {
-    gp_Vec du, dv;
-    f.surface.D1(u, v, p, du, dv);
-    if (xu) to_metres(cad, du.XYZ(), xu);
-    if (xv) to_metres(cad, dv.XYZ(), xv);
+    gp_Vec first[2];
+    f.derive(uv, p, first, nullptr);
+    if (xu) to_metres(cad, first[0].XYZ(), xu);
+    if (xv) to_metres(cad, first[1].XYZ(), xv);
   }
   to_metres(cad, p.XYZ(), x);
 }
@@ -177,8 +206,10 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
   const CwCadFace &f = cad->face[face];
   if (f.surface.GetType() == GeomAbs_Plane) return 0;
   gp_Pnt p;
-  gp_Vec su, sv, suu, svv, suv;
-  f.surface.D2(f.u_knots.snap(uv[0]), f.v_knots.snap(uv[1]), p, su, sv, suu, svv, suv);
+  gp_Vec first[2];
+  CwCadSecond second;
+  f.derive(uv, p, first, &second);
+  const gp_Vec &su = first[0], &sv = first[1], &suu = second.uu, &svv = second.vv, &suv = second.uv;
   gp_Vec normal = su.Crossed(sv);
   double area = normal.Magnitude();
   // A pole has no curvature of its own.
@@ -192,10 +223,11 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
 }
 
 // One damped Newton step for the nearest point, in the B-rep's unit: from u, v with the vector d from x to the surface.
-static void nearest_step(const gp_Vec &d, const gp_Vec &su, const gp_Vec &sv, const gp_Vec &suu, const gp_Vec &svv,
-                         const gp_Vec &suv, const bool fixed[2], double step[2]) {
+static void nearest_step(const gp_Vec &d, const gp_Vec first[2], const CwCadSecond &second, const bool fixed[2],
+                         double step[2]) {
+  const gp_Vec &su = first[0], &sv = first[1];
   double gu = d.Dot(su), gv = d.Dot(sv);
-  double a = su.Dot(su) + d.Dot(suu), b = su.Dot(sv) + d.Dot(suv), c = sv.Dot(sv) + d.Dot(svv);
+  double a = su.Dot(su) + d.Dot(second.uu), b = su.Dot(sv) + d.Dot(second.uv), c = sv.Dot(sv) + d.Dot(second.vv);
   if (!(a > 0 && c > 0 && a * c - b * b > 1e-6 * a * c)) {
     // Not convex here: Gauss-Newton, kept from being singular.
     a = su.Dot(su) * (1 + 1e-9) + 1e-30;
@@ -214,35 +246,34 @@ static bool pushes_out(double value, const double range[2], double gradient) {
 double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]) {
   const CwCadFace &f = cad->face[face];
   const gp_Pnt target(x[0] / cad->unit, x[1] / cad->unit, x[2] / cad->unit);
-  double u = std::clamp(uv[0], f.u_range[0], f.u_range[1]), v = std::clamp(uv[1], f.v_range[0], f.v_range[1]);
+  double at[2] = {uv[0], uv[1]};
+  f.clamp(at);
   gp_Pnt p;
-  gp_Vec su, sv, suu, svv, suv;
-  f.surface.D2(f.u_knots.snap(u), f.v_knots.snap(v), p, su, sv, suu, svv, suv);
+  gp_Vec first[2];
+  CwCadSecond second;
+  f.derive(at, p, first, &second);
   double distance = p.Distance(target);
   for (int iteration = 0; iteration < 50 && distance > 0; iteration++) {
     gp_Vec d(target, p);
-    bool fixed[2] = {pushes_out(u, f.u_range, d.Dot(su)), pushes_out(v, f.v_range, d.Dot(sv))};
+    bool fixed[2] = {!f.pole.is && pushes_out(at[0], f.u_range, d.Dot(first[0])),
+                     !f.pole.is && pushes_out(at[1], f.v_range, d.Dot(first[1]))};
     double step[2];
-    nearest_step(d, su, sv, suu, svv, suv, fixed, step);
-    double moved = (su * step[0] + sv * step[1]).Magnitude();
+    nearest_step(d, first, second, fixed, step);
+    double moved = (first[0] * step[0] + first[1] * step[1]).Magnitude();
     if (!(moved > 1e-11)) break; // of the B-rep's unit
     bool nearer = false;
     for (int halving = 0; halving < 12 && !nearer; halving++, step[0] /= 2, step[1] /= 2) {
-      double un = std::clamp(u + step[0], f.u_range[0], f.u_range[1]);
-      double vn = std::clamp(v + step[1], f.v_range[0], f.v_range[1]);
-      gp_Pnt pn;
-      f.surface.D0(f.u_knots.snap(un), f.v_knots.snap(vn), pn);
-      if (pn.Distance(target) >= distance) continue;
+      double next[2] = {at[0] + step[0], at[1] + step[1]};
+      f.clamp(next);
+      if (f.point(next).Distance(target) >= distance) continue;
       nearer = true;
-      u = un;
-      v = vn;
+      std::copy(next, next + 2, at);
     }
     if (!nearer) break;
-    f.surface.D2(f.u_knots.snap(u), f.v_knots.snap(v), p, su, sv, suu, svv, suv);
+    f.derive(at, p, first, &second);
     distance = p.Distance(target);
   }
-  uv[0] = u;
-  uv[1] = v;
+  std::copy(at, at + 2, uv);
   return distance * cad->unit;
 }
 
@@ -255,6 +286,7 @@ static double searched_distance(const CwCad *cad, int face, const double x[3]) {
       double uv[2] = {range[0] + (range[1] - range[0]) * i / SEARCH_PARTS,
                       range[2] + (range[3] - range[2]) * j / SEARCH_PARTS},
              p[3];
+      if (cad->face[face].pole.is) cad->face[face].pole.to_plane(uv);
       cw_cad_face_point(cad, face, uv, p, nullptr, nullptr);
       double distance = cw_distance(p, x);
       if (distance >= best) continue;
@@ -319,6 +351,7 @@ void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]
   e.pcurve[side].D0(e.pcurve_knots[side].snap(t), p);
   uv[0] = p.X();
   uv[1] = p.Y();
+  if (cad->face[face].pole.is) cad->face[face].pole.to_plane(uv);
   double on_edge[3], on_face[3];
   cw_cad_edge_point(cad, edge, t, on_edge, nullptr);
   cw_cad_face_point(cad, face, uv, on_face, nullptr, nullptr);

@@ -16,7 +16,7 @@ extern "C" {
 typedef struct CwCad CwCad;
 
 // Opens GEOMETRY_DIR/DOMAIN.brep and its rows of GEOMETRY_DIR/faces.csv. Fails with CW_ERR_IO or CW_ERR_INPUT
-// (a face with a seam or a degenerate edge, a face without a row).
+// (a face with a seam or two degenerate edges, a face without a row).
 CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
 void cw_cad_close(CwCad **cad);
 

@@ -46,7 +46,8 @@ void cw_cad_map_parts(CwCad *cad) {
   cad->edge_map.Clear();
   cad->vertex_map.Clear();
   TopExp::MapShapes(cad->solid, TopAbs_FACE, cad->face_map);
-  TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
+  for (TopExp_Explorer at(cad->solid, TopAbs_EDGE); at.More(); at.Next())
+    if (!BRep_Tool::Degenerated(TopoDS::Edge(at.Current()))) cad->edge_map.Add(at.Current());
   TopExp::MapShapes(cad->solid, TopAbs_VERTEX, cad->vertex_map);
 }
 
@@ -86,7 +87,14 @@ template <class Curve> static CwCadKnots knots_of_curve(Curve &curve) {
   return knots_of(intervals);
 }
 
-static void read_face(CwCad *cad, int index) {
+static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face, const char *what) {
+  TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
+  gp_Pnt p = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
+  return CW_FAIL(CW_ERR_INPUT, "%s: face '%s': the edge at (%.3f, %.3f, %.3f) mm %s", path,
+                 face >= 0 ? cad->table.face[face].name : "?", p.X(), p.Y(), p.Z(), what);
+}
+
+static CwStatus read_face(const char *path, CwCad *cad, int index) {
   const TopoDS_Face &shape = TopoDS::Face(cad->face_map(index + 1));
   CwCadFace &face = cad->face[index];
   face.surface.Load(BRep_Tool::Surface(shape));
@@ -103,22 +111,18 @@ static void read_face(CwCad *cad, int index) {
   face.v_range[1] = surface.IsVPeriodic() ? INFINITY : surface.LastVParameter();
   // A forward face of a solid has its natural normal out of it, unless the solid is inside out as a whole.
   face.reversed = shape.Orientation() == TopAbs_REVERSED;
-}
-
-static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face, const char *what) {
-  TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
-  gp_Pnt p = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
-  return CW_FAIL(CW_ERR_INPUT, "%s: face '%s': the edge at (%.3f, %.3f, %.3f) mm %s", path,
-                 face >= 0 ? cad->table.face[face].name : "?", p.X(), p.Y(), p.Z(), what);
+  face.pole = CwCadPole();
+  if (cw_cad_pole_find(shape, surface, cad->vertex_map, face.pole)) return CW_OK;
+  TopExp_Explorer edge(shape, TopAbs_EDGE);
+  while (!BRep_Tool::Degenerated(TopoDS::Edge(edge.Current()))) edge.Next();
+  return edge_failure(path, cad, TopoDS::Edge(edge.Current()), index,
+                      "is degenerate (a point), and so is another, or it is oblique; split the face between them");
 }
 
 static CwStatus read_edge(const char *path, CwCad *cad, int index, const TopTools_ListOfShape &faces) {
   TopoDS_Edge shape = TopoDS::Edge(cad->edge_map(index + 1).Oriented(TopAbs_FORWARD));
   CwCadEdge &edge = cad->edge[index];
   int first = faces.IsEmpty() ? -1 : cad->face_map.FindIndex(faces.First()) - 1;
-  if (BRep_Tool::Degenerated(shape)) {
-    return edge_failure(path, cad, shape, first, "is degenerate (a point); split the face so that none is");
-  }
   if (faces.Extent() != 2) return edge_failure(path, cad, shape, first, "does not have two faces; each edge needs two");
   edge.face[0] = first;
   edge.face[1] = cad->face_map.FindIndex(faces.Last()) - 1;
@@ -147,7 +151,10 @@ static CwStatus read_edge(const char *path, CwCad *cad, int index, const TopTool
 
 CwStatus cw_cad_read_parts(const char *path, CwCad *cad) {
   cad->face.resize(cad->face_map.Extent());
-  for (int f = 0; f < cad->face_map.Extent(); f++) read_face(cad, f);
+  for (int f = 0; f < cad->face_map.Extent(); f++) {
+    CwStatus status = read_face(path, cad, f);
+    if (status != CW_OK) return status;
+  }
 
   TopTools_IndexedDataMapOfShapeListOfShape edge_faces;
   TopExp::MapShapesAndAncestors(cad->solid, TopAbs_EDGE, TopAbs_FACE, edge_faces);

@@ -14,6 +14,7 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 
+#include "mesher/cad/cad_pole.h"
 #include "mesher/cad/face_table.h"
 #include "pipeline/status.h"
 
@@ -29,8 +30,13 @@ struct CwCadFace {
   GeomAdaptor_Surface surface; // location applied
   CwCadKnots u_knots, v_knots;
   double u_range[2], v_range[2]; // of the surface; infinite where it is unbounded or periodic
+  CwCadPole pole;                // (u,v) below and behind cad.h are the plane's where it is one
   int reversed;
   bool bare; // a wall without layers
+
+  gp_Pnt point(const double uv[2]) const;
+  void derive(const double uv[2], gp_Pnt &p, gp_Vec first[2], CwCadSecond *second) const; // second: may be null
+  void clamp(double uv[2]) const; // into the ranges
 };
 
 struct CwCadEdge {

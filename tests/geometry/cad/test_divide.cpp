@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Solids of revolution with seams, poles and tips, divided: valid, of the volume that formulas give them, without a
+// seam, and with one pole a face at the most.
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Tool.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <GProp_GProps.hxx>
+#include <gp_Circ.hxx>
+
+#include "cad/small_pump.hpp"
+#include "geometry/cad/cad_part.hpp"
+#include "geometry/cad/divide.h"
+
+extern "C" {
+#include <cmocka.h> // last: its macros have names of the C++ library
+}
+
+static const CwCadFrame frame = {{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1};
+
+static CwCadParts part_of(const TopoDS_Shape &solid) {
+  CwCadPart part = {"water", small_solid_of(solid), {}};
+  part.origin.resize(cw_cad_faces(part.solid).Extent());
+  part.origin[0].name = "first";
+  return {1e-3, {part}};
+}
+
+static void check(const TopoDS_Shape &solid, int pieces, int faces, double volume) {
+  CwCadParts parts = part_of(solid);
+  if (cw_cad_divide(&pieces, &frame, &parts)) fail_msg("%s", cw_fail_message());
+  const TopoDS_Shape &made = parts.part[0].solid;
+  assert_true(BRepCheck_Analyzer(made).IsValid());
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(made, properties);
+  if (std::fabs(properties.Mass() / volume - 1) > 1e-6) fail_msg("volume %.9g, not %.9g", properties.Mass(), volume);
+  const TopTools_IndexedMapOfShape map = cw_cad_faces(made);
+  assert_int_equal(map.Extent(), faces);
+  assert_int_equal(parts.part[0].origin.size(), faces);
+  for (int f = 1; f <= faces; f++) {
+    int poles = 0;
+    for (TopExp_Explorer at(map(f), TopAbs_EDGE); at.More(); at.Next()) {
+      const TopoDS_Edge &edge = TopoDS::Edge(at.Current());
+      poles += BRep_Tool::Degenerated(edge);
+      assert_true(BRep_Tool::Degenerated(edge) || !BRep_Tool::IsClosed(edge, TopoDS::Face(map(f))));
+    }
+    assert_true(poles <= 1);
+  }
+}
+
+static void spheres_get_eighths_and_the_like(void **) {
+  check(BRepPrimAPI_MakeSphere(7).Shape(), 4, 8, 4 * M_PI / 3 * 343);
+  check(BRepPrimAPI_MakeSphere(7).Shape(), 5, 10, 4 * M_PI / 3 * 343);
+}
+
+static void tips_of_cones_stay(void **) {
+  check(BRepPrimAPI_MakeCone(3, 0, 7).Shape(), 6, 7, M_PI * 9 * 7 / 3);
+}
+
+// Turns the region between a profile in the half plane y = 0 and the axis.
+static TopoDS_Shape turned(const Handle(Geom_Curve) & profile) {
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(profile).Edge());
+  const gp_Pnt begin = profile->Value(profile->FirstParameter()), end = profile->Value(profile->LastParameter());
+  const gp_Pnt foot(0, 0, begin.Z());
+  if (begin.X() > 1e-9) wire.Add(BRepBuilderAPI_MakeEdge(foot, begin).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(begin.X() > 1e-9 ? foot : begin, end).Edge());
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OZ()).Shape();
+}
+
+// A tangent ogive of base radius a and length l, the nose of a hub nut: an arc of radius (a2 + l2) / 2a.
+static void ogives_keep_their_points(void **) {
+  const double a = 12, l = 30, rho = (a * a + l * l) / (2 * a);
+  const gp_Circ circle(gp_Ax2(gp_Pnt(a - rho, 0, 0), -gp::DY()), rho);
+  const double volume = M_PI * (l * rho * rho - l * l * l / 3 - (rho - a) * rho * rho * std::asin(l / rho));
+  check(turned(GC_MakeArcOfCircle(circle, gp_Pnt(a, 0, 0), gp_Pnt(0, 0, l), Standard_True).Value()), 6, 7, volume);
+}
+
+// A ring whose section, of radius r about R, reaches over the axis: an apple, cut off there.
+static void rings_through_the_axis(void **) {
+  const double far = 3, r = 5, dent = std::sqrt(r * r - far * far);
+  const gp_Circ circle(gp_Ax2(gp_Pnt(far, 0, 0), -gp::DY()), r);
+  const double half = r * r / 2 * (M_PI / 2 + std::asin(far / r)) + far / 2 * dent;
+  const double volume = 4 * M_PI * (dent * dent * dent / 3 + far * half);
+  check(turned(GC_MakeArcOfCircle(circle, gp_Pnt(0, 0, -dent), gp_Pnt(0, 0, dent), Standard_True).Value()), 3, 6,
+        volume);
+}
+
+static void rings_beside_the_axis(void **) {
+  check(BRepPrimAPI_MakeTorus(9, 2).Shape(), 3, 9, 2 * M_PI * 9 * M_PI * 4);
+}
+
+static void what_needs_no_cut_stays(void **) {
+  CwCadParts parts = part_of(BRepPrimAPI_MakeBox(1, 2, 3).Shape());
+  const TopoDS_Shape before = parts.part[0].solid;
+  const int pieces = 3;
+  assert_int_equal(cw_cad_divide(&pieces, &frame, &parts), CW_OK);
+  assert_true(parts.part[0].solid.IsSame(before));
+  assert_string_equal(parts.part[0].origin[0].name.c_str(), "first");
+}
+
+// Pieces have the name of the face that they are of.
+static void names_go_with_the_pieces(void **) {
+  CwCadParts parts = part_of(BRepPrimAPI_MakeSphere(7).Shape());
+  const int pieces = 4;
+  assert_int_equal(cw_cad_divide(&pieces, &frame, &parts), CW_OK);
+  for (const CwCadFaceOrigin &origin : parts.part[0].origin) assert_string_equal(origin.name.c_str(), "first");
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(spheres_get_eighths_and_the_like),
+                                     cmocka_unit_test(tips_of_cones_stay),
+                                     cmocka_unit_test(ogives_keep_their_points),
+                                     cmocka_unit_test(rings_through_the_axis),
+                                     cmocka_unit_test(rings_beside_the_axis),
+                                     cmocka_unit_test(what_needs_no_cut_stays),
+                                     cmocka_unit_test(names_go_with_the_pieces)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
