@@ -6,10 +6,12 @@
 //   open patch  triangles on inlet, outlet and rotor/stator interface, inside the marched open edge
 //   interface   triangles on the partition planes, inside the marched cut curves (paper, section 2.2)
 //
-// Each kind is a product of its own: SurfaceMesh (surface_mesh.h), Layers (layers.h), Interfaces (interfaces.h).
+// Each kind is a product of its own: WallCurves (wall_curves.h), SurfaceMesh (surface_mesh.h),
+// Layers (layers.h), FreeCurves (free_curves.h), Interfaces (interfaces.h).
 #ifndef CUTWATER_MESHER_BOUNDARY_BOUNDARY_H
 #define CUTWATER_MESHER_BOUNDARY_BOUNDARY_H
 
+#include "mesher/boundary/free_curves.h"
 #include "mesher/boundary/interfaces.h"
 #include "mesher/boundary/surface_mesh.h"
 #include "mesher/common/polygons.h"
@@ -18,66 +20,74 @@
 #include "mesher/network/periodic_images.h"
 #include "mesher/surface/patch_mesh.h"
 
+// What the surfaces of a domain follow from: finished products, which outlive them.
+typedef struct {
+  const CwCad *cad;
+  const CwPlan *plan;
+  const CwNetwork *network;
+  const CwPeriodicImages *images;
+  CwSizeAt size_at;
+  const void *size;
+} CwBoundaryInput;
+
 // A CAD edge whose division is given: parameters of its points but for corners of the network, ascending.
 typedef struct {
   int32_t edge, count;
   double *t;
 } CwDividedEdge;
 
+// Edges shared with another domain (coupled_edges.h).
 typedef struct {
-  const CwCad *cad;
-  const CwPlan *plan;
-  CwNetwork network;
-  CwPeriodicImages images;
-  int32_t open_edge_count;
-  CwDividedEdge *open_edge; // of edges shared with another domain, by cw_couple_open_edges
-  CwSizeAt size_at;
-  const void *size;
-  double *largest; // m, by patch: wall triangles larger than with such edges are halved (patch_mesh.h); NULL: none
+  int32_t count;
+  CwDividedEdge *edge;
+} CwOpenEdges;
 
-  CwWallCurves wall_curves; // cw_wall_curves_make
-  CwSurfaceMesh surface;    // cw_surface_mesh_make
-  CwLayers layers;          // cw_boundary_grow
-  CwInterfaces interfaces;  // cw_boundary_free_curves, cw_boundary_merge_inner, cw_interface_rule_merge
-} CwBoundary;
+void cw_open_edges_free(CwOpenEdges *edges);
 
-// Where the solid has a symmetry that the plan has too, each set of periodic images of faces, curves, open patches and
-// interfaces is meshed once and copied (periodic_images.h): tasks are only the first of each image set, and the results
-// of the others are NULL.
+// Each stage reads the products before it and makes the next; where the solid has a symmetry that the plan has too,
+// each set of periodic images of faces, curves, open patches and interfaces is meshed once and copied
+// (periodic_images.h): tasks are only the first of each image set, and the results of the others are NULL.
 
-// Divides all wall curves. The network must be made, and the open edges be coupled. Collective.
-CwStatus cw_wall_curves_make(const CwBoundary *boundary, CwWallCurves *curves);
+// Divides all wall curves. Collective.
+CwStatus cw_wall_curves_make(const CwBoundaryInput *in, const CwOpenEdges *edges, CwWallCurves *curves);
 
-// Meshes the wall face `face` (any rank); the result is a byte buffer for cw_surface_mesh_make.
-CwStatus cw_boundary_mesh_wall(const CwBoundary *boundary, int32_t face, void **bytes, int64_t *size);
+// Meshes the wall face `face` (any rank); the result is a byte buffer for cw_surface_mesh_make. Triangles larger than
+// with edges of `largest` (m; 0: none) are halved.
+CwStatus cw_surface_mesh_face(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face, double largest,
+                              void **bytes, int64_t *size);
 // Joins the meshes of all wall faces (bytes[face]; NULL for open patches). Collective.
-CwStatus cw_surface_mesh_make(const CwBoundary *boundary, void *const *bytes, CwSurfaceMesh *surface);
+CwStatus cw_surface_mesh_make(const CwBoundaryInput *in, const CwWallCurves *curves, void *const *bytes,
+                              CwSurfaceMesh *surface);
 
 // Grows the layer envelope to `target` thicknesses (m, per wall vertex) and sets the layer top; for its shape columns
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
 // Collective: all ranks work on it and have the same result. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
 // top is found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
-CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *background, const double *target,
-                          const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);
+CwStatus cw_boundary_grow(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwBackground *background,
+                          const double *target, const double *least, const CwLayerDivision *division, CwLayers *layers,
+                          CwOutcome *outcome);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
-// Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in interfaces->tight;
+// Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in free_curves->tight;
 // CW_OUTCOME_ASYMMETRIC where the polygons are not symmetric.
-CwStatus cw_boundary_free_curves(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome);
+CwStatus cw_free_curves_make(const CwBoundaryInput *in, const CwWallCurves *curves, const CwSurfaceMesh *surface,
+                             const CwLayers *layers, CwFreeCurves *free_curves, CwOutcome *outcome);
 
-// Meshes open patch or interface outline `index`; results for cw_boundary_merge_inner.
-CwStatus cw_boundary_mesh_open_patch(const CwBoundary *boundary, int32_t face, void **bytes, int64_t *size);
-CwStatus cw_boundary_mesh_interface(const CwBoundary *boundary, int32_t outline, void **bytes, int64_t *size);
-CwStatus cw_boundary_merge_inner(const CwBoundary *boundary, void *const *open_patch_bytes,
-                                 void *const *interface_bytes, CwInterfaces *interfaces);
+// Meshes an open patch, or the polygon of outline `index` (any rank); results for cw_interfaces_make.
+CwStatus cw_interfaces_open_patch(const CwBoundaryInput *in, const CwWallCurves *curves,
+                                  const CwFreeCurves *free_curves, int32_t face, void **bytes, int64_t *size);
+CwStatus cw_interfaces_polygon(const CwBoundaryInput *in, const CwFreeCurves *free_curves, int32_t index, void **bytes,
+                               int64_t *size);
+// Joins these. Takes nodes and outlines over: free_curves is empty after.
+CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves, void *const *open_patch_bytes,
+                            void *const *interface_bytes, CwInterfaces *interfaces);
 
 // Brings x to the nearest point of what holds the column of a wall vertex: a plane, an open patch, a curve. `uv`: where
 // on the open patch the search begins; else not read.
-void cw_boundary_hold(const CwBoundary *boundary, CwConstraint constraint, const double uv[2], double x[3]);
+void cw_boundary_hold(const CwBoundaryInput *in, CwConstraint constraint, const double uv[2], double x[3]);
 
-void cw_boundary_free(CwBoundary *boundary);
-
-// Pairs of regions that share an interface, each once, smaller index first; caller frees.
-CwStatus cw_boundary_adjacency(const CwBoundary *boundary, int32_t *pair_count, int32_t (**pair)[2]);
+// Pairs of the domain's `regions` regions that share an interface, each once, smaller index first; caller frees.
+CwStatus cw_interfaces_adjacency(const CwInterfaces *interfaces, int32_t regions, int32_t *pair_count,
+                                 int32_t (**pair)[2]);
 
 #endif

@@ -6,15 +6,14 @@
 
 enum { SIZE_STEPS = 400 };
 
-CwStatus cw_curve_divide(const CwBoundary *boundary, const CwCurve *curve, double from, double to, int32_t least,
-                         int32_t *count, double **place) {
+CwStatus cw_divide_by_size(double (*size_at)(const void *context, double place), const void *context, double from,
+                           double to, double length, int32_t least, int32_t *count, double **place) {
   CwStatus status = CW_OK;
   // Number of edges up to each of many small steps: integral of ds / h by the midpoint rule.
   double edges[SIZE_STEPS + 1] = {0};
   for (int i = 0; i < SIZE_STEPS; i++) {
-    double x[3], parameter[2];
-    cw_curve_point(&boundary->network, curve, from + (to - from) * (i + 0.5) / SIZE_STEPS, x, parameter);
-    edges[i + 1] = edges[i] + fabs(to - from) / SIZE_STEPS / boundary->size_at(boundary->size, x);
+    double at = from + (to - from) * (i + 0.5) / SIZE_STEPS;
+    edges[i + 1] = edges[i] + length / SIZE_STEPS / size_at(context, at);
   }
   int32_t whole = (int32_t)floor(edges[SIZE_STEPS] + 0.5);
   if (whole < least) whole = least;
@@ -31,6 +30,23 @@ CwStatus cw_curve_divide(const CwBoundary *boundary, const CwCurve *curve, doubl
   }
 done:
   return status;
+}
+
+typedef struct {
+  const CwBoundaryInput *in;
+  const CwCurve *curve;
+} Along;
+
+static double size_along(const void *context, double length) {
+  const Along *along = context;
+  double x[3], parameter[2];
+  cw_curve_point(along->in->network, along->curve, length, x, parameter);
+  return along->in->size_at(along->in->size, x);
+}
+
+CwStatus cw_curve_divide(const CwBoundaryInput *in, const CwCurve *curve, double from, double to, int32_t least,
+                         int32_t *count, double **place) {
+  return cw_divide_by_size(size_along, &(Along){in, curve}, from, to, fabs(to - from), least, count, place);
 }
 
 CwStatus cw_image_link_curves(const CwPeriodicImages *images, int32_t first, const CwCurveNodes *curve,

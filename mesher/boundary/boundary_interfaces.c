@@ -13,34 +13,34 @@
 static const double BESIDE = 1e-7; // of the model's unit: where the two regions beside an interface are asked for
 
 // Nodes 0 .. wall_count-1: the layer top. Corners off the wall get nodes of their own.
-static CwStatus start_nodes(const CwBoundary *boundary, CwInterfaces *interfaces) {
+static CwStatus start_nodes(const CwBoundaryInput *in, const CwWallCurves *curves, const CwSurfaceMesh *surface,
+                            const CwLayers *layers, CwFreeCurves *free_curves) {
   CwStatus status = CW_OK;
-  const CwNetwork *network = &boundary->network;
-  interfaces->nodes.capacity = boundary->surface.vertex_count + 4096;
-  interfaces->nodes.count = boundary->surface.vertex_count;
-  CW_NEW(interfaces->nodes.x, interfaces->nodes.capacity);
-  CW_NEW(interfaces->nodes.on_plane, interfaces->nodes.capacity);
-  memcpy(interfaces->nodes.x, boundary->layers.top,
-         (size_t)boundary->surface.vertex_count * sizeof *interfaces->nodes.x);
-  CW_NEW(interfaces->corner_node, network->corner_count);
+  const CwNetwork *network = in->network;
+  free_curves->nodes.capacity = surface->vertex_count + 4096;
+  free_curves->nodes.count = surface->vertex_count;
+  CW_NEW(free_curves->nodes.x, free_curves->nodes.capacity);
+  CW_NEW(free_curves->nodes.on_plane, free_curves->nodes.capacity);
+  memcpy(free_curves->nodes.x, layers->top, (size_t)surface->vertex_count * sizeof *free_curves->nodes.x);
+  CW_NEW(free_curves->corner_node, network->corner_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
     if (!curve->wall || curve->kind != CW_CURVE_CUT) continue;
-    const CwCurveNodes *nodes = &boundary->wall_curves.curve[i];
-    for (int32_t k = 0; k < nodes->count; k++) interfaces->nodes.on_plane[nodes->node[k]] = 1;
+    const CwCurveNodes *nodes = &curves->curve[i];
+    for (int32_t k = 0; k < nodes->count; k++) free_curves->nodes.on_plane[nodes->node[k]] = 1;
   }
   for (int32_t i = 0; i < network->corner_count; i++) {
     const CwCorner *corner = &network->corner[i];
-    interfaces->corner_node[i] = boundary->wall_curves.corner_vertex[i];
+    free_curves->corner_node[i] = curves->corner_vertex[i];
     if (corner->on_wall) continue;
-    CW_TRY(cw_interfaces_add_node(interfaces, corner->x, corner->plane[0] >= 0, &interfaces->corner_node[i]));
+    CW_TRY(cw_node_table_add(&free_curves->nodes, corner->x, corner->plane[0] >= 0, &free_curves->corner_node[i]));
   }
-  const CwPeriodicImages *images = &boundary->images;
-  CW_TRY(cw_node_images_copy(&boundary->surface.images, &interfaces->images));
+  const CwPeriodicImages *images = in->images;
+  CW_TRY(cw_node_images_copy(&surface->images, &free_curves->images));
   for (int32_t i = 0; images->symmetry && i < network->corner_count; i++) {
     if (network->corner[i].on_wall) continue;
     int32_t next = images->corner.next[i];
-    CW_TRY(cw_image_link(&interfaces->images, interfaces->corner_node[i], interfaces->corner_node[next],
+    CW_TRY(cw_image_link(&free_curves->images, free_curves->corner_node[i], free_curves->corner_node[next],
                          images->corner.turns[next]));
   }
 done:
@@ -48,81 +48,84 @@ done:
 }
 
 // Arc length of an end of a free curve: where the layers end, or the end of the curve itself.
-static double free_end(const CwBoundary *boundary, const CwInterfaces *interfaces, const CwCurve *curve, int end) {
+static double free_end(const CwBoundaryInput *in, const CwWallCurves *curves, const CwFreeCurves *free_curves,
+                       const CwCurve *curve, int end) {
   int32_t corner = curve->corner[end];
-  if (boundary->wall_curves.corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
-  return cw_curve_nearest(curve, interfaces->nodes.x[interfaces->corner_node[corner]]);
+  if (curves->corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
+  return cw_curve_nearest(curve, free_curves->nodes.x[free_curves->corner_node[corner]]);
 }
 
-static CwStatus add_tight(CwInterfaces *interfaces, const double x[3]) {
+static CwStatus add_tight(CwFreeCurves *free_curves, const double x[3]) {
   CwStatus status = CW_OK;
-  void *grown = realloc(interfaces->tight, (size_t)(interfaces->tight_count + 1) * sizeof *interfaces->tight);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", interfaces->tight_count);
-  interfaces->tight = grown;
-  memcpy(interfaces->tight[interfaces->tight_count++], x, sizeof *interfaces->tight);
+  void *grown = realloc(free_curves->tight, (size_t)(free_curves->tight_count + 1) * sizeof *free_curves->tight);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", free_curves->tight_count);
+  free_curves->tight = grown;
+  memcpy(free_curves->tight[free_curves->tight_count++], x, sizeof *free_curves->tight);
 done:
   return status;
 }
 
 // Divides the free curve `first`, and its periodic images alike.
-static CwStatus divide_free_curve(const CwBoundary *boundary, int32_t first, CwInterfaces *interfaces) {
+static CwStatus divide_free_curve(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t first,
+                                  CwFreeCurves *free_curves) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &boundary->images;
-  const CwCurve *curve = &boundary->network.curve[first];
+  const CwPeriodicImages *images = in->images;
+  const CwCurve *curve = &in->network->curve[first];
   double *place = NULL;
-  double from = free_end(boundary, interfaces, curve, 0), to = free_end(boundary, interfaces, curve, 1);
+  double from = free_end(in, curves, free_curves, curve, 0), to = free_end(in, curves, free_curves, curve, 1);
   int closed = curve->corner[0] == curve->corner[1], on_plane = curve->kind != CW_CURVE_EDGE;
   int32_t count, copies = cw_image_copies(images, &images->curve, first), index = first;
   if (closed) from = 0, to = curve->fine_length[curve->fine_count - 1];
   if (!(from < to)) {
     for (int end = 0; end < 2; end++) {
-      CW_TRY(add_tight(interfaces, interfaces->nodes.x[interfaces->corner_node[curve->corner[end]]]));
+      CW_TRY(add_tight(free_curves, free_curves->nodes.x[free_curves->corner_node[curve->corner[end]]]));
     }
     goto done;
   }
-  CW_TRY(cw_curve_divide(boundary, curve, from, to, closed ? 3 : 1, &count, &place));
+  CW_TRY(cw_curve_divide(in, curve, from, to, closed ? 3 : 1, &count, &place));
   for (int32_t turns = 0; turns < copies; turns++) {
-    CwCurveNodes *nodes = &interfaces->curve[index];
+    CwCurveNodes *nodes = &free_curves->curve[index];
     CW_TRY(cw_curve_nodes_make(count, nodes));
     for (int32_t k = 0; k < count; k++) {
       double x[3];
-      cw_curve_point(&boundary->network, curve, place[k], x, nodes->parameter[k]);
+      cw_curve_point(in->network, curve, place[k], x, nodes->parameter[k]);
       if (k == 0 || k == count - 1) {
-        nodes->node[k] = interfaces->corner_node[boundary->network.curve[index].corner[k > 0]];
+        nodes->node[k] = free_curves->corner_node[in->network->curve[index].corner[k > 0]];
         continue;
       }
       cw_image_point(images, turns, x, x);
-      CW_TRY(cw_interfaces_add_node(interfaces, x, on_plane, &nodes->node[k]));
+      CW_TRY(cw_node_table_add(&free_curves->nodes, x, on_plane, &nodes->node[k]));
     }
     if (copies > 1) index = images->curve.next[index];
   }
-  CW_TRY(cw_image_link_curves(images, first, interfaces->curve, &interfaces->images));
+  CW_TRY(cw_image_link_curves(images, first, free_curves->curve, &free_curves->images));
 done:
   free(place);
   return status;
 }
 
 // Nodes along a curve: a wall curve, or a divided free one.
-static const CwCurveNodes *nodes_of(const CwBoundary *boundary, const CwInterfaces *interfaces, int32_t curve) {
-  return boundary->network.curve[curve].wall ? &boundary->wall_curves.curve[curve] : &interfaces->curve[curve];
+static const CwCurveNodes *nodes_of(const CwBoundaryInput *in, const CwWallCurves *curves,
+                                    const CwFreeCurves *free_curves, int32_t curve) {
+  return in->network->curve[curve].wall ? &curves->curve[curve] : &free_curves->curve[curve];
 }
 
 // All edges of the network on one plane. A cut of a wall, a cut of an open patch and the line with an ancestor bound
 // the interface; the line with a plane below only divides it. The outline is started, and may hold another plane's.
-static CwStatus plane_outline(const CwBoundary *boundary, const CwInterfaces *interfaces, int32_t node,
-                              CwPatchOutline *outline) {
+static CwStatus plane_outline(const CwBoundaryInput *in, const CwWallCurves *curves, const CwFreeCurves *free_curves,
+                              int32_t node, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[node].plane);
+  CwPlaneMap map = cw_plane_map_of(&in->plan->node[node].plane);
   cw_outline_clear(outline);
-  for (int32_t i = 0; i < boundary->network.curve_count; i++) {
-    const CwCurve *curve = &boundary->network.curve[i];
+  for (int32_t i = 0; i < in->network->curve_count; i++) {
+    const CwCurve *curve = &in->network->curve[i];
     if (curve->plane[0] != node && curve->plane[1] != node) continue;
     int bounds = curve->kind == CW_CURVE_CUT || curve->plane[1] == node;
-    const CwCurveNodes *nodes = nodes_of(boundary, interfaces, i);
+    const CwCurveNodes *nodes = nodes_of(in, curves, free_curves, i);
     int32_t previous = -1, local;
     for (int32_t k = 0; k < nodes->count; k++) {
       double uv[2];
-      const double *x = interfaces->nodes.x[nodes->node[k]];
+      const double *x = free_curves->nodes.x[nodes->node[k]];
       cw_plane_uv(&map, x, uv);
       CW_TRY(cw_outline_point(outline, nodes->node[k], uv, x, &local));
       if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, bounds));
@@ -134,13 +137,13 @@ done:
 }
 
 // The places where edges on a plane or an open patch cross: layers reach over a line of two planes, or over a cut.
-static CwStatus find_crossings(CwInterfaces *interfaces, const CwPatchOutline *outline) {
+static CwStatus find_crossings(CwFreeCurves *free_curves, const CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   int32_t count, (*crossing)[4] = NULL;
   CW_TRY(cw_polygons_crossings(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                                (const int32_t(*)[2])outline->edge, &count, &crossing));
   for (int32_t i = 0; i < count; i++) {
-    for (int k = 0; k < 4; k++) CW_TRY(add_tight(interfaces, interfaces->nodes.x[outline->node[crossing[i][k]]]));
+    for (int k = 0; k < 4; k++) CW_TRY(add_tight(free_curves, free_curves->nodes.x[outline->node[crossing[i][k]]]));
   }
 done:
   free(crossing);
@@ -148,24 +151,25 @@ done:
 }
 
 // The interface polygons of one plane, kept as outlines of boundary nodes. `outline`: room for that of a plane.
-static CwStatus find_polygons(const CwBoundary *boundary, CwInterfaces *interfaces, int32_t node,
-                              CwPatchOutline *outline) {
+static CwStatus find_polygons(const CwBoundaryInput *in, const CwWallCurves *curves, CwFreeCurves *free_curves,
+                              int32_t node, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CwPolygons polygons = {0};
-  CW_TRY(plane_outline(boundary, interfaces, node, outline));
-  CW_TRY(find_crossings(interfaces, outline));
-  if (interfaces->tight_count > 0) goto done;
+  CW_TRY(plane_outline(in, curves, free_curves, node, outline));
+  CW_TRY(find_crossings(free_curves, outline));
+  if (free_curves->tight_count > 0) goto done;
   CW_TRY(cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                           (const int32_t(*)[2])outline->edge, outline->boundary, &polygons));
   if (polygons.polygon_count == 0) goto done;
-  CwInterfaceOutline *grown = realloc(
-      interfaces->outline, (size_t)(interfaces->outline_count + polygons.polygon_count) * sizeof *interfaces->outline);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", interfaces->outline_count);
-  interfaces->outline = grown;
+  CwInterfaceOutline *grown =
+      realloc(free_curves->outline,
+              (size_t)(free_curves->outline_count + polygons.polygon_count) * sizeof *free_curves->outline);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", free_curves->outline_count);
+  free_curves->outline = grown;
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
     int32_t first = polygons.polygon_start[p], last = polygons.polygon_start[p + 1];
     int32_t start = polygons.loop_start[first], end = polygons.loop_start[last];
-    CwInterfaceOutline *made = &interfaces->outline[interfaces->outline_count++];
+    CwInterfaceOutline *made = &free_curves->outline[free_curves->outline_count++];
     *made = (CwInterfaceOutline){.node = node, .corner_count = end - start, .loop_count = last - first};
     CW_NEW(made->loop_start, last - first + 1);
     CW_NEW(made->corner, end - start);
@@ -177,14 +181,15 @@ done:
   return status;
 }
 
-static CwStatus find_crossings_on_open_patches(const CwBoundary *boundary, CwInterfaces *interfaces) {
+static CwStatus find_crossings_on_open_patches(const CwBoundaryInput *in, const CwWallCurves *curves,
+                                               CwFreeCurves *free_curves) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  const CwSymmetry *symmetry = boundary->images.symmetry;
-  for (int32_t face = 0; face < cw_cad_face_count(boundary->cad); face++) {
-    if (cw_cad_face_is_wall(boundary->cad, face) || (symmetry && symmetry->face.first[face] != face)) continue;
-    CW_TRY(cw_boundary_open_patch_outline(boundary, interfaces, face, &outline));
-    CW_TRY(find_crossings(interfaces, &outline));
+  const CwSymmetry *symmetry = in->images->symmetry;
+  for (int32_t face = 0; face < cw_cad_face_count(in->cad); face++) {
+    if (cw_cad_face_is_wall(in->cad, face) || (symmetry && symmetry->face.first[face] != face)) continue;
+    CW_TRY(cw_boundary_open_patch_outline(in, curves, free_curves, face, &outline));
+    CW_TRY(find_crossings(free_curves, &outline));
     cw_outline_free(&outline);
   }
 done:
@@ -192,37 +197,37 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_free_curves(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome) {
+CwStatus cw_free_curves_make(const CwBoundaryInput *in, const CwWallCurves *curves, const CwSurfaceMesh *surface,
+                             const CwLayers *layers, CwFreeCurves *free_curves, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  *interfaces = (CwInterfaces){.curve_count = boundary->network.curve_count};
-  CW_NEW(interfaces->curve, interfaces->curve_count);
-  CW_TRY(start_nodes(boundary, interfaces));
-  for (int32_t i = 0; i < boundary->network.curve_count; i++) {
-    const CwPeriodicImages *images = &boundary->images;
-    if (boundary->network.curve[i].wall || cw_image_turns(images, &images->curve, i) > 0) continue;
-    CW_TRY(divide_free_curve(boundary, i, interfaces));
+  *free_curves = (CwFreeCurves){.curve_count = in->network->curve_count};
+  CW_NEW(free_curves->curve, free_curves->curve_count);
+  CW_TRY(start_nodes(in, curves, surface, layers, free_curves));
+  for (int32_t i = 0; i < in->network->curve_count; i++) {
+    const CwPeriodicImages *images = in->images;
+    if (in->network->curve[i].wall || cw_image_turns(images, &images->curve, i) > 0) continue;
+    CW_TRY(divide_free_curve(in, curves, i, free_curves));
   }
-  if (interfaces->tight_count > 0) goto done; // not all curves are divided
-  CW_TRY(cw_outline_start(&outline, interfaces->nodes.count));
-  for (int32_t node = 0; node < boundary->plan->node_count; node++)
-    CW_TRY(find_polygons(boundary, interfaces, node, &outline));
-  if (interfaces->tight_count == 0) CW_TRY(find_crossings_on_open_patches(boundary, interfaces));
-  if (interfaces->tight_count == 0 && boundary->images.symmetry)
-    CW_TRY(cw_image_outlines(boundary, interfaces, outcome));
+  if (free_curves->tight_count > 0) goto done; // not all curves are divided
+  CW_TRY(cw_outline_start(&outline, free_curves->nodes.count));
+  for (int32_t node = 0; node < in->plan->node_count; node++)
+    CW_TRY(find_polygons(in, curves, free_curves, node, &outline));
+  if (free_curves->tight_count == 0) CW_TRY(find_crossings_on_open_patches(in, curves, free_curves));
+  if (free_curves->tight_count == 0 && in->images->symmetry) CW_TRY(cw_image_outlines(in, free_curves, outcome));
 done:
-  if (status == CW_OK && interfaces->tight_count > 0) {
-    cw_outcome_set(outcome, CW_OUTCOME_THIN, interfaces->tight[0],
+  if (status == CW_OK && free_curves->tight_count > 0) {
+    cw_outcome_set(outcome, CW_OUTCOME_THIN, free_curves->tight[0],
                    "the layers fill a line of two partition planes, or cross it or a cut on an open patch");
   }
   cw_outline_free(&outline);
   return status;
 }
 
-CwStatus cw_boundary_interface_outline(const CwBoundary *boundary, const CwInterfaceOutline *interface,
+CwStatus cw_boundary_interface_outline(const CwNodeTable *nodes, const CwInterfaceOutline *interface,
                                        const CwPlaneMap *map, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_outline_start(outline, boundary->interfaces.nodes.count));
+  CW_TRY(cw_outline_start(outline, nodes->count));
   for (int32_t l = 0; l < interface->loop_count; l++) {
     int32_t first = interface->loop_start[l], count = interface->loop_start[l + 1] - first;
     for (int32_t k = 0; k < count; k++) {
@@ -230,8 +235,8 @@ CwStatus cw_boundary_interface_outline(const CwBoundary *boundary, const CwInter
       for (int end = 0; end < 2; end++) {
         int32_t node = interface->corner[first + (k + end) % count];
         double uv[2];
-        cw_plane_uv(map, boundary->interfaces.nodes.x[node], uv);
-        CW_TRY(cw_outline_point(outline, node, uv, boundary->interfaces.nodes.x[node], &local[end]));
+        cw_plane_uv(map, nodes->x[node], uv);
+        CW_TRY(cw_outline_point(outline, node, uv, nodes->x[node], &local[end]));
       }
       CW_TRY(cw_outline_edge(outline, local[0], local[1], 1));
     }
@@ -253,32 +258,32 @@ static int32_t sides_at(const void *context, const double x[3]) {
   return cw_plan_locate(sides->plan, below) * sides->plan->region_count + cw_plan_locate(sides->plan, above);
 }
 
-CwStatus cw_boundary_mesh_interface(const CwBoundary *boundary, int32_t index, void **bytes, int64_t *size) {
+CwStatus cw_interfaces_polygon(const CwBoundaryInput *in, const CwFreeCurves *free_curves, int32_t index, void **bytes,
+                               int64_t *size) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  const CwInterfaceOutline *interface = &boundary->interfaces.outline[index];
-  CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[interface->node].plane);
-  Sides sides = {boundary->plan, map.axis[2]};
+  const CwInterfaceOutline *interface = &free_curves->outline[index];
+  CwPlaneMap map = cw_plane_map_of(&in->plan->node[interface->node].plane);
+  Sides sides = {in->plan, map.axis[2]};
   char name[64];
   snprintf(name, sizeof name, "interface %d on partition plane %d", index, interface->node);
-  CW_TRY(cw_boundary_interface_outline(boundary, interface, &map, &outline));
-  CW_TRY(cw_patch_task(&outline, cw_plane_map, &map, boundary->size_at, boundary->size, 0, 0, sides_at, &sides, name,
-                       bytes, size));
+  CW_TRY(cw_boundary_interface_outline(&free_curves->nodes, interface, &map, &outline));
+  CW_TRY(cw_patch_task(&outline, cw_plane_map, &map, in->size_at, in->size, 0, 0, sides_at, &sides, name, bytes, size));
 done:
   cw_outline_free(&outline);
   return status;
 }
 
 // Appends a packed patch, turned: its new points as nodes, its triangles at triangle[count...].
-static CwStatus append(const CwBoundary *boundary, CwInterfaces *interfaces, const CwPatchBlock *block, int on_plane,
+static CwStatus append(const CwBoundaryInput *in, CwInterfaces *interfaces, const CwPatchBlock *block, int on_plane,
                        int32_t turns, int32_t copies, int32_t (*triangle)[3]) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &boundary->images;
+  const CwPeriodicImages *images = in->images;
   int32_t first = interfaces->nodes.count, node;
   for (int32_t i = 0; i < block->point_count; i++) {
     double x[3];
     cw_image_point(images, turns, block->x[i], x);
-    CW_TRY(cw_interfaces_add_node(interfaces, x, on_plane, &node));
+    CW_TRY(cw_node_table_add(&interfaces->nodes, x, on_plane, &node));
     if (turns > 0) CW_TRY(cw_image_link(&interfaces->images, node - block->point_count, node, turns));
     if (turns > 0 && turns == copies - 1) {
       CW_TRY(cw_image_link(&interfaces->images, node, node - turns * block->point_count, 0));
@@ -296,40 +301,39 @@ done:
   return status;
 }
 
-static CwStatus merge_open_patch(const CwBoundary *boundary, CwInterfaces *interfaces, int32_t face,
+static CwStatus merge_open_patch(const CwBoundaryInput *in, CwInterfaces *interfaces, int32_t face,
                                  const CwPatchBlock *block) {
   CwStatus status = CW_OK;
-  int32_t copies = cw_image_face_copies(&boundary->images, face);
+  int32_t copies = cw_image_face_copies(in->images, face);
   for (int32_t turns = 0; turns < copies; turns++) {
-    CW_TRY(append(boundary, interfaces, block, 0, turns, copies,
+    CW_TRY(append(in, interfaces, block, 0, turns, copies,
                   interfaces->open_patch.triangle + interfaces->open_patch.count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
-      interfaces->open_patch.face[interfaces->open_patch.count] = cw_image_face(&boundary->images, face, turns);
+      interfaces->open_patch.face[interfaces->open_patch.count] = cw_image_face(in->images, face, turns);
       interfaces->open_patch.region[interfaces->open_patch.count++] =
-          cw_image_region(&boundary->images, boundary->plan, block->label[t], turns);
+          cw_image_region(in->images, in->plan, block->label[t], turns);
     }
   }
 done:
   return status;
 }
 
-static CwStatus merge_interface(const CwBoundary *boundary, CwInterfaces *interfaces, int32_t index,
+static CwStatus merge_interface(const CwBoundaryInput *in, CwInterfaces *interfaces, int32_t index,
                                 const CwPatchBlock *block) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &boundary->images;
-  int32_t copies = cw_image_copies(images, &interfaces->outline_images, index), regions = boundary->plan->region_count;
+  const CwPeriodicImages *images = in->images;
+  int32_t copies = cw_image_copies(images, &interfaces->outline_images, index), regions = in->plan->region_count;
   for (int32_t turns = 0, copy = index; turns < copies; turns++) {
     CwInterfaceOutline *interface = &interfaces->outline[copy];
     interface->free_start = interfaces->nodes.count;
     interface->free_count = block->point_count;
     interface->triangle_start = interfaces->refined.count;
     interface->triangle_count = block->triangle_count;
-    CW_TRY(append(boundary, interfaces, block, 1, turns, copies,
-                  interfaces->refined.triangle + interfaces->refined.count));
+    CW_TRY(append(in, interfaces, block, 1, turns, copies, interfaces->refined.triangle + interfaces->refined.count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
       int32_t *region = interfaces->refined.region[interfaces->refined.count++];
-      region[0] = cw_image_region(images, boundary->plan, block->label[t] / regions, turns);
-      region[1] = cw_image_region(images, boundary->plan, block->label[t] % regions, turns);
+      region[0] = cw_image_region(images, in->plan, block->label[t] / regions, turns);
+      region[1] = cw_image_region(images, in->plan, block->label[t] % regions, turns);
     }
     if (copies > 1) copy = interfaces->outline_images.next[copy];
   }
@@ -337,12 +341,28 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_merge_inner(const CwBoundary *boundary, void *const *open_patch_bytes,
-                                 void *const *interface_bytes, CwInterfaces *interfaces) {
+// Nodes and outlines go from one to the other.
+static void take_over(CwFreeCurves *free_curves, CwInterfaces *interfaces) {
+  *interfaces = (CwInterfaces){.nodes = free_curves->nodes,
+                               .images = free_curves->images,
+                               .outline_count = free_curves->outline_count,
+                               .outline = free_curves->outline,
+                               .outline_images = free_curves->outline_images};
+  free_curves->nodes = (CwNodeTable){0};
+  free_curves->images = (CwNodeImages){0};
+  free_curves->outline_count = 0;
+  free_curves->outline = NULL;
+  free_curves->outline_images = (CwImages){0};
+  cw_free_curves_free(free_curves);
+}
+
+CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves, void *const *open_patch_bytes,
+                            void *const *interface_bytes, CwInterfaces *interfaces) {
   CwStatus status = CW_OK;
   CwPatchBlock block;
-  const CwPeriodicImages *images = &boundary->images;
-  int32_t faces = cw_cad_face_count(boundary->cad), open_patches = 0, on_planes = 0;
+  const CwPeriodicImages *images = in->images;
+  int32_t faces = cw_cad_face_count(in->cad), open_patches = 0, on_planes = 0;
+  take_over(free_curves, interfaces);
   for (int32_t f = 0; f < faces; f++) {
     if (!open_patch_bytes[f]) continue;
     cw_patch_block(open_patch_bytes[f], &block);
@@ -361,12 +381,12 @@ CwStatus cw_boundary_merge_inner(const CwBoundary *boundary, void *const *open_p
   for (int32_t f = 0; f < faces; f++) {
     if (!open_patch_bytes[f]) continue;
     cw_patch_block(open_patch_bytes[f], &block);
-    CW_TRY(merge_open_patch(boundary, interfaces, f, &block));
+    CW_TRY(merge_open_patch(in, interfaces, f, &block));
   }
   for (int32_t i = 0; i < interfaces->outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
-    CW_TRY(merge_interface(boundary, interfaces, i, &block));
+    CW_TRY(merge_interface(in, interfaces, i, &block));
   }
 done:
   return status;

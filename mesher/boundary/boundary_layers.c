@@ -84,54 +84,55 @@ static void curve_direction(const CwCurve *curve, const double x[3], double dire
 }
 
 typedef struct {
-  const CwBoundary *boundary;
+  const CwBoundaryInput *in;
+  const CwSurfaceMesh *surface;
   double (*uv)[2]; // of each wall vertex that an open patch holds
 } Snap;
 
-void cw_boundary_hold(const CwBoundary *boundary, CwConstraint constraint, const double uv[2], double x[3]) {
+void cw_boundary_hold(const CwBoundaryInput *in, CwConstraint constraint, const double uv[2], double x[3]) {
   double from[3], parameter[2];
   cw_copy(x, from);
   if (constraint.kind == CW_CONSTRAINT_PLANE) {
-    const CwPlane *plane = &boundary->plan->node[constraint.index].plane;
+    const CwPlane *plane = &in->plan->node[constraint.index].plane;
     const double distance = cw_plane_distance(plane, from);
     for (int k = 0; k < 3; k++) x[k] -= distance * plane->normal[k];
   } else if (constraint.kind == CW_CONSTRAINT_PATCH) {
     double at[2] = {uv[0], uv[1]};
-    cw_cad_face_project(boundary->cad, constraint.index, from, at);
-    cw_cad_face_point(boundary->cad, constraint.index, at, x, NULL, NULL);
+    cw_cad_face_project(in->cad, constraint.index, from, at);
+    cw_cad_face_point(in->cad, constraint.index, at, x, NULL, NULL);
   } else if (constraint.kind == CW_CONSTRAINT_CURVE) {
-    const CwCurve *curve = &boundary->network.curve[constraint.index];
-    cw_curve_point(&boundary->network, curve, cw_curve_nearest(curve, from), x, parameter);
+    const CwCurve *curve = &in->network->curve[constraint.index];
+    cw_curve_point(in->network, curve, cw_curve_nearest(curve, from), x, parameter);
   }
 }
 
 static void snap(const void *context, int32_t vertex, double x[3]) {
   const Snap *snap = context;
-  cw_boundary_hold(snap->boundary, snap->boundary->surface.constraint[vertex], snap->uv[vertex], x);
+  cw_boundary_hold(snap->in, snap->surface->constraint[vertex], snap->uv[vertex], x);
 }
 
 // Edges may be flipped inside one CAD face and one region: curves stay. Periodic images are left to follow.
-static CwStatus make_groups(const CwBoundary *boundary, int64_t **group) {
+static CwStatus make_groups(const CwBoundaryInput *in, const CwSurfaceMesh *surface, int64_t **group) {
   CwStatus status = CW_OK;
-  CW_NEW_UNSET(*group, boundary->surface.triangle_count);
-  for (int32_t t = 0; t < boundary->surface.triangle_count; t++) {
-    (*group)[t] = boundary->surface.source[t] != t
-                      ? -1 - (int64_t)t
-                      : (int64_t)boundary->surface.face[t] * boundary->plan->region_count + boundary->surface.region[t];
+  CW_NEW_UNSET(*group, surface->triangle_count);
+  for (int32_t t = 0; t < surface->triangle_count; t++) {
+    (*group)[t] = surface->source[t] != t ? -1 - (int64_t)t
+                                          : (int64_t)surface->face[t] * in->plan->region_count + surface->region[t];
   }
 done:
   return status;
 }
 
-static CwStatus unfold_wall(const CwBoundary *boundary, const int64_t *group, CwFlipMesh *mesh) {
+static CwStatus unfold_wall(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const int64_t *group,
+                            CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips, folded;
-  CW_TRY(cw_flip_neighbours(boundary->surface.vertex_count, boundary->surface.triangle_count, group, mesh));
-  CW_TRY(cw_wall_unfold(boundary->surface.vertex_count, (const double(*)[3])boundary->surface.x,
-                        boundary->surface.triangle_count, mesh, group, &flips, &folded));
-  cw_image_copy_triangles(boundary, mesh->triangle);
-  if (flips && boundary->images.symmetry) { // copies have followed
-    CW_TRY(cw_flip_neighbours(boundary->surface.vertex_count, boundary->surface.triangle_count, group, mesh));
+  CW_TRY(cw_flip_neighbours(surface->vertex_count, surface->triangle_count, group, mesh));
+  CW_TRY(cw_wall_unfold(surface->vertex_count, (const double(*)[3])surface->x, surface->triangle_count, mesh, group,
+                        &flips, &folded));
+  cw_image_copy_triangles(in->images, surface, mesh->triangle);
+  if (flips && in->images->symmetry) { // copies have followed
+    CW_TRY(cw_flip_neighbours(surface->vertex_count, surface->triangle_count, group, mesh));
   }
   if (flips || folded)
     cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
@@ -139,40 +140,41 @@ done:
   return status;
 }
 
-static CwStatus flip_top(const CwBoundary *boundary, const double (*top)[3], const int64_t *group, CwFlipMesh *mesh) {
+static CwStatus flip_top(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const double (*top)[3],
+                         const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips;
-  CW_TRY(cw_layer_top_flip((const double(*)[3])boundary->surface.x, top, boundary->surface.triangle_count, mesh, group,
-                           &flips));
-  cw_image_copy_triangles(boundary, mesh->triangle);
+  CW_TRY(cw_layer_top_flip((const double(*)[3])surface->x, top, surface->triangle_count, mesh, group, &flips));
+  cw_image_copy_triangles(in->images, surface, mesh->triangle);
   cw_log_debug("%d edges of wall and layer top flipped", flips);
 done:
   return status;
 }
 
 // What holds the columns on open edges and cuts.
-static CwStatus make_constraints(const CwBoundary *boundary, const CwBackground *background, int32_t *constraint_count,
+static CwStatus make_constraints(const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                                 const CwBackground *background, int32_t *constraint_count,
                                  double (*constraint_normal)[2][3], uint8_t *constraint_stays, double (*uv)[2]) {
   CwStatus status = CW_OK;
-  int32_t faces = cw_cad_face_count(boundary->cad);
+  int32_t faces = cw_cad_face_count(in->cad);
   PatchCorners *corners = NULL;
   CW_NEW(corners, faces);
-  for (int32_t v = 0; v < boundary->surface.vertex_count; v++) {
-    CwConstraint constraint = boundary->surface.constraint[v];
-    const double *x = boundary->surface.x[v];
+  for (int32_t v = 0; v < surface->vertex_count; v++) {
+    CwConstraint constraint = surface->constraint[v];
+    const double *x = surface->x[v];
     if (constraint.kind == CW_CONSTRAINT_PLANE) {
       constraint_count[v] = 1;
-      cw_copy(boundary->plan->node[constraint.index].plane.normal, constraint_normal[v][0]);
+      cw_copy(in->plan->node[constraint.index].plane.normal, constraint_normal[v][0]);
     } else if (constraint.kind == CW_CONSTRAINT_PATCH) {
       PatchCorners *open_patch = &corners[constraint.index];
       constraint_count[v] = constraint_stays[v] = 1;
       if (!open_patch->x) CW_TRY(collect_corners(background, constraint.index, open_patch));
       open_patch_start(open_patch, x, uv[v]);
-      open_patch_normal(boundary->cad, constraint.index, x, uv[v], constraint_normal[v][0]);
+      open_patch_normal(in->cad, constraint.index, x, uv[v], constraint_normal[v][0]);
     } else if (constraint.kind == CW_CONSTRAINT_CURVE) {
       double direction[3];
       constraint_count[v] = 2;
-      curve_direction(&boundary->network.curve[constraint.index], x, direction);
+      curve_direction(&in->network->curve[constraint.index], x, direction);
       across(direction, constraint_normal[v][0], constraint_normal[v][1]);
     }
   }
@@ -185,35 +187,36 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *background, const double *target,
-                          const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome) {
+CwStatus cw_boundary_grow(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwBackground *background,
+                          const double *target, const double *least, const CwLayerDivision *division, CwLayers *layers,
+                          CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  int32_t n = boundary->surface.vertex_count, triangles = boundary->surface.triangle_count, open_patches = 0, opened;
+  int32_t n = surface->vertex_count, triangles = surface->triangle_count, open_patches = 0, opened;
   int32_t *constraint_count = NULL, (*open_patch_triangle)[3] = NULL;
   double(*constraint_normal)[2][3] = NULL;
   uint8_t *constraint_stays = NULL;
-  Snap snapping = {boundary, NULL};
+  Snap snapping = {in, surface, NULL};
   CwFlipMesh mesh = {0};
   int64_t *group = NULL;
   *layers = (CwLayers){0};
   cw_profiler_part("layers: wall unfolded");
   CW_NEW_UNSET(mesh.triangle, triangles);
-  memcpy(mesh.triangle, boundary->surface.triangle, (size_t)triangles * sizeof *mesh.triangle);
-  CW_TRY(make_groups(boundary, &group));
-  CW_TRY(unfold_wall(boundary, group, &mesh));
+  memcpy(mesh.triangle, surface->triangle, (size_t)triangles * sizeof *mesh.triangle);
+  CW_TRY(make_groups(in, surface, &group));
+  CW_TRY(unfold_wall(in, surface, group, &mesh));
   CW_NEW(constraint_count, n);
   CW_NEW(constraint_normal, n);
   CW_NEW(constraint_stays, n);
   CW_NEW(snapping.uv, n);
   cw_profiler_part("layers: constraints");
-  CW_TRY(make_constraints(boundary, background, constraint_count, constraint_normal, constraint_stays, snapping.uv));
+  CW_TRY(make_constraints(in, surface, background, constraint_count, constraint_normal, constraint_stays, snapping.uv));
   CW_NEW(open_patch_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    if (cw_cad_face_is_wall(boundary->cad, background->face[t])) continue;
+    if (cw_cad_face_is_wall(in->cad, background->face[t])) continue;
     memcpy(open_patch_triangle[open_patches++], background->triangle[t], sizeof open_patch_triangle[0]);
   }
   CwLayerInput input = {.point_count = n,
-                        .x = (const double(*)[3])boundary->surface.x,
+                        .x = (const double(*)[3])surface->x,
                         .triangle_count = triangles,
                         .triangle = (const int32_t(*)[3])mesh.triangle,
                         .target = target,
@@ -228,13 +231,13 @@ CwStatus cw_boundary_grow(const CwBoundary *boundary, const CwBackground *backgr
                         .obstacle_x = (const double(*)[3])background->x,
                         .obstacle_triangle_count = open_patches,
                         .obstacle_triangle = (const int32_t(*)[3])open_patch_triangle};
-  CW_TRY_STAGE(boundary->images.symmetry ? cw_image_layers(boundary, &input, layers, outcome)
-                                         : cw_layers_make(&input, layers, outcome),
+  CW_TRY_STAGE(in->images->symmetry ? cw_image_layers(in->images, surface, &input, layers, outcome)
+                                    : cw_layers_make(&input, layers, outcome),
                outcome);
   cw_profiler_part("layers: layer top flipped");
-  CW_TRY(flip_top(boundary, (const double(*)[3])layers->top, group, &mesh));
+  CW_TRY(flip_top(in, surface, (const double(*)[3])layers->top, group, &mesh));
   cw_profiler_part("layers: narrow concave edges");
-  CW_TRY(cw_open_concave_edges(boundary, &input, layers, &opened));
+  CW_TRY(cw_open_concave_edges(in->images, surface, &input, layers, &opened));
   layers->triangle_count = triangles;
   layers->triangle = mesh.triangle;
   mesh.triangle = NULL;

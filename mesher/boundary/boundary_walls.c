@@ -12,31 +12,31 @@
 static const double ON_PLANE = 1e-8; // of the model's unit
 
 // (u,v) on `face` of point k of a curve that runs along it.
-static void curve_uv(const CwBoundary *boundary, const CwCurve *curve, const double parameter[2], int32_t face,
+static void curve_uv(const CwBoundaryInput *in, const CwCurve *curve, const double parameter[2], int32_t face,
                      double uv[2]) {
   if (curve->kind == CW_CURVE_EDGE) {
-    cw_cad_edge_uv(boundary->cad, curve->edge, face, parameter[0], uv);
+    cw_cad_edge_uv(in->cad, curve->edge, face, parameter[0], uv);
   } else {
     memcpy(uv, parameter, sizeof(double[2]));
   }
 }
 
 // The outline of a wall face: CAD edges first, so that their ends get the (u,v) of the edges, then the cuts.
-static CwStatus wall_outline(const CwBoundary *boundary, int32_t face, CwPatchOutline *outline) {
+static CwStatus wall_outline(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face,
+                             CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  const CwWallCurves *curves = &boundary->wall_curves;
   CW_TRY(cw_outline_start(outline, curves->vertex_count));
   for (int pass = 0; pass < 2; pass++) {
     CwCurveKind kind = pass == 0 ? CW_CURVE_EDGE : CW_CURVE_CUT;
-    for (int32_t i = 0; i < boundary->network.curve_count; i++) {
-      const CwCurve *curve = &boundary->network.curve[i];
+    for (int32_t i = 0; i < in->network->curve_count; i++) {
+      const CwCurve *curve = &in->network->curve[i];
       if (curve->kind != kind || !curve->wall || (curve->face[0] != face && curve->face[1] != face)) continue;
       const CwCurveNodes *nodes = &curves->curve[i];
       int32_t previous = -1;
       for (int32_t k = 0; k < nodes->count; k++) {
         double uv[2];
         int32_t local;
-        curve_uv(boundary, curve, nodes->parameter[k], face, uv);
+        curve_uv(in, curve, nodes->parameter[k], face, uv);
         CW_TRY(cw_outline_point(outline, nodes->node[k], uv, curves->x[nodes->node[k]], &local));
         if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, kind == CW_CURVE_EDGE));
         previous = local;
@@ -62,29 +62,27 @@ static int32_t region_at(const void *plan, const double x[3]) {
 }
 
 // Meshes a CAD face inside its outline; the label of each triangle is its region.
-static CwStatus mesh_face(const CwBoundary *boundary, int32_t face,
-                          CwStatus (*outline_of)(const CwBoundary *, int32_t, CwPatchOutline *), void **bytes,
-                          int64_t *size) {
+static CwStatus mesh_face(const CwBoundaryInput *in, int32_t face, const CwPatchOutline *outline, double largest,
+                          void **bytes, int64_t *size) {
+  FaceMap map = {in->cad, face};
+  return cw_patch_task(outline, face_map, &map, in->size_at, in->size, largest, cw_cad_face_reversed(in->cad, face),
+                       region_at, in->plan, cw_cad_face_name(in->cad, face), bytes, size);
+}
+
+CwStatus cw_surface_mesh_face(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face, double largest,
+                              void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  FaceMap map = {boundary->cad, face};
-  CW_TRY(outline_of(boundary, face, &outline));
-  double largest = boundary->largest ? boundary->largest[cw_cad_face_patch(boundary->cad, face)] : 0;
-  CW_TRY(cw_patch_task(&outline, face_map, &map, boundary->size_at, boundary->size, largest,
-                       cw_cad_face_reversed(boundary->cad, face), region_at, boundary->plan,
-                       cw_cad_face_name(boundary->cad, face), bytes, size));
+  CW_TRY(wall_outline(in, curves, face, &outline));
+  CW_TRY(mesh_face(in, face, &outline, largest, bytes, size));
 done:
   cw_outline_free(&outline);
   return status;
 }
 
-CwStatus cw_boundary_mesh_wall(const CwBoundary *boundary, int32_t face, void **bytes, int64_t *size) {
-  return mesh_face(boundary, face, wall_outline, bytes, size);
-}
-
 // A surface mesh that is being made.
 typedef struct {
-  const CwBoundary *boundary;
+  const CwBoundaryInput *in;
   CwSurfaceMesh *surface;
 } Made;
 
@@ -92,14 +90,14 @@ typedef struct {
 static CwStatus check_triangle(void *context, int32_t t, void *out) {
   CwStatus status = CW_OK;
   const Made *made = context;
-  const CwBoundary *boundary = made->boundary;
+  const CwBoundaryInput *in = made->in;
   const CwSurfaceMesh *surface = made->surface;
   if (surface->source[t] != t) goto done;
   for (int k = 0; k < 3; k++) {
     const double *x = surface->x[surface->triangle[t][k]];
-    CW_REQUIRE(cw_plan_in_region(boundary->plan, surface->region[t], x, ON_PLANE), CW_ERR_MESH,
+    CW_REQUIRE(cw_plan_in_region(in->plan, surface->region[t], x, ON_PLANE), CW_ERR_MESH,
                "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
-               cw_cad_face_name(boundary->cad, surface->face[t]), CW_MM(x), surface->region[t] + 1);
+               cw_cad_face_name(in->cad, surface->face[t]), CW_MM(x), surface->region[t] + 1);
   }
   *(uint8_t *)out = 1;
 done:
@@ -117,15 +115,15 @@ done:
 }
 
 // Appends the triangles of a copy of a face, whose points have the numbers `vertex`.
-static void append_triangles(const CwBoundary *boundary, CwSurfaceMesh *surface, int32_t face, int32_t turns,
+static void append_triangles(const CwBoundaryInput *in, CwSurfaceMesh *surface, int32_t face, int32_t turns,
                              int32_t source, const CwPatchBlock *block, const int32_t *vertex) {
-  const CwPeriodicImages *images = &boundary->images;
+  const CwPeriodicImages *images = in->images;
   int32_t on = cw_image_face(images, face, turns), label = -1, region = -1;
   for (int32_t t = 0; t < block->triangle_count; t++) {
     int32_t at = surface->triangle_count++;
     if (block->label[t] != label) { // those of one region mostly follow one another
       label = block->label[t];
-      region = cw_image_region(images, boundary->plan, label, turns);
+      region = cw_image_region(images, in->plan, label, turns);
     }
     for (int k = 0; k < 3; k++) surface->triangle[at][k] = vertex[block->triangle[t][k]];
     surface->face[at] = on;
@@ -135,10 +133,9 @@ static void append_triangles(const CwBoundary *boundary, CwSurfaceMesh *surface,
 }
 
 // Appends the mesh of a face for itself and its periodic images.
-static CwStatus merge_wall(const CwBoundary *boundary, int32_t face, const CwPatchBlock *block,
-                           CwSurfaceMesh *surface) {
+static CwStatus merge_wall(const CwBoundaryInput *in, int32_t face, const CwPatchBlock *block, CwSurfaceMesh *surface) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &boundary->images;
+  const CwPeriodicImages *images = in->images;
   int32_t copies = cw_image_face_copies(images, face), first = surface->vertex_count;
   int32_t source = surface->triangle_count, *vertex = NULL;
   CW_NEW(vertex, block->outline_points + block->point_count);
@@ -156,7 +153,7 @@ static CwStatus merge_wall(const CwBoundary *boundary, int32_t face, const CwPat
       if (turns > 0) CW_TRY(cw_image_link(&surface->images, *made - block->point_count, *made, turns));
       if (turns > 0 && turns == copies - 1) CW_TRY(cw_image_link(&surface->images, *made, first + i, 0));
     }
-    append_triangles(boundary, surface, face, turns, source, block, vertex);
+    append_triangles(in, surface, face, turns, source, block, vertex);
   }
 done:
   free(vertex);
@@ -199,52 +196,53 @@ done:
   return status;
 }
 
-CwStatus cw_surface_mesh_make(const CwBoundary *boundary, void *const *bytes, CwSurfaceMesh *surface) {
+CwStatus cw_surface_mesh_make(const CwBoundaryInput *in, const CwWallCurves *curves, void *const *bytes,
+                              CwSurfaceMesh *surface) {
   CwStatus status = CW_OK;
-  int32_t faces = cw_cad_face_count(boundary->cad), total = 0, vertices = boundary->wall_curves.vertex_count;
+  int32_t faces = cw_cad_face_count(in->cad), total = 0, vertices = curves->vertex_count;
   CwPatchBlock block;
   *surface = (CwSurfaceMesh){0};
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
-    int32_t copies = cw_image_face_copies(&boundary->images, f);
+    int32_t copies = cw_image_face_copies(in->images, f);
     cw_patch_block(bytes[f], &block);
     total += block.triangle_count * copies;
     vertices += block.point_count * copies;
   }
-  CW_TRY(start_surface(&boundary->wall_curves, vertices, total, surface));
+  CW_TRY(start_surface(curves, vertices, total, surface));
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
     cw_patch_block(bytes[f], &block);
-    CW_TRY(merge_wall(boundary, f, &block, surface));
+    CW_TRY(merge_wall(in, f, &block, surface));
   }
-  CW_TRY(check_regions(&(Made){boundary, surface}));
-  CW_TRY(list_regions(surface, boundary->plan->region_count));
+  CW_TRY(check_regions(&(Made){in, surface}));
+  CW_TRY(list_regions(surface, in->plan->region_count));
 done:
   return status;
 }
 
 // Layer top node and its (u,v) on an open patch: the (u,v) of the wall curve is the start of the search.
-static CwStatus add_top_point(const CwBoundary *boundary, const CwInterfaces *interfaces, const CwCurve *curve,
+static CwStatus add_top_point(const CwBoundaryInput *in, const CwFreeCurves *free_curves, const CwCurve *curve,
                               const CwCurveNodes *nodes, int32_t k, int32_t face, CwPatchOutline *outline,
                               int32_t *local) {
   double uv[2];
-  curve_uv(boundary, curve, nodes->parameter[k], face, uv);
-  const double *x = interfaces->nodes.x[nodes->node[k]];
-  cw_cad_face_project(boundary->cad, face, x, uv);
+  curve_uv(in, curve, nodes->parameter[k], face, uv);
+  const double *x = free_curves->nodes.x[nodes->node[k]];
+  cw_cad_face_project(in->cad, face, x, uv);
   return cw_outline_point(outline, nodes->node[k], uv, x, local);
 }
 
-CwStatus cw_boundary_open_patch_outline(const CwBoundary *boundary, const CwInterfaces *interfaces, int32_t face,
-                                        CwPatchOutline *outline) {
+CwStatus cw_boundary_open_patch_outline(const CwBoundaryInput *in, const CwWallCurves *curves,
+                                        const CwFreeCurves *free_curves, int32_t face, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_outline_start(outline, interfaces->nodes.count));
-  for (int32_t i = 0; i < boundary->network.curve_count; i++) {
-    const CwCurve *curve = &boundary->network.curve[i];
+  CW_TRY(cw_outline_start(outline, free_curves->nodes.count));
+  for (int32_t i = 0; i < in->network->curve_count; i++) {
+    const CwCurve *curve = &in->network->curve[i];
     if (curve->kind == CW_CURVE_LINE || (curve->face[0] != face && curve->face[1] != face)) continue;
-    const CwCurveNodes *nodes = curve->wall ? &boundary->wall_curves.curve[i] : &interfaces->curve[i];
+    const CwCurveNodes *nodes = curve->wall ? &curves->curve[i] : &free_curves->curve[i];
     int32_t previous = -1, local;
     for (int32_t k = 0; k < nodes->count; k++) {
-      CW_TRY(add_top_point(boundary, interfaces, curve, nodes, k, face, outline, &local));
+      CW_TRY(add_top_point(in, free_curves, curve, nodes, k, face, outline, &local));
       if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, curve->kind == CW_CURVE_EDGE));
       previous = local;
     }
@@ -253,10 +251,13 @@ done:
   return status;
 }
 
-static CwStatus open_patch_outline(const CwBoundary *boundary, int32_t face, CwPatchOutline *outline) {
-  return cw_boundary_open_patch_outline(boundary, &boundary->interfaces, face, outline);
-}
-
-CwStatus cw_boundary_mesh_open_patch(const CwBoundary *boundary, int32_t face, void **bytes, int64_t *size) {
-  return mesh_face(boundary, face, open_patch_outline, bytes, size);
+CwStatus cw_interfaces_open_patch(const CwBoundaryInput *in, const CwWallCurves *curves,
+                                  const CwFreeCurves *free_curves, int32_t face, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  CW_TRY(cw_boundary_open_patch_outline(in, curves, free_curves, face, &outline));
+  CW_TRY(mesh_face(in, face, &outline, 0, bytes, size));
+done:
+  cw_outline_free(&outline);
+  return status;
 }

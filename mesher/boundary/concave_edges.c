@@ -99,7 +99,8 @@ static void stretch(CwLayerWork *work, int32_t v, double (*top)[3]) {
 
 // A wall and its columns.
 typedef struct {
-  const CwBoundary *boundary;
+  const CwPeriodicImages *images;
+  const CwSurfaceMesh *surface;
   const CwLayerInput *wall;
   CwLayers *layers;
   CwIncident around; // of the whole wall
@@ -112,8 +113,8 @@ typedef struct {
 
 static CwStatus find_narrow(void *context, int32_t t, void *out) {
   const ConcaveEdges *concave = context;
-  const CwBoundary *boundary = concave->boundary;
-  if (boundary->surface.source[t] != t) return CW_OK;
+  const CwSurfaceMesh *surface = concave->surface;
+  if (surface->source[t] != t) return CW_OK;
   const int32_t(*triangle)[3] = concave->wall->triangle;
   const double(*top)[3] = (const double(*)[3])concave->layers->top;
   double bound =
@@ -124,14 +125,14 @@ static CwStatus find_narrow(void *context, int32_t t, void *out) {
 
 // Marks the columns at a narrow triangle and at those beside it.
 static void mark_columns(ConcaveEdges *concave, int32_t t) {
-  const CwBoundary *boundary = concave->boundary;
+  const CwSurfaceMesh *surface = concave->surface;
   const int32_t(*triangle)[3] = concave->wall->triangle, *corner = triangle[t];
   for (int k = 0; k < 3; k++) {
     int32_t apex = corner[k];
     across(t, corner[k], corner[(k + 1) % 3], triangle, concave->around.start, concave->around.triangle, &apex);
-    int32_t v = cw_image_first_member(&boundary->surface.images, concave->is_first, corner[k]);
+    int32_t v = cw_image_first_member(&surface->images, concave->is_first, corner[k]);
     concave->turning[v] = 1;
-    v = cw_image_first_member(&boundary->surface.images, concave->is_first, apex);
+    v = cw_image_first_member(&surface->images, concave->is_first, apex);
     if (v >= 0) concave->turning[v] = 1;
   }
 }
@@ -165,8 +166,8 @@ done:
 
 // Gives the columns of the part that are periodic images of v what that has become.
 static void turn_copies(ConcaveEdges *concave, int32_t v) {
-  const CwPeriodicImages *images = &concave->boundary->images;
-  const CwNodeImages *nodes = &concave->boundary->surface.images;
+  const CwPeriodicImages *images = concave->images;
+  const CwNodeImages *nodes = &concave->surface->images;
   int32_t turns = 1, from = concave->part.local[v];
   for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1), turns++) {
     int32_t local = concave->part.local[at];
@@ -192,7 +193,7 @@ static int open_column(ConcaveEdges *concave, int32_t v) {
 static void open_columns(ConcaveEdges *concave) {
   for (int pass = 0, changed = 1; pass < PASSES && changed; pass++) {
     changed = pass == 0;
-    for (int32_t v = 0; v < concave->boundary->surface.vertex_count; v++) {
+    for (int32_t v = 0; v < concave->surface->vertex_count; v++) {
       if (concave->turning[v]) changed |= open_column(concave, v);
     }
   }
@@ -200,22 +201,22 @@ static void open_columns(ConcaveEdges *concave) {
 
 // Gives all copies of the columns that moved their new ends, thicknesses and reasons; marks them.
 static void spread(ConcaveEdges *concave, uint8_t *moved, int32_t *opened) {
-  const CwBoundary *boundary = concave->boundary;
+  const CwSurfaceMesh *surface = concave->surface;
   CwLayers *layers = concave->layers;
-  for (int32_t v = 0; v < boundary->surface.vertex_count; v++) {
+  for (int32_t v = 0; v < surface->vertex_count; v++) {
     const double *end = concave->turning[v] ? concave->top[concave->part.local[v]] : layers->top[v];
     if (memcmp(end, layers->top[v], sizeof *layers->top) == 0) continue;
     int32_t local = concave->part.local[v], at = v, turns = 0;
     double column[3];
-    cw_sub(end, boundary->surface.x[v], column);
+    cw_sub(end, surface->x[v], column);
     double thickness = cw_layers_least_cosine(&concave->work, local, column);
     int same = fabs(thickness - layers->thickness[v]) < 0.01 * thickness;
     do {
-      cw_image_point(&boundary->images, turns++, end, layers->top[at]);
+      cw_image_point(concave->images, turns++, end, layers->top[at]);
       layers->thickness[at] = thickness;
       if (!same) layers->reason[at] = CW_LAYER_REPAIR;
       moved[at] = 1;
-      at = cw_image_node(&boundary->surface.images, at, 1);
+      at = cw_image_node(&surface->images, at, 1);
     } while (at >= 0 && at != v);
     ++*opened;
   }
@@ -245,16 +246,16 @@ done:
   return status;
 }
 
-CwStatus cw_open_concave_edges(const CwBoundary *boundary, const CwLayerInput *wall, CwLayers *layers,
-                               int32_t *opened) {
+CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *wall,
+                               CwLayers *layers, int32_t *opened) {
   CwStatus status = CW_OK;
-  ConcaveEdges concave = {.boundary = boundary, .wall = wall, .layers = layers};
-  int32_t count = boundary->surface.triangle_count, found = 0;
-  size_t n = (size_t)boundary->surface.vertex_count;
+  ConcaveEdges concave = {.images = images, .surface = surface, .wall = wall, .layers = layers};
+  int32_t count = surface->triangle_count, found = 0;
+  size_t n = (size_t)surface->vertex_count;
   uint8_t *narrow = NULL, *moved = NULL, *reason = NULL;
   double(*top)[3] = NULL, *thickness = NULL;
   *opened = 0;
-  CW_TRY(cw_incident_make(boundary->surface.vertex_count, count, wall->triangle, &concave.around));
+  CW_TRY(cw_incident_make(surface->vertex_count, count, wall->triangle, &concave.around));
   CW_NEW(narrow, count);
   CW_TRY(cw_parallel_for("layers: narrow concave edges", count, sizeof *narrow, find_narrow, &concave, narrow));
   for (int32_t t = 0; t < count; t++) found += narrow[t];
@@ -262,7 +263,7 @@ CwStatus cw_open_concave_edges(const CwBoundary *boundary, const CwLayerInput *w
   CW_NEW(concave.is_first, n);
   CW_NEW(concave.turning, n);
   for (int32_t t = 0; t < count; t++) {
-    for (int k = 0; k < 3 && boundary->surface.source[t] == t; k++) concave.is_first[wall->triangle[t][k]] = 1;
+    for (int k = 0; k < 3 && surface->source[t] == t; k++) concave.is_first[wall->triangle[t][k]] = 1;
   }
   for (int32_t t = 0; t < count; t++) {
     if (narrow[t]) mark_columns(&concave, t);

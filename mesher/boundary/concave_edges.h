@@ -12,7 +12,8 @@
 // up to eight times where the least bound of the triangles round it rises by that, up to 26 degrees; alike in all
 // periodic images. All stays as it was where the layer top would cross something. *opened: columns that moved, copies
 // not counted. `layers` are those over `wall`, that of the boundary. Collective.
-CwStatus cw_open_concave_edges(const CwBoundary *boundary, const CwLayerInput *wall, CwLayers *layers, int32_t *opened);
+CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *wall,
+                               CwLayers *layers, int32_t *opened);
 
 // What the layer top allows a tetrahedron on its triangle t (degrees; triangle_bound.h), or anything not below `least`.
 // start, around: triangles at each wall vertex, as in CwIncident.

@@ -19,19 +19,19 @@ typedef struct {
 } Edge;
 
 typedef struct {
-  const CwBoundary *boundary;
+  const CwBoundaryInput *in;
   const CwCurveDivision *division;
   int32_t face_count, *face; // those to be looked at
 } Faces;
 
-static int32_t first_of(const CwBoundary *boundary, int32_t curve) {
-  return boundary->images.symmetry ? boundary->images.curve.first[curve] : curve;
+static int32_t first_of(const CwBoundaryInput *in, int32_t curve) {
+  return in->images->symmetry ? in->images->curve.first[curve] : curve;
 }
 
 // Whether the face is meshed, and not a copy.
-static int is_meshed(const CwBoundary *boundary, int32_t face) {
-  const CwSymmetry *symmetry = boundary->images.symmetry;
-  return cw_cad_face_is_wall(boundary->cad, face) && (!symmetry || !symmetry->face.turns[face]);
+static int is_meshed(const CwBoundaryInput *in, int32_t face) {
+  const CwSymmetry *symmetry = in->images->symmetry;
+  return cw_cad_face_is_wall(in->cad, face) && (!symmetry || !symmetry->face.turns[face]);
 }
 
 static int bounds(const CwCurve *curve, int32_t face) {
@@ -39,7 +39,7 @@ static int bounds(const CwCurve *curve, int32_t face) {
 }
 
 // The piece of `curve`, a copy of `first`, from point k of the division on.
-static void make_chord(const CwBoundary *boundary, int32_t face, const CwCurve *curve, const CwCurve *first,
+static void make_chord(const CwBoundaryInput *in, int32_t face, const CwCurve *curve, const CwCurve *first,
                        const CwCurveDivision *division, int32_t k, CwChord *chord) {
   const CwCurvePoint *a = &division->point[k], *b = &division->point[k + 1];
   double along[3], from[3], beside[3];
@@ -53,10 +53,10 @@ static void make_chord(const CwBoundary *boundary, int32_t face, const CwCurve *
       memcpy(parameter, i ? b->parameter : a->parameter, sizeof parameter);
       cw_copy(i ? b->x : a->x, x);
     } else {
-      cw_curve_point(&boundary->network, first, a->place + s * (b->place - a->place), x, parameter);
+      cw_curve_point(in->network, first, a->place + s * (b->place - a->place), x, parameter);
     }
     if (curve->kind == CW_CURVE_EDGE) {
-      cw_cad_edge_uv(boundary->cad, curve->edge, face, parameter[0], chord->uv[i]);
+      cw_cad_edge_uv(in->cad, curve->edge, face, parameter[0], chord->uv[i]);
     } else {
       memcpy(chord->uv[i], parameter, sizeof parameter);
     }
@@ -70,14 +70,14 @@ static void make_chord(const CwBoundary *boundary, int32_t face, const CwCurve *
 static CwStatus judge_face(void *context, int32_t task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const Faces *faces = context;
-  const CwBoundary *boundary = faces->boundary;
-  const CwNetwork *network = &boundary->network;
+  const CwBoundaryInput *in = faces->in;
+  const CwNetwork *network = in->network;
   int32_t face = faces->face[task], count = 0, found = 0, points = network->corner_count;
   CwChord *chord = NULL;
   Edge *edge = NULL;
   uint8_t *halve = NULL;
   for (int32_t i = 0; i < network->curve_count; i++) {
-    if (bounds(&network->curve[i], face)) count += faces->division[first_of(boundary, i)].count - 1;
+    if (bounds(&network->curve[i], face)) count += faces->division[first_of(in, i)].count - 1;
   }
   CW_NEW(chord, count);
   CW_NEW(edge, count);
@@ -86,10 +86,10 @@ static CwStatus judge_face(void *context, int32_t task, void **bytes, int64_t *s
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
     if (!bounds(curve, face)) continue;
-    int32_t first = first_of(boundary, i);
+    int32_t first = first_of(in, i);
     const CwCurveDivision *division = &faces->division[first];
     for (int32_t k = 0; k + 1 < division->count; k++) {
-      make_chord(boundary, face, curve, &network->curve[first], division, k, &chord[count]);
+      make_chord(in, face, curve, &network->curve[first], division, k, &chord[count]);
       chord[count].point[0] = k > 0 ? points - 1 : curve->corner[0];
       chord[count].point[1] = k + 2 < division->count ? points++ : curve->corner[1];
       edge[count++] = (Edge){first, k};
@@ -144,8 +144,8 @@ done:
 static CwStatus halve_found(Faces *faces, void *const *bytes, const int64_t *size, CwCurveDivision *division,
                             int32_t *halved) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = faces->boundary;
-  const CwNetwork *network = &boundary->network;
+  const CwBoundaryInput *in = faces->in;
+  const CwNetwork *network = in->network;
   Edge *edge = NULL;
   uint8_t *changed = NULL;
   size_t count = 0, kept = 0;
@@ -167,11 +167,11 @@ static CwStatus halve_found(Faces *faces, void *const *bytes, const int64_t *siz
     changed[edge[from].curve] = 1;
   }
   int32_t left = 0;
-  for (int32_t f = 0; f < cw_cad_face_count(boundary->cad); f++) {
+  for (int32_t f = 0; f < cw_cad_face_count(in->cad); f++) {
     int concerned = 0;
-    if (!is_meshed(boundary, f)) continue;
+    if (!is_meshed(in, f)) continue;
     for (int32_t i = 0; i < network->curve_count && !concerned; i++) {
-      concerned = bounds(&network->curve[i], f) && changed[first_of(boundary, i)];
+      concerned = bounds(&network->curve[i], f) && changed[first_of(in, i)];
     }
     if (concerned) faces->face[left++] = f;
   }
@@ -183,15 +183,15 @@ done:
   return status;
 }
 
-CwStatus cw_curve_divisions_refine(const CwBoundary *boundary, CwCurveDivision *division) {
+CwStatus cw_curve_divisions_refine(const CwBoundaryInput *in, CwCurveDivision *division) {
   CwStatus status = CW_OK;
-  Faces faces = {.boundary = boundary, .division = division};
+  Faces faces = {.in = in, .division = division};
   void **bytes = NULL;
   int64_t *size = NULL;
-  int32_t count = 0, all = cw_cad_face_count(boundary->cad), total = 0;
+  int32_t count = 0, all = cw_cad_face_count(in->cad), total = 0;
   CW_NEW(faces.face, all);
   for (int32_t f = 0; f < all; f++) {
-    if (is_meshed(boundary, f)) faces.face[faces.face_count++] = f;
+    if (is_meshed(in, f)) faces.face[faces.face_count++] = f;
   }
   for (int round = 0; round < ROUNDS && faces.face_count; round++) {
     int32_t halved = 0;

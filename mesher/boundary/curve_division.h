@@ -20,6 +20,6 @@ typedef struct {
 
 // Halves edges of the divisions (of each curve of the network; count 0: none) until on every wall face the edges lie as
 // the curves do. Collective.
-CwStatus cw_curve_divisions_refine(const CwBoundary *boundary, CwCurveDivision *division);
+CwStatus cw_curve_divisions_refine(const CwBoundaryInput *in, CwCurveDivision *division);
 
 #endif

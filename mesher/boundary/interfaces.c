@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
 
 // An edge of an outline's triangles (use 1) or of its loops (use 1 as well: so each edge has two uses).
@@ -138,32 +137,11 @@ done:
   return status;
 }
 
-CwStatus cw_interfaces_add_node(CwInterfaces *interfaces, const double x[3], int on_plane, int32_t *node) {
-  CwStatus status = CW_OK;
-  if (interfaces->nodes.count == interfaces->nodes.capacity) {
-    int32_t capacity = 2 * interfaces->nodes.capacity;
-    void *xs = realloc(interfaces->nodes.x, (size_t)capacity * sizeof *interfaces->nodes.x);
-    if (xs) interfaces->nodes.x = xs;
-    void *flags = realloc(interfaces->nodes.on_plane, (size_t)capacity);
-    if (flags) interfaces->nodes.on_plane = flags;
-    CW_REQUIRE(xs && flags, CW_ERR_MEMORY, "out of memory: %d nodes", capacity);
-    interfaces->nodes.capacity = capacity;
-  }
-  cw_copy(x, interfaces->nodes.x[interfaces->nodes.count]);
-  interfaces->nodes.on_plane[interfaces->nodes.count] = (uint8_t)on_plane;
-  *node = interfaces->nodes.count++;
-done:
-  return status;
-}
-
 void cw_interfaces_free(CwInterfaces *interfaces) {
   cw_node_images_free(&interfaces->images);
   cw_images_free(&interfaces->outline_images);
-  cw_curve_nodes_free(interfaces->curve_count, &interfaces->curve);
   free(interfaces->nodes.x);
   free(interfaces->nodes.on_plane);
-  free(interfaces->corner_node);
-  free(interfaces->tight);
   free(interfaces->open_patch.triangle);
   free(interfaces->open_patch.face);
   free(interfaces->open_patch.region);

@@ -7,33 +7,13 @@
 
 #include <stdint.h>
 
+#include "mesher/boundary/free_curves.h"
 #include "mesher/network/periodic_images.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// Nodes 0 .. vertices of the surface mesh - 1 stand on the layer top, one over each vertex; the others lie on free
-// curves, open patches and interfaces.
-typedef struct {
-  int32_t count, capacity;
-  double (*x)[3];
-  uint8_t *on_plane; // the node (and its column) is shared by regions
-} CwNodeTable;
-
-// One outline on a partition plane: an interface between two regions.
-typedef struct {
-  int32_t node;         // plan node of its plane
-  int32_t corner_count; // of all loops
-  int32_t loop_count;
-  int32_t *loop_start; // loop_count + 1
-  int32_t *corner;     // nodes
-  // Set when the inner surfaces are merged:
-  int32_t free_start, free_count;         // its inner nodes, as planned
-  int32_t triangle_start, triangle_count; // its triangles as planned,
-  int32_t refined_start, refined_count;   // and by the rule of region numbers
-} CwInterfaceOutline;
 
 typedef struct {
   int32_t count;
@@ -46,17 +26,12 @@ typedef struct {
 } CwInterfaceTriangles;
 
 typedef struct {
-  CwNodeTable nodes;
-  CwNodeImages images;  // of the nodes
-  int32_t *corner_node; // of each corner of the network, or -1
-  int32_t curve_count;
-  CwCurveNodes *curve; // along each curve of the network; none along wall curves
-  int32_t tight_count; // places where layers leave no room for a free curve, or layer top and free curves cross
-  double (*tight)[3];
-  CwOpenPatches open_patch;
+  CwNodeTable nodes;   // those of the free curves, then the others
+  CwNodeImages images; // of the nodes
   int32_t outline_count;
-  CwInterfaceOutline *outline;
-  CwImages outline_images;      // without symmetry none
+  CwInterfaceOutline *outline; // of all planes, by node
+  CwImages outline_images;     // where turns take each outline
+  CwOpenPatches open_patch;
   CwInterfaceTriangles refined; // that the regions have
   CwInterfaceTriangles planned; // before the rule of region numbers (interface_rule.h); NULL without it
 } CwInterfaces;
@@ -69,9 +44,6 @@ CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions);
 // Writes open patches and interfaces as VTK PolyData (cell data face, -1 on interfaces; region, the lower of two), for
 // a look.
 CwStatus cw_interfaces_vtk(const CwInterfaces *interfaces, const char *path);
-
-// Appends a node while interfaces are made.
-CwStatus cw_interfaces_add_node(CwInterfaces *interfaces, const double x[3], int on_plane, int32_t *node);
 
 void cw_interfaces_free(CwInterfaces *interfaces);
 

@@ -7,17 +7,18 @@
 #include "mesher/layers/layers.h"
 
 // Finds the image sets of the outlines on all planes. Outcome: CW_OUTCOME_ASYMMETRIC where they are not symmetric.
-CwStatus cw_image_outlines(const CwBoundary *boundary, CwInterfaces *interfaces, CwOutcome *outcome);
+CwStatus cw_image_outlines(const CwBoundaryInput *in, CwFreeCurves *free_curves, CwOutcome *outcome);
 
 // The layers of the whole wall `input` of a boundary with image sets: grown over the first of each image set with what
 // stands near them, copied, and checked as copied. Collective. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
 // top is found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
-CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
+CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *input,
+                         CwLayers *layers, CwOutcome *outcome);
 
 // The least of the members of the image set of wall vertex v that are on first faces (is_first), -1 where none is.
 int32_t cw_image_first_member(const CwNodeImages *images, const uint8_t *is_first, int32_t v);
 
 // Makes those of the wall triangles that are copies anew, from those that they are copies of.
-void cw_image_copy_triangles(const CwBoundary *boundary, int32_t (*triangle)[3]);
+void cw_image_copy_triangles(const CwPeriodicImages *images, const CwSurfaceMesh *surface, int32_t (*triangle)[3]);
 
 #endif

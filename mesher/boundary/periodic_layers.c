@@ -25,7 +25,8 @@ static const double SAME = 1e-9;  // of the model's unit: layer tops that differ
 
 // The part of the wall that the first ones and what stands near them make up.
 typedef struct {
-  const CwBoundary *boundary;
+  const CwPeriodicImages *images;
+  const CwSurfaceMesh *surface;
   uint8_t *is_first; // of each point of the whole: on a face that is the first of its image set
   CwWallPart wall;
 } Part;
@@ -79,7 +80,7 @@ static CwStatus find_near(void *context, int32_t v, void *out) {
 }
 
 // Marks the points within reach of the first ones. Collective.
-static CwStatus mark_near(const CwBoundary *boundary, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
+static CwStatus mark_near(const CwSurfaceMesh *surface, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
   CwStatus status = CW_OK;
   CwBoxTree tree = {0};
   CwBox within = cw_box_empty();
@@ -87,7 +88,7 @@ static CwStatus mark_near(const CwBoundary *boundary, const CwLayerInput *whole,
   double longest = 0, thickest = 0;
   for (int32_t t = 0; t < whole->triangle_count; t++) {
     const int32_t *corner = whole->triangle[t];
-    if (boundary->surface.source[t] != t) continue;
+    if (surface->source[t] != t) continue;
     for (int k = 0; k < 3; k++) {
       is_first[corner[k]] = 1;
       longest = fmax(longest, cw_distance(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));
@@ -109,13 +110,15 @@ done:
   return status;
 }
 
-static CwStatus part_make(const CwBoundary *boundary, const CwLayerInput *whole, Part *part) {
+static CwStatus part_make(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *whole,
+                          Part *part) {
   CwStatus status = CW_OK;
   uint8_t *near = NULL;
-  part->boundary = boundary;
+  part->images = images;
+  part->surface = surface;
   CW_NEW(near, whole->point_count);
   CW_NEW(part->is_first, whole->point_count);
-  CW_TRY(mark_near(boundary, whole, part->is_first, near));
+  CW_TRY(mark_near(surface, whole, part->is_first, near));
   CW_TRY(cw_wall_part_make(whole, near, &part->wall));
 done:
   free(near);
@@ -134,8 +137,8 @@ int32_t cw_image_first_member(const CwNodeImages *nodes, const uint8_t *is_first
 // v.
 static void turn_from(const Part *part, const CwLayers *made, int32_t from, int32_t v, const double end[3],
                       CwLayers *layers) {
-  const CwPeriodicImages *images = &part->boundary->images;
-  const CwNodeImages *nodes = &part->boundary->surface.images;
+  const CwPeriodicImages *images = part->images;
+  const CwNodeImages *nodes = &part->surface->images;
   int32_t at = v, turns = 0;
   do {
     cw_image_point(images, turns++, end, layers->top[at]);
@@ -149,7 +152,7 @@ static void turn_from(const Part *part, const CwLayers *made, int32_t from, int3
 // both are on first faces (on a seam) that with the smaller number counts, until one is chosen.
 static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers) {
   CwStatus status = CW_OK;
-  const CwNodeImages *nodes = &part->boundary->surface.images;
+  const CwNodeImages *nodes = &part->surface->images;
   uint8_t *placed = NULL;
   CW_NEW(placed, part->wall.whole->point_count);
   for (int32_t v = 0; v < part->wall.whole->point_count; v++) {
@@ -168,8 +171,8 @@ done:
 
 // How sound the prisms around the members of the image set of v are, which all get the column that ends at `end` for v.
 static double place_image(const Part *part, const CwLayerWork *work, int32_t v, const double end[3], double (*top)[3]) {
-  const CwPeriodicImages *images = &part->boundary->images;
-  const CwNodeImages *nodes = &part->boundary->surface.images;
+  const CwPeriodicImages *images = part->images;
+  const CwNodeImages *nodes = &part->surface->images;
   double least = INFINITY;
   for (int around = 0; around < 2; around++) { // all are placed before prisms are looked at
     int32_t at = v, turns = 0;
@@ -190,8 +193,8 @@ static double place_image(const Part *part, const CwLayerWork *work, int32_t v, 
 // column with which the prisms around them are soundest.
 static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &part->boundary->images;
-  const CwNodeImages *nodes = &part->boundary->surface.images;
+  const CwPeriodicImages *images = part->images;
+  const CwNodeImages *nodes = &part->surface->images;
   int32_t count = images->symmetry ? images->symmetry->count : 1;
   CwIncident incident = {0};
   double(*top)[3] = NULL;
@@ -322,8 +325,8 @@ done:
 // Gives the columns of all periodic images of v the thickness `thickness`, and marks them.
 static void lower(const Part *part, int32_t v, double thickness, CwLayers *layers, uint8_t *lowered) {
   const CwLayerInput *whole = part->wall.whole;
-  const CwPeriodicImages *images = &part->boundary->images;
-  const CwNodeImages *nodes = &part->boundary->surface.images;
+  const CwPeriodicImages *images = part->images;
+  const CwNodeImages *nodes = &part->surface->images;
   int32_t first = cw_image_first_member(nodes, part->is_first, v);
   double *end = layers->top[first], share = thickness / layers->thickness[first];
   for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
@@ -367,7 +370,8 @@ done:
   return status;
 }
 
-CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome) {
+CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *input,
+                         CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Part part = {0};
   CwLayers made = {0};
@@ -380,7 +384,7 @@ CwStatus cw_image_layers(const CwBoundary *boundary, const CwLayerInput *input, 
   CW_NEW(layers->reason, input->point_count);
   CW_NEW(bad, input->point_count);
   cw_profiler_part("layers: copies");
-  CW_TRY(part_make(boundary, input, &part));
+  CW_TRY(part_make(images, surface, input, &part));
   CW_TRY_STAGE(cw_layers_make(&part.wall.in, &made, outcome), outcome);
   cw_profiler_part("layers: copies");
   CW_TRY(spread(&part, &made, layers));

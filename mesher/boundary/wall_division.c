@@ -16,29 +16,29 @@ static const double MOST_BESIDE = 0.14;
 
 // What holds the columns along a wall curve: the partition plane of a cut, the open patch at an open edge, nothing
 // else.
-static CwConstraint curve_constraint(const CwBoundary *boundary, const CwCurve *curve) {
+static CwConstraint curve_constraint(const CwBoundaryInput *in, const CwCurve *curve) {
   if (curve->kind == CW_CURVE_CUT) return (CwConstraint){CW_CONSTRAINT_PLANE, curve->plane[0]};
   for (int k = 0; k < 2; k++) {
-    if (!cw_cad_face_is_wall(boundary->cad, curve->face[k])) return (CwConstraint){CW_CONSTRAINT_PATCH, curve->face[k]};
+    if (!cw_cad_face_is_wall(in->cad, curve->face[k])) return (CwConstraint){CW_CONSTRAINT_PATCH, curve->face[k]};
   }
   return (CwConstraint){CW_CONSTRAINT_NONE, -1};
 }
 
 // What holds the column at a wall corner: the free curve that starts there; else the one open patch or plane of its
 // curves.
-static CwStatus corner_constraint(const CwBoundary *boundary, int32_t corner, CwConstraint *constraint) {
+static CwStatus corner_constraint(const CwBoundaryInput *in, int32_t corner, CwConstraint *constraint) {
   CwStatus status = CW_OK;
   *constraint = (CwConstraint){CW_CONSTRAINT_NONE, -1};
   int free_curves = 0;
-  const double *x = boundary->network.corner[corner].x;
-  for (int32_t i = 0; i < boundary->network.curve_count; i++) {
-    const CwCurve *curve = &boundary->network.curve[i];
+  const double *x = in->network->corner[corner].x;
+  for (int32_t i = 0; i < in->network->curve_count; i++) {
+    const CwCurve *curve = &in->network->curve[i];
     if (curve->corner[0] != corner && curve->corner[1] != corner) continue;
     if (!curve->wall) {
       *constraint = (CwConstraint){CW_CONSTRAINT_CURVE, i};
       free_curves++;
     } else if (!free_curves) {
-      CwConstraint along = curve_constraint(boundary, curve);
+      CwConstraint along = curve_constraint(in, curve);
       if (along.kind != CW_CONSTRAINT_NONE) *constraint = along;
     }
   }
@@ -51,18 +51,18 @@ done:
 }
 
 // The open edge that a curve is a piece of, NULL where it is of none.
-static const CwDividedEdge *open_edge_of(const CwBoundary *boundary, const CwCurve *curve) {
-  for (int32_t i = 0; i < boundary->open_edge_count && curve->kind == CW_CURVE_EDGE; i++) {
-    if (boundary->open_edge[i].edge == curve->edge) return &boundary->open_edge[i];
+static const CwDividedEdge *open_edge_of(const CwOpenEdges *edges, const CwCurve *curve) {
+  for (int32_t i = 0; i < edges->count && curve->kind == CW_CURVE_EDGE; i++) {
+    if (edges->edge[i].edge == curve->edge) return &edges->edge[i];
   }
   return NULL;
 }
 
 // Division of a piece of an open edge: arc lengths by the fine polyline, whose steps are even in the parameter. NULL
 // where the division is not given.
-static CwStatus divide_open_edge(const CwBoundary *boundary, const CwCurve *curve, int32_t *count, double **place) {
+static CwStatus divide_open_edge(const CwOpenEdges *edges, const CwCurve *curve, int32_t *count, double **place) {
   CwStatus status = CW_OK;
-  const CwDividedEdge *open_edge = open_edge_of(boundary, curve);
+  const CwDividedEdge *open_edge = open_edge_of(edges, curve);
   *count = 0;
   int32_t last = curve->fine_count - 1;
   double from = curve->fine_parameter[0][0], to = curve->fine_parameter[last][0];
@@ -82,7 +82,8 @@ done:
 }
 
 typedef struct {
-  const CwBoundary *boundary;
+  const CwBoundaryInput *in;
+  const CwOpenEdges *edges;
   int32_t count, *curve; // wall curves to divide: the first of each image set
 } Curves;
 
@@ -107,20 +108,19 @@ static int cuts_bend(const CwCurve *curve, int32_t count, const CwCurvePoint *po
 static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const Curves *curves = context;
-  const CwBoundary *boundary = curves->boundary;
-  const CwCurve *curve = &boundary->network.curve[curves->curve[i]];
+  const CwBoundaryInput *in = curves->in;
+  const CwCurve *curve = &in->network->curve[curves->curve[i]];
   double *place = NULL;
   CwCurvePoint *point = NULL;
   int32_t count, least = curve->corner[0] == curve->corner[1] ? 3 : 1;
-  CW_TRY(divide_open_edge(boundary, curve, &count, &place));
+  CW_TRY(divide_open_edge(curves->edges, curve, &count, &place));
   int given = place != NULL;
   for (;;) {
-    if (!given)
-      CW_TRY(cw_curve_divide(boundary, curve, 0, curve->fine_length[curve->fine_count - 1], least, &count, &place));
+    if (!given) CW_TRY(cw_curve_divide(in, curve, 0, curve->fine_length[curve->fine_count - 1], least, &count, &place));
     CW_NEW(point, count);
     for (int32_t k = 0; k < count; k++) {
       point[k].place = place[k];
-      cw_curve_point(&boundary->network, curve, place[k], point[k].x, point[k].parameter);
+      cw_curve_point(in->network, curve, place[k], point[k].x, point[k].parameter);
     }
     if (given || count > MOST_FOR_BENDS || !cuts_bend(curve, count, point)) break;
     least = count; // one edge more
@@ -137,15 +137,15 @@ done:
 }
 
 // Divides the first of each image set of wall curves; caller frees the points.
-static CwStatus divide_curves(const CwBoundary *boundary, CwCurveDivision *division) {
+static CwStatus divide_curves(const CwBoundaryInput *in, const CwOpenEdges *edges, CwCurveDivision *division) {
   CwStatus status = CW_OK;
-  const CwNetwork *network = &boundary->network;
-  Curves curves = {.boundary = boundary};
+  const CwNetwork *network = in->network;
+  Curves curves = {.in = in, .edges = edges};
   void **bytes = NULL;
   int64_t *size = NULL;
   CW_NEW(curves.curve, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
-    if (network->curve[i].wall && cw_image_turns(&boundary->images, &boundary->images.curve, i) == 0)
+    if (network->curve[i].wall && cw_image_turns(in->images, &in->images->curve, i) == 0)
       curves.curve[curves.count++] = i;
   }
   CW_NEW(bytes, curves.count);
@@ -156,11 +156,11 @@ static CwStatus divide_curves(const CwBoundary *boundary, CwCurveDivision *divis
   for (int32_t i = 0; i < curves.count; i++) {
     CwCurveDivision *of = &division[curves.curve[i]];
     of->count = (int32_t)((size_t)size[i] / sizeof *of->point);
-    of->given = open_edge_of(boundary, &network->curve[curves.curve[i]]) != NULL;
+    of->given = open_edge_of(edges, &network->curve[curves.curve[i]]) != NULL;
     of->point = bytes[i];
     bytes[i] = NULL;
   }
-  CW_TRY(cw_curve_divisions_refine(boundary, division));
+  CW_TRY(cw_curve_divisions_refine(in, division));
 done:
   for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
   free(bytes);
@@ -170,15 +170,15 @@ done:
 }
 
 // The vertices of a divided curve and of its periodic images.
-static CwStatus add_curve_vertices(const CwBoundary *boundary, int32_t first, const CwCurveDivision *division,
+static CwStatus add_curve_vertices(const CwBoundaryInput *in, int32_t first, const CwCurveDivision *division,
                                    CwWallCurves *curves) {
   CwStatus status = CW_OK;
-  const CwPeriodicImages *images = &boundary->images;
+  const CwPeriodicImages *images = in->images;
   int32_t copies = cw_image_copies(images, &images->curve, first), index = first, count = division->count;
   for (int32_t turns = 0; turns < copies; turns++) {
-    const CwCurve *curve = &boundary->network.curve[index];
+    const CwCurve *curve = &in->network->curve[index];
     CwCurveNodes *nodes = &curves->curve[index];
-    CwConstraint constraint = curve_constraint(boundary, curve);
+    CwConstraint constraint = curve_constraint(in, curve);
     CW_TRY(cw_curve_nodes_make(count, nodes));
     for (int32_t k = 0; k < count; k++) {
       double x[3];
@@ -197,10 +197,10 @@ done:
   return status;
 }
 
-CwStatus cw_wall_curves_make(const CwBoundary *boundary, CwWallCurves *curves) {
+CwStatus cw_wall_curves_make(const CwBoundaryInput *in, const CwOpenEdges *edges, CwWallCurves *curves) {
   CwStatus status = CW_OK;
-  const CwNetwork *network = &boundary->network;
-  const CwPeriodicImages *images = &boundary->images;
+  const CwNetwork *network = in->network;
+  const CwPeriodicImages *images = in->images;
   CwCurveDivision *division = NULL;
   *curves = (CwWallCurves){.curve_count = network->curve_count};
   CW_NEW(curves->curve, network->curve_count);
@@ -209,7 +209,7 @@ CwStatus cw_wall_curves_make(const CwBoundary *boundary, CwWallCurves *curves) {
     curves->corner_vertex[i] = -1;
     if (!network->corner[i].on_wall) continue;
     CwConstraint constraint;
-    CW_TRY(corner_constraint(boundary, i, &constraint));
+    CW_TRY(corner_constraint(in, i, &constraint));
     CW_TRY(cw_wall_curves_add(curves, network->corner[i].x, constraint, &curves->corner_vertex[i]));
   }
   for (int32_t i = 0; images->symmetry && i < network->corner_count; i++) {
@@ -219,9 +219,9 @@ CwStatus cw_wall_curves_make(const CwBoundary *boundary, CwWallCurves *curves) {
                          images->corner.turns[next]));
   }
   CW_NEW(division, network->curve_count);
-  CW_TRY(divide_curves(boundary, division));
+  CW_TRY(divide_curves(in, edges, division));
   for (int32_t i = 0; i < network->curve_count; i++) {
-    if (division[i].count) CW_TRY(add_curve_vertices(boundary, i, &division[i], curves));
+    if (division[i].count) CW_TRY(add_curve_vertices(in, i, &division[i], curves));
   }
 done:
   for (int32_t i = 0; division && i < network->curve_count; i++) free(division[i].point);

@@ -4,7 +4,7 @@
 #ifndef CUTWATER_MESHER_REGION_COLUMN_PLACE_H
 #define CUTWATER_MESHER_REGION_COLUMN_PLACE_H
 
-#include "mesher/boundary/boundary.h"
+#include "mesher/region/region_input.h"
 
 // (u,v) on an open patch of a wall vertex on its open edge: the start of the search for the nodes above it.
 typedef struct {
@@ -18,11 +18,11 @@ typedef struct {
 } CwOpenEdgePlaces;
 
 // [out] places: of all open edges of the boundary's walls; cw_open_edge_places_free.
-CwStatus cw_open_edge_places_make(const CwBoundary *boundary, CwOpenEdgePlaces *places);
+CwStatus cw_open_edge_places_make(const CwRegionInput *from, CwOpenEdgePlaces *places);
 void cw_open_edge_places_free(CwOpenEdgePlaces *places);
 
 // The node at `share` (0..1) of the thickness of the column of a wall vertex.
-void cw_column_place(const CwBoundary *boundary, const CwOpenEdgePlaces *places, int32_t vertex, double share,
+void cw_column_place(const CwRegionInput *from, const CwOpenEdgePlaces *places, int32_t vertex, double share,
                      double x[3]);
 
 #endif

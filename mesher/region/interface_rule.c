@@ -14,22 +14,22 @@
 // triangles. Corners below 0 are inserted points: -1 - k.
 enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 
-int32_t cw_interface_owner(const CwBoundary *boundary, const int32_t *number, int32_t outline) {
-  const CwInterfaceOutline *interface = &boundary->interfaces.outline[outline];
-  const int32_t(*regions)[2] = (const int32_t(*)[2])(
-      boundary->interfaces.planned.region ? boundary->interfaces.planned.region : boundary->interfaces.refined.region);
+int32_t cw_interface_owner(const CwInterfaces *interfaces, const int32_t *number, int32_t outline) {
+  const CwInterfaceOutline *interface = &interfaces->outline[outline];
+  const int32_t(*regions)[2] =
+      (const int32_t(*)[2])(interfaces->planned.region ? interfaces->planned.region : interfaces->refined.region);
   const int32_t *region = regions[interface->triangle_start];
   return number[region[0]] < number[region[1]] ? region[0] : region[1];
 }
 
 // Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of layer top and
 // open patches. Where there are slabs, those in them.
-static CwStatus candidates(const CwBoundary *boundary, int32_t region, const char *name, int32_t slab_count,
+static CwStatus candidates(const CwRegionInput *from, int32_t region, const char *name, int32_t slab_count,
                            const CwFillSlab *slab, int32_t *count, double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   CwRegionBoundary inner = {0};
-  CW_TRY(cw_region_boundary_make(boundary, region, 1, &inner));
-  CwFillInput input = cw_region_fill_input(boundary, &inner, name);
+  CW_TRY(cw_region_boundary_make(from, region, 1, &inner));
+  CwFillInput input = cw_region_fill_input(from, &inner, name);
   input.open_count = inner.interface_count;
   input.slab_count = slab_count;
   input.slab = slab;
@@ -40,15 +40,15 @@ done:
 }
 
 // The outline with the inner nodes of the planned interface.
-static CwStatus planned_points(const CwBoundary *boundary, const CwInterfaceOutline *interface, const CwPlaneMap *map,
+static CwStatus planned_points(const CwRegionInput *from, const CwInterfaceOutline *interface, const CwPlaneMap *map,
                                CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_boundary_interface_outline(boundary, interface, map, outline));
+  CW_TRY(cw_boundary_interface_outline(&from->interfaces->nodes, interface, map, outline));
   for (int32_t node = interface->free_start; node < interface->free_start + interface->free_count; node++) {
     double uv[2];
     int32_t local;
-    cw_plane_uv(map, boundary->interfaces.nodes.x[node], uv);
-    CW_TRY(cw_outline_point(outline, node, uv, boundary->interfaces.nodes.x[node], &local));
+    cw_plane_uv(map, from->interfaces->nodes.x[node], uv);
+    CW_TRY(cw_outline_point(outline, node, uv, from->interfaces->nodes.x[node], &local));
   }
 done:
   return status;
@@ -97,29 +97,29 @@ done:
 
 // How far from the plane of an interface points may lie that count there. Inserting centres makes no circle larger; the
 // constrained Delaunay triangulation may differ a little from the planned one before.
-static CwFillSlab beside_interface(const CwBoundary *boundary, const CwInterfaceOutline *interface) {
-  const CwPlane *plane = &boundary->plan->node[interface->node].plane;
+static CwFillSlab beside_interface(const CwRegionInput *from, const CwInterfaceOutline *interface) {
+  const CwPlane *plane = &from->in->plan->node[interface->node].plane;
   CwPlaneMap map = cw_plane_map_of(plane);
   double radius = largest_radius(&map, interface->triangle_count,
-                                 (const int32_t(*)[3])boundary->interfaces.refined.triangle + interface->triangle_start,
-                                 (const double(*)[3])boundary->interfaces.nodes.x);
+                                 (const int32_t(*)[3])from->interfaces->refined.triangle + interface->triangle_start,
+                                 (const double(*)[3])from->interfaces->nodes.x);
   return (CwFillSlab){*plane, 2 * radius};
 }
 
-static CwStatus refine(const CwBoundary *boundary, int32_t index, double reach, int32_t count,
+static CwStatus refine(const CwRegionInput *from, int32_t index, double reach, int32_t count,
                        const double (*candidate)[3], char **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  const CwInterfaceOutline *interface = &boundary->interfaces.outline[index];
+  const CwInterfaceOutline *interface = &from->interfaces->outline[index];
   CwPatchOutline outline = {0};
   CwBeside beside = {0};
   CwEncroachRefined refined = {0};
-  CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[interface->node].plane);
-  CW_TRY(planned_points(boundary, interface, &map, &outline));
+  CwPlaneMap map = cw_plane_map_of(&from->in->plan->node[interface->node].plane);
+  CW_TRY(planned_points(from, interface, &map, &outline));
   CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, count, candidate, &beside));
   CwPatchInput patch = {.surface = cw_plane_map,
                         .surface_context = &map,
-                        .size = boundary->size_at,
-                        .size_context = boundary->size,
+                        .size = from->in->size_at,
+                        .size_context = from->in->size,
                         .point_count = outline.point_count,
                         .uv = (const double(*)[2])outline.uv,
                         .x = (const double(*)[3])outline.x,
@@ -136,7 +136,7 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule(const CwBoundary *boundary, const int32_t *number, int32_t region, const char *name,
+CwStatus cw_interface_rule(const CwRegionInput *from, const int32_t *number, int32_t region, const char *name,
                            void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   double(*candidate)[3] = NULL;
@@ -147,16 +147,16 @@ CwStatus cw_interface_rule(const CwBoundary *boundary, const int32_t *number, in
   *size = 0;
   CW_NEW(made, sizeof owned);
   *size = sizeof owned;
-  CW_NEW(outline, boundary->interfaces.outline_count);
-  CW_NEW(slab, boundary->interfaces.outline_count);
-  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
-    if (cw_interface_owner(boundary, number, i) != region) continue;
-    slab[owned] = beside_interface(boundary, &boundary->interfaces.outline[i]);
+  CW_NEW(outline, from->interfaces->outline_count);
+  CW_NEW(slab, from->interfaces->outline_count);
+  for (int32_t i = 0; i < from->interfaces->outline_count; i++) {
+    if (cw_interface_owner(from->interfaces, number, i) != region) continue;
+    slab[owned] = beside_interface(from, &from->interfaces->outline[i]);
     outline[owned++] = i;
   }
-  CW_TRY(candidates(boundary, region, name, owned, slab, &count, &candidate, NULL));
+  CW_TRY(candidates(from, region, name, owned, slab, &count, &candidate, NULL));
   for (int32_t i = 0; i < owned; i++) {
-    CW_TRY(refine(boundary, outline[i], slab[i].reach, count, (const double(*)[3])candidate, &made, size));
+    CW_TRY(refine(from, outline[i], slab[i].reach, count, (const double(*)[3])candidate, &made, size));
   }
   memcpy(made, &owned, sizeof owned);
   *bytes = made;
@@ -207,7 +207,7 @@ CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void
     for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
       double x[3];
       memcpy(x, at, sizeof x);
-      CW_TRY(cw_interfaces_add_node(interfaces, x, 1, &node));
+      CW_TRY(cw_node_table_add(&interfaces->nodes, x, 1, &node));
     }
     interface->refined_start = interfaces->refined.count;
     interface->refined_count = header[TRIANGLES];
@@ -224,26 +224,26 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule_points(const CwBoundary *boundary, int32_t region, const char *name, int32_t *count,
+CwStatus cw_interface_rule_points(const CwRegionInput *from, int32_t region, const char *name, int32_t *count,
                                   double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   CwBeside beside = {0};
   uint8_t *dropped = NULL;
   int32_t kept = 0;
-  CW_TRY(candidates(boundary, region, name, 0, NULL, count, x, site));
+  CW_TRY(candidates(from, region, name, 0, NULL, count, x, site));
   CW_NEW(dropped, *count);
-  for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
-    const CwInterfaceOutline *interface = &boundary->interfaces.outline[i];
-    const int32_t *regions = boundary->interfaces.refined.region[interface->refined_start];
+  for (int32_t i = 0; i < from->interfaces->outline_count; i++) {
+    const CwInterfaceOutline *interface = &from->interfaces->outline[i];
+    const int32_t *regions = from->interfaces->refined.region[interface->refined_start];
     if (regions[0] != region && regions[1] != region) continue;
-    CwPlaneMap map = cw_plane_map_of(&boundary->plan->node[interface->node].plane);
-    const int32_t(*triangle)[3] = (const int32_t(*)[3])boundary->interfaces.refined.triangle + interface->refined_start;
+    CwPlaneMap map = cw_plane_map_of(&from->in->plan->node[interface->node].plane);
+    const int32_t(*triangle)[3] = (const int32_t(*)[3])from->interfaces->refined.triangle + interface->refined_start;
     double reach =
-        largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])boundary->interfaces.nodes.x);
+        largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])from->interfaces->nodes.x);
     CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, *count, (const double(*)[3]) * x, &beside));
     for (int32_t t = 0; t < interface->refined_count; t++) {
       double uv[3][2], centre[2], radius;
-      for (int k = 0; k < 3; k++) cw_plane_uv(&map, boundary->interfaces.nodes.x[triangle[t][k]], uv[k]);
+      for (int k = 0; k < 3; k++) cw_plane_uv(&map, from->interfaces->nodes.x[triangle[t][k]], uv[k]);
       if (!cw_encroach_circle(uv[0], uv[1], uv[2], centre, &radius)) continue;
       cw_beside_in_sphere(&beside, centre, radius, dropped);
     }

@@ -10,14 +10,14 @@
 #ifndef CUTWATER_MESHER_REGION_INTERFACE_RULE_H
 #define CUTWATER_MESHER_REGION_INTERFACE_RULE_H
 
-#include "mesher/boundary/boundary.h"
+#include "mesher/region/region_input.h"
 #include "mesher/fill/lattice_core.h"
 
 // Region (0-based) of the smaller number beside interface `outline`.
-int32_t cw_interface_owner(const CwBoundary *boundary, const int32_t *number, int32_t outline);
+int32_t cw_interface_owner(const CwInterfaces *interfaces, const int32_t *number, int32_t outline);
 
 // Refines all interfaces that `region` owns; packed for cw_interface_rule_merge. A task; the inner surfaces are merged.
-CwStatus cw_interface_rule(const CwBoundary *boundary, const int32_t *number, int32_t region, const char *name,
+CwStatus cw_interface_rule(const CwRegionInput *from, const int32_t *number, int32_t region, const char *name,
                            void **bytes, int64_t *size);
 
 typedef struct {
@@ -34,7 +34,7 @@ CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void
 
 // The inner points of a region: its candidates outside of all spheres of its interfaces, and their places in the
 // lattice. Caller frees *x and *site.
-CwStatus cw_interface_rule_points(const CwBoundary *boundary, int32_t region, const char *name, int32_t *count,
+CwStatus cw_interface_rule_points(const CwRegionInput *from, int32_t region, const char *name, int32_t *count,
                                   double (**x)[3], CwLatticeSite **site);
 
 #endif

@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/common/vtk.h"
+#include "mesher/fill/boundary_check.h"
 
 typedef struct {
-  const CwBoundary *boundary;
+  const CwRegionInput *from;
   CwRegionBoundary *inner;
   int32_t *local; // of each boundary node
 } Gathering;
@@ -16,7 +18,7 @@ static int32_t local_of(Gathering *gathering, int32_t node) {
   CwRegionBoundary *inner = gathering->inner;
   if (gathering->local[node] < 0) {
     gathering->local[node] = inner->node_count;
-    cw_copy(gathering->boundary->interfaces.nodes.x[node], inner->x[inner->node_count]);
+    cw_copy(gathering->from->interfaces->nodes.x[node], inner->x[inner->node_count]);
     inner->node[inner->node_count++] = node;
   }
   return gathering->local[node];
@@ -30,34 +32,34 @@ static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], i
   ++*count;
 }
 
-CwStatus cw_region_boundary_make(const CwBoundary *boundary, int32_t region, int planned, CwRegionBoundary *inner) {
+CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int planned, CwRegionBoundary *inner) {
   CwStatus status = CW_OK;
-  Gathering gathering = {boundary, inner, NULL};
-  planned = planned && boundary->interfaces.planned.triangle;
-  int32_t interfaces = planned ? boundary->interfaces.planned.count : boundary->interfaces.refined.count;
-  int32_t wall_start = boundary->surface.region_start[region], wall_end = boundary->surface.region_start[region + 1];
+  Gathering gathering = {from, inner, NULL};
+  planned = planned && from->interfaces->planned.triangle;
+  int32_t interfaces = planned ? from->interfaces->planned.count : from->interfaces->refined.count;
+  int32_t wall_start = from->surface->region_start[region], wall_end = from->surface->region_start[region + 1];
   int32_t count = wall_end - wall_start;
   const int32_t(*triangle)[3] =
-      (const int32_t(*)[3])(planned ? boundary->interfaces.planned.triangle : boundary->interfaces.refined.triangle);
+      (const int32_t(*)[3])(planned ? from->interfaces->planned.triangle : from->interfaces->refined.triangle);
   const int32_t(*beside)[2] =
-      (const int32_t(*)[2])(planned ? boundary->interfaces.planned.region : boundary->interfaces.refined.region);
+      (const int32_t(*)[2])(planned ? from->interfaces->planned.region : from->interfaces->refined.region);
   *inner = (CwRegionBoundary){0};
-  for (int32_t t = 0; t < boundary->interfaces.open_patch.count; t++)
-    count += boundary->interfaces.open_patch.region[t] == region;
+  for (int32_t t = 0; t < from->interfaces->open_patch.count; t++)
+    count += from->interfaces->open_patch.region[t] == region;
   for (int32_t t = 0; t < interfaces; t++) count += beside[t][0] == region || beside[t][1] == region;
   CW_NEW(inner->triangle, count);
   CW_NEW(inner->source, count);
   CW_NEW(inner->node, 3 * (size_t)count);
   CW_NEW(inner->x, 3 * (size_t)count);
-  CW_NEW(gathering.local, boundary->interfaces.nodes.count);
-  memset(gathering.local, -1, (size_t)boundary->interfaces.nodes.count * sizeof *gathering.local);
+  CW_NEW(gathering.local, from->interfaces->nodes.count);
+  memset(gathering.local, -1, (size_t)from->interfaces->nodes.count * sizeof *gathering.local);
   for (int32_t i = wall_start; i < wall_end; i++) {
-    int32_t t = boundary->surface.region_triangle[i];
-    add(&gathering, &inner->wall_count, boundary->layers.triangle[t], 0, t);
+    int32_t t = from->surface->region_triangle[i];
+    add(&gathering, &inner->wall_count, from->layers->triangle[t], 0, t);
   }
-  for (int32_t t = 0; t < boundary->interfaces.open_patch.count; t++) {
-    if (boundary->interfaces.open_patch.region[t] == region)
-      add(&gathering, &inner->open_patch_count, boundary->interfaces.open_patch.triangle[t], 0, t);
+  for (int32_t t = 0; t < from->interfaces->open_patch.count; t++) {
+    if (from->interfaces->open_patch.region[t] == region)
+      add(&gathering, &inner->open_patch_count, from->interfaces->open_patch.triangle[t], 0, t);
   }
   for (int32_t t = 0; t < interfaces; t++) {
     for (int side = 0; side < 2; side++) {
@@ -78,16 +80,46 @@ void cw_region_boundary_free(CwRegionBoundary *inner) {
   *inner = (CwRegionBoundary){0};
 }
 
-CwFillInput cw_region_fill_input(const CwBoundary *boundary, const CwRegionBoundary *inner, const char *name) {
+CwStatus cw_region_boundary_audit(const CwRegionBoundary *inner, const char *name) {
+  CwFillInput input = {.point_count = inner->node_count,
+                       .x = (const double(*)[3])inner->x,
+                       .triangle_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
+                       .triangle = (const int32_t(*)[3])inner->triangle,
+                       .name = name};
+  return cw_boundary_check(&input);
+}
+
+CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBoundary *inner, const char *name) {
   return (CwFillInput){.point_count = inner->node_count,
                        .x = (const double(*)[3])inner->x,
                        .triangle_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
                        .triangle = (const int32_t(*)[3])inner->triangle,
-                       .size = boundary->size_at,
-                       .size_context = boundary->size,
+                       .size = from->in->size_at,
+                       .size_context = from->in->size,
                        .name = name,
                        .offset_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
                        .interface_count = inner->interface_count,
                        .bare_first = inner->wall_count,
                        .bare_count = inner->open_patch_count};
+}
+
+CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *crossing, const char *title,
+                                const char *path) {
+  CwStatus status = CW_OK;
+  int32_t count = inner->wall_count + inner->open_patch_count + inner->interface_count, *surface = NULL;
+  CW_NEW(surface, count);
+  for (int32_t t = inner->wall_count; t < count; t++)
+    surface[t] = 1 + (t >= inner->wall_count + inner->open_patch_count);
+  const CwVtkField field[2] = {{"surface", surface}, {"crossing", crossing}};
+  const CwVtkTriangles triangles = {.title = title,
+                                    .point_count = inner->node_count,
+                                    .x = (const double(*)[3])inner->x,
+                                    .triangle_count = count,
+                                    .triangle = (const int32_t(*)[3])inner->triangle,
+                                    .field_count = crossing ? 2 : 1,
+                                    .field = field};
+  CW_TRY(cw_vtk_write(path, &triangles));
+done:
+  free(surface);
+  return status;
 }

@@ -27,17 +27,17 @@ static int compare_open_edges(const void *p, const void *q) {
 // Wall edges along open patches: their columns' sides are faces of the open patches.
 static CwStatus find_open_edges(CwRegionContext *context) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = context->boundary;
+  const CwRegionInput *from = &context->from;
   int32_t count = 0;
   for (int pass = 0; pass < 2; pass++) {
     if (pass == 1) CW_NEW(context->open_edge, count);
-    for (int32_t i = 0; i < boundary->network.curve_count; i++) {
-      const CwCurve *curve = &boundary->network.curve[i];
-      const CwCurveNodes *nodes = &boundary->wall_curves.curve[i];
+    for (int32_t i = 0; i < from->in->network->curve_count; i++) {
+      const CwCurve *curve = &from->in->network->curve[i];
+      const CwCurveNodes *nodes = &from->wall_curves->curve[i];
       if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
       int32_t open_patch = -1;
       for (int k = 0; k < 2; k++) {
-        if (!cw_cad_face_is_wall(boundary->cad, curve->face[k])) open_patch = curve->face[k];
+        if (!cw_cad_face_is_wall(from->in->cad, curve->face[k])) open_patch = curve->face[k];
       }
       if (open_patch < 0) continue;
       if (pass == 0) {
@@ -60,20 +60,20 @@ done:
 
 CwStatus cw_region_context_make(CwRegionContext *context) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = context->boundary;
+  const CwRegionInput *from = &context->from;
   CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
              context->layer_count, CW_LAYERS_MOST);
-  CW_NEW(context->shared_base, boundary->interfaces.nodes.count);
-  CW_NEW(context->shared_node, boundary->interfaces.nodes.count);
-  for (int32_t i = 0; i < boundary->interfaces.nodes.count; i++) {
+  CW_NEW(context->shared_base, from->interfaces->nodes.count);
+  CW_NEW(context->shared_node, from->interfaces->nodes.count);
+  for (int32_t i = 0; i < from->interfaces->nodes.count; i++) {
     context->shared_base[i] = -1;
-    if (!boundary->interfaces.nodes.on_plane[i]) continue;
+    if (!from->interfaces->nodes.on_plane[i]) continue;
     context->shared_base[i] = context->shared_count;
     context->shared_node[context->shared_node_count++] = i;
-    context->shared_count += i < boundary->surface.vertex_count ? context->layer_count + 1 : 1;
+    context->shared_count += i < from->surface->vertex_count ? context->layer_count + 1 : 1;
   }
   CW_TRY(find_open_edges(context));
-  CW_TRY(cw_open_edge_places_make(boundary, &context->open_edge_places));
+  CW_TRY(cw_open_edge_places_make(from, &context->open_edge_places));
 done:
   return status;
 }
@@ -89,7 +89,7 @@ void cw_region_context_free(CwRegionContext *context) {
 }
 
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]) {
-  const CwBoundary *boundary = context->boundary;
+  const CwRegionInput *from = &context->from;
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
@@ -98,42 +98,38 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 #endif
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
-  for (int32_t i = boundary->surface.region_start[region]; i < boundary->surface.region_start[region + 1]; i++) {
-    int32_t t = boundary->surface.region_triangle[i];
-    cw_hash_bytes(&hash, &boundary->surface.face[t], sizeof(int32_t));
+  for (int32_t i = from->surface->region_start[region]; i < from->surface->region_start[region + 1]; i++) {
+    int32_t t = from->surface->region_triangle[i];
+    cw_hash_bytes(&hash, &from->surface->face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->layers.triangle[t][k];
-      cw_hash_bytes(&hash, boundary->surface.x[v], sizeof(double[3]));
-      cw_hash_bytes(&hash, boundary->layers.top[v], sizeof(double[3]));
+      int32_t v = from->layers->triangle[t][k];
+      cw_hash_bytes(&hash, from->surface->x[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, from->layers->top[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
       cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
       cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
-  for (int32_t t = 0; t < boundary->interfaces.open_patch.count; t++) {
-    if (boundary->interfaces.open_patch.region[t] != region) continue;
-    cw_hash_bytes(&hash, &boundary->interfaces.open_patch.face[t], sizeof(int32_t));
+  for (int32_t t = 0; t < from->interfaces->open_patch.count; t++) {
+    if (from->interfaces->open_patch.region[t] != region) continue;
+    cw_hash_bytes(&hash, &from->interfaces->open_patch.face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++)
-      cw_hash_bytes(&hash, boundary->interfaces.nodes.x[boundary->interfaces.open_patch.triangle[t][k]],
-                    sizeof(double[3]));
+      cw_hash_bytes(&hash, from->interfaces->nodes.x[from->interfaces->open_patch.triangle[t][k]], sizeof(double[3]));
   }
-  for (int32_t t = 0; t < boundary->interfaces.planned.count; t++) { // candidates follow from these
-    if (boundary->interfaces.planned.region[t][0] != region && boundary->interfaces.planned.region[t][1] != region)
-      continue;
+  for (int32_t t = 0; t < from->interfaces->planned.count; t++) { // candidates follow from these
+    if (from->interfaces->planned.region[t][0] != region && from->interfaces->planned.region[t][1] != region) continue;
     for (int k = 0; k < 3; k++)
-      cw_hash_bytes(&hash, boundary->interfaces.nodes.x[boundary->interfaces.planned.triangle[t][k]],
-                    sizeof(double[3]));
+      cw_hash_bytes(&hash, from->interfaces->nodes.x[from->interfaces->planned.triangle[t][k]], sizeof(double[3]));
   }
-  for (int32_t t = 0; t < boundary->interfaces.refined.count; t++) {
-    if (boundary->interfaces.refined.region[t][0] != region && boundary->interfaces.refined.region[t][1] != region)
-      continue;
+  for (int32_t t = 0; t < from->interfaces->refined.count; t++) {
+    if (from->interfaces->refined.region[t][0] != region && from->interfaces->refined.region[t][1] != region) continue;
     for (int k = 0; k < 3; k++) {
-      int32_t node = boundary->interfaces.refined.triangle[t][k];
-      cw_hash_bytes(&hash, boundary->interfaces.nodes.x[node], sizeof(double[3]));
+      int32_t node = from->interfaces->refined.triangle[t][k];
+      cw_hash_bytes(&hash, from->interfaces->nodes.x[node], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
     }
     double centre =
-        boundary->size_at(boundary->size, boundary->interfaces.nodes.x[boundary->interfaces.refined.triangle[t][0]]);
+        from->in->size_at(from->in->size, from->interfaces->nodes.x[from->interfaces->refined.triangle[t][0]]);
     cw_hash_bytes(&hash, &centre, sizeof centre);
   }
   cw_hash_hex(&hash, fingerprint);
@@ -153,11 +149,11 @@ typedef struct {
 static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
-  const CwBoundary *boundary = context->boundary;
+  const CwRegionInput *from = &context->from;
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
   double fraction[CW_LAYERS_MOST + 1];
   for (int32_t i = 0; i < build->inner.node_count; i++) {
-    int on_top = build->inner.node[i] < boundary->surface.vertex_count,
+    int on_top = build->inner.node[i] < from->surface->vertex_count,
         is_shared = context->shared_base[build->inner.node[i]] >= 0;
     if (on_top) total += levels;
     if (is_shared) shared += on_top ? levels + 1 : 1;
@@ -172,15 +168,15 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   for (int32_t i = 0; i < build->fill.point_count; i++) {
     int32_t node = i < build->inner.node_count ? build->inner.node[i] : -1;
     int64_t base = node >= 0 ? context->shared_base[node] : -1;
-    int on_top = node >= 0 && node < boundary->surface.vertex_count;
+    int on_top = node >= 0 && node < from->surface->vertex_count;
     int32_t *next = base >= 0 ? &next_shared : &next_own;
     if (on_top) {
       build->column[i] = *next;
-      cw_layer_fractions(boundary->layers.thickness[node], context->first_height[node], levels, context->growth[node],
+      cw_layer_fractions(from->layers->thickness[node], context->first_height[node], levels, context->growth[node],
                          fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->cells.shared_id[*next] = base + k;
-        cw_column_place(boundary, &context->open_edge_places, node, fraction[k], mesh->cells.points[(*next)++]);
+        cw_column_place(from, &context->open_edge_places, node, fraction[k], mesh->cells.points[(*next)++]);
       }
     }
     if (base >= 0) mesh->cells.shared_id[*next] = base + (on_top ? levels : 0);
@@ -207,7 +203,7 @@ static int32_t open_edge_open_patch(const CwRegionContext *context, int32_t a, i
 static CwStatus check_on_open_patch(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
                                     int count) {
   CwStatus status = CW_OK;
-  const CwCad *cad = build->context->boundary->cad;
+  const CwCad *cad = build->context->from.in->cad;
   const double *x[4];
   int patch = cw_cad_face_patch(cad, face);
   if (cw_cad_patch_kind(cad, patch) != CW_PATCH_INTERFACE) return CW_OK;
@@ -228,7 +224,7 @@ done:
 static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
-  const CwBoundary *boundary = context->boundary;
+  const CwRegionInput *from = &context->from;
   int levels = context->layer_count;
   mesh->cells.prism_count = build->inner.wall_count * levels;
   CW_NEW(mesh->cells.prisms, mesh->cells.prism_count);
@@ -253,7 +249,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
           mesh->cells.quads[q][1] = column_point(build, a, k);
           mesh->cells.quads[q][2] = column_point(build, a, k + 1);
           mesh->cells.quads[q][3] = column_point(build, b, k + 1);
-          mesh->cells.quad_patch[q] = cw_cad_face_patch(boundary->cad, open_patch);
+          mesh->cells.quad_patch[q] = cw_cad_face_patch(from->in->cad, open_patch);
           mesh->cells.quad_cell[q] = first_cell + k;
           CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.quads[q], 4));
         }
@@ -268,7 +264,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       }
       int32_t w = mesh->cells.triangle_count++;
       for (int c = 0; c < 3; c++) mesh->cells.triangles[w][c] = column_point(build, corner[c], 0);
-      mesh->cells.triangle_patch[w] = cw_cad_face_patch(boundary->cad, boundary->surface.face[build->inner.source[t]]);
+      mesh->cells.triangle_patch[w] = cw_cad_face_patch(from->in->cad, from->surface->face[build->inner.source[t]]);
       mesh->cells.triangle_cell[w] = first_cell;
     }
   }
@@ -300,7 +296,7 @@ static int compare_faces(const void *p, const void *q) {
 // Triangles of the open patches with the tetrahedron behind each.
 static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = build->context->boundary;
+  const CwRegionInput *from = &build->context->from;
   Face *face = NULL;
   int32_t first = build->inner.wall_count;
   CW_NEW(face, build->inner.open_patch_count);
@@ -309,8 +305,8 @@ static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
     face[t] = face_of(corner[0], corner[1], corner[2], t);
     int32_t made = mesh->cells.triangle_count++;
     for (int c = 0; c < 3; c++) mesh->cells.triangles[made][c] = build->place[corner[c]];
-    int32_t open_patch = boundary->interfaces.open_patch.face[build->inner.source[first + t]];
-    mesh->cells.triangle_patch[made] = cw_cad_face_patch(boundary->cad, open_patch);
+    int32_t open_patch = from->interfaces->open_patch.face[build->inner.source[first + t]];
+    mesh->cells.triangle_patch[made] = cw_cad_face_patch(from->in->cad, open_patch);
     mesh->cells.triangle_cell[made] = -1;
     CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made], 3));
   }
@@ -330,7 +326,7 @@ static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
     CW_REQUIRE(mesh->cells.triangle_cell[build->inner.wall_count + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
                build->region + 1,
-               cw_cad_patch_name(boundary->cad, mesh->cells.triangle_patch[build->inner.wall_count + t]), CW_MM(x));
+               cw_cad_patch_name(from->in->cad, mesh->cells.triangle_patch[build->inner.wall_count + t]), CW_MM(x));
   }
 done:
   free(face);
@@ -349,10 +345,10 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   mesh->region = region + 1;
   mesh->number = number;
   cw_region_fingerprint(context, region, mesh->fingerprint);
-  CW_TRY(cw_region_boundary_make(context->boundary, region, 0, &build.inner));
-  CwFillInput input = cw_region_fill_input(context->boundary, &build.inner, name);
-  if (context->boundary->interfaces.planned.triangle) {
-    CW_TRY(cw_interface_rule_points(context->boundary, region, name, &input.inner_count, &inner, &site));
+  CW_TRY(cw_region_boundary_make(&context->from, region, 0, &build.inner));
+  CwFillInput input = cw_region_fill_input(&context->from, &build.inner, name);
+  if (context->from.interfaces->planned.triangle) {
+    CW_TRY(cw_interface_rule_points(&context->from, region, name, &input.inner_count, &inner, &site));
     input.inner = (const double(*)[3])inner;
     input.inner_site = site;
   }

@@ -3,14 +3,14 @@
 #ifndef CUTWATER_MESHER_REGION_REGION_BUILD_H
 #define CUTWATER_MESHER_REGION_REGION_BUILD_H
 
-#include "mesher/boundary/boundary.h"
 #include "mesher/region/column_place.h"
 #include "mesher/region/region_file.h"
+#include "mesher/region/region_input.h"
 #include "pipeline/case.h"
 
 // What all regions of a domain share.
 typedef struct {
-  const CwBoundary *boundary;
+  CwRegionInput from;
   const char *domain;
   int layer_count;
   CwFillMethod fill;

@@ -13,7 +13,7 @@
 static const double SAME_POINT = 1e-9; // of the model's unit
 
 static int32_t copied_region(const CwRegionContext *context, int32_t first, int32_t turns) {
-  return cw_image_region(&context->boundary->images, context->boundary->plan, first, turns);
+  return cw_image_region(context->from.in->images, context->from.in->plan, first, turns);
 }
 
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
@@ -43,19 +43,19 @@ static int32_t node_of(const CwRegionContext *context, int64_t id) {
 // Number and place of the shared point that `turns` turns make of `id`.
 static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t turns, int64_t *turned, double x[3]) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = context->boundary;
-  int32_t from = node_of(context, id), node = cw_image_node(&boundary->interfaces.images, from, turns);
-  int64_t level = id - context->shared_base[from];
+  const CwRegionInput *from = &context->from;
+  int32_t first = node_of(context, id), node = cw_image_node(&from->interfaces->images, first, turns);
+  int64_t level = id - context->shared_base[first];
   CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no periodic image",
-             context->domain, CW_MM(boundary->interfaces.nodes.x[from]));
+             context->domain, CW_MM(from->interfaces->nodes.x[first]));
   *turned = context->shared_base[node] + level;
-  if (node < boundary->surface.vertex_count && level < context->layer_count) {
+  if (node < from->surface->vertex_count && level < context->layer_count) {
     double fraction[CW_LAYERS_MOST + 1];
-    cw_layer_fractions(boundary->layers.thickness[node], context->first_height[node], context->layer_count,
+    cw_layer_fractions(from->layers->thickness[node], context->first_height[node], context->layer_count,
                        context->growth[node], fraction);
-    cw_column_place(boundary, &context->open_edge_places, node, fraction[level], x);
+    cw_column_place(from, &context->open_edge_places, node, fraction[level], x);
   } else {
-    cw_copy(boundary->interfaces.nodes.x[node], x);
+    cw_copy(from->interfaces->nodes.x[node], x);
   }
 done:
   return status;
@@ -91,7 +91,7 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
   CW_NEW(mesh->cells.shared_id, mesh->cells.shared_count);
   for (int32_t i = 0; i < mesh->cells.point_count; i++) {
     double turned[3];
-    cw_image_point(&context->boundary->images, turns, first->cells.points[i], turned);
+    cw_image_point(context->from.in->images, turns, first->cells.points[i], turned);
     cw_copy(turned, mesh->cells.points[i]);
     if (i >= mesh->cells.shared_count) continue;
     CW_TRY(turned_point(context, first->cells.shared_id[i], turns, &mesh->cells.shared_id[i], mesh->cells.points[i]));

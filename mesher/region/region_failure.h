@@ -16,12 +16,12 @@ typedef struct {
 
 // Examines the boundary of `region` after a failure with `message`, and writes it to `path` (VTK PolyData; cell data
 // surface: 0 layer top, 1 open patch, 2 interface; crossing: 1 where the triangle meets another).
-CwStatus cw_region_failure_examine(const CwBoundary *boundary, int32_t region, const char *message, const char *path,
+CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, const char *message, const char *path,
                                    CwRegionFailure *failure);
 
 // Lowers the greatest thicknesses `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they
 // are now: those whose layer top is nearer to it than `reach` wanted lengths, or all of the region.
-void cw_region_failure_thin(const CwBoundary *boundary, int32_t region, const CwRegionFailure *failure, double reach,
+void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwRegionFailure *failure, double reach,
                             double *most);
 
 #endif

@@ -183,37 +183,35 @@ done:
 
 CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwBoundary *boundary = &domain->boundary;
   cw_domain_clear(domain);
-  boundary->cad = domain->cad;
-  boundary->plan = &domain->plan;
-  boundary->size_at = cw_size_at;
-  boundary->size = domain->size;
-  int patches = cw_cad_patch_count(domain->cad);
-  CW_NEW(boundary->largest, patches);
-  for (int p = 0; p < patches; p++)
-    boundary->largest[p] = cw_policy.prism_largest / cw_policy.prism_longest * cw_domain_longest_edge(domain, p);
+  domain->images.symmetry = domain->symmetry;
+  domain->input = (CwBoundaryInput){.cad = domain->cad,
+                                    .plan = &domain->plan,
+                                    .network = &domain->network,
+                                    .images = &domain->images,
+                                    .size_at = cw_size_at,
+                                    .size = domain->size};
   CW_TRY_STAGE(
-      cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &boundary->network, outcome),
+      cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &domain->network, outcome),
       outcome);
-  boundary->images.symmetry = domain->symmetry;
-  if (domain->symmetry) CW_TRY(cw_periodic_images_make(&boundary->network, &boundary->images, outcome));
+  if (domain->symmetry) CW_TRY(cw_periodic_images_make(&domain->network, &domain->images, outcome));
 done:
   return status;
 }
 
 CwStatus cw_domain_targets(CwDomain *domain) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = &domain->boundary;
   CwLayerTarget *layers = NULL; // of each face
   CwIncident around = {0};
   int faces = cw_cad_face_count(domain->cad);
   CW_NEW(layers, faces);
   for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
-  CW_TRY(cw_incident_make(boundary->surface.vertex_count, boundary->surface.triangle_count,
-                          (const int32_t(*)[3])boundary->surface.triangle, &around));
-  CW_TRY(cw_column_targets_make(boundary, &around, layers, domain->layer_count, &domain->targets));
-  CW_TRY(cw_column_targets_share(&domain->targets, boundary, &around, layers, &domain->layer_share));
+  CW_TRY(cw_incident_make(domain->surface.vertex_count, domain->surface.triangle_count,
+                          (const int32_t(*)[3])domain->surface.triangle, &around));
+  CW_TRY(
+      cw_column_targets_make(&domain->input, &domain->surface, &around, layers, domain->layer_count, &domain->targets));
+  CW_TRY(cw_column_targets_share(&domain->targets, &domain->input, &domain->surface, &around, layers,
+                                 &domain->layer_share));
 done:
   cw_incident_free(&around);
   free(layers);
@@ -222,7 +220,7 @@ done:
 
 CwStatus cw_domain_number(CwDomain *domain) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_boundary_adjacency(&domain->boundary, &domain->pair_count, &domain->pair));
+  CW_TRY(cw_interfaces_adjacency(&domain->interfaces, domain->plan.region_count, &domain->pair_count, &domain->pair));
   CW_NEW(domain->number, domain->plan.region_count);
   CW_TRY(cw_region_numbers(domain->plan.region_count, domain->pair_count, (const int32_t(*)[2])domain->pair,
                            domain->number, NULL, &domain->colours));
@@ -230,9 +228,17 @@ done:
   return status;
 }
 
+CwRegionInput cw_domain_region_input(const CwDomain *domain) {
+  return (CwRegionInput){.in = &domain->input,
+                         .wall_curves = &domain->wall_curves,
+                         .surface = &domain->surface,
+                         .layers = &domain->layers,
+                         .interfaces = &domain->interfaces};
+}
+
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
-  domain->context = (CwRegionContext){.boundary = &domain->boundary,
+  domain->context = (CwRegionContext){.from = cw_domain_region_input(domain),
                                       .domain = domain->name,
                                       .layer_count = domain->layer_count,
                                       .growth = domain->targets.growth,
@@ -245,7 +251,14 @@ done:
 
 void cw_domain_clear(CwDomain *domain) {
   cw_region_context_free(&domain->context);
-  cw_boundary_free(&domain->boundary);
+  cw_interfaces_free(&domain->interfaces);
+  cw_free_curves_free(&domain->free_curves);
+  cw_layers_free(&domain->layers);
+  cw_surface_mesh_free(&domain->surface);
+  cw_wall_curves_free(&domain->wall_curves);
+  cw_open_edges_free(&domain->open_edges);
+  cw_periodic_images_free(&domain->images);
+  cw_network_free(&domain->network);
   cw_column_targets_free(&domain->targets);
   free(domain->number);
   free(domain->pair);

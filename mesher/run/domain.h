@@ -45,8 +45,16 @@ typedef struct {
   double layer_share;   // of that, what graded columns take; known with the walls
   int32_t more_regions; // than the number of cells asks for: plans given up; CW_UNDIVIDED: one region
   CwPlan plan;
-  CwBoundary boundary;
+  CwNetwork network;
+  CwPeriodicImages images;
+  CwBoundaryInput input; // the products so far
+  CwOpenEdges open_edges;
+  CwWallCurves wall_curves;
+  CwSurfaceMesh surface;
   CwColumnTargets targets;
+  CwLayers layers;
+  CwFreeCurves free_curves;
+  CwInterfaces interfaces;
   CwRegionContext context;
   int32_t *number, colours;       // region numbers
   int32_t pair_count, (*pair)[2]; // adjacent regions
@@ -84,7 +92,7 @@ int cw_domain_least_regions(const CwCase *table, double cells);
 // decomposition; outcome: CW_OUTCOME_ASYMMETRIC where none can be had.
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome);
 
-// Starts the boundary anew at the present scale of the size field: curve network. Then cw_couple_open_edges and
+// Starts the surfaces anew at the present scale of the size field: curve network. Then cw_couple_open_edges and
 // cw_wall_curves_make. Outcome: that of cw_network_make and cw_periodic_images_make.
 CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome);
 
@@ -98,7 +106,10 @@ CwStatus cw_domain_number(CwDomain *domain);
 // What the regions share, once their interfaces are final.
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
 
-void cw_domain_clear(CwDomain *domain); // the boundary and what follows from it
+// The surfaces, for regions.
+CwRegionInput cw_domain_region_input(const CwDomain *domain);
+
+void cw_domain_clear(CwDomain *domain); // the curve network and what follows from it
 void cw_domain_close(CwDomain *domain);
 
 #endif

@@ -11,40 +11,40 @@
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 
 // Adds the prisms over a wall triangle that are thin for their length, or sheared: of small determinants.
-static void count_thin(const CwBoundary *boundary, int32_t t, const CwColumnTargets *targets, CwLayerCoverage *of) {
-  const int32_t *corner = boundary->layers.triangle[t];
+static void count_thin(const CwDomain *domain, int32_t t, CwLayerCoverage *of) {
+  const CwColumnTargets *targets = &domain->targets;
+  const int32_t *corner = domain->layers.triangle[t];
   double determinant[CW_LAYERS_MOST], first[3];
   for (int k = 0; k < 3; k++) first[k] = targets->first_made[corner[k]];
-  cw_column_determinants(targets, boundary, t, first, determinant);
+  cw_column_determinants(targets, &domain->surface, &domain->layers, t, first, determinant);
   for (int k = 0; k < targets->layer_count; k++) {
     if (determinant[k] >= CW_SMALL_DETERMINANT) continue;
     double wanted = cw_thin_prism_wanted(determinant[k]);
     of->thin++;
     if (wanted <= of->thin_wanted) continue;
     of->thin_wanted = wanted;
-    cw_copy(boundary->surface.x[corner[0]], of->thin_at);
+    cw_copy(domain->surface.x[corner[0]], of->thin_at);
   }
 }
 
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
-  const CwBoundary *boundary = &domain->boundary;
   const CwColumnTargets *targets = &domain->targets;
   double fraction[CW_LAYERS_MOST + 1];
-  for (int32_t i = boundary->surface.region_start[region]; i < boundary->surface.region_start[region + 1]; i++) {
-    int32_t t = boundary->surface.region_triangle[i];
-    int patch = cw_cad_face_patch(domain->cad, boundary->surface.face[t]);
+  for (int32_t i = domain->surface.region_start[region]; i < domain->surface.region_start[region + 1]; i++) {
+    int32_t t = domain->surface.region_triangle[i];
+    int patch = cw_cad_face_patch(domain->cad, domain->surface.face[t]);
     if (patch >= patches) continue;
     CwLayerCoverage *of = &coverage[patch];
     int full = 1, met = 1, worst = 0;
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->layers.triangle[t][k];
-      double thickness = boundary->layers.thickness[v];
+      int32_t v = domain->layers.triangle[t][k];
+      double thickness = domain->layers.thickness[v];
       double wanted = targets->first_height[v];
       double first =
           cw_layer_fractions(thickness, targets->first_made[v], targets->layer_count, targets->growth[v], fraction);
       full &= thickness >= 0.99 * targets->target[v];
       met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;
-      if (boundary->layers.reason[v] > worst) worst = boundary->layers.reason[v];
+      if (domain->layers.reason[v] > worst) worst = domain->layers.reason[v];
       of->thickness += thickness / 3;
       of->least = of->faces == 0 && k == 0 ? thickness : fmin(of->least, thickness);
     }
@@ -53,6 +53,6 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
     of->first_met += met;
     of->reason[full ? 0 : worst]++;
     if (!met) of->missed[worst]++;
-    count_thin(boundary, t, targets, of);
+    count_thin(domain, t, of);
   }
 }

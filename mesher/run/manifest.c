@@ -173,7 +173,7 @@ static json_t *region_json(const CwMeshRun *run, int d, int32_t r, double predic
   const CwRegionSummary *made = &run->summary[d][r];
   return json_pack(
       "{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
-      cw_image_region_first(&domain->boundary.images, &domain->plan, r) + 1, "number", domain->number[r], "tetrahedra",
+      cw_image_region_first(&domain->images, &domain->plan, r) + 1, "number", domain->number[r], "tetrahedra",
       (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms, "recovered_triangles", made->recovery.missing,
       "recovery_flips", made->recovery.flips, "tetgen", made->recovery.tetgen, "predicted_share",
       cw_json_number(domain->plan.predicted_cells[r] / predicted_sum), "seconds",
@@ -240,7 +240,7 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
-      domain->boundary.interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3",
+      domain->interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3",
       metres_json(quality.volume, 3), "solid_volume_m3", metres_json(solid, 3), "volume_error",
       cw_json_number(quality.volume / solid - 1), "least_cell_volume_m3", metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));

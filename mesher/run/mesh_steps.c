@@ -7,6 +7,7 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/fill/tet_bound.h"
+#include "mesher/policy.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/region/region_copy.h"
 #include "mesher/run/domain_size.h"
@@ -27,21 +28,26 @@ CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 }
 
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_boundary_mesh_wall(&run->domain[task.domain].boundary, task.index, bytes, size);
+  const CwDomain *domain = &run->domain[task.domain];
+  int patch = cw_cad_face_patch(domain->cad, task.index);
+  double largest = cw_policy.prism_largest / cw_policy.prism_longest * cw_domain_longest_edge(domain, patch);
+  return cw_surface_mesh_face(&domain->input, &domain->wall_curves, task.index, largest, bytes, size);
 }
 
 CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  const CwBoundary *boundary = &run->domain[task.domain].boundary;
-  int32_t faces = cw_cad_face_count(boundary->cad);
-  return task.index < faces ? cw_boundary_mesh_open_patch(boundary, task.index, bytes, size)
-                            : cw_boundary_mesh_interface(boundary, task.index - faces, bytes, size);
+  const CwDomain *domain = &run->domain[task.domain];
+  int32_t faces = cw_cad_face_count(domain->cad);
+  if (task.index >= faces)
+    return cw_interfaces_polygon(&domain->input, &domain->free_curves, task.index - faces, bytes, size);
+  return cw_interfaces_open_patch(&domain->input, &domain->wall_curves, &domain->free_curves, task.index, bytes, size);
 }
 
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   const CwDomain *domain = &run->domain[task.domain];
   char name[64];
+  const CwRegionInput from = cw_domain_region_input(domain);
   snprintf(name, sizeof name, "%s region %d", domain->name, task.index + 1);
-  return cw_interface_rule(&domain->boundary, domain->number, task.index, name, bytes, size);
+  return cw_interface_rule(&from, domain->number, task.index, name, bytes, size);
 }
 
 static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
@@ -74,9 +80,9 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   }
 }
 
-int32_t cw_region_copies(const CwBoundary *boundary, int32_t region) {
-  const CwPeriodicImages *images = &boundary->images;
-  return cw_image_region(images, boundary->plan, region, 1) == region ? 1 : images->symmetry->count;
+int32_t cw_region_copies(const CwDomain *domain, int32_t region) {
+  const CwPeriodicImages *images = &domain->images;
+  return cw_image_region(images, &domain->plan, region, 1) == region ? 1 : images->symmetry->count;
 }
 
 static CwStatus region_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
@@ -121,7 +127,7 @@ static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source,
                           CwRegionSummary *summary) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
-  const CwPeriodicImages *images = &domain->boundary.images;
+  const CwPeriodicImages *images = &domain->images;
   CwRegionMesh first = {0}, mesh = {0};
   char path[4096], fingerprint[CW_HASH_TEXT];
   int32_t turns = 1;
@@ -167,8 +173,8 @@ static CwStatus bound_angles(const CwDomain *domain, int32_t region, double *all
   CwStatus status = CW_OK;
   CwRegionBoundary inner = {0};
   int32_t worst;
-  CW_TRY(cw_region_boundary_make(&domain->boundary, region, 0, &inner));
-  CwFillInput input = cw_region_fill_input(&domain->boundary, &inner, domain->name);
+  CW_TRY(cw_region_boundary_make(&domain->context.from, region, 0, &inner));
+  CwFillInput input = cw_region_fill_input(&domain->context.from, &inner, domain->name);
   CW_TRY(cw_tet_bound(&input, allowed, &worst));
 done:
   cw_region_boundary_free(&inner);
@@ -184,7 +190,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CwRegionSummary *summary = NULL;
   char path[4096], boundary_path[4096], fingerprint[CW_HASH_TEXT];
   int taken;
-  int32_t first = cw_image_region_first(&domain->boundary.images, &domain->plan, task.index);
+  int32_t first = cw_image_region_first(&domain->images, &domain->plan, task.index);
   if (first != task.index) return step_copy(run, task, first, bytes, size);
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   CW_TRY(failure_path(run, domain, task.index, sizeof boundary_path, boundary_path));
@@ -194,8 +200,8 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CwStatus made = taken ? CW_OK : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
   if (made == CW_OK && !taken) made = cw_audit_region(&mesh, &summary->quality);
   if (made == CW_ERR_MESH) {
-    CW_TRY(
-        cw_region_failure_examine(&domain->boundary, task.index, cw_fail_message(), boundary_path, &summary->failure));
+    CW_TRY(cw_region_failure_examine(&domain->context.from, task.index, cw_fail_message(), boundary_path,
+                                     &summary->failure));
     remove(path); // of an earlier attempt: it must not be copied
   } else {
     CW_TRY(made);

@@ -23,6 +23,6 @@ CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 
 // How many regions a region stands for: itself and its periodic images.
-int32_t cw_region_copies(const CwBoundary *boundary, int32_t region);
+int32_t cw_region_copies(const CwDomain *domain, int32_t region);
 
 #endif

@@ -16,10 +16,15 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   int32_t open_patches, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   cw_profiler_part("free curves");
   for (int d = 0; d < run->model.domain_count; d++) {
+    CwDomain *domain = &run->domain[d];
     CwOutcome of_domain = {.domain = d};
-    CW_TRY(cw_boundary_free_curves(&run->domain[d].boundary, &run->domain[d].boundary.interfaces, &of_domain));
+    CW_TRY(cw_free_curves_make(&domain->input, &domain->wall_curves, &domain->surface, &domain->layers,
+                               &domain->free_curves, &of_domain));
     if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
-    if (of_domain.kind == CW_OUTCOME_DONE) continue;
+    if (of_domain.kind == CW_OUTCOME_DONE) {
+      CW_AUDIT(cw_free_curves_audit(&domain->free_curves, &domain->network));
+      continue;
+    }
     *outcome = of_domain;
     if (outcome->kind == CW_OUTCOME_ASYMMETRIC) goto done;
   }
@@ -28,27 +33,27 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   CW_TRY(cw_face_tasks(run, 0, &open_patches, &open_patch));
   count = open_patches;
   for (int d = 0; d < run->model.domain_count; d++) {
-    parts[d] = faces[d] + run->domain[d].boundary.interfaces.outline_count;
-    count += run->domain[d].boundary.interfaces.outline_count;
+    parts[d] = faces[d] + run->domain[d].free_curves.outline_count;
+    count += run->domain[d].free_curves.outline_count;
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, parts));
   CW_NEW(task, count);
   memcpy(task, open_patch, (size_t)open_patches * sizeof *task);
   count = open_patches;
   for (int d = 0; d < run->model.domain_count; d++) {
-    const CwBoundary *boundary = &run->domain[d].boundary;
-    for (int32_t i = 0; i < boundary->interfaces.outline_count; i++) {
-      if (cw_image_turns(&boundary->images, &boundary->interfaces.outline_images, i) > 0) continue;
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t i = 0; i < domain->free_curves.outline_count; i++) {
+      if (cw_image_turns(&domain->images, &domain->free_curves.outline_images, i) > 0) continue;
       // Takes about as long as an open patch of as many triangles.
-      task[count++] = (CwMeshTask){d, faces[d] + i, boundary->interfaces.outline[i].corner_count};
+      task[count++] = (CwMeshTask){d, faces[d] + i, domain->free_curves.outline[i].corner_count};
     }
   }
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
   cw_profiler_part("inner surfaces merged");
   for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_boundary_merge_inner(&run->domain[d].boundary, results.bytes[d], results.bytes[d] + faces[d],
-                                   &run->domain[d].boundary.interfaces));
-    CW_AUDIT(cw_interfaces_audit(&run->domain[d].boundary.interfaces, run->domain[d].plan.region_count));
+    CW_TRY(cw_interfaces_make(&run->domain[d].input, &run->domain[d].free_curves, results.bytes[d],
+                              results.bytes[d] + faces[d], &run->domain[d].interfaces));
+    CW_AUDIT(cw_interfaces_audit(&run->domain[d].interfaces, run->domain[d].plan.region_count));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
@@ -72,8 +77,8 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t r = 0; r < regions[d]; r++) {
       int owns = 0;
-      for (int32_t i = 0; i < domain->boundary.interfaces.outline_count && !domain->symmetry; i++) {
-        owns |= cw_interface_owner(&domain->boundary, domain->number, i) == r;
+      for (int32_t i = 0; i < domain->interfaces.outline_count && !domain->symmetry; i++) {
+        owns |= cw_interface_owner(&domain->interfaces, domain->number, i) == r;
       }
       if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
     }
@@ -84,9 +89,8 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
-    CW_TRY(cw_interface_rule_merge(&domain->boundary.interfaces, domain->plan.region_count, results.bytes[d],
-                                   &domain->rule));
-    CW_AUDIT(cw_interfaces_audit(&domain->boundary.interfaces, domain->plan.region_count));
+    CW_TRY(cw_interface_rule_merge(&domain->interfaces, domain->plan.region_count, results.bytes[d], &domain->rule));
+    CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
     if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
            "centres inserted %lld, triangles left to both sides %lld",

@@ -15,11 +15,11 @@ static const double OWN_THICKNESS = 0.3, COPIED_THICKNESS = 0.15, OWN_LAYERS = 0
 static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DOMAINS_MOST]) {
   int64_t all = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
-    const CwBoundary *boundary = &run->domain[d].boundary;
+    const CwSurfaceMesh *surface = &run->domain[d].surface;
     int32_t firsts = 0;
-    for (int32_t t = 0; t < boundary->surface.triangle_count; t++) firsts += boundary->surface.source[t] == t;
-    cost[d] = firsts + copied * (boundary->surface.triangle_count - firsts);
-    all += boundary->surface.triangle_count;
+    for (int32_t t = 0; t < surface->triangle_count; t++) firsts += surface->source[t] == t;
+    cost[d] = firsts + copied * (surface->triangle_count - firsts);
+    all += surface->triangle_count;
   }
   return all;
 }
@@ -34,7 +34,7 @@ static CwStatus hand_thickness(void *context, const CwGroupHand *hand) {
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[hand->item];
   CwColumnTargets *targets = &domain->targets;
-  int32_t n = domain->boundary.surface.vertex_count;
+  int32_t n = domain->surface.vertex_count;
   targets->layer_count = domain->layer_count;
   CW_GROUP_ARRAY(hand, targets->first_height, n);
   CW_GROUP_ARRAY(hand, targets->growth, n);
@@ -72,12 +72,12 @@ static CwStatus grow(void *context, int32_t d, CwOutcome *outcome) {
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[d];
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->targets};
-  CW_TRY_STAGE(cw_boundary_grow(&domain->boundary, &domain->background, domain->targets.target, domain->targets.least,
-                                &division, &domain->boundary.layers, outcome),
+  CW_TRY_STAGE(cw_boundary_grow(&domain->input, &domain->surface, &domain->background, domain->targets.target,
+                                domain->targets.least, &division, &domain->layers, outcome),
                outcome);
-  CW_AUDIT(cw_layers_audit(&domain->boundary.layers, (const double(*)[3])domain->boundary.surface.x));
+  CW_AUDIT(cw_layers_audit(&domain->layers, (const double(*)[3])domain->surface.x));
   cw_profiler_part("layers: small prisms");
-  CW_TRY(cw_column_targets_even(&domain->targets, &domain->boundary));
+  CW_TRY(cw_column_targets_even(&domain->targets, &domain->surface, &domain->layers));
 done:
   return status;
 }
@@ -86,13 +86,13 @@ static CwStatus hand_layers(void *context, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[hand->item];
-  CwBoundary *boundary = &domain->boundary;
-  int32_t n = boundary->layers.column_count = boundary->surface.vertex_count;
-  boundary->layers.triangle_count = boundary->surface.triangle_count;
-  CW_GROUP_ARRAY(hand, boundary->layers.triangle, boundary->layers.triangle_count);
-  CW_GROUP_ARRAY(hand, boundary->layers.top, n);
-  CW_GROUP_ARRAY(hand, boundary->layers.thickness, n);
-  CW_GROUP_ARRAY(hand, boundary->layers.reason, n);
+  CwLayers *layers = &domain->layers;
+  int32_t n = layers->column_count = domain->surface.vertex_count;
+  layers->triangle_count = domain->surface.triangle_count;
+  CW_GROUP_ARRAY(hand, layers->triangle, layers->triangle_count);
+  CW_GROUP_ARRAY(hand, layers->top, n);
+  CW_GROUP_ARRAY(hand, layers->thickness, n);
+  CW_GROUP_ARRAY(hand, layers->reason, n);
   CW_GROUP_ARRAY(hand, domain->targets.first_made, n);
 done:
   return status;

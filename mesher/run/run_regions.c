@@ -13,10 +13,10 @@ static const double COPY_COST = 0.07; // of a periodic image of a region, by tha
 
 // The summaries of a region and of its periodic images.
 static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
-  const CwBoundary *boundary = &run->domain[d].boundary;
-  int32_t copies = cw_region_copies(boundary, region);
+  const CwDomain *domain = &run->domain[d];
+  int32_t copies = cw_region_copies(domain, region);
   for (int32_t turns = 0; turns < copies; turns++) {
-    int32_t copy = cw_image_region(&boundary->images, boundary->plan, region, turns);
+    int32_t copy = cw_image_region(&domain->images, &domain->plan, region, turns);
     run->summary[d][copy] = *made;
     run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
   }
@@ -43,16 +43,16 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   CW_NEW(task, all);
   CW_NEW(after, all);
   for (int d = 0; d < run->model.domain_count; d++) {
-    const CwBoundary *boundary = &run->domain[d].boundary;
+    const CwDomain *domain = &run->domain[d];
     for (int32_t r = 0; r < regions[d]; r++) {
-      if (cw_image_region_first(&boundary->images, boundary->plan, r) != r) continue;
-      int32_t first = count, copies = cw_region_copies(boundary, r);
+      if (cw_image_region_first(&domain->images, &domain->plan, r) != r) continue;
+      int32_t first = count, copies = cw_region_copies(domain, r);
       double cost = run->domain[d].plan.predicted_cells[r];
       after[count] = -1;
       task[count++] = (CwMeshTask){d, r, cost};
       for (int32_t turns = 1; turns < copies; turns++) {
         after[count] = first;
-        task[count++] = (CwMeshTask){d, cw_image_region(&boundary->images, boundary->plan, r, turns), COPY_COST * cost};
+        task[count++] = (CwMeshTask){d, cw_image_region(&domain->images, &domain->plan, r, turns), COPY_COST * cost};
       }
     }
   }

@@ -13,10 +13,10 @@
 enum { ATTEMPTS = 3 }; // on one plan
 
 // Gives all periodic images of a column the least thickness of them.
-static void thin_alike(const CwBoundary *boundary, double *most_thickness) {
-  const CwPeriodicImages *images = &boundary->images;
-  const CwNodeImages *nodes = &boundary->surface.images;
-  for (int32_t v = 0; images->symmetry && v < boundary->surface.vertex_count; v++) {
+static void thin_alike(const CwDomain *domain, double *most_thickness) {
+  const CwPeriodicImages *images = &domain->images;
+  const CwNodeImages *nodes = &domain->surface.images;
+  for (int32_t v = 0; images->symmetry && v < domain->surface.vertex_count; v++) {
     if (cw_image_node_turns(nodes, v) > 0) continue;
     double least = most_thickness[v];
     for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
@@ -31,7 +31,7 @@ static void thin_alike(const CwBoundary *boundary, double *most_thickness) {
 
 static CwStatus start_thinning(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
-  int32_t count = run->domain[d].boundary.surface.vertex_count;
+  int32_t count = run->domain[d].surface.vertex_count;
   if (run->most_thickness[d]) goto done;
   CW_NEW(run->most_thickness[d], count);
   for (int32_t v = 0; v < count; v++) run->most_thickness[d][v] = INFINITY;
@@ -54,11 +54,11 @@ done:
 
 CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = &run->domain[why->domain].boundary;
+  const CwFreeCurves *free_curves = &run->domain[why->domain].free_curves;
   CwRegionFailure failure = {.failed = 1, .patch = "inner surface"};
   snprintf(failure.message, sizeof failure.message, "%s", why->reason);
-  for (int32_t i = 0; i < boundary->interfaces.tight_count; i++) {
-    memcpy(failure.at, boundary->interfaces.tight[i], sizeof failure.at);
+  for (int32_t i = 0; i < free_curves->tight_count; i++) {
+    memcpy(failure.at, free_curves->tight[i], sizeof failure.at);
     CW_TRY(add_place(why->domain, -1, &failure, places));
   }
 done:
@@ -115,11 +115,12 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
                   text, ATTEMPTS, file);
     if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
     CW_TRY(start_thinning(run, d));
-    cw_region_failure_thin(&run->domain[d].boundary, place->region, &place->failure,
-                           cw_policy.thin_reach * (double)(1 << attempt), run->most_thickness[d]);
+    const CwRegionInput from = cw_domain_region_input(&run->domain[d]);
+    cw_region_failure_thin(&from, place->region, &place->failure, cw_policy.thin_reach * (double)(1 << attempt),
+                           run->most_thickness[d]);
   }
   for (int d = 0; d < run->model.domain_count; d++) {
-    if (run->most_thickness[d]) thin_alike(&run->domain[d].boundary, run->most_thickness[d]);
+    if (run->most_thickness[d]) thin_alike(&run->domain[d], run->most_thickness[d]);
   }
   run->retries++;
 done:

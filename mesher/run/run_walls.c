@@ -26,12 +26,13 @@ static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   for (int i = 0; i < run->model.interface_count; i++) {
     const CwModelPatch *a = &run->model.patch[run->model.interface[i].patch[0]],
                        *b = &run->model.patch[run->model.interface[i].patch[1]];
-    CW_TRY(cw_couple_open_edges(&run->domain[a->domain].boundary, a->name, &run->domain[b->domain].boundary, b->name));
+    CwDomain *of_a = &run->domain[a->domain], *of_b = &run->domain[b->domain];
+    CW_TRY(cw_couple_open_edges(&of_a->input, a->name, &of_a->open_edges, &of_b->input, b->name, &of_b->open_edges));
   }
   for (int d = 0; d < run->model.domain_count; d++) {
-    CwBoundary *boundary = &run->domain[d].boundary;
-    CW_TRY(cw_wall_curves_make(boundary, &boundary->wall_curves));
-    CW_AUDIT(cw_wall_curves_audit(&boundary->wall_curves, &boundary->network));
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_wall_curves_make(&domain->input, &domain->open_edges, &domain->wall_curves));
+    CW_AUDIT(cw_wall_curves_audit(&domain->wall_curves, &domain->network));
   }
 done:
   return status;
@@ -54,14 +55,15 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_profiler_part("walls merged");
     for (int d = 0; d < run->model.domain_count; d++) {
-      CW_TRY(cw_surface_mesh_make(&run->domain[d].boundary, results.bytes[d], &run->domain[d].boundary.surface));
-      CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].boundary.surface, run->domain[d].plan.region_count));
+      CW_TRY(cw_surface_mesh_make(&run->domain[d].input, &run->domain[d].wall_curves, results.bytes[d],
+                                  &run->domain[d].surface));
+      CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].surface, run->domain[d].plan.region_count));
     }
     CW_TRY(cw_run_thickness(run));
     for (int d = 0; d < run->model.domain_count; d++) {
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
                    run->domain[d].layer_share);
-      triangles += run->domain[d].boundary.surface.triangle_count;
+      triangles += run->domain[d].surface.triangle_count;
     }
     cw_results_free(&results);
     cw_learn_prisms(run, triangles);
@@ -73,7 +75,7 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   }
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
-    for (int32_t v = 0; run->most_thickness[d] && v < domain->boundary.surface.vertex_count; v++) {
+    for (int32_t v = 0; run->most_thickness[d] && v < domain->surface.vertex_count; v++) {
       domain->targets.target[v] = fmin(domain->targets.target[v], run->most_thickness[d][v]);
     }
   }

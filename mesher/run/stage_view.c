@@ -23,12 +23,12 @@ done:
 
 static CwStatus write_product(const CwMeshRun *run, int d, CwStage stage) {
   CwStatus status = CW_OK;
-  const CwBoundary *boundary = &run->domain[d].boundary;
+  const CwDomain *domain = &run->domain[d];
   char path[4096];
   snprintf(path, sizeof path, "%s/mesh/%s-%s.vtk", run->run_path, run->domain[d].name, NAMES[stage]);
-  if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&boundary->surface, path));
-  if (stage == CW_STAGE_LAYERS) CW_TRY(cw_layers_vtk(&boundary->layers, boundary->surface.region, path));
-  if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&boundary->interfaces, path));
+  if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&domain->surface, path));
+  if (stage == CW_STAGE_LAYERS) CW_TRY(cw_layers_vtk(&domain->layers, domain->surface.region, path));
+  if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&domain->interfaces, path));
   cw_log("%s: written", path);
 done:
   return status;

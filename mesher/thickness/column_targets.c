@@ -40,7 +40,8 @@ double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, do
 
 // What the tasks below read.
 typedef struct {
-  const CwBoundary *boundary;
+  const CwBoundaryInput *in;
+  const CwSurfaceMesh *surface;
   const CwIncident *around;
   const CwColumnTargets *targets;
   const CwLayerTarget *layers; // of each CAD face
@@ -48,36 +49,36 @@ typedef struct {
   const double *graded;        // thicknesses
 } Columns;
 
-static double size_at(const CwBoundary *boundary, const double x[3]) {
-  return boundary->size_at(boundary->size, x);
+static double size_at(const CwBoundaryInput *in, const double x[3]) {
+  return in->size_at(in->size, x);
 }
 
 // Unit normal of a triangle, out of the domain.
-static void find_normal(const CwBoundary *boundary, const int32_t corner[3], double normal[3]) {
+static void find_normal(const CwSurfaceMesh *surface, const int32_t corner[3], double normal[3]) {
   double u[3], v[3];
-  cw_sub(boundary->surface.x[corner[1]], boundary->surface.x[corner[0]], u);
-  cw_sub(boundary->surface.x[corner[2]], boundary->surface.x[corner[0]], v);
+  cw_sub(surface->x[corner[1]], surface->x[corner[0]], u);
+  cw_sub(surface->x[corner[2]], surface->x[corner[0]], v);
   cw_cross(u, v, normal);
   cw_unit(normal);
 }
 
-static Bend bend_at(const CwBoundary *boundary, const CwIncident *around, int32_t v) {
+static Bend bend_at(const CwSurfaceMesh *surface, const CwIncident *around, int32_t v) {
   Bend bend = {.cosine = 1, .rise = -1};
-  const double *x = boundary->surface.x[v];
+  const double *x = surface->x[v];
   for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
     double normal[3];
-    find_normal(boundary, boundary->surface.triangle[around->triangle[i]], normal);
+    find_normal(surface, surface->triangle[around->triangle[i]], normal);
     for (int c = 0; c < 3; c++) bend.normal[c] += normal[c];
   }
   cw_unit(bend.normal);
   for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
-    const int32_t *corner = boundary->surface.triangle[around->triangle[i]];
+    const int32_t *corner = surface->triangle[around->triangle[i]];
     double normal[3], edge[3];
-    find_normal(boundary, corner, normal);
+    find_normal(surface, corner, normal);
     bend.cosine = fmin(bend.cosine, cw_dot(normal, bend.normal));
     for (int k = 0; k < 3; k++) {
       if (corner[k] == v) continue;
-      cw_sub(x, boundary->surface.x[corner[k]], edge);
+      cw_sub(x, surface->x[corner[k]], edge);
       cw_unit(edge);
       bend.rise = fmax(bend.rise, cw_dot(edge, bend.normal));
     }
@@ -91,18 +92,19 @@ static Bend bend_at(const CwBoundary *boundary, const CwIncident *around, int32_
 // to within its grid.
 static CwStatus find_fair(void *context, int32_t v, void *out) {
   const Columns *columns = context;
-  const CwBoundary *boundary = columns->boundary;
+  const CwBoundaryInput *in = columns->in;
+  const CwSurfaceMesh *surface = columns->surface;
   const CwColumnTargets *targets = columns->targets;
-  const double *x = boundary->surface.x[v];
-  if (cw_image_node_turns(&boundary->surface.images, v) > 0) return CW_OK;
-  Bend bend = bend_at(boundary, columns->around, v);
-  double size = size_at(boundary, x), thickness = 0, last = columns->asked[v].last;
+  const double *x = surface->x[v];
+  if (cw_image_node_turns(&surface->images, v) > 0) return CW_OK;
+  Bend bend = bend_at(surface, columns->around, v);
+  double size = size_at(in, x), thickness = 0, last = columns->asked[v].last;
   // In a hollow tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
   if (bend.cosine < cw_policy.wall_flat_cosine && bend.rise > cw_policy.wall_concave_rise) last *= bend.cosine;
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * bend.normal[k];
-    double above = fmin(fmax(size, size_at(boundary, end)), size + cw_policy.thickness_slope * thickness);
+    double above = fmin(fmax(size, size_at(in, end)), size + cw_policy.thickness_slope * thickness);
     thickness = fair_thickness(targets->first_height[v], targets->layer_count, targets->growth[v], above, last);
   }
   *(double *)out = fmin(columns->asked[v].thickness, thickness);
@@ -111,25 +113,25 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
 
 // What the gradation of thicknesses at wall vertices reads.
 typedef struct {
-  const CwBoundary *boundary;
+  const CwSurfaceMesh *surface;
   const double *thickness;
   double slope;
 } Slope;
 
 static double most_beside(const void *context, int32_t v, int32_t w) {
   const Slope *slope = context;
-  return slope->thickness[v] + slope->slope * cw_distance(slope->boundary->surface.x[v], slope->boundary->surface.x[w]);
+  return slope->thickness[v] + slope->slope * cw_distance(slope->surface->x[v], slope->surface->x[w]);
 }
 
 // Thicknesses rise by no more than `slope` per distance along any edge of the wall. Collective.
-static CwStatus grade(const CwBoundary *boundary, const CwIncident *around, double slope, double *thickness) {
+static CwStatus grade(const CwSurfaceMesh *surface, const CwIncident *around, double slope, double *thickness) {
   return cw_grade_thickness(&(CwGradation){.step = "thicknesses: steep",
-                                           .count = boundary->surface.vertex_count,
+                                           .count = surface->vertex_count,
                                            .start = around->start,
                                            .triangle = around->triangle,
-                                           .corner = (const int32_t(*)[3])boundary->surface.triangle,
+                                           .corner = (const int32_t(*)[3])surface->triangle,
                                            .most = most_beside,
-                                           .context = &(Slope){boundary, thickness, slope},
+                                           .context = &(Slope){surface, thickness, slope},
                                            .thickness = thickness},
                             NULL);
 }
@@ -138,11 +140,11 @@ static CwStatus grade(const CwBoundary *boundary, const CwIncident *around, doub
 static CwStatus find_asked(void *context, int32_t v, void *out) {
   CwStatus status = CW_OK;
   const Columns *columns = context;
-  const double *x = columns->boundary->surface.x[v];
+  const double *x = columns->surface->x[v];
   CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY, .last = INFINITY};
   int32_t before = -1;
   for (int32_t i = columns->around->start[v]; i < columns->around->start[v + 1]; i++) {
-    int32_t face = columns->boundary->surface.face[columns->around->triangle[i]];
+    int32_t face = columns->surface->face[columns->around->triangle[i]];
     if (face == before) continue;
     before = face;
     of.first_height = fmin(of.first_height, columns->layers[face].first_height);
@@ -159,17 +161,16 @@ done:
 
 // What the walls ask of each vertex. Away from where patches meet the first height grows no faster than columns whose
 // layers grow a little can.
-static CwStatus take_asked(const CwBoundary *boundary, const CwIncident *around, const CwLayerTarget *layers,
+static CwStatus take_asked(const CwSurfaceMesh *surface, const CwIncident *around, const CwLayerTarget *layers,
                            CwColumnTargets *targets, CwLayerTarget *asked) {
   CwStatus status = CW_OK;
-  Columns columns = {.boundary = boundary, .around = around, .layers = layers};
-  CW_TRY(cw_parallel_for("thicknesses: asked", boundary->surface.vertex_count, sizeof *asked, find_asked, &columns,
-                         asked));
-  for (int32_t v = 0; v < boundary->surface.vertex_count; v++) {
+  Columns columns = {.surface = surface, .around = around, .layers = layers};
+  CW_TRY(cw_parallel_for("thicknesses: asked", surface->vertex_count, sizeof *asked, find_asked, &columns, asked));
+  for (int32_t v = 0; v < surface->vertex_count; v++) {
     targets->first_height[v] = asked[v].first_height;
     targets->growth[v] = asked[v].growth;
   }
-  CW_TRY(grade(boundary, around, cw_policy.thickness_slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
+  CW_TRY(grade(surface, around, cw_policy.thickness_slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
                targets->first_height));
 done:
   return status;
@@ -186,23 +187,23 @@ static void turn_copies(const CwNodeImages *nodes, int32_t count, CwColumnTarget
   }
 }
 
-CwStatus cw_column_targets_make(const CwBoundary *boundary, const CwIncident *around, const CwLayerTarget *layers,
-                                int layer_count, CwColumnTargets *targets) {
+CwStatus cw_column_targets_make(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwIncident *around,
+                                const CwLayerTarget *layers, int layer_count, CwColumnTargets *targets) {
   CwStatus status = CW_OK;
   CwLayerTarget *asked = NULL;
   *targets = (CwColumnTargets){.layer_count = layer_count};
-  CW_NEW_UNSET(targets->first_height, boundary->surface.vertex_count);
-  CW_NEW_UNSET(targets->growth, boundary->surface.vertex_count);
-  CW_NEW_UNSET(targets->target, boundary->surface.vertex_count);
-  CW_NEW_UNSET(targets->least, boundary->surface.vertex_count);
-  CW_NEW_UNSET(asked, boundary->surface.vertex_count);
-  CW_TRY(take_asked(boundary, around, layers, targets, asked));
-  Columns columns = {.boundary = boundary, .around = around, .targets = targets, .asked = asked};
-  CW_TRY(cw_parallel_for("thicknesses: fair ones", boundary->surface.vertex_count, sizeof *targets->target, find_fair,
-                         &columns, targets->target));
-  turn_copies(&boundary->surface.images, boundary->surface.vertex_count, targets);
+  CW_NEW_UNSET(targets->first_height, surface->vertex_count);
+  CW_NEW_UNSET(targets->growth, surface->vertex_count);
+  CW_NEW_UNSET(targets->target, surface->vertex_count);
+  CW_NEW_UNSET(targets->least, surface->vertex_count);
+  CW_NEW_UNSET(asked, surface->vertex_count);
+  CW_TRY(take_asked(surface, around, layers, targets, asked));
+  Columns columns = {.in = in, .surface = surface, .around = around, .targets = targets, .asked = asked};
+  CW_TRY(cw_parallel_for("thicknesses: fair ones", surface->vertex_count, sizeof *targets->target, find_fair, &columns,
+                         targets->target));
+  turn_copies(&surface->images, surface->vertex_count, targets);
   double lowest = cw_layer_thickness(1, layer_count, cw_policy.kept_growth);
-  for (int32_t v = 0; v < boundary->surface.vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
+  for (int32_t v = 0; v < surface->vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
 done:
   free(asked);
   return status;
@@ -215,37 +216,38 @@ typedef struct {
 
 static CwStatus find_taken(void *context, int32_t t, void *out) {
   const Columns *columns = context;
-  const CwBoundary *boundary = columns->boundary;
-  const int32_t *corner = boundary->surface.triangle[t], face = boundary->surface.face[t];
+  const CwBoundaryInput *in = columns->in;
+  const CwSurfaceMesh *surface = columns->surface;
+  const int32_t *corner = surface->triangle[t], face = surface->face[t];
   double u[3], v[3], normal[3], centre[3], mean = 0;
-  if (boundary->surface.source[t] != t) return CW_OK;
+  if (surface->source[t] != t) return CW_OK;
   for (int k = 0; k < 3; k++) {
-    u[k] = boundary->surface.x[corner[1]][k] - boundary->surface.x[corner[0]][k];
-    v[k] = boundary->surface.x[corner[2]][k] - boundary->surface.x[corner[0]][k];
-    centre[k] = boundary->surface.x[corner[0]][k] + (u[k] + v[k]) / 3;
+    u[k] = surface->x[corner[1]][k] - surface->x[corner[0]][k];
+    v[k] = surface->x[corner[2]][k] - surface->x[corner[0]][k];
+    centre[k] = surface->x[corner[0]][k] + (u[k] + v[k]) / 3;
     mean += columns->graded[corner[k]] / 3;
   }
   cw_cross(u, v, normal);
-  double h = size_at(boundary, centre);
-  double weight = cw_norm(normal) / (h * h * h) * cw_image_face_copies(&boundary->images, face);
+  double h = size_at(in, centre);
+  double weight = cw_norm(normal) / (h * h * h) * cw_image_face_copies(in->images, face);
   double flat = cw_column_thickness_flat(&columns->layers[face], columns->targets->layer_count, h);
   *(Taken *)out = (Taken){weight * mean, weight * flat};
   return CW_OK;
 }
 
-CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundary *boundary, const CwIncident *around,
-                                 const CwLayerTarget *layers, double *share) {
+CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundaryInput *in,
+                                 const CwSurfaceMesh *surface, const CwIncident *around, const CwLayerTarget *layers,
+                                 double *share) {
   CwStatus status = CW_OK;
   double *graded = NULL;
   Taken *of = NULL, sum = {0};
-  CW_NEW_UNSET(graded, boundary->surface.vertex_count);
-  CW_NEW_UNSET(of, boundary->surface.triangle_count);
-  memcpy(graded, targets->target, (size_t)boundary->surface.vertex_count * sizeof *graded);
-  CW_TRY(grade(boundary, around, cw_policy.thickness_slope, graded));
-  Columns columns = {.boundary = boundary, .targets = targets, .layers = layers, .graded = graded};
-  CW_TRY(
-      cw_parallel_for("thicknesses: volume", boundary->surface.triangle_count, sizeof *of, find_taken, &columns, of));
-  for (int32_t t = 0; t < boundary->surface.triangle_count; t++) {
+  CW_NEW_UNSET(graded, surface->vertex_count);
+  CW_NEW_UNSET(of, surface->triangle_count);
+  memcpy(graded, targets->target, (size_t)surface->vertex_count * sizeof *graded);
+  CW_TRY(grade(surface, around, cw_policy.thickness_slope, graded));
+  Columns columns = {.in = in, .surface = surface, .targets = targets, .layers = layers, .graded = graded};
+  CW_TRY(cw_parallel_for("thicknesses: volume", surface->triangle_count, sizeof *of, find_taken, &columns, of));
+  for (int32_t t = 0; t < surface->triangle_count; t++) {
     sum.taken += of[t].taken;
     sum.flat += of[t].flat;
   }

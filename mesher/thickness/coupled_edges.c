@@ -5,10 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/boundary_curves.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
 
-enum { SIZE_STEPS = 400 };
+enum { LENGTH_STEPS = 400 };
 
 // A place on the edge, as shares of its length in the sense of side 0, for either side.
 typedef struct {
@@ -17,7 +18,8 @@ typedef struct {
 } Break;
 
 typedef struct {
-  CwBoundary *boundary[2];
+  const CwBoundaryInput *in[2];
+  CwOpenEdges *edges[2];
   int32_t edge[2];
   int reversed; // side 1 runs the other way
 } Pair;
@@ -32,13 +34,13 @@ static int on_patch(const CwCad *cad, int32_t edge, const char *patch) {
 
 static double parameter_at(const Pair *pair, int side, double s) {
   double range[2];
-  cw_cad_edge_range(pair->boundary[side]->cad, pair->edge[side], range);
+  cw_cad_edge_range(pair->in[side]->cad, pair->edge[side], range);
   if (side && pair->reversed) s = 1 - s;
   return range[0] + s * (range[1] - range[0]);
 }
 
 static void point_at(const Pair *pair, int side, double s, double x[3]) {
-  cw_cad_edge_point(pair->boundary[side]->cad, pair->edge[side], parameter_at(pair, side, s), x, NULL);
+  cw_cad_edge_point(pair->in[side]->cad, pair->edge[side], parameter_at(pair, side, s), x, NULL);
 }
 
 // Whether the two edges are one curve, in the sense that pair->reversed says.
@@ -56,7 +58,7 @@ static double size_at(const Pair *pair, double s) {
   double x[3], size = INFINITY;
   point_at(pair, 0, s, x);
   for (int side = 0; side < 2; side++) {
-    size = fmin(size, pair->boundary[side]->size_at(pair->boundary[side]->size, x));
+    size = fmin(size, pair->in[side]->size_at(pair->in[side]->size, x));
   }
   return size;
 }
@@ -69,13 +71,13 @@ static int compare_breaks(const void *p, const void *q) {
 static CwStatus find_breaks(const Pair *pair, double length, int *count, Break **breaks) {
   CwStatus status = CW_OK;
   int room = 2;
-  for (int side = 0; side < 2; side++) room += pair->boundary[side]->network.corner_count;
+  for (int side = 0; side < 2; side++) room += pair->in[side]->network->corner_count;
   CW_NEW(*breaks, room);
   (*breaks)[(*count)++] = (Break){{0, 0}, {1, 1}};
   for (int side = 0; side < 2; side++) {
-    const CwNetwork *network = &pair->boundary[side]->network;
+    const CwNetwork *network = pair->in[side]->network;
     double range[2];
-    cw_cad_edge_range(pair->boundary[side]->cad, pair->edge[side], range);
+    cw_cad_edge_range(pair->in[side]->cad, pair->edge[side], range);
     for (int32_t i = 0; i < network->corner_count; i++) {
       if (network->corner[i].edge != pair->edge[side]) continue;
       double s = (network->corner[i].t - range[0]) / (range[1] - range[0]);
@@ -108,37 +110,33 @@ done:
   return status;
 }
 
-// Divides between two breaks as cw_curve_divide does; appends the places within.
+static double size_along(const void *context, double s) {
+  return size_at(context, s);
+}
+
+// Divides between two breaks; appends the places within.
 static CwStatus divide(const Pair *pair, double length, double from, double to, int *count, double **places) {
   CwStatus status = CW_OK;
-  double edges[SIZE_STEPS + 1] = {0};
-  for (int i = 0; i < SIZE_STEPS; i++) {
-    double s = from + (to - from) * (i + 0.5) / SIZE_STEPS;
-    edges[i + 1] = edges[i] + (to - from) * length / SIZE_STEPS / size_at(pair, s);
-  }
-  int whole = (int)floor(edges[SIZE_STEPS] + 0.5), step = 0;
-  if (whole < 2) goto done;
-  double *grown = realloc(*places, (size_t)(*count + whole) * sizeof **places);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places on an open edge", *count + whole);
+  double *place = NULL;
+  int32_t made;
+  CW_TRY(cw_divide_by_size(size_along, pair, from, to, (to - from) * length, 1, &made, &place));
+  double *grown = realloc(*places, (size_t)(*count + made) * sizeof **places);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places on an open edge", *count + made);
   *places = grown;
-  for (int k = 1; k < whole; k++) {
-    double wanted = edges[SIZE_STEPS] * k / whole;
-    while (step < SIZE_STEPS - 1 && edges[step + 1] < wanted) step++;
-    double part = (wanted - edges[step]) / (edges[step + 1] - edges[step]);
-    grown[(*count)++] = from + (to - from) * (step + part) / SIZE_STEPS;
-  }
+  for (int32_t k = 1; k + 1 < made; k++) grown[(*count)++] = place[k];
 done:
+  free(place);
   return status;
 }
 
 static CwStatus add_open_edge(const Pair *pair, int side, int place_count, const double *places, int break_count,
                               const Break *breaks) {
   CwStatus status = CW_OK;
-  CwBoundary *boundary = pair->boundary[side];
-  CwDividedEdge *grown = realloc(boundary->open_edge, (size_t)(boundary->open_edge_count + 1) * sizeof *grown);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d open edges", boundary->open_edge_count + 1);
-  boundary->open_edge = grown;
-  CwDividedEdge *open_edge = &grown[boundary->open_edge_count++];
+  CwOpenEdges *edges = pair->edges[side];
+  CwDividedEdge *grown = realloc(edges->edge, (size_t)(edges->count + 1) * sizeof *grown);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d open edges", edges->count + 1);
+  edges->edge = grown;
+  CwDividedEdge *open_edge = &grown[edges->count++];
   *open_edge = (CwDividedEdge){.edge = pair->edge[side]};
   CW_NEW(open_edge->t, place_count + break_count);
   for (int i = 0; i < place_count; i++) open_edge->t[open_edge->count++] = parameter_at(pair, side, places[i]);
@@ -161,8 +159,8 @@ static CwStatus couple_edge(const Pair *pair) {
   double *places = NULL, length = 0, x[2][3];
   int break_count = 0, place_count = 0;
   point_at(pair, 0, 0, x[0]);
-  for (int i = 1; i <= SIZE_STEPS; i++) {
-    point_at(pair, 0, (double)i / SIZE_STEPS, x[i % 2]);
+  for (int i = 1; i <= LENGTH_STEPS; i++) {
+    point_at(pair, 0, (double)i / LENGTH_STEPS, x[i % 2]);
     length += cw_distance(x[0], x[1]);
   }
   CW_TRY(find_breaks(pair, length, &break_count, &breaks));
@@ -171,7 +169,7 @@ static CwStatus couple_edge(const Pair *pair) {
   }
   for (int side = 0; side < 2; side++) {
     CW_TRY(add_open_edge(pair, side, place_count, places, break_count, breaks));
-    CwDividedEdge *open_edge = &pair->boundary[side]->open_edge[pair->boundary[side]->open_edge_count - 1];
+    CwDividedEdge *open_edge = &pair->edges[side]->edge[pair->edges[side]->count - 1];
     qsort(open_edge->t, (size_t)open_edge->count, sizeof *open_edge->t, compare_doubles);
   }
 done:
@@ -180,13 +178,14 @@ done:
   return status;
 }
 
-CwStatus cw_couple_open_edges(CwBoundary *a, const char *patch_a, CwBoundary *b, const char *patch_b) {
+CwStatus cw_couple_open_edges(const CwBoundaryInput *a, const char *patch_a, CwOpenEdges *edges_a,
+                              const CwBoundaryInput *b, const char *patch_b, CwOpenEdges *edges_b) {
   CwStatus status = CW_OK;
   const double near = cw_cad_tolerance(a->cad) + cw_cad_tolerance(b->cad);
   for (int32_t e = 0; e < cw_cad_edge_count(a->cad); e++) {
     if (!on_patch(a->cad, e, patch_a)) continue;
     for (int32_t f = 0; f < cw_cad_edge_count(b->cad); f++) {
-      Pair pair = {{a, b}, {e, f}, 0};
+      Pair pair = {{a, b}, {edges_a, edges_b}, {e, f}, 0};
       if (!on_patch(b->cad, f, patch_b)) continue;
       if (!same_edge(&pair, near)) pair.reversed = 1;
       if (same_edge(&pair, near)) CW_TRY(couple_edge(&pair));

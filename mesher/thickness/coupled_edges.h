@@ -7,9 +7,10 @@
 
 #include "mesher/boundary/boundary.h"
 
-// Divides the edges along the patches `patch` of both boundaries, whose networks are made, and adds them to their open
-// edges. Edges without a partner on the other side are left alone: those of the cylinder between rotor and stator,
-// whose ends lie in planes that no division moves.
-CwStatus cw_couple_open_edges(CwBoundary *a, const char *patch_a, CwBoundary *b, const char *patch_b);
+// Divides the edges along these patches of both domains, and adds them to `edges_a` and `edges_b`. Edges without a
+// partner on the other side are left alone: those of the cylinder between rotor and stator, whose ends lie in planes
+// that no division moves.
+CwStatus cw_couple_open_edges(const CwBoundaryInput *a, const char *patch_a, CwOpenEdges *edges_a,
+                              const CwBoundaryInput *b, const char *patch_b, CwOpenEdges *edges_b);
 
 #endif

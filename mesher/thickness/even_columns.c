@@ -16,20 +16,20 @@ static const double MORE = 1.09; // of the first height asked, at most: within t
 static const double LEAN = 20;   // a right prism of so many times LEAST: columns do not lean so much that it is small
 
 // First height of the column as divided, m; fraction: of its layers.
-static double divide(const CwColumnTargets *targets, const CwBoundary *boundary, int32_t v, double first,
+static double divide(const CwColumnTargets *targets, const CwLayers *layers, int32_t v, double first,
                      double *fraction) {
-  return cw_layer_fractions(boundary->layers.thickness[v], first, targets->layer_count, targets->growth[v], fraction);
+  return cw_layer_fractions(layers->thickness[v], first, targets->layer_count, targets->growth[v], fraction);
 }
 
-void cw_column_determinants(const CwColumnTargets *targets, const CwBoundary *boundary, int32_t t,
-                            const double first[3], double *determinant) {
+void cw_column_determinants(const CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers,
+                            int32_t t, const double first[3], double *determinant) {
   double fraction[3][CW_LAYERS_MOST + 1], x[2][3][3];
-  for (int k = 0; k < 3; k++) divide(targets, boundary, boundary->layers.triangle[t][k], first[k], fraction[k]);
+  for (int k = 0; k < 3; k++) divide(targets, layers, layers->triangle[t][k], first[k], fraction[k]);
   for (int level = 0; level <= targets->layer_count; level++) {
     double(*base)[3] = x[(level + 1) % 2], (*top)[3] = x[level % 2];
     for (int k = 0; k < 3; k++) {
-      int32_t v = boundary->layers.triangle[t][k];
-      cw_lerp(boundary->surface.x[v], boundary->layers.top[v], fraction[k][level], top[k]);
+      int32_t v = layers->triangle[t][k];
+      cw_lerp(surface->x[v], layers->top[v], fraction[k][level], top[k]);
     }
     if (level > 0)
       determinant[level - 1] = cw_prism_determinant((const double(*)[3])base, (const double(*)[3])top, level == 1);
@@ -41,7 +41,8 @@ void cw_column_determinants(const CwColumnTargets *targets, const CwBoundary *bo
 typedef enum { FIXED, LEFT, SMALL } Judgement;
 
 typedef struct {
-  const CwBoundary *boundary;
+  const CwSurfaceMesh *surface;
+  const CwLayers *layers;
   const CwColumnTargets *targets;
   const int32_t *triangle; // to judge; NULL: all
 } Columns;
@@ -49,14 +50,14 @@ typedef struct {
 // First height of the column as even as it may become.
 static double even_first(const Columns *columns, int32_t v) {
   const CwColumnTargets *targets = columns->targets;
-  double even = columns->boundary->layers.thickness[v] / targets->layer_count, asked = targets->first_height[v];
+  double even = columns->layers->thickness[v] / targets->layer_count, asked = targets->first_height[v];
   return even < asked ? even : fmin(even, MORE * asked);
 }
 
 // Least determinant of the prisms over a wall triangle whose columns have these first heights.
 static double least_determinant(const Columns *columns, int32_t t, const double first[3]) {
   double determinant[CW_LAYERS_MOST], least = INFINITY;
-  cw_column_determinants(columns->targets, columns->boundary, t, first, determinant);
+  cw_column_determinants(columns->targets, columns->surface, columns->layers, t, first, determinant);
   for (int k = 0; k < columns->targets->layer_count; k++) least = fmin(least, determinant[k]);
   return least;
 }
@@ -64,13 +65,14 @@ static double least_determinant(const Columns *columns, int32_t t, const double 
 // Whether the layers over a wall triangle grow, and from first heights so great that no prism can be small.
 static int is_thick(const Columns *columns, int32_t t) {
   const CwColumnTargets *targets = columns->targets;
-  const CwBoundary *boundary = columns->boundary;
-  const int32_t *corner = boundary->layers.triangle[t];
+  const CwSurfaceMesh *surface = columns->surface;
+  const CwLayers *layers = columns->layers;
+  const int32_t *corner = layers->triangle[t];
   double first = INFINITY, base[3][3], top[3][3], normal[3];
   for (int k = 0; k < 3; k++) {
-    if (boundary->layers.thickness[corner[k]] < targets->layer_count * targets->first_height[corner[k]]) return 0;
+    if (layers->thickness[corner[k]] < targets->layer_count * targets->first_height[corner[k]]) return 0;
     first = fmin(first, targets->first_height[corner[k]]);
-    cw_copy(boundary->surface.x[corner[k]], base[k]);
+    cw_copy(surface->x[corner[k]], base[k]);
   }
   cw_normal(base[0], base[1], base[2], normal);
   cw_unit(normal);
@@ -83,12 +85,13 @@ static int is_thick(const Columns *columns, int32_t t) {
 // Copies are as their first.
 static CwStatus judge(void *context, int32_t i, void *out) {
   const Columns *columns = context;
-  const CwBoundary *boundary = columns->boundary;
+  const CwSurfaceMesh *surface = columns->surface;
+  const CwLayers *layers = columns->layers;
   uint8_t *made = out;
   int32_t t = columns->triangle ? columns->triangle[i] : i;
-  const int32_t *corner = boundary->layers.triangle[t];
+  const int32_t *corner = layers->triangle[t];
   double first[3];
-  if (boundary->surface.source[t] != t) return CW_OK;
+  if (surface->source[t] != t) return CW_OK;
   if (is_thick(columns, t)) return CW_OK;
   *made = LEFT;
   for (int k = 0; k < 3; k++) first[k] = columns->targets->first_made[corner[k]];
@@ -101,16 +104,15 @@ static CwStatus judge(void *context, int32_t i, void *out) {
 // Evens the columns at the corners of small ones out, alike in all copies. Returns how many changed.
 static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *first_made) {
   double fraction[CW_LAYERS_MOST + 1];
-  const CwNodeImages *nodes = &columns->boundary->surface.images;
+  const CwNodeImages *nodes = &columns->surface->images;
   int32_t changed = 0;
-  for (int32_t v = 0; v < columns->boundary->surface.vertex_count; v++) {
+  for (int32_t v = 0; v < columns->surface->vertex_count; v++) {
     if (cw_image_node_turns(nodes, v) > 0) continue;
     int marked = mark[v];
     for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1))
       marked |= mark[at];
     if (!marked) continue;
-    double even = even_first(columns, v),
-           made = divide(columns->targets, columns->boundary, v, first_made[v], fraction);
+    double even = even_first(columns, v), made = divide(columns->targets, columns->layers, v, first_made[v], fraction);
     double next = even < made ? fmax((1 - STEP) * made, even) : fmin((1 + STEP) * made, even);
     changed += next != first_made[v];
     first_made[v] = next;
@@ -120,16 +122,15 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
   return changed;
 }
 
-CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwBoundary *boundary) {
+CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers) {
   CwStatus status = CW_OK;
-  Columns columns = {boundary, targets, NULL};
-  int32_t *list = NULL, count = boundary->surface.triangle_count, kept = 0, changed;
+  Columns columns = {surface, layers, targets, NULL};
+  int32_t *list = NULL, count = surface->triangle_count, kept = 0, changed;
   uint8_t *judgement = NULL, *mark = NULL;
-  CW_NEW_UNSET(targets->first_made, boundary->surface.vertex_count);
-  memcpy(targets->first_made, targets->first_height,
-         (size_t)boundary->surface.vertex_count * sizeof *targets->first_made);
+  CW_NEW_UNSET(targets->first_made, surface->vertex_count);
+  memcpy(targets->first_made, targets->first_height, (size_t)surface->vertex_count * sizeof *targets->first_made);
   CW_NEW(judgement, count);
-  CW_NEW(mark, boundary->surface.vertex_count);
+  CW_NEW(mark, surface->vertex_count);
   CW_NEW_UNSET(list, count);
   CW_TRY(cw_parallel_for("thicknesses: small prisms", count, sizeof *judgement, judge, &columns, judgement));
   for (int32_t t = 0; t < count; t++) {
@@ -139,9 +140,9 @@ CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwBoundary *boun
   }
   columns.triangle = list;
   do {
-    memset(mark, 0, (size_t)boundary->surface.vertex_count);
+    memset(mark, 0, (size_t)surface->vertex_count);
     for (int32_t i = 0; i < kept; i++) {
-      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[boundary->layers.triangle[list[i]][k]] = 1;
+      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[layers->triangle[list[i]][k]] = 1;
     }
     changed = even_marked(&columns, mark, targets->first_made);
     if (changed)

@@ -10,12 +10,12 @@
 
 // checkMesh's determinants of the prisms over a wall triangle, from the wall on, whose columns are divided by these
 // first heights (m).
-void cw_column_determinants(const CwColumnTargets *targets, const CwBoundary *boundary, int32_t t,
-                            const double first[3], double *determinant);
+void cw_column_determinants(const CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers,
+                            int32_t t, const double first[3], double *determinant);
 
 // Sets first_made of all columns, once they stand: the first height or, around prisms of small determinants that more
 // even layers cure, less in short columns and up to 1.09 times as much in others, in steps of a twentieth until they
 // do. Periodic images get that of their first. Collective.
-CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwBoundary *boundary);
+CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers);
 
 #endif

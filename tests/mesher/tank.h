@@ -19,12 +19,12 @@
 #include <gp_Pln.hxx>
 
 extern "C" {
-#include "mesher/boundary/boundary.h"
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/plan/sector_plan.h"
 }
 
+#include "domain_surfaces.h"
 #include "solids.h"
 
 inline double even_size(const void *, const double *) {
@@ -96,7 +96,7 @@ struct Tank {
   std::vector<CwPlanNode> node;
   std::vector<double> none;
   CwPlan plan;
-  CwBoundary boundary = {};
+  DomainSurfaces boundary;
   CwOutcome outcome = {};
 
   // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24
@@ -119,15 +119,15 @@ struct Tank {
     }
     none.assign(node.size(), 0);
     plan = {(int)node.size(), 1 + each * count, node.data(), none.data(), none.data(), 1, count, 1, n};
-    boundary.cad = cad;
-    boundary.plan = &plan;
-    boundary.size_at = even_size;
+    boundary.input.cad = cad;
+    boundary.input.plan = &plan;
+    boundary.input.size_at = even_size;
     check(cw_network_make(cad, &background, inside, &plan, &boundary.network, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     boundary.images.symmetry = symmetry;
   }
   ~Tank() {
-    cw_boundary_free(&boundary);
+    boundary.free();
     cw_symmetry_free(&symmetry);
     cw_inside_free(&inside);
     cw_background_free(&background);

@@ -21,10 +21,10 @@ extern "C" {
 #include "mesher/region/region_build.h"
 #include "mesher/region/region_failure.h"
 #include "mesher/region/region_number.h"
-#include "mesher/boundary/boundary.h"
 #include "mesher/cad/background_make.h"
 }
 
+#include "domain_surfaces.h"
 #include "shared_points.h"
 
 static double even_size(const void *, const double *) {
@@ -44,7 +44,7 @@ struct Box {
   CwPlanNode node[3];
   double none[4] = {0, 0, 0, 0};
   CwPlan plan;
-  CwBoundary boundary;
+  DomainSurfaces boundary;
   CwOutcome outcome = {};
 
   explicit Box(int nodes, double across = 0.009, const TopoDS_Shape &solid = BRepPrimAPI_MakeBox(40, 30, 20).Shape())
@@ -66,15 +66,14 @@ struct Box {
     assert_int_equal(
         cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
         CW_OK);
-    boundary = {};
-    boundary.cad = cad;
-    boundary.plan = &plan;
-    boundary.size_at = even_size;
+    boundary.input.cad = cad;
+    boundary.input.plan = &plan;
+    boundary.input.size_at = even_size;
     check(cw_network_make(cad, &background, inside, &plan, &boundary.network, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
   }
   ~Box() {
-    cw_boundary_free(&boundary);
+    boundary.free();
     cw_inside_free(&inside);
     cw_background_free(&background);
     cw_cad_close(&cad);
@@ -131,20 +130,21 @@ static void curves_lie_on_their_planes(void **) {
 }
 
 // The rule of region numbers on interfaces that were meshed for a coarser size field than that of the fill.
-static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
+static void refine_interfaces(DomainSurfaces &boundary, const int32_t *number) {
+  const CwRegionInput from = boundary.regions();
   std::vector<void *> refined(4, nullptr);
   std::vector<int> inserted(4, 0);
   int64_t size;
   CwInterfaceRuleCounts counts;
   int nodes = boundary.interfaces.nodes.count;
-  boundary.size_at = finer_size;
+  boundary.input.size_at = finer_size;
   for (int i = 0; i < boundary.interfaces.outline_count; i++) {
     const int32_t *region = boundary.interfaces.refined.region[boundary.interfaces.outline[i].triangle_start];
-    int owner = cw_interface_owner(&boundary, number, i), other = owner == region[0] ? region[1] : region[0];
+    int owner = cw_interface_owner(&boundary.interfaces, number, i), other = owner == region[0] ? region[1] : region[0];
     assert_true(owner == region[0] || owner == region[1]);
     assert_true(number[owner] < number[other]);
   }
-  for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&boundary, number, r, "box", &refined[r], &size));
+  for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&from, number, r, "box", &refined[r], &size));
   Box::check(cw_interface_rule_merge(&boundary.interfaces, 4, refined.data(), &counts));
   assert_true(counts.encroached > 20);
   assert_true(counts.inserted > 20);
@@ -157,8 +157,9 @@ static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
     const CwInterfaceOutline &interface = boundary.interfaces.outline[i];
     for (int t = 0; t < interface.refined_count; t++) {
       for (int node : boundary.interfaces.refined.triangle[interface.refined_start + t]) {
-        assert_near(cw_plane_distance(&boundary.plan->node[interface.node].plane, boundary.interfaces.nodes.x[node]), 0,
-                    1e-12);
+        assert_near(
+            cw_plane_distance(&boundary.input.plan->node[interface.node].plane, boundary.interfaces.nodes.x[node]), 0,
+            1e-12);
       }
     }
   }
@@ -167,7 +168,7 @@ static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
     int32_t count;
     double(*x)[3];
     CwLatticeSite *site;
-    Box::check(cw_interface_rule_points(&boundary, r, "box", &count, &x, &site));
+    Box::check(cw_interface_rule_points(&from, r, "box", &count, &x, &site));
     assert_true(count > 100);
     for (int t = 0; t < boundary.interfaces.refined.count; t++) {
       if (boundary.interfaces.refined.region[t][0] != r && boundary.interfaces.refined.region[t][1] != r) continue;
@@ -198,27 +199,28 @@ static void refine_interfaces(CwBoundary &boundary, const int32_t *number) {
 }
 
 static void make_walls(Box &box) {
-  CwBoundary &boundary = box.boundary;
+  DomainSurfaces &boundary = box.boundary;
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr);
   int64_t size;
-  Box::check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
+  Box::check(cw_wall_curves_make(&boundary.input, &boundary.open_edges, &boundary.wall_curves));
   Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
-    if (cw_cad_face_is_wall(box.cad, f)) Box::check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
+    if (cw_cad_face_is_wall(box.cad, f))
+      Box::check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  Box::check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
+  Box::check(cw_surface_mesh_make(&boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   for (void *bytes : walls) free(bytes);
 }
 
 // Walls, and layers of 1.5 mm on them.
 static void make_layers(Box &box) {
-  CwBoundary &boundary = box.boundary;
+  DomainSurfaces &boundary = box.boundary;
   make_walls(box);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  Box::check(
-      cw_boundary_grow(&boundary, &box.background, target.data(), nullptr, nullptr, &boundary.layers, &box.outcome));
+  Box::check(cw_boundary_grow(&boundary.input, &boundary.surface, &box.background, target.data(), nullptr, nullptr,
+                              &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
 }
@@ -226,15 +228,16 @@ static void make_layers(Box &box) {
 // The line of planes 0 and 2 runs a millimetre above a wall, and the layer top there above the line.
 static void layers_that_cross_a_line_are_found(void **) {
   Box box(3, 0.001);
-  const CwBoundary &boundary = box.boundary;
+  DomainSurfaces &boundary = box.boundary;
   make_layers(box);
-  Box::check(cw_boundary_free_curves(&boundary, &box.boundary.interfaces, &box.outcome));
+  Box::check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
+                                 &boundary.free_curves, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
   assert_near(box.outcome.place[0], 0.021, 1e-9);
-  assert_true(boundary.interfaces.tight_count > 0);
-  for (int i = 0; i < boundary.interfaces.tight_count; i++) {
-    assert_near(boundary.interfaces.tight[i][0], 0.021, 1e-9);
-    assert_true(boundary.interfaces.tight[i][2] < 1.6e-3);
+  assert_true(boundary.free_curves.tight_count > 0);
+  for (int i = 0; i < boundary.free_curves.tight_count; i++) {
+    assert_near(boundary.free_curves.tight[i][0], 0.021, 1e-9);
+    assert_true(boundary.free_curves.tight[i][2] < 1.6e-3);
   }
 }
 
@@ -264,8 +267,8 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
       BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(10, 30, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)), 8, 20, M_PI).Shape();
   TopoDS_Shape post = BRepPrimAPI_MakeBox(gp_Pnt(9, 32, 0), 2, 5.7, 20).Shape();
   Box box(1, 0.009, BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), bay).Shape(), post));
-  CwBoundary &boundary = box.boundary;
-  boundary.size_at = [](const void *, const double *) { return 9e-3; };
+  DomainSurfaces &boundary = box.boundary;
+  boundary.input.size_at = [](const void *, const double *) { return 9e-3; };
   make_walls(box);
   int arcs = 0;
   for (int i = 0; i < boundary.network.curve_count; i++) {
@@ -285,7 +288,7 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
 
 // All surfaces of the box, as far as the inner ones.
 static void make_surfaces(Box &box) {
-  CwBoundary &boundary = box.boundary;
+  DomainSurfaces &boundary = box.boundary;
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> open_patches(faces, nullptr), interfaces;
   int64_t size;
@@ -297,17 +300,20 @@ static void make_surfaces(Box &box) {
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
     }
   }
-  Box::check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &box.outcome));
+  Box::check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
+                                 &boundary.free_curves, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (!cw_cad_face_is_wall(box.cad, f))
-      Box::check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
+      Box::check(cw_interfaces_open_patch(&boundary.input, &boundary.wall_curves, &boundary.free_curves, f,
+                                          &open_patches[f], &size));
   }
-  interfaces.resize(boundary.interfaces.outline_count);
-  for (int i = 0; i < boundary.interfaces.outline_count; i++) {
-    Box::check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
+  interfaces.resize(boundary.free_curves.outline_count);
+  for (int i = 0; i < boundary.free_curves.outline_count; i++) {
+    Box::check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
   }
-  Box::check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data(), &boundary.interfaces));
+  Box::check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
+                                &boundary.interfaces));
   Box::check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
   for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);
@@ -317,19 +323,19 @@ static void make_surfaces(Box &box) {
 // bit.
 static void fill_the_box(int rule) {
   Box box(3);
-  CwBoundary &boundary = box.boundary;
+  DomainSurfaces &boundary = box.boundary;
   make_surfaces(box);
   assert_int_equal(boundary.interfaces.outline_count, 6); // four pieces of plane 0, one of each other
   std::vector<double> first(boundary.surface.vertex_count, 2e-4);
   int pair_count, colours, number[4];
   int32_t(*pair)[2];
-  Box::check(cw_boundary_adjacency(&boundary, &pair_count, &pair));
+  Box::check(cw_interfaces_adjacency(&boundary.interfaces, 4, &pair_count, &pair));
   assert_int_equal(pair_count, 6); // all four regions touch one another on plane 0
   Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
   if (rule) refine_interfaces(boundary, number);
   Box::check(cw_interfaces_audit(&boundary.interfaces, 4));
   CwRegionContext context = {};
-  context.boundary = &boundary;
+  context.from = boundary.regions();
   context.domain = "box";
   context.layer_count = 4;
   std::vector<double> growth(boundary.surface.vertex_count, 1.5);
@@ -371,7 +377,8 @@ static void regions_fill_the_box_by_the_rule(void **) {
 
 // The file of a failed region: as many points and triangles as the boundary of region 0 has, all kinds of surface, some
 // crossing.
-static void check_failure_file(const CwBoundary &boundary, const std::string &path) {
+static void check_failure_file(const DomainSurfaces &boundary, const std::string &path) {
+  const CwRegionInput from = boundary.regions();
   std::ifstream file(path);
   std::string word;
   int points = 0, triangles = 0, of_surface[3] = {0, 0, 0}, crossing = 0;
@@ -395,7 +402,7 @@ static void check_failure_file(const CwBoundary &boundary, const std::string &pa
     crossing += one;
   }
   CwRegionBoundary inner;
-  Box::check(cw_region_boundary_make(&boundary, 0, 0, &inner));
+  Box::check(cw_region_boundary_make(&from, 0, 0, &inner));
   assert_int_equal(points, inner.node_count);
   assert_int_equal(of_surface[0], inner.wall_count);
   assert_int_equal(of_surface[1], inner.open_patch_count);
@@ -405,9 +412,10 @@ static void check_failure_file(const CwBoundary &boundary, const std::string &pa
 }
 
 // Columns of `boundary` near the failed place are thinned, and no others; or all of region 0.
-static void check_thinning(const CwBoundary &boundary, CwRegionFailure failure) {
+static void check_thinning(const DomainSurfaces &boundary, CwRegionFailure failure) {
+  const CwRegionInput from = boundary.regions();
   std::vector<double> most(boundary.surface.vertex_count, INFINITY);
-  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
+  cw_region_failure_thin(&from, 0, &failure, 4, most.data());
   int thinned = 0;
   for (int v = 0; v < boundary.surface.vertex_count; v++) {
     if (cw_distance(boundary.layers.top[v], failure.at) < 4 * 2.5e-3) {
@@ -419,7 +427,7 @@ static void check_thinning(const CwBoundary &boundary, CwRegionFailure failure) 
   }
   assert_true(thinned > 3 && thinned < boundary.surface.vertex_count / 2);
   failure.everywhere = 1;
-  cw_region_failure_thin(&boundary, 0, &failure, 4, most.data());
+  cw_region_failure_thin(&from, 0, &failure, 4, most.data());
   for (int t = 0; t < boundary.surface.triangle_count; t++) {
     for (int v : boundary.layers.triangle[t]) {
       if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
@@ -431,7 +439,7 @@ static void check_thinning(const CwBoundary &boundary, CwRegionFailure failure) 
 // boundary is kept, and columns there are thinned and no others.
 static void a_crossing_boundary_is_examined(void **) {
   Box box(1);
-  CwBoundary &boundary = box.boundary;
+  DomainSurfaces &boundary = box.boundary;
   make_surfaces(box);
   int best = -1;
   const double from[3] = {0.0195, 0.015, 0.0185}; // on the layer top under the upper side, before the plane
@@ -445,7 +453,7 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(through, boundary.interfaces.nodes.x[best]);
   std::vector<double> first(boundary.surface.vertex_count, 2e-4);
   CwRegionContext context = {};
-  context.boundary = &boundary;
+  context.from = boundary.regions();
   context.domain = "box";
   context.layer_count = 4;
   std::vector<double> growth(boundary.surface.vertex_count, 1.5);
@@ -454,9 +462,10 @@ static void a_crossing_boundary_is_examined(void **) {
   Box::check(cw_region_context_make(&context));
   CwRegionMesh mesh;
   assert_int_equal(cw_region_build(&context, 0, 1, &mesh), CW_ERR_MESH);
+  const CwRegionInput regions = boundary.regions();
   std::string message = cw_fail_message(), path = "failed-box-0001.vtk";
   CwRegionFailure failure;
-  Box::check(cw_region_failure_examine(&boundary, 0, message.c_str(), path.c_str(), &failure));
+  Box::check(cw_region_failure_examine(&regions, 0, message.c_str(), path.c_str(), &failure));
   assert_int_equal(failure.failed, 1);
   assert_int_equal(failure.everywhere, 0);
   assert_string_equal(failure.message, message.c_str());
@@ -470,7 +479,7 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
   boundary.layers.top[best][2] -= 1.5e-3;
   cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
-  Box::check(cw_region_failure_examine(&boundary, 0, "none", path.c_str(), &failure));
+  Box::check(cw_region_failure_examine(&regions, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
   cw_region_context_free(&context);
   std::remove(path.c_str());

@@ -23,7 +23,8 @@ typedef struct {
   FlatRing flat;
   double top[POINTS][3], thickness[POINTS], target[POINTS], least[POINTS];
   uint8_t reason[POINTS];
-  CwBoundary boundary;
+  CwPeriodicImages images;
+  CwSurfaceMesh surface;
   CwLayers layers;
   CwLayerInput wall;
 } Ring;
@@ -41,13 +42,13 @@ static void make_ring(Ring *ring, int i, double low, double least) {
   for (int k = 0; k < PASSAGES; k++)
     for (int j = 5; j <= 6; j++) ring->thickness[ring_point(k * OF_PASSAGE + i, j)] = low;
   for (int32_t v = 0; v < POINTS; v++) ring->top[v][2] = ring->thickness[v];
-  ring->boundary = (CwBoundary){.surface.vertex_count = POINTS,
-                                .surface.x = flat->x,
-                                .surface.triangle_count = TRIANGLES,
-                                .surface.triangle = flat->triangle,
-                                .surface.source = flat->source,
-                                .surface.images = ring_images(flat),
-                                .images.symmetry = &flat->symmetry};
+  ring->images = (CwPeriodicImages){.symmetry = &flat->symmetry};
+  ring->surface = (CwSurfaceMesh){.vertex_count = POINTS,
+                                  .x = flat->x,
+                                  .triangle_count = TRIANGLES,
+                                  .triangle = flat->triangle,
+                                  .source = flat->source,
+                                  .images = ring_images(flat)};
   ring->layers =
       (CwLayers){.column_count = POINTS, .top = ring->top, .thickness = ring->thickness, .reason = ring->reason};
   ring->wall = (CwLayerInput){.point_count = POINTS,
@@ -90,7 +91,7 @@ static void concave_edges_are_opened(void **state) {
     make_ring(&ring, i, LOW, 0.5);
     double before = least_bound(&ring);
     assert_true(before < cw_policy.top_narrow);
-    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &ring.layers, &opened), CW_OK);
+    assert_int_equal(cw_open_concave_edges(&ring.images, &ring.surface, &ring.wall, &ring.layers, &opened), CW_OK);
     print_message("  narrow concave edge on ray %d: %.1f degrees, then %.1f by %d columns; prisms %.2f\n", i, before,
                   least_bound(&ring), opened, least_prism(&ring));
     assert_true(least_bound(&ring) >= cw_policy.top_narrow);
@@ -131,7 +132,7 @@ static void others_stay(void **state) {
     ring.wall.obstacle_triangle = triangle;
     before = ring;
     assert_true(open_patch ? least_bound(&ring) < cw_policy.top_narrow : least_bound(&ring) > 40);
-    assert_int_equal(cw_open_concave_edges(&ring.boundary, &ring.wall, &ring.layers, &opened), CW_OK);
+    assert_int_equal(cw_open_concave_edges(&ring.images, &ring.surface, &ring.wall, &ring.layers, &opened), CW_OK);
     assert_int_equal(opened, 0);
     assert_memory_equal(ring.top, before.top, sizeof ring.top);
     assert_memory_equal(ring.thickness, before.thickness, sizeof ring.thickness);

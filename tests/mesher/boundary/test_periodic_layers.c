@@ -36,8 +36,8 @@ static void seams_get_the_sounder_column(void **state) {
     const double across[2][3] = {{-out[1], out[0], 0}, {0.6 * out[0], 0.6 * out[1], -0.8}};
     memcpy(constraint[held], across, sizeof across);
     constraints[held] = 2;
-    CwBoundary boundary = {
-        .surface.source = ring.source, .surface.images = ring_images(&ring), .images.symmetry = &ring.symmetry};
+    CwPeriodicImages images = {.symmetry = &ring.symmetry};
+    CwSurfaceMesh surface = {.source = ring.source, .images = ring_images(&ring)};
     CwLayerInput in = {.point_count = POINTS,
                        .x = x,
                        .triangle_count = TRIANGLES,
@@ -49,7 +49,7 @@ static void seams_get_the_sounder_column(void **state) {
                        .snap = leave};
     CwLayers layers;
     CwOutcome outcome = {0};
-    assert_int_equal(cw_image_layers(&boundary, &in, &layers, &outcome), CW_OK);
+    assert_int_equal(cw_image_layers(&images, &surface, &in, &layers, &outcome), CW_OK);
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     for (int k = 0; k < PASSAGES; k++) {
       int32_t v = ring_point(k * OF_PASSAGE, middle);

@@ -8,7 +8,7 @@ extern "C" {
 
 static void network_is_its_own_copy(void **) {
   Tank tank(5, 2, true);
-  CwBoundary &boundary = tank.boundary;
+  DomainSurfaces &boundary = tank.boundary;
   check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   const CwImages &images = boundary.images.curve;

@@ -11,6 +11,7 @@ extern "C" {
 }
 
 #include "mesher/common/vec.h"
+#include "domain_surfaces.h"
 #include "solids.h"
 
 namespace {
@@ -30,7 +31,7 @@ std::string by_kind(const TopoDS_Face &face) {
 // The open edge on the floor as the curve network has it, with one column on each of its nodes.
 struct OpenEdge {
   CwCad *cad;
-  CwBoundary boundary = {};
+  DomainSurfaces boundary;
   CwCurve curve = {};
   CwOpenEdgePlaces places = {};
   std::vector<int32_t> node;
@@ -40,7 +41,7 @@ struct OpenEdge {
 
   // On the first four fifths of the open edge, so that columns may lean along it by `lean`, rad.
   OpenEdge(const TopoDS_Shape &solid, double lean) : cad(open_solid(solid, by_kind)) {
-    boundary.cad = cad;
+    boundary.input.cad = cad;
     curve.kind = CW_CURVE_EDGE;
     curve.wall = 1;
     curve.edge = find_open_edge();
@@ -71,7 +72,8 @@ struct OpenEdge {
     boundary.surface.x = wall;
     boundary.layers.top = top;
     boundary.surface.constraint = constraint;
-    assert_int_equal(cw_open_edge_places_make(&boundary, &places), CW_OK);
+    const CwRegionInput from = boundary.regions();
+    assert_int_equal(cw_open_edge_places_make(&from, &places), CW_OK);
   }
   ~OpenEdge() {
     cw_open_edge_places_free(&places);
@@ -98,7 +100,8 @@ void check_columns(const TopoDS_Shape &solid) {
   for (int i = 0; i < NODES; i++) {
     for (double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       double x[3], chord[3];
-      cw_column_place(&open_edge.boundary, &open_edge.places, i, share, x);
+      const CwRegionInput from = open_edge.boundary.regions();
+      cw_column_place(&from, &open_edge.places, i, share, x);
       cw_lerp(open_edge.wall[i], open_edge.top[i], share, chord);
       assert_near(std::hypot(x[0], x[1]), radius, 1e-14);
       assert_near(x[2], chord[2], 1e-9);

@@ -13,36 +13,42 @@ extern "C" {
 // Surfaces of a tank of five sectors: those of the first of each image set are made, the others copied. The layers
 // are periodic.
 static void make_surfaces(Tank &tank, bool divided) {
-  CwBoundary &boundary = tank.boundary;
+  DomainSurfaces &boundary = tank.boundary;
   const CwPeriodicImages &images = boundary.images;
   const int faces = cw_cad_face_count(tank.cad);
   std::vector<void *> walls(faces, nullptr), open_patches(faces, nullptr), interfaces;
   int64_t size;
   check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
-  check(cw_wall_curves_make(&boundary, &boundary.wall_curves));
+  check(cw_wall_curves_make(&boundary.input, &boundary.open_edges, &boundary.wall_curves));
   check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
-    if (cw_cad_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_wall(&boundary, f, &walls[f], &size));
+    if (cw_cad_face_is_wall(tank.cad, f))
+      check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  check(cw_surface_mesh_make(&boundary, walls.data(), &boundary.surface));
+  check(cw_surface_mesh_make(&boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  check(
-      cw_boundary_grow(&boundary, &tank.background, target.data(), nullptr, nullptr, &boundary.layers, &tank.outcome));
-  check(cw_boundary_free_curves(&boundary, &boundary.interfaces, &tank.outcome));
+  check(cw_boundary_grow(&boundary.input, &boundary.surface, &tank.background, target.data(), nullptr, nullptr,
+                         &boundary.layers, &tank.outcome));
+  check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
+                            &boundary.free_curves, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
+  check(cw_free_curves_audit(&boundary.free_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
-    if (!cw_cad_face_is_wall(tank.cad, f)) check(cw_boundary_mesh_open_patch(&boundary, f, &open_patches[f], &size));
+    if (!cw_cad_face_is_wall(tank.cad, f))
+      check(cw_interfaces_open_patch(&boundary.input, &boundary.wall_curves, &boundary.free_curves, f, &open_patches[f],
+                                     &size));
   }
-  assert_int_equal(boundary.interfaces.outline_count, divided ? 30 : 10);
-  interfaces.resize(boundary.interfaces.outline_count, nullptr);
-  for (int i = 0; i < boundary.interfaces.outline_count; i++) {
-    if (boundary.interfaces.outline_images.first[i] == i)
-      check(cw_boundary_mesh_interface(&boundary, i, &interfaces[i], &size));
+  assert_int_equal(boundary.free_curves.outline_count, divided ? 30 : 10);
+  interfaces.resize(boundary.free_curves.outline_count, nullptr);
+  for (int i = 0; i < boundary.free_curves.outline_count; i++) {
+    if (boundary.free_curves.outline_images.first[i] == i)
+      check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
   }
-  check(cw_boundary_merge_inner(&boundary, open_patches.data(), interfaces.data(), &boundary.interfaces));
+  check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
+                           &boundary.interfaces));
   check(cw_interfaces_audit(&boundary.interfaces, tank.plan.region_count));
   for (int v = 0; v < boundary.surface.vertex_count; v++) {
     const int next = cw_image_node(&boundary.surface.images, v, 1);
@@ -62,17 +68,17 @@ static void make_surfaces(Tank &tank, bool divided) {
 static void fill_the_tank(bool divided) {
   Tank tank(5, 1, divided);
   make_surfaces(tank, divided);
-  CwBoundary &boundary = tank.boundary;
+  DomainSurfaces &boundary = tank.boundary;
   std::vector<double> first(boundary.surface.vertex_count, 2e-4), growth(boundary.surface.vertex_count, 1.5);
   const int regions = tank.plan.region_count;
   int pair_count, colours;
   std::vector<int> number(regions);
   int32_t(*pair)[2];
-  check(cw_boundary_adjacency(&boundary, &pair_count, &pair));
+  check(cw_interfaces_adjacency(&boundary.interfaces, regions, &pair_count, &pair));
   assert_int_equal(pair_count, divided ? 30 : 10);
   check(cw_region_numbers(regions, pair_count, pair, number.data(), nullptr, &colours));
   CwRegionContext context = {};
-  context.boundary = &boundary;
+  context.from = boundary.regions();
   context.domain = "tank";
   context.layer_count = 4;
   context.growth = growth.data();

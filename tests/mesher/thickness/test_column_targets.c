@@ -16,10 +16,10 @@
 enum { MOST = 16 };
 
 typedef struct {
-  CwBoundary boundary;
+  CwPeriodicImages images;
+  CwBoundaryInput in;
+  CwSurfaceMesh surface;
   int32_t source[MOST], region_start[2], region_wall[MOST];
-  double thickness[MOST], top[MOST][3];
-  uint8_t reason[MOST];
   double size;
   CwIncident around;
 } Wall;
@@ -28,31 +28,22 @@ static double constant(const void *size, const double x[3]) {
   return *(const double *)size;
 }
 
-// All in one region, where edges are `size` long; columns of 7 stand upright on a wall normal to z.
+// All in one region, where edges are `size` long.
 static void make_wall(Wall *wall, double size, int points, double (*x)[3], int triangles, int32_t (*triangle)[3],
                       int32_t *face) {
   memset(wall, 0, sizeof *wall);
   wall->size = size;
   wall->region_start[1] = triangles;
   for (int t = 0; t < triangles; t++) wall->source[t] = wall->region_wall[t] = t;
-  wall->boundary = (CwBoundary){.size_at = constant,
-                                .size = &wall->size,
-                                .surface.vertex_count = points,
-                                .surface.x = x,
-                                .surface.triangle_count = triangles,
-                                .surface.triangle = triangle,
-                                .surface.face = face,
-                                .surface.source = wall->source,
-                                .surface.region_start = wall->region_start,
-                                .surface.region_triangle = wall->region_wall,
-                                .layers.top = wall->top,
-                                .layers.thickness = wall->thickness,
-                                .layers.reason = wall->reason};
-  for (int v = 0; v < points; v++) {
-    memcpy(wall->top[v], x[v], sizeof *x);
-    wall->top[v][2] -= 7;
-    wall->thickness[v] = 7;
-  }
+  wall->in = (CwBoundaryInput){.images = &wall->images, .size_at = constant, .size = &wall->size};
+  wall->surface = (CwSurfaceMesh){.vertex_count = points,
+                                  .x = x,
+                                  .triangle_count = triangles,
+                                  .triangle = triangle,
+                                  .face = face,
+                                  .region_start = wall->region_start,
+                                  .region_triangle = wall->region_wall,
+                                  .source = wall->source};
   assert_int_equal(cw_incident_make(points, triangles, (const int32_t(*)[3])triangle, &wall->around), CW_OK);
 }
 
@@ -105,7 +96,7 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   Wall wall;
   CwColumnTargets targets = {0};
   make_wall(&wall, 100, 8, x, 6, triangle, face);
-  assert_int_equal(cw_column_targets_make(&wall.boundary, &wall.around, layers, 3, &targets), CW_OK);
+  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
   // Three layers that grow by 1.1 are 3.31 times the first, and thicknesses rise by 0.3.
   for (int v = 0; v < 4; v++) NEAR(targets.first_height[v], 0.1);
   for (int v = 4; v < 8; v++) NEAR(targets.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1));
@@ -128,7 +119,7 @@ static double roof_height(double size, int fluid_above, double lift) {
     triangle[t][1] = triangle[t][2], triangle[t][2] = swap;
   }
   make_wall(&wall, size, 5, x, 4, triangle, face);
-  assert_int_equal(cw_column_targets_make(&wall.boundary, &wall.around, &DOUBLING, 3, &targets), CW_OK);
+  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, &DOUBLING, 3, &targets), CW_OK);
   double thickness = targets.target[0];
   free_wall(&wall, &targets);
   return thickness;
@@ -148,7 +139,7 @@ static void a_vertex_without_triangle_is_an_error(void **state) {
   Wall wall;
   CwColumnTargets targets = {0};
   make_wall(&wall, 100, 4, x, 1, square, square_face);
-  assert_int_equal(cw_column_targets_make(&wall.boundary, &wall.around, &DOUBLING, 3, &targets), CW_ERR_MESH);
+  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, &DOUBLING, 3, &targets), CW_ERR_MESH);
   free_wall(&wall, &targets);
 }
 
@@ -158,11 +149,11 @@ static void the_share_of_graded_columns(void **state) {
   CwColumnTargets targets = {0};
   double share = 0;
   make_wall(&wall, 100, 4, square_x, 2, square, square_face);
-  assert_int_equal(cw_column_targets_make(&wall.boundary, &wall.around, &layers, 2, &targets), CW_OK);
-  assert_int_equal(cw_column_targets_share(&targets, &wall.boundary, &wall.around, &layers, &share), CW_OK);
+  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, &layers, 2, &targets), CW_OK);
+  assert_int_equal(cw_column_targets_share(&targets, &wall.in, &wall.surface, &wall.around, &layers, &share), CW_OK);
   NEAR(share, 1);
   targets.target[0] = 1; // its neighbours come down to 1.3, the corner over the diagonal to 1 + 0.3 sqrt(2)
-  assert_int_equal(cw_column_targets_share(&targets, &wall.boundary, &wall.around, &layers, &share), CW_OK);
+  assert_int_equal(cw_column_targets_share(&targets, &wall.in, &wall.surface, &wall.around, &layers, &share), CW_OK);
   NEAR(share, (1 + 1.3 + 1 + 0.3 * sqrt(2)) / 3 / 2);
   free_wall(&wall, &targets);
 }

@@ -20,18 +20,13 @@ static void make(int layers, double asked, const double thickness[4], double mad
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, top[4][3];
   double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
   int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
-  CwBoundary boundary = {.surface.vertex_count = 4,
-                         .surface.x = x,
-                         .surface.triangle_count = 2,
-                         .layers.triangle = triangle,
-                         .surface.source = source,
-                         .layers.top = top,
-                         .layers.thickness = own};
+  CwSurfaceMesh surface = {.vertex_count = 4, .x = x, .triangle_count = 2, .source = source};
+  CwLayers columns = {.triangle = triangle, .top = top, .thickness = own};
   CwColumnTargets targets = {.layer_count = layers, .first_height = first, .growth = growth};
   memcpy(own, thickness, sizeof own);
   memcpy(top, x, sizeof top);
   for (int v = 0; v < 4; v++) top[v][2] = thickness[v];
-  assert_int_equal(cw_column_targets_even(&targets, &boundary), CW_OK);
+  assert_int_equal(cw_column_targets_even(&targets, &surface, &columns), CW_OK);
   memcpy(made, targets.first_made, sizeof own);
   targets.first_height = targets.growth = NULL;
   cw_column_targets_free(&targets);

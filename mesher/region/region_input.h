@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What regions are made from: the finished surfaces of a domain and what these follow from. Of the surfaces a region
+// needs what bounds it, and the layers that reach into it.
+#ifndef CUTWATER_MESHER_REGION_REGION_INPUT_H
+#define CUTWATER_MESHER_REGION_REGION_INPUT_H
+
+#include "mesher/boundary/boundary.h"
+
+typedef struct {
+  const CwBoundaryInput *in;
+  const CwWallCurves *wall_curves;
+  const CwSurfaceMesh *surface;
+  const CwLayers *layers;
+  const CwInterfaces *interfaces;
+} CwRegionInput;
+
+#endif
