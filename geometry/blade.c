@@ -230,8 +230,9 @@ CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian,
       const double along = ((y[0] - x[0]) * dx[0] + (y[1] - x[1]) * dx[1]) / speed;
       const double normal = ((y[0] - x[0]) * dx[1] - (y[1] - x[1]) * dx[0]) / speed;
       const double turned = x[0] * (cw_blade_theta(&off, p) - cw_blade_theta(&on, p));
-      // Part of the span's direction square to the foot but along the wall.
-      *least = fmin(*least, atan2(fabs(normal), fabs(along * c + turned * s)));
+      // Part of the span's direction square to the foot but along the wall. Round the nose, all that points upstream.
+      const int upstream = i == 0 && along * s < turned * c;
+      *least = fmin(*least, atan2(fabs(normal), upstream ? hypot(along, turned) : fabs(along * c + turned * s)));
     }
   }
 done:

@@ -23,7 +23,7 @@ class Maker {
 public:
   Maker(const CwDesign *from, const CwMeridian *section, double unit, CwBladeShape &of)
       : design(from), meridian(*section), scale(1 / unit), shape(of) {}
-  void make();
+  void make(double room);
   void make_seam(double room);
 
 private:
@@ -239,19 +239,16 @@ void Maker::points() {
   trailing_points(p_bevel);
 }
 
-void Maker::make() {
+void Maker::make(double room) {
   points();
   if (design->root_fillet_radius > 0) cw_root_fillets(design, &meridian, &shape);
   for (CwBladePatch *patch : shape.patches()) fill(*patch);
   for (int w : {CW_HUB, CW_SHROUD}) {
     const CwBladeOnWall on = cw_blade_on_wall(&meridian, w);
-    const CwBladePoint &tip = shape.leading.outline[w][shape.leading.u.size() / 2];
     const CwBladePoint &corner = shape.pressure.outline[w].back();
-    shape.theta_tip[w] = shape.theta_up[w] = tip.theta;
     shape.theta_corner[w] = corner.theta;
-    shape.t_tip[w] = cw_meridian_parameter(on.curve, on.begin + tip.q * on.length);
     shape.t_corner[w] = cw_meridian_parameter(on.curve, on.begin + corner.q * on.length);
-    if (shape.section[0].start > 0) guide_line(w, 2 * M_PI / design->blade_count);
+    guide_line(w, room);
   }
   for (double *theta : {shape.theta_corner, shape.theta_up})
     if (std::fabs(theta[CW_HUB] - theta[CW_SHROUD]) < level) theta[CW_HUB] = theta[CW_SHROUD];
@@ -303,7 +300,7 @@ private:
   double slope, turning, straightening; // of theta by length upstream; lengths
 };
 
-// From the nose of a splitter, or of a seam from the interface, upstream to the eye. The points are evenly spaced: with
+// From the nose, or of a seam from the interface, upstream to the eye. The points are evenly spaced: with
 // uneven ones the curve through them wriggles.
 void Maker::guide_line(int wall, double room) {
   const int fine = 8000, points = shape.seam ? 960 : 480; // a seam is longer and turns at both ends
@@ -313,7 +310,7 @@ void Maker::guide_line(int wall, double room) {
   // The tip of a root fillet's foot lies a little off the mean line.
   const CwBladePoint tip = shape.seam ? CwBladePoint{0, 0} : shape.leading.outline[wall][shape.leading.u.size() / 2];
   const double end = shape.seam ? cw_meridian_length(&curve, 1) : on.begin + tip.q * on.length;
-  const double off = shape.seam ? 0 : tip.theta - line.in_passage(tip.q);
+  const double off = shape.seam ? 0 : tip.theta - line.theta(end);
   const auto theta_at = [&](double at_length) {
     if (shape.seam) return line.theta_of_seam(at_length);
     return line.theta(at_length) + off * smooth_step((at_length / end - 0.8) / 0.2);
@@ -351,8 +348,9 @@ void Maker::guide_line(int wall, double room) {
 
 } // namespace
 
-void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, CwBladeShape *shape) {
-  Maker(design, meridian, unit, *shape).make();
+void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, double room,
+                      CwBladeShape *shape) {
+  Maker(design, meridian, unit, *shape).make(room);
 }
 
 void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double unit, double room, CwBladeShape *shape) {

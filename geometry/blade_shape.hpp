@@ -40,10 +40,9 @@ struct CwBladeShape {
   bool has_bevel, has_trailing;
   CwBladePatch pressure, suction, leading, bevel, trailing;
   double u_bevel;                       // last parameter of the suction side: where bevel or cut begins
-  double theta_tip[2], theta_corner[2]; // of the nose and of the pressure side's end
-  double t_tip[2], t_corner[2];         // the same along hub and shroud
-  // The line on the wall from the eye to the nose: of a blade the meridian, of a splitter along the passage
-  // between the blades, which a meridian would cross. theta_up is where it begins.
+  double theta_corner[2], t_corner[2]; // of the pressure side's end: angle, and place along hub and shroud
+  // The line on the wall from the eye to the nose. It arrives along the mean line, square to the nose: a meridian would
+  // meet it at the blade angle, and would cross the blades before a splitter. theta_up is where it begins.
   double theta_up[2];
   Handle(Geom2d_BSplineCurve) guide_on_wall[2];
   Handle(Geom_BSplineCurve) guide[2];

@@ -13,14 +13,23 @@
 
 static const double degree = M_PI / 180;
 
-static json_t *solid_json(const CwMeasuredSolid *solid) {
-  return json_pack("{s:b, s:b, s:i, s:f, s:f}", "valid", solid->valid, "closed", solid->closed, "faces",
-                   solid->face_count, "largest_tolerance_m", solid->largest_tolerance, "volume_m3", solid->volume);
-}
-
 static json_t *angle_json(const CwMeasuredAngle *angle) {
   return json_pack("{s:f, s:[f,f,f]}", "angle_deg", angle->angle / degree, "at_m", angle->at[0], angle->at[1],
                    angle->at[2]);
+}
+
+static json_t *solid_json(const CwMeasuredSolid *solid) {
+  return json_pack("{s:b, s:b, s:i, s:f, s:f, s:f, s:f, s:o, s:o, s:o}",     //
+                   "valid", solid->valid,                                    //
+                   "closed", solid->closed,                                  //
+                   "faces", solid->face_count,                               //
+                   "largest_tolerance_m", solid->largest_tolerance,          //
+                   "volume_m3", solid->volume,                               //
+                   "shortest_edge_m", solid->shortest_edge,                  //
+                   "narrowest_face_m", solid->narrowest_face,                //
+                   "sharpest_edge_of_fluid", angle_json(&solid->fluid_edge), //
+                   "sharpest_edge_of_wall", angle_json(&solid->wall_edge),   //
+                   "sharpest_corner", angle_json(&solid->corner));
 }
 
 json_t *cw_measured_json(const CwMeasuredPump *measured) {

@@ -89,28 +89,6 @@ done:
   return status;
 }
 
-// A given wrap that no law closes gives way, unless the priority is the wrap: to the nearest that one does, in steps.
-static CwStatus wheel_of_nearest_wrap(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
-  enum { STEPS = 16 };
-  const double step = 1.06, given = table->impeller.wrap_angle;
-  const CwDesign before = *design;
-  CwCase trial = *table;
-  char refused[1000];
-  CwStatus status = wheel(table, meridian, design);
-  if (status != CW_ERR_DESIGN || !cw_case_given(given) || table->impeller.priority != CW_PRIORITY_AUTO) return status;
-  snprintf(refused, sizeof refused, "%s", cw_fail_message());
-  for (int i = 2; status == CW_ERR_DESIGN && i <= 2 * STEPS + 1; i++) {
-    cw_fail_clear();
-    *design = before;
-    trial.impeller.wrap_angle = given * pow(step, (i % 2 ? 1 : -1) * (i / 2));
-    status = wheel(&trial, meridian, design);
-  }
-  if (status != CW_OK) return CW_FAIL(status, "%s", refused);
-  GIVE_WAY(wrap_angle, trial.impeller.wrap_angle, given, "wrap_angle_deg gives way to blade angles of 12 to 60 deg");
-  SET(wrap_residual, design->wrap_angle - given, "wrap - table's wrap");
-  return CW_OK;
-}
-
 // The leading edge's ellipse must end before the blade is thickest, at every span.
 static CwStatus fit_leading_edge(const CwMeridian *meridian, CwDesign *design) {
   enum { SECTIONS = 5 };
@@ -183,25 +161,11 @@ done:
   return status;
 }
 
-CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
+// All of the design behind the duty point.
+static CwStatus pump(const CwCase *table, CwDesign *design) {
   CwStatus status = CW_OK;
   CwMeridian meridian;
-  *design = (CwDesign){.priority = resolved_priority(&table->impeller),
-                       .correlations = table->design.correlations,
-                       .slip = table->design.slip,
-                       .rotation = table->impeller.rotation,
-                       .blade_form = table->impeller.blade_form,
-                       .trailing_edge = table->impeller.trailing_edge,
-                       .warn_share = table->design.warn_share,
-                       .density = table->fluid.density};
-  SET(flow_rate, table->operating_point.flow_rate, "case");
-  SET(head, table->operating_point.head, "case");
-  SET(angular_speed, table->operating_point.speed, "case");
-  const double vapour = table->fluid.vapour_pressure;
-  SET(vapour_pressure, cw_case_given(vapour) ? vapour : cw_water_vapour_pressure(20), "case, or that of water (IAPWS)");
-  water_duty(table, design);
-  specific_speeds(table, design);
-  CW_TRY(wheel_of_nearest_wrap(table, &meridian, design));
+  CW_TRY(wheel(table, &meridian, design));
   CW_TRY(fit_leading_edge(&meridian, design));
   CW_TRY(make_clearance(&meridian, design));
   passage(&meridian, design);
@@ -219,4 +183,62 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)), "Q / (pi DN^2 / 4)");
 done:
   return status;
+}
+
+// A given D3 that leaves an open D2 no room for the head gives way.
+static CwStatus pump_of_any_base(const CwCase *table, CwDesign *design) {
+  const double given = table->volute.base_diameter;
+  const CwDesign before = *design;
+  CwStatus status = pump(table, design);
+  if (status != CW_ERR_DESIGN || !cw_case_given(given) || cw_case_given(table->impeller.outlet_diameter)) return status;
+  char refused[1000];
+  CwCase trial = *table;
+  snprintf(refused, sizeof refused, "%s", cw_fail_message());
+  cw_fail_clear();
+  trial.volute.base_diameter = NAN;
+  *design = before;
+  if (pump(&trial, design) != CW_OK) return CW_FAIL(status, "%s", refused);
+  GIVE_WAY(base_diameter, design->base_diameter, given, "base_diameter_mm gives way to a wheel for the head");
+  return CW_OK;
+}
+
+// A given wrap with which no pump can be had gives way, unless the priority is the wrap: to the nearest, in steps.
+static CwStatus pump_of_nearest_wrap(const CwCase *table, CwDesign *design) {
+  enum { STEPS = 8 };
+  const double step = 1.12, given = table->impeller.wrap_angle;
+  const CwDesign before = *design;
+  CwCase trial = *table;
+  char refused[1000];
+  CwStatus status = pump_of_any_base(table, design);
+  if (status != CW_ERR_DESIGN || !cw_case_given(given) || table->impeller.priority != CW_PRIORITY_AUTO) return status;
+  snprintf(refused, sizeof refused, "%s", cw_fail_message());
+  for (int i = 2; status == CW_ERR_DESIGN && i <= 2 * STEPS + 1; i++) {
+    cw_fail_clear();
+    *design = before;
+    trial.impeller.wrap_angle = given * pow(step, (i % 2 ? 1 : -1) * (i / 2));
+    status = pump(&trial, design);
+  }
+  if (status != CW_OK) return CW_FAIL(status, "%s", refused);
+  GIVE_WAY(wrap_angle, trial.impeller.wrap_angle, given, "wrap_angle_deg gives way to the nearest that can be built");
+  SET(wrap_residual, design->wrap_angle - given, "wrap - table's wrap");
+  return CW_OK;
+}
+
+CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
+  *design = (CwDesign){.priority = resolved_priority(&table->impeller),
+                       .correlations = table->design.correlations,
+                       .slip = table->design.slip,
+                       .rotation = table->impeller.rotation,
+                       .blade_form = table->impeller.blade_form,
+                       .trailing_edge = table->impeller.trailing_edge,
+                       .warn_share = table->design.warn_share,
+                       .density = table->fluid.density};
+  SET(flow_rate, table->operating_point.flow_rate, "case");
+  SET(head, table->operating_point.head, "case");
+  SET(angular_speed, table->operating_point.speed, "case");
+  const double vapour = table->fluid.vapour_pressure;
+  SET(vapour_pressure, cw_case_given(vapour) ? vapour : cw_water_vapour_pressure(20), "case, or that of water (IAPWS)");
+  water_duty(table, design);
+  specific_speeds(table, design);
+  return pump_of_nearest_wrap(table, design);
 }

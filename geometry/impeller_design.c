@@ -100,17 +100,22 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
 }
 
+static const double FARTHEST_OPEN_EDGE = 5.0 / 6; // of D2/2: an open leading edge on the shroud
 static const double EYE_SHARE = 0.05; // of the eye's height: least distance of the leading edge from the eye's plane
 
 // The leading edge on the shroud: outside the eye at low specific speed, and drawn into it above nq = 25, where the
 // wheel turns mixed-flow and the blades would else become too short.
-// A cylindrical blade stays outside, where the shroud has turned to the radius and the blade stands on it.
+// A cylindrical blade stays outside, where the shroud has turned to the radius and the blade stands on it, but leaves
+// itself a length.
 static void leading_edge_shroud(const CwImpellerTable *given, CwDesign *design) {
   const double drawn_in =
       design->blade_form == CW_BLADE_CYLINDRICAL ? 0 : fmin(1, fmax(0, (design->specific_speed_nq - 25) / 35));
   const double share = 0.635 - 0.105 * drawn_in;
-  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share * design->inlet_diameter,
-       share < 0.635 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
+  const double radius = share * design->inlet_diameter, farthest = FARTHEST_OPEN_EDGE * design->outlet_diameter / 2;
+  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, fmin(radius, farthest),
+       radius > farthest ? "leaves a sixth of D2 to the blade"
+       : share < 0.635   ? "0.635 D1 to 0.53 D1 at nq 60"
+                         : "0.635 D1");
 }
 
 // A leading edge that is given at the eye's radius or inside it begins just behind the plane where the wall begins,
@@ -132,7 +137,8 @@ static void keep_behind_eye(const CwMeridianCurve *wall, double height, const ch
 }
 
 // On the hub: where a line square to the flow leads to from the shroud, but not so near to the axis that the blade
-// would stand too steep there. The passage's height is that of the line.
+// would stand too steep there. Of a cylindrical blade the edge is as parallel to the axis as the blade: on another the
+// blade angle would lean it over in the direction of rotation. The passage's height is that of the line.
 static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
   CwMeridianCurve hub, shroud;
   cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub,
@@ -142,9 +148,13 @@ static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
   keep_behind_eye(&shroud, height, at_eye, &design->leading_edge_radius_shroud,
                   &design->source[CW_DESIGN_leading_edge_radius_shroud]);
   const CwPassageStation edge = cw_meridian_passage_at(&hub, &shroud, design->leading_edge_radius_shroud);
-  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
-       fmax(edge.hub[0], fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
-       "square to the flow from the shroud's, at least 0.56 hub diameters and 0.55 of the shroud's");
+  if (design->blade_form == CW_BLADE_CYLINDRICAL)
+    TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, design->leading_edge_radius_shroud,
+         "parallel to the axis, as the blade");
+  else
+    TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
+         fmax(edge.hub[0], fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
+         "square to the flow from the shroud's, at least 0.56 hub diameters and 0.55 of the shroud's");
   keep_behind_eye(&hub, height, at_eye, &design->leading_edge_radius_hub,
                   &design->source[CW_DESIGN_leading_edge_radius_hub]);
   SET(inlet_passage_width, edge.height, "square to the flow from the shroud's leading edge");
@@ -353,8 +363,9 @@ done:
 }
 
 // Given dimensions go before the head, unless the priority is the head: a wheel is built where it reaches this share of
-// the asked head, and no more than its inverse. What is further off contradicts the duty point.
-static const double LEAST_HEAD_SHARE = 0.25;
+// the asked head, and no more than its inverse. What is further off contradicts the duty point: no throttling of the
+// same wheel from its best point to shut-off, or to runout, changes the head by more.
+static const double LEAST_HEAD_SHARE = 0.5;
 
 static CwStatus check_head(const CwCase *table, const CwDesign *design) {
   CwStatus status = CW_OK;

@@ -47,6 +47,13 @@ static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
          "face %.2f mm",
          cw_solid_domain(solid), measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3,
          measured->shortest_edge * 1e3, measured->narrowest_face * 1e3);
+  cw_log("%s: least angles: %.1f deg through the fluid (%s, %s), %.1f deg through the wall (%s, %s), %.1f deg in a "
+         "corner of %s",
+         cw_solid_domain(solid), measured->fluid_edge.angle / degree,
+         cw_solid_face_name(solid, measured->fluid_edge_of[0]), cw_solid_face_name(solid, measured->fluid_edge_of[1]),
+         measured->wall_edge.angle / degree, cw_solid_face_name(solid, measured->wall_edge_of[0]),
+         cw_solid_face_name(solid, measured->wall_edge_of[1]), measured->corner.angle / degree,
+         cw_solid_face_name(solid, measured->corner_of));
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.

@@ -9,7 +9,6 @@
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <ShapeAnalysis_ShapeTolerance.hxx>
@@ -22,6 +21,7 @@
 #include <gp.hxx>
 #include <gp_Vec.hxx>
 
+#include "geometry/edge_angle.hpp"
 #include "geometry/solid.hpp"
 
 namespace {
@@ -54,36 +54,6 @@ bool has_face(const CwSolid *solid, const std::string &name) {
   return false;
 }
 
-// Normal out of the solid and the tangent of the edge with the face on its left, seen from outside.
-struct Side {
-  gp_Vec normal, tangent;
-};
-
-Side side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) {
-  double first, last;
-  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  gp_Pnt2d uv;
-  gp_Vec2d duv;
-  gp_Pnt x;
-  gp_Vec xu, xv;
-  curve->D1(t, uv, duv);
-  surface->D1(uv.X(), uv.Y(), x, xu, xv);
-  Side side;
-  side.normal = xu.Crossed(xv).Normalized();
-  side.tangent = (xu * duv.X() + xv * duv.Y()).Normalized();
-  // The edge's orientation in the explored face already includes that of the face.
-  if (face.Orientation() == TopAbs_REVERSED) side.normal.Reverse();
-  if (edge.Orientation() == TopAbs_REVERSED) side.tangent.Reverse();
-  return side;
-}
-
-double fluid_angle(const Side &a, const Side &b) {
-  const gp_Vec into_a = a.normal.Crossed(a.tangent), into_b = b.normal.Crossed(b.tangent);
-  const double angle = into_a.Angle(into_b);
-  return into_b.Dot(a.normal) < 0 ? angle : 2 * M_PI - angle;
-}
-
 bool named(const CwSolidFace &face, const char *part) {
   return face.name.find(part) != std::string::npos;
 }
@@ -107,29 +77,8 @@ bool is_blade(const CwSolidFace &face) {
   return face.patch.compare(0, 6, "blade_") == 0;
 }
 
-// Calls `use` for samples of all edges whose faces satisfy `wanted` (in either order).
-void each_angle(const CwSolid *solid, const std::function<bool(const CwSolidFace &, const CwSolidFace &)> &wanted,
-                const std::function<void(const CwMeasuredAngle &)> &use) {
-  const int samples = 40;
-  for (size_t i = 0; i < solid->faces.size(); i++)
-    for (size_t j = 0; j < solid->faces.size(); j++) {
-      if (i == j || !wanted(solid->faces[i], solid->faces[j])) continue;
-      for (TopExp_Explorer a(solid->faces[i].face, TopAbs_EDGE); a.More(); a.Next())
-        for (TopExp_Explorer b(solid->faces[j].face, TopAbs_EDGE); b.More(); b.Next()) {
-          if (!a.Current().IsSame(b.Current())) continue;
-          const TopoDS_Edge edge = TopoDS::Edge(a.Current()), other = TopoDS::Edge(b.Current());
-          double first, last;
-          const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
-          for (int k = 0; k <= samples; k++) {
-            const double t = first + (last - first) * k / samples;
-            const gp_Pnt point = curve->Value(t);
-            CwMeasuredAngle measured = {
-                fluid_angle(side_at(edge, solid->faces[i].face, t), side_at(other, solid->faces[j].face, t)),
-                {point.X() * solid->unit, point.Y() * solid->unit, point.Z() * solid->unit}};
-            use(measured);
-          }
-        }
-    }
+CwMeasuredAngle measured_angle(const CwSolid *solid, double angle, const gp_Pnt &at) {
+  return {angle, {at.X() * solid->unit, at.Y() * solid->unit, at.Z() * solid->unit}};
 }
 
 // Point of a face of blade 1 at mid-span: v = 0.5 at the given u of its parameter plane.
@@ -171,6 +120,26 @@ void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
       measured->narrowest = (int)i;
     }
   }
+}
+
+// The sharpest edges and the sharpest corner.
+void measure_sharpness(const CwSolid *solid, CwMeasuredSolid *measured) {
+  measured->fluid_edge.angle = measured->wall_edge.angle = measured->corner.angle = HUGE_VAL;
+  const auto all = [](const CwSolidFace &, const CwSolidFace &) { return true; };
+  cw_edge_angles(*solid, all, [&](const CwEdgeAngle &found) {
+    for (int wall : {0, 1}) {
+      CwMeasuredAngle &least = wall ? measured->wall_edge : measured->fluid_edge;
+      const double angle = wall ? 2 * M_PI - found.angle : found.angle;
+      if (angle >= least.angle) continue;
+      least = measured_angle(solid, angle, found.at);
+      for (int k : {0, 1}) (wall ? measured->wall_edge_of : measured->fluid_edge_of)[k] = found.face[k];
+    }
+  });
+  cw_corner_angles(*solid, [&](const CwCornerAngle &found) {
+    if (found.angle >= measured->corner.angle) return;
+    measured->corner = measured_angle(solid, found.angle, found.at);
+    measured->corner_of = found.face;
+  });
 }
 
 double polar(const gp_Pnt &point) {
@@ -240,6 +209,7 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
     measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * solid->unit;
     measured->volume = properties.Mass() * solid->unit * solid->unit * solid->unit;
     measure_smallness(solid, measured);
+    measure_sharpness(solid, measured);
   });
 }
 
@@ -268,26 +238,26 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     }
     measured->outlet_diameter = 2 * outlet * rotor->unit;
     measured->kink.angle = 0;
-    each_angle(rotor, should_be_smooth, [&](const CwMeasuredAngle &found) {
-      CwMeasuredAngle kink = found;
-      kink.angle = std::fabs(found.angle - M_PI);
-      if (kink.angle > measured->kink.angle) measured->kink = kink;
+    cw_edge_angles(*rotor, should_be_smooth, [&](const CwEdgeAngle &found) {
+      const double kink = std::fabs(found.angle - M_PI);
+      if (kink > measured->kink.angle) measured->kink = measured_angle(rotor, kink, found.at);
     });
     measured->hub_crease.angle = measured->shroud_crease.angle = HUGE_VAL;
     measured->trailing_edge.angle = 0;
     for (const char *wall : {"hub", "shroud"}) {
       CwMeasuredAngle &least = wall[0] == 'h' ? measured->hub_crease : measured->shroud_crease;
-      each_angle(
-          rotor, [&](const CwSolidFace &a, const CwSolidFace &b) { return is_blade(a) && b.patch == wall; },
-          [&](const CwMeasuredAngle &found) {
-            if (found.angle < least.angle) least = found;
+      cw_edge_angles(
+          *rotor, [&](const CwSolidFace &a, const CwSolidFace &b) { return is_blade(a) && b.patch == wall; },
+          [&](const CwEdgeAngle &found) {
+            if (found.angle < least.angle) least = measured_angle(rotor, found.angle, found.at);
           });
     }
-    each_angle(
-        rotor,
+    cw_edge_angles(
+        *rotor,
         [&](const CwSolidFace &a, const CwSolidFace &b) { return a.patch == "blade_trailing_edge" && is_blade(b); },
-        [&](const CwMeasuredAngle &found) {
-          if (found.angle > measured->trailing_edge.angle) measured->trailing_edge = found;
+        [&](const CwEdgeAngle &found) {
+          if (found.angle > measured->trailing_edge.angle)
+            measured->trailing_edge = measured_angle(rotor, found.angle, found.at);
         });
   });
 }

@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-// An angle along an edge of the solid, measured through the fluid, rad, and where it is found, m.
+// An angle along an edge of the solid, measured through the fluid where nothing else is said, rad, and where it is
+// found, m.
 typedef struct {
   double angle;
   double at[3];
@@ -20,11 +21,14 @@ typedef struct {
   int valid;  // BRepCheck finds no fault, and the volume is positive: not inside out
   int closed; // each edge lies on two faces in opposite senses; no seam, no degenerate edge
   int face_count;
-  double largest_tolerance;   // of any vertex, edge or face, m
-  double volume;              // m3
-  double shortest_edge;       // m
-  double narrowest_face;      // vector area over half the circumference: at most a narrow face's width, m
-  int shortest_of, narrowest; // a face of that edge, and that face
+  double largest_tolerance;              // of any vertex, edge or face, m
+  double volume;                         // m3
+  double shortest_edge;                  // m
+  double narrowest_face;                 // vector area over half the circumference: at most a narrow face's width, m
+  int shortest_of, narrowest;            // a face of that edge, and that face
+  CwMeasuredAngle fluid_edge, wall_edge; // the sharpest edges: between two faces through the fluid, through the wall
+  CwMeasuredAngle corner;                // the sharpest corner of a face, between two of its edges
+  int fluid_edge_of[2], wall_edge_of[2], corner_of; // faces of these
 } CwMeasuredSolid;
 
 typedef struct {

@@ -112,6 +112,8 @@ static int one_key(Search *search, const CwCase *table, const int *keys, int cou
       snprintf(text, size, "%s: %s works", path, key->choices[(int)key->fallback]);
     else if (nearest_value(search, table, key, computed_value(key, &design), &value))
       snprintf(text, size, "%s: %.6g works", path, value);
+    else if (!isnan(computed_value(key, &design)))
+      snprintf(text, size, "it works without %s (then %.4g)", path, computed_value(key, &design));
     else
       snprintf(text, size, "it works without %s", path);
     return 1;

@@ -77,7 +77,7 @@ CwSolid *RotorMaker::build() {
     if (shape.seam)
       cw_blade_seam(design, &meridian, unit, pitch / kinds, &shape);
     else
-      cw_blade_patches(design, &meridian, unit, &shape);
+      cw_blade_patches(design, &meridian, unit, shape.section[0].start > 0 ? pitch : std::min(pitch, margin), &shape);
   curve[CW_HUB] = &meridian.hub;
   curve[CW_SHROUD] = &meridian.shroud;
   bands = (int)shapes[0].pressure.band.size();

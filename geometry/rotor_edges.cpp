@@ -124,10 +124,7 @@ void RotorMaker::wall_edges(RotorBlade &b) {
     }
     b.up[w] = shell.vertex(at(curve[w]->pole[0][0], turn + s.theta_up[w], curve[w]->pole[0][1]));
     b.out[w] = shell.vertex(down->Value(1));
-    if (s.guide[w].IsNull())
-      b.e_up[w] = shell.edge(meridian_curve(*curve[w], turn + s.theta_up[w]), 0, s.t_tip[w], b.up[w], b.tip[w]);
-    else
-      b.e_up[w] = shell.edge(turned(s.guide[w], turn), 0, 1, b.up[w], b.tip[w]);
+    b.e_up[w] = shell.edge(turned(s.guide[w], turn), 0, 1, b.up[w], b.tip[w]);
     b.e_down[w] = shell.edge(down, s.t_corner[w], 1, b.corner[w == CW_HUB ? 0 : bands], b.out[w]);
   }
   const double at_hub = turn + s.theta_up[CW_HUB], at_shroud = turn + s.theta_up[CW_SHROUD];

@@ -71,7 +71,6 @@ void RotorMaker::wall_face(int i, int w) {
   const int level = w == CW_HUB ? 0 : bands;
   const char *patch = w == CW_HUB ? "hub" : "shroud";
   const auto up_on_wall = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-    if (shape.guide[w].IsNull()) return along_v(shape.theta_up[w] + offset);
     return moved(shape.guide_on_wall[w], offset);
   };
   std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)}};

@@ -27,14 +27,13 @@ static void open_outlet_diameter_stays_within_the_volute(void **state) {
   near_to(design.outlet_diameter, table.volute.base_diameter / 1.02, 1e-9);
   near_to(design.predicted_head, 20, 1e-4);
   assert_true(design.outlet_blade_angle > 18 * degree);
-  CwDesign refused;
   table.volute.base_diameter = 0.6 * open;
-  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
-  assert_non_null(strstr(cw_fail_message(), "base_diameter_mm"));
-  cw_fail_clear();
+  const CwDesign wider = design_of(&table);
+  near_to(wider.asked[CW_DESIGN_base_diameter], 0.6 * open, 1e-12);
+  near_to(wider.outlet_diameter, open, 1e-9);
 }
 
-// Given dimensions go before the head down to a quarter of it, with the blade angle nearest to it; not where the head
+// Given dimensions go before the head down to half of it, with the blade angle nearest to it; not where the head
 // is the priority.
 static void head_gives_way_to_given_dimensions(void **state) {
   CwCase table = duty_point(54, 20, 1800);
@@ -44,7 +43,7 @@ static void head_gives_way_to_given_dimensions(void **state) {
   const CwDesign low = design_of(&table);
   near_to(low.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
   near_to(low.outlet_blade_angle, 60 * degree, 1e-9);
-  assert_true(low.predicted_head > 5 && low.predicted_head < 19.9);
+  assert_true(low.predicted_head > 10 && low.predicted_head < 19.9);
   CwDesign refused;
   table.impeller.priority = CW_PRIORITY_HEAD;
   assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
@@ -122,9 +121,10 @@ static void cylindrical_blades_stand_on_the_walls(void **state) {
     assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
     assert_int_equal(cw_blade_wall_angle(&design, &meridian, &angle), CW_OK);
     assert_true(angle >= 50 * degree);
+    near_to(design.leading_edge_radius_hub, design.leading_edge_radius_shroud, 1e-12);
     near_to(design.predicted_head, duty[i][1], 1e-3 * duty[i][1]);
   }
-  // A given wrap may leave no law for a blade that begins so far out: it then begins as far out as there is one.
+  // A given wrap with no law for a blade that begins so far out gives way to the nearest step.
   CwCase table = duty_point(1680.3, 12.575, 314.56);
   table.fluid.kinematic_viscosity = 4.8245e-5;
   table.fluid.density = 972.54;
@@ -133,7 +133,8 @@ static void cylindrical_blades_stand_on_the_walls(void **state) {
   table.impeller.outlet_diameter = 1.0145;
   table.impeller.wrap_angle = 143.89 * degree;
   const CwDesign wrapped = design_of(&table);
-  near_to(wrapped.wrap_angle, 143.89 * degree, 1e-9);
+  near_to(wrapped.asked[CW_DESIGN_wrap_angle], 143.89 * degree, 1e-9);
+  near_to(wrapped.wrap_angle, 143.89 / 1.12 * degree, 1e-9);
   near_to(wrapped.outlet_angle_residual, 0, 1e-9);
 }
 
