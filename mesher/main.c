@@ -39,13 +39,12 @@ int main(int argc, char **argv) {
   char *record_path = NULL;
   H5dont_atexit(); // HDF5 stumbles there over files that could not be closed
   CW_TRY(cw_mpi_start(&argc, &argv, &run.rank, &run.ranks));
-  CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
+  CW_TRY(cw_mpi_agree(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table)));
   if (args.finished) goto done;
-  CW_TRY(cw_policy_start());
-  MPI_Barrier(MPI_COMM_WORLD); // else the run folder may be that of another mesher, which has the file of cw_stop_claim
-  CW_TRY(cw_stop_watch(args.run_path, "mesh", run.rank == 0));
-  // Were rank 0 late with that file, it would tell of its end beside the rank that failed.
-  MPI_Barrier(MPI_COMM_WORLD);
+  CW_TRY(cw_mpi_agree(cw_policy_start()));
+  // Of each of these all ranks know the end before they go on: else the run folder might be that of another mesher,
+  // which has the file of cw_stop_claim, or that file might be late.
+  CW_TRY(cw_mpi_agree(cw_stop_watch(args.run_path, "mesh", run.rank == 0)));
   run.table = &table;
   run.run_path = args.run_path;
   if (args.options[STOP_AFTER]) CW_TRY(cw_stage_of(args.options[STOP_AFTER], &run.stop_after));

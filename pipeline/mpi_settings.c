@@ -30,5 +30,4 @@ void cw_mpi_settings(void) {
   if (alone) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int one_host = alone || (all && here && strcmp(all, here) == 0);
   if (one_host) setenv("OMPI_MCA_pml", "ob1", 0);
-  if (!one_host && getenv("OMPI_MCA_orte_num_nodes")) setenv("OMPI_MCA_osc", "pt2pt,sm", 0); // from mpirun 4 and older
 }

@@ -8,10 +8,6 @@
 // daemon beside it either, which takes a quarter of a second: nobody is going to join it. Where there is too little
 // memory for MPI to start, the process ends here, with one line: MPI would crash.
 //
-// Between hosts Open MPI 4.1 takes for one-sided messages osc/rdma, which gives no window over TCP (MPI_ERR_WIN), and
-// without it osc/ucx, where a rank that sleeps over TCP does not answer the others. osc/pt2pt answers; Open MPI 5 has
-// it no more.
-//
 // Nobody here uses shared file pointers, but Open MPI prepares them for every file, and one of its ways of doing so
 // (sharedfp/lockedfile, to 5.0.9) ends the process where the path has more than some 240 characters (open-mpi/ompi
 // issue 13565). It is left out.

@@ -59,7 +59,7 @@ CwStatus cw_parallel_for_lists(const char *step, int32_t count, const int32_t *s
   int64_t *size = NULL;
   CW_NEW(bytes, blocks);
   CW_NEW(size, blocks);
-  CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .gather = 1};
+  CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .alike = 1, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t i = 0; i < blocks; i++) {
     if (size[i] > 0) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);

@@ -23,10 +23,13 @@ extern "C" {
 CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks);
 // Ends MPI. Collective: after a failure on one rank only, call cw_mpi_fail instead.
 void cw_mpi_end(void);
-// Ends all ranks at once after a failure of this one: prints the one error line and aborts. Where several
-// ranks fail, one of them prints. Does not return where there is more than one rank; else returns the exit
-// status for main().
+// Ends all ranks at once after a failure of this one: prints the one error line and aborts. Where several ranks fail,
+// the first to call cw_stop_claim (pipeline/stop_line.h) prints; without cw_stop_watch each does that gets to it before
+// it is ended. Does not return where there is more than one rank; else returns the exit status for main().
 int cw_mpi_fail(CwStatus status);
+// What all ranks do before they have a folder to watch, and where any of them may fail: returns `status` on all, or on
+// the first that failed, which is to end all; the others wait for that. Collective.
+CwStatus cw_mpi_agree(CwStatus status);
 
 // This rank and how many there are, 0 of 1 without cw_mpi_start.
 int cw_mpi_rank(void);

@@ -6,6 +6,7 @@
 
 #include "mesher/parallel/profiler.h"
 #include "mesher/parallel/ranks.h"
+#include "mesher/parallel/task_server.h"
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 
@@ -20,33 +21,36 @@ static int compare_cost(const void *left, const void *right) {
   return a->task < b->task ? -1 : 1;
 }
 
+// What is known of a task that has ended: numbers that all ranks get by one message, -1 until then.
+typedef struct {
+  double owner, size, seconds;
+} TaskEnd;
+
 // Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few
 // broadcasts.
-static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes, int64_t *size) {
+static CwStatus gather_results(int32_t count, const TaskEnd *end, void **bytes) {
   CwStatus status = CW_OK;
   char *pack = NULL;
-  MPI_Allreduce(MPI_IN_PLACE, size, count, MPI_INT64_T, MPI_MAX, cw_team()->comm);
-  for (int rank = 0; rank < cw_team()->ranks; rank++) {
+  for (int rank = 0; rank < cw_team()->ranks && cw_team()->ranks > 1; rank++) {
     int64_t total = 0, at = 0;
     for (int32_t task = 0; task < count; task++) {
-      if (owner[task] == rank) total += size[task];
+      if (end[task].owner == rank) total += (int64_t)end[task].size;
     }
     if (total == 0) continue;
-    pack = malloc((size_t)total);
-    CW_REQUIRE(pack, CW_ERR_MEMORY, "out of memory: %lld bytes of results", (long long)total);
+    CW_NEW_UNSET(pack, total);
     for (int32_t task = 0; rank == cw_team()->rank && task < count; task++) {
-      if (owner[task] != rank || size[task] == 0) continue;
-      memcpy(pack + at, bytes[task], (size_t)size[task]);
-      at += size[task];
+      if (end[task].owner != rank || end[task].size == 0) continue;
+      memcpy(pack + at, bytes[task], (size_t)end[task].size);
+      at += (int64_t)end[task].size;
     }
     cw_team_broadcast(pack, total, rank);
     at = 0;
     for (int32_t task = 0; rank != cw_team()->rank && task < count; task++) {
-      if (owner[task] != rank || size[task] == 0) continue;
-      bytes[task] = malloc((size_t)size[task]);
-      CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %lld bytes", (long long)size[task]);
-      memcpy(bytes[task], pack + at, (size_t)size[task]);
-      at += size[task];
+      if (end[task].owner != rank || end[task].size == 0) continue;
+      bytes[task] = malloc((size_t)end[task].size);
+      CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %.0f bytes", end[task].size);
+      memcpy(bytes[task], pack + at, (size_t)end[task].size);
+      at += (int64_t)end[task].size;
     }
     free(pack);
     pack = NULL;
@@ -56,141 +60,133 @@ done:
   return status;
 }
 
-// Which tasks have ended, on the first rank of the team, where tasks wait for others.
+// The tasks in the order in which they are taken.
 typedef struct {
-  MPI_Win window; // MPI_WIN_NULL: one rank, or no task waits
-  int64_t *ended;
-} Marks;
+  int32_t *task, *before; // by place; before: NULL where none waits
+  double *left;
+  Ordered *by_cost;
+} Order;
 
-static CwStatus make_marks(const CwSchedule *schedule, Marks *marks) {
+static void free_order(Order *order) {
+  free(order->task);
+  free(order->before);
+  free(order->left);
+  free(order->by_cost);
+}
+
+// CW_ERR_INPUT where a task waits for another that comes later.
+static CwStatus put_in_order(const CwSchedule *schedule, Order *order) {
   CwStatus status = CW_OK;
-  if (!schedule->after) goto done;
-  MPI_Aint bytes = cw_team()->rank == 0 ? schedule->count * (MPI_Aint)sizeof(int64_t) : 0;
-  CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, cw_team()->comm, &marks->ended, &marks->window) ==
-                 MPI_SUCCESS,
-             CW_ERR_LIBRARY, "MPI gives no shared marks");
-  if (bytes) memset(marks->ended, 0, (size_t)bytes);
-  MPI_Win_lock_all(MPI_MODE_NOCHECK, marks->window); // nobody looks before the next barrier
+  int32_t count = schedule->count, *place = NULL;
+  CW_NEW(order->by_cost, count);
+  CW_NEW(order->task, count);
+  CW_NEW(order->left, count + 1);
+  CW_NEW(place, count);
+  if (schedule->after) CW_NEW(order->before, count);
+  for (int32_t task = 0; task < count; task++)
+    order->by_cost[task] = (Ordered){schedule->cost ? schedule->cost[task] : 1.0, task};
+  qsort(order->by_cost, (size_t)count, sizeof *order->by_cost, compare_cost);
+  for (int32_t i = 0; i < count; i++) {
+    order->task[i] = order->by_cost[i].task;
+    place[order->task[i]] = i;
+  }
+  for (int32_t i = count; i-- > 0;) order->left[i] = order->left[i + 1] + order->by_cost[i].cost;
+  for (int32_t i = 0; order->before && i < count; i++) {
+    int32_t after = schedule->after[order->task[i]];
+    order->before[i] = after < 0 ? -1 : place[after];
+    CW_REQUIRE(order->before[i] < i, CW_ERR_INPUT, "%s: task %d waits for task %d, which is taken later",
+               schedule->step, order->task[i], after);
+  }
+done:
+  free(place);
+  return status;
+}
+
+typedef struct {
+  const CwSchedule *schedule;
+  void **bytes;
+  TaskEnd *end;   // by task
+  double seconds; // of this rank's tasks
+} Work;
+
+static CwStatus run_task(Work *work, int32_t task) {
+  CwStatus status = CW_OK;
+  void *result = NULL;
+  int64_t size = 0;
+  double start = cw_processor_seconds();
+  CW_TRY(work->schedule->run(work->schedule->context, task, &result, &size));
+  double seconds = cw_processor_seconds() - start;
+  work->seconds += seconds;
+  work->end[task] = (TaskEnd){cw_team()->rank, (double)size, seconds};
+  if (work->bytes)
+    work->bytes[task] = result;
+  else
+    free(result);
 done:
   return status;
 }
 
-static int64_t mark_add(const Marks *marks, int32_t task, int64_t amount) {
-  int64_t before = 0;
-  MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, 0, task, MPI_SUM, marks->window);
-  MPI_Win_flush(0, marks->window);
-  return before;
-}
-
-// Another rank has taken the task before, or this one has ended it: so the wait ends.
-static void wait_for(const Marks *marks, int32_t task) {
-  for (double pause = 2e-5; mark_add(marks, task, 0) == 0; pause = pause < 2e-3 ? 1.5 * pause : pause) {
-    cw_team_sleep(pause);
-  }
-}
-
-static void free_marks(Marks *marks) {
-  if (marks->window == MPI_WIN_NULL) return;
-  MPI_Win_unlock_all(marks->window);
-  MPI_Win_free(&marks->window);
-}
-
-// Puts the tasks in the order in which they are taken. CW_ERR_INPUT where one waits for another that comes later.
-static CwStatus put_in_order(const CwSchedule *schedule, Ordered *order) {
+// Each rank takes what is next when it is free.
+static CwStatus take_tasks(Work *work, const Order *order) {
   CwStatus status = CW_OK;
-  for (int32_t task = 0; task < schedule->count; task++) {
-    order[task] = (Ordered){schedule->cost ? schedule->cost[task] : 0.0, task};
-    int32_t before = schedule->after ? schedule->after[task] : -1;
-    CW_REQUIRE(before < 0 || (before < task && order[before].cost >= order[task].cost), CW_ERR_INPUT,
-               "%s: task %d waits for task %d, which is taken later", schedule->step, task, before);
-  }
-  qsort(order, (size_t)schedule->count, sizeof *order, compare_cost);
-done:
-  return status;
-}
-
-// All counters at their beginning, on all ranks.
-static CwStatus start_counters(const CwSchedule *schedule, Marks *marks) {
-  CwStatus status = CW_OK;
-  // All have left the last run before the counters start again, and none starts before they have.
-  cw_team_barrier(NULL);
-  CW_TRY(make_marks(schedule, marks));
-  if (cw_team()->rank == 0) {
-    cw_team_add(CW_TEAM_NEXT, -cw_team_add(CW_TEAM_NEXT, 0));
-    cw_team_add(CW_TEAM_DONE, -cw_team_add(CW_TEAM_DONE, 0));
-  }
-  cw_team_barrier(NULL);
-done:
-  return status;
-}
-
-// Takes tasks as long as there are any. Of each that this rank took: its results, its owner (this rank), its time;
-// *own: the sum of these times.
-static CwStatus take_tasks(const CwSchedule *schedule, const Ordered *order, const Marks *marks, void **bytes,
-                           int64_t *size, int32_t *owner, double *time, double *own) {
-  CwStatus status = CW_OK;
-  int64_t finished = 0;
+  CwTaskServer *server = NULL;
+  CwTaskOrder list = {work->schedule->count, order->left, order->before};
+  CW_TRY(cw_task_server_start(&list, &server));
   for (;;) {
-    int64_t place = cw_team()->ranks > 1 ? cw_team_add(CW_TEAM_NEXT, 1) : finished;
-    if (place >= schedule->count) break;
-    int32_t task = order[place].task;
-    void *result = NULL;
-    int64_t result_size = 0;
-    if (marks->window != MPI_WIN_NULL && schedule->after[task] >= 0) wait_for(marks, schedule->after[task]);
-    double start = cw_processor_seconds();
-    CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
-    time[task] = cw_processor_seconds() - start;
-    *own += time[task];
-    owner[task] = cw_team()->rank;
-    if (bytes)
-      bytes[task] = result;
-    else
-      free(result);
-    if (size) size[task] = result_size;
-    if (marks->window != MPI_WIN_NULL) mark_add(marks, task, 1);
-    finished = cw_team()->ranks > 1 ? cw_team_add(CW_TEAM_DONE, 1) + 1 : finished + 1;
-    if (schedule->unit) cw_progress(finished);
+    CwPlaces places = cw_task_server_next(server, work->schedule->unit ? cw_progress : NULL);
+    if (places.count == 0) break;
+    for (int32_t i = 0; i < places.count; i++) CW_TRY(run_task(work, order->task[places.first + i]));
   }
+  cw_task_server_stop(server);
 done:
   return status;
 }
 
-static void show_progress(void) {
-  cw_progress(cw_team_add(CW_TEAM_DONE, 0));
+// Tasks in turn to each rank; one that waits for another, to the rank of that.
+static CwStatus deal_tasks(Work *work, const Order *order) {
+  CwStatus status = CW_OK;
+  for (int32_t place = 0, ended = 0; place < work->schedule->count; place++) {
+    int32_t first = place;
+    while (order->before && order->before[first] >= 0) first = order->before[first];
+    if (first % cw_team()->ranks != cw_team()->rank) continue;
+    CW_TRY(run_task(work, order->task[place]));
+    if (work->schedule->unit) cw_progress(++ended * cw_team()->ranks);
+  }
+  if (cw_team()->ranks > 1) cw_team_barrier();
+done:
+  return status;
 }
 
 CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
   CwStatus status = CW_OK;
-  Ordered *order = NULL;
-  int32_t *owner = NULL;
-  double *time = NULL, own = 0;
-  Marks marks = {.window = MPI_WIN_NULL};
+  Order order = {0};
+  Work work = {.schedule = schedule, .bytes = bytes};
+  int32_t count = schedule->count;
   int64_t gathered = 0;
+  double *time = NULL;
   const char *part = cw_profiler_part("exchange");
-  CW_NEW(order, schedule->count);
-  CW_NEW(owner, schedule->count);
-  CW_NEW(time, schedule->count);
-  for (int32_t task = 0; task < schedule->count; task++) owner[task] = -1;
-  CW_TRY(put_in_order(schedule, order));
-  if (cw_team()->ranks > 1) CW_TRY(start_counters(schedule, &marks));
-  if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
-  CW_TRY(take_tasks(schedule, order, &marks, bytes, size, owner, time, &own));
-  if (cw_team()->ranks > 1) {
-    cw_team_barrier(cw_team()->rank == 0 && schedule->unit ? show_progress : NULL);
-    free_marks(&marks);
-    MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, cw_team()->comm);
-    MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, cw_team()->comm);
-    if (schedule->gather) CW_TRY(gather_results(schedule->count, owner, bytes, size));
+  CW_NEW(work.end, count);
+  CW_NEW(time, count);
+  for (int32_t task = 0; task < count; task++) work.end[task] = (TaskEnd){-1, -1, -1};
+  CW_TRY(put_in_order(schedule, &order));
+  if (schedule->unit) cw_progress_start(schedule->step, count, schedule->unit);
+  int served = cw_team()->ranks > 1 && cw_team()->threads && count > 0 && !schedule->alike;
+  CW_TRY(served ? take_tasks(&work, &order) : deal_tasks(&work, &order));
+  if (cw_team()->ranks > 1) cw_team_most(3 * count, &work.end->owner);
+  for (int32_t task = 0; task < count; task++) {
+    time[task] = work.end[task].seconds;
+    if (size) size[task] = (int64_t)work.end[task].size;
+    if (schedule->gather) gathered += size[task];
   }
-  for (int32_t task = 0; schedule->gather && task < schedule->count; task++) gathered += size[task];
-  CW_TRY(cw_profiler_tasks(schedule->step, schedule->count, schedule->cost, schedule->after, time, own, gathered));
-  if (seconds) memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
+  if (schedule->gather) CW_TRY(gather_results(count, work.end, bytes));
+  CW_TRY(cw_profiler_tasks(schedule->step, count, schedule->cost, schedule->after, time, work.seconds, gathered));
+  if (seconds) memcpy(seconds, time, (size_t)count * sizeof *time);
   if (schedule->unit) cw_progress_end();
   cw_profiler_part(part);
 done:
   free(time);
-  free(owner);
-  free(order);
+  free(work.end);
+  free_order(&order);
   if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(status);
   return status;
 }

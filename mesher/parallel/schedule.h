@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Dynamic distribution of tasks over MPI ranks: largest first, each rank takes the next when it is free;
-// results go to all ranks. With one rank the same code runs the tasks in the same order of results. A failing
-// task ends the run within seconds with one message.
+// Dynamic distribution of tasks over MPI ranks: largest first, each rank takes the next when it is free; results go to
+// all ranks. With one rank the same code runs the tasks in the same order. A failing task ends the run within seconds
+// with one message.
 #ifndef CUTWATER_MESHER_PARALLEL_SCHEDULE_H
 #define CUTWATER_MESHER_PARALLEL_SCHEDULE_H
 
@@ -27,17 +27,17 @@ typedef struct {
   const int32_t *after;
   CwTask run;
   void *context;
-  int gather; // 1: every rank gets every result in bytes[task], size[task]
+  int alike;  // 1: tasks of about the same cost, too short to ask for each: rank r takes every task r + k ranks
+  int gather; // 1: every rank gets every result in bytes[task]
 } CwSchedule;
 
 // Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start (ranks.h) there is one rank.
-// `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].
-// `seconds` (count, may be NULL) receives the processor time of each task on all ranks: what else runs on the machine
-// does not count.
-// Without `gather` a result stays on the rank that ran the task. A rank that waits sleeps, so that more ranks
-// than cores cost nothing. The next task is taken without the help of rank 0 where ranks share memory;
-// between machines it may have to wait until rank 0 ends its own task. A failing task: with one rank the
-// failure is returned; else all ranks end (cw_mpi_fail).
+// `bytes` and `size` (arrays of count, zeroed, may be NULL where nothing is gathered) receive results and their sizes;
+// the caller frees bytes[i]. Without `gather` a result stays on the rank that ran the task. `seconds` (count, may be
+// NULL) receives the processor time of each task on all ranks: what else runs on the machine does not count.
+// A rank that waits sleeps, so that more ranks than cores cost nothing. The next task comes from a server that answers
+// while tasks run (task_server.h); where MPI allows no threads they are dealt in turn, as those that are alike.
+// A failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
 CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds);
 
 #ifdef __cplusplus

@@ -8,21 +8,25 @@
 #include <stdint.h>
 
 typedef struct {
-  int rank, ranks, first; // first: its first rank's number among all
+  int rank, ranks;
+  int threads; // 1: several threads of a rank may send at a time
   MPI_Comm comm;
 } CwTeam;
 
 const CwTeam *cw_team(void);
 
-// Counters that all ranks of a team add to without the help of its first rank, on which they stand. Returns what was
-// there before. Of more than one rank only.
-typedef enum { CW_TEAM_NEXT, CW_TEAM_DONE, CW_TEAM_FAILED, CW_TEAM_COUNTERS } CwTeamCounter;
-int64_t cw_team_add(CwTeamCounter counter, int64_t amount);
-
-// A barrier that sleeps, and calls `meanwhile` (may be NULL) now and then: the blocking one keeps its core busy, which
-// another rank may need.
-void cw_team_barrier(void (*meanwhile)(void));
+// Waits for a message asleep: MPI's own wait keeps its core busy, which another rank may need.
+void cw_team_wait(MPI_Request *request);
+void cw_team_barrier(void);
 void cw_team_sleep(double seconds);
+
+// The pause after which one looks again, shorter than a third of the time waited so far: of the first look and of
+// others.
+extern const double CW_TEAM_PAUSE;
+double cw_team_longer(double pause);
+
+// The greatest of the ranks, for each of `count` values.
+void cw_team_most(int32_t count, double *value);
 
 // `size` bytes of the rank `owner` of the team to its others.
 void cw_team_broadcast(void *bytes, int64_t size, int owner);

@@ -7,7 +7,4 @@
 #SBATCH --ntasks-per-node=32
 #SBATCH --time=01:00:00
 set -eu
-case $(ompi_info --version 2> /dev/null || :) in
-*v4.*) export OMPI_MCA_osc=pt2pt,sm ;; # what Open MPI 4 takes over TCP otherwise fails or waits for ever
-esac
 exec cutwater "${CASE:-paper}" ${CELLS:+CELLS=$CELLS} ${OUT:+OUT=$OUT} LAUNCHER="${LAUNCHER:-srun --mpi=pmix}"

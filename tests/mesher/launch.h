@@ -6,19 +6,39 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "mesher/parallel/ranks.h"
+#include "pipeline/stop_line.h"
 
 // Whether this process is such a rank.
 static inline int launched(int argc) {
   return getenv("OMPI_COMM_WORLD_SIZE") && argc > 1;
 }
 
+// What such a rank begins with: MPI, and the file by which one of those that fail says so.
+static inline CwStatus begin_as_rank(int *argc, char ***argv, int *rank, int *ranks) {
+  CwStatus status = cw_mpi_start(argc, argv, rank, ranks);
+  return status == CW_OK ? cw_mpi_agree(cw_stop_watch(getenv("CUTWATER_LAUNCHED"), "test", *rank == 0)) : status;
+}
+
+static inline int end_as_rank(int code) {
+  cw_stop_end();
+  cw_mpi_end();
+  return code;
+}
+
 // Starts ranks of this program; gives all they print and mpirun's exit status, -1 where it has none.
 static inline int launch(int ranks, const char *mode, char *output, size_t output_size) {
-  char command[4300], self[4000] = {0};
+  char command[4300], self[4000] = {0}, folder[] = "/tmp/cutwater-XXXXXX", log[64];
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  if (!mkdtemp(folder)) return -1;
+  snprintf(log, sizeof log, "%s/log", folder);
+  mkdir(log, 0777);
+  setenv("CUTWATER_LAUNCHED", folder, 1);
   if (readlink("/proc/self/exe", self, sizeof self - 1) <= 0) return -1;
   snprintf(command, sizeof command, "mpirun -q --oversubscribe -n %d '%s' %s 2>&1", ranks, self, mode);
   FILE *pipe = popen(command, "r");
@@ -27,6 +47,11 @@ static inline int launch(int ranks, const char *mode, char *output, size_t outpu
   while ((got = fread(output + used, 1, output_size - 1 - used, pipe)) > 0) used += got;
   output[used] = '\0';
   int status = pclose(pipe);
+  char token[80];
+  snprintf(token, sizeof token, "%s/test.running", log); // of ranks that were killed
+  unlink(token);
+  rmdir(log);
+  rmdir(folder);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

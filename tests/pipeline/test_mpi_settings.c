@@ -15,9 +15,7 @@ static const char *const names[] = {"OMPI_COMM_WORLD_SIZE",
                                     "PMI_RANK",
                                     "OMPI_MCA_ess_singleton_isolated",
                                     "OMPI_MCA_pml",
-                                    "OMPI_MCA_sharedfp",
-                                    "OMPI_MCA_orte_num_nodes",
-                                    "OMPI_MCA_osc"};
+                                    "OMPI_MCA_sharedfp"};
 
 static int forget_all(void **state) {
   for (size_t k = 0; k < sizeof names / sizeof *names; k++) unsetenv(names[k]);
@@ -36,9 +34,6 @@ static void ranks_of_one_machine_share_memory(void **state) {
   cw_mpi_settings();
   assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
   assert_string_equal(getenv("OMPI_MCA_pml"), "ob1");
-  setenv("OMPI_MCA_orte_num_nodes", "1", 1);
-  cw_mpi_settings();
-  assert_null(getenv("OMPI_MCA_osc"));
 }
 
 static void ranks_of_several_machines_take_what_there_is(void **state) {
@@ -47,10 +42,6 @@ static void ranks_of_several_machines_take_what_there_is(void **state) {
   cw_mpi_settings();
   assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
   assert_null(getenv("OMPI_MCA_pml"));
-  assert_null(getenv("OMPI_MCA_osc"));
-  setenv("OMPI_MCA_orte_num_nodes", "2", 1);
-  cw_mpi_settings();
-  assert_string_equal(getenv("OMPI_MCA_osc"), "pt2pt,sm");
 }
 
 static void other_launchers_are_left_alone(void **state) {

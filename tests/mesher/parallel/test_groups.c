@@ -91,7 +91,7 @@ static int be_a_rank(int argc, char **argv) {
   static Work work;
   const double cost[DOMAINS] = {3, 2, 1};
   int rank, ranks, wrong = 0, retry = !strcmp(argv[1], "retry"), ran = 0;
-  cw_mpi_start(&argc, &argv, &rank, &ranks);
+  begin_as_rank(&argc, &argv, &rank, &ranks);
   cw_log_open("test", NULL, rank == 0, !strcmp(argv[1], "work"));
   CwGroupWork domains = {.step = "domains",
                          .count = DOMAINS,
@@ -123,8 +123,7 @@ static int be_a_rank(int argc, char **argv) {
   wrong += profiler_wrong(2);
   printf("RANK %d RAN %d WRONG %d\n", rank, ran, wrong);
   cw_log_close();
-  cw_mpi_end();
-  return wrong != 0;
+  return end_as_rank(wrong != 0);
 }
 
 static char output[100000];

@@ -25,7 +25,7 @@ static CwOutcome found_by(int of, int32_t i) {
 static int be_a_rank(int argc, char **argv) {
   CwOutcome outcome[COUNT];
   int owner[COUNT], rank, ranks, wrong = 0;
-  cw_mpi_start(&argc, &argv, &rank, &ranks);
+  begin_as_rank(&argc, &argv, &rank, &ranks);
   cw_log_open("test", NULL, rank == 0, 0);
   for (int32_t i = 0; i < COUNT; i++) {
     owner[i] = (3 * i + 1) % ranks;
@@ -39,8 +39,7 @@ static int be_a_rank(int argc, char **argv) {
   }
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close();
-  cw_mpi_end();
-  return wrong != 0;
+  return end_as_rank(wrong != 0);
 }
 
 static void ranks_agree(void **state) {

@@ -63,7 +63,7 @@ static int be_a_rank(int argc, char **argv) {
   static int32_t start[COUNT + 1];
   int64_t out[100] = {0};
   int rank, ranks, wrong = 0;
-  cw_mpi_start(&argc, &argv, &rank, &ranks);
+  begin_as_rank(&argc, &argv, &rank, &ranks);
   cw_log_open("test", NULL, rank == 0, 0);
   for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + (i >= COUNT - 100);
   CwStatus status = cw_parallel_for_lists("lists", COUNT, start, sizeof *out, mark, NULL, out);
@@ -71,8 +71,7 @@ static int be_a_rank(int argc, char **argv) {
   for (int k = 0; k < 100; k++) wrong += out[k] != COUNT - 100 + k;
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close();
-  cw_mpi_end();
-  return wrong != 0;
+  return end_as_rank(wrong != 0);
 }
 
 static void blocks_may_be_empty(void **state) {

@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 #include <cmocka.h>
+#include <mpi.h>
 
 #include "launch.h"
 #include "mesher/parallel/ranks.h"
@@ -20,6 +21,7 @@ enum { TASKS = 40 };
 
 typedef struct {
   const char *mode;
+  int slow; // 1: the rank that serves
   int ran[TASKS], order[TASKS], count;
 } Work;
 
@@ -37,10 +39,15 @@ static CwStatus run(void *context, int32_t task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   work->ran[task]++;
   work->order[work->count++] = task;
-  CW_REQUIRE(strcmp(work->mode, "fail") || task != 17, CW_ERR_MESH, "region 17 is too thin at (1, 2, 3) mm");
+  CW_REQUIRE((strcmp(work->mode, "fail") && strcmp(work->mode, "slow-fails")) || task != 17, CW_ERR_MESH,
+             "region 17 is too thin at (1, 2, 3) mm");
   CW_REQUIRE(strcmp(work->mode, "all-fail"), CW_ERR_MESH, "every task fails");
   if (!strcmp(work->mode, "killed") && task == 5) raise(SIGKILL);
-  if (!strcmp(work->mode, "idle") && task == 0)
+  if (!strcmp(work->mode, "slow") && work->slow && work->count == 1)
+    sleep(1);
+  else if (!strcmp(work->mode, "slow-fails") && work->slow)
+    sleep(30);
+  else if (!strcmp(work->mode, "idle") && task == 0)
     sleep(4);
   else if (strcmp(work->mode, "alone") && strcmp(work->mode, "idle"))
     usleep(2000);
@@ -124,16 +131,16 @@ static int results_wrong(const Work *work, void **bytes, const int64_t *size) {
 
 static int be_a_rank(int argc, char **argv) {
   int rank, ranks, wrong = 0;
-  cw_mpi_start(&argc, &argv, &rank, &ranks);
+  if (!strncmp(argv[1], "dealt", 5)) MPI_Init(&argc, &argv); // one thread: no server
+  begin_as_rank(&argc, &argv, &rank, &ranks);
   cw_log_open("test", NULL, rank == 0, 0);
-  if (!strcmp(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
+  if (strstr(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
     printf("RANK %d EARLY %d\n", rank, began_too_early(argv[1]));
     cw_log_close();
-    cw_mpi_end();
-    return 0;
+    return end_as_rank(0);
   }
   for (int repeat = 0; repeat < (strcmp(argv[1], "large") ? 3 : 1); repeat++) {
-    Work work = {.mode = argv[1]};
+    Work work = {.mode = argv[1], .slow = rank == 0};
     double cost[TASKS], seconds[TASKS];
     void *bytes[TASKS] = {0};
     int64_t size[TASKS] = {0};
@@ -141,6 +148,7 @@ static int be_a_rank(int argc, char **argv) {
     CwSchedule schedule = schedule_of(&work, cost);
     if (cw_schedule_run(&schedule, bytes, size, seconds) != CW_OK) return 99; // fails inside with many ranks
     wrong += results_wrong(&work, bytes, size);
+    wrong += !strcmp(argv[1], "slow") && rank == 0 && work.count > TASKS / (4 * ranks);
     for (int k = 0; k < TASKS; k++) wrong += !(seconds[k] > 0 && seconds[k] < 0.1) && !strcmp(argv[1], "work");
     // Each rank took its tasks largest first.
     for (int k = 1; k < work.count; k++) wrong += cost[work.order[k]] > cost[work.order[k - 1]];
@@ -148,19 +156,44 @@ static int be_a_rank(int argc, char **argv) {
     if (!strcmp(argv[1], "idle")) break;
   }
   cw_log_close();
-  cw_mpi_end();
-  return wrong != 0;
+  return end_as_rank(wrong != 0);
 }
 
 static char output[100000];
 
+static void check_work(const char *mode, int ranks) {
+  int lines, code = launch(ranks, mode, output, sizeof output);
+  if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
+  assert_int_equal(sum_of(output, " RAN ", &lines), 3 * TASKS);
+  assert_int_equal(lines, 3 * ranks);
+  assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+}
+
 static void every_task_runs_once_and_all_get_all(void **state) {
-  for (int ranks = 2; ranks <= 8; ranks += 3) { // more than the cores of a small machine
-    int lines, code = launch(ranks, "work", output, sizeof output);
-    if (code) fail_msg("exit status %d: %s", code, output);
-    assert_int_equal(sum_of(output, " RAN ", &lines), 3 * TASKS);
-    assert_int_equal(lines, 3 * ranks);
-    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+  (void)state;
+  for (int ranks = 1; ranks <= 5; ranks++) check_work("work", ranks);
+  check_work("work", 8); // more than the cores of a small machine
+}
+
+static void tasks_are_dealt_where_no_thread_can_serve(void **state) {
+  (void)state;
+  for (int ranks = 1; ranks <= 5; ranks++) check_work("dealt", ranks);
+}
+
+// While the rank that serves is in a long task, the others take all that is left.
+static void nobody_waits_for_a_task_of_the_rank_that_serves(void **state) {
+  (void)state;
+  for (int ranks = 2; ranks <= 5; ranks++) check_work("slow", ranks);
+}
+
+static void a_failure_ends_the_task_of_the_rank_that_serves(void **state) {
+  (void)state;
+  for (int ranks = 2; ranks <= 5; ranks++) {
+    double start = now();
+    assert_int_equal(launch(ranks, "slow-fails", output, sizeof output), CW_ERR_MESH);
+    assert_int_equal(count_lines_with(output, "error: region 17 is too thin"), 1);
+    assert_int_equal(count_lines_with(output, "error:"), 1);
+    assert_true(now() - start < 20.0);
   }
 }
 
@@ -187,12 +220,11 @@ static void many_failing_tasks_print_one_line(void **state) {
 static void tasks_wait_for_those_they_come_after(void **state) {
   (void)state;
   assert_int_equal(began_too_early("after"), 0);
-  static const int RANKS[] = {2, 3, 5};
-  for (int i = 0; i < 3; i++) {
-    int lines, code = launch(RANKS[i], "after", output, sizeof output);
+  for (int i = 2; i <= 11; i++) {
+    int lines, ranks = i / 2, code = launch(ranks, i % 2 ? "after" : "dealt-after", output, sizeof output);
     if (code) fail_msg("exit status %d: %s", code, output);
     assert_int_equal(sum_of(output, " EARLY ", &lines), 0);
-    assert_int_equal(lines, RANKS[i]);
+    assert_int_equal(lines, ranks);
   }
 }
 
@@ -269,6 +301,9 @@ int main(int argc, char **argv) {
       cmocka_unit_test(one_rank_runs_largest_first),
       cmocka_unit_test(one_rank_gives_the_failure_back),
       cmocka_unit_test(every_task_runs_once_and_all_get_all),
+      cmocka_unit_test(tasks_are_dealt_where_no_thread_can_serve),
+      cmocka_unit_test(nobody_waits_for_a_task_of_the_rank_that_serves),
+      cmocka_unit_test(a_failure_ends_the_task_of_the_rank_that_serves),
       cmocka_unit_test(large_results_come_whole),
       cmocka_unit_test(failing_task_ends_the_run_with_one_line),
       cmocka_unit_test(many_failing_tasks_print_one_line),

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/parallel/task_server.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "mesher/parallel/team.h"
+
+enum { ASK_TAG = 1, GIVE_TAG = 2, PARTS = 4 };
+static const double SHOW_PAUSE = 0.25; // s
+
+typedef enum { OPEN, GIVEN, ENDED } PlaceState;
+
+struct CwTaskServer {
+  CwTaskOrder order;
+  // On the first rank alone, and under the lock.
+  pthread_t thread;
+  pthread_mutex_t lock;
+  pthread_cond_t look, answered; // the thread has to look again; the first rank has its answer
+  int started;
+  unsigned char *state; // of each place, PlaceState
+  int32_t first, ended; // no place ahead of `first` is open
+  CwPlaces *held;       // by each rank
+  unsigned char *asks;  // ranks that wait for an answer
+  int gone;             // ranks that know of the end
+};
+
+static struct timespec after(double seconds) {
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  int64_t nanoseconds = time.tv_nsec + (int64_t)(seconds * 1e9);
+  return (struct timespec){time.tv_sec + nanoseconds / 1000000000, nanoseconds % 1000000000};
+}
+
+// So many places from `first` on that all ranks end at about the same time.
+static int32_t part_of(const CwTaskOrder *order, int32_t first) {
+  double part = 1.0 / (PARTS * cw_team()->ranks), cost = part * order->left[first];
+  int32_t most = (int32_t)(part * (order->count - first)), count = 1;
+  while (count < most && order->left[first] - order->left[first + count + 1] <= cost) count++;
+  return count;
+}
+
+// The next open places that wait for none; none where all wait.
+static CwPlaces choose(CwTaskServer *server) {
+  const CwTaskOrder *order = &server->order;
+  while (server->first < order->count && server->state[server->first] != OPEN) server->first++;
+  for (int32_t place = server->first; place < order->count; place++) {
+    int32_t before = order->before ? order->before[place] : -1;
+    if (server->state[place] != OPEN || (before >= 0 && server->state[before] != ENDED)) continue;
+    CwPlaces places = {place, order->before ? 1 : part_of(order, place)};
+    for (int32_t i = 0; i < places.count; i++) server->state[place + i] = GIVEN;
+    return places;
+  }
+  return (CwPlaces){0};
+}
+
+// A rank has ended what it held and asks for more; answers all ranks that can be answered.
+static void take_up(CwTaskServer *server, int asking) {
+  CwPlaces *held = server->held;
+  for (int32_t i = 0; i < held[asking].count; i++) server->state[held[asking].first + i] = ENDED;
+  server->ended += held[asking].count;
+  held[asking].count = 0;
+  server->asks[asking] = 1;
+  for (int rank = 0; rank < cw_team()->ranks; rank++) {
+    if (!server->asks[rank]) continue;
+    held[rank] = choose(server);
+    if (held[rank].count == 0 && server->ended < server->order.count) break; // until others end
+    server->asks[rank] = 0;
+    server->gone += held[rank].count == 0;
+    if (rank > 0)
+      MPI_Send(&held[rank], 2, MPI_INT32_T, rank, GIVE_TAG, cw_team()->comm);
+    else
+      pthread_cond_signal(&server->answered);
+  }
+  if (server->gone == cw_team()->ranks) pthread_cond_signal(&server->look);
+}
+
+static void *serve(void *context) {
+  CwTaskServer *server = context;
+  pthread_mutex_lock(&server->lock);
+  for (double pause = CW_TEAM_PAUSE; server->gone < cw_team()->ranks;) {
+    int there;
+    MPI_Status message;
+    MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, cw_team()->comm, &there, &message);
+    if (there) {
+      MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, cw_team()->comm, MPI_STATUS_IGNORE);
+      take_up(server, message.MPI_SOURCE);
+      pause = CW_TEAM_PAUSE;
+      continue;
+    }
+    struct timespec end = after(pause);
+    pthread_cond_timedwait(&server->look, &server->lock, &end);
+    pause = cw_team_longer(pause);
+  }
+  pthread_mutex_unlock(&server->lock);
+  return NULL;
+}
+
+static CwStatus start_thread(CwTaskServer *server) {
+  CwStatus status = CW_OK;
+  pthread_condattr_t clock;
+  CW_NEW(server->state, server->order.count);
+  CW_NEW(server->held, cw_team()->ranks);
+  CW_NEW(server->asks, cw_team()->ranks);
+  pthread_mutex_init(&server->lock, NULL);
+  pthread_condattr_init(&clock);
+  pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+  pthread_cond_init(&server->look, &clock);
+  pthread_cond_init(&server->answered, &clock);
+  pthread_condattr_destroy(&clock);
+  server->started = pthread_create(&server->thread, NULL, serve, server) == 0;
+  CW_REQUIRE(server->started, CW_ERR_LIBRARY, "the system gives no thread");
+done:
+  return status;
+}
+
+CwStatus cw_task_server_start(const CwTaskOrder *order, CwTaskServer **made) {
+  CwStatus status = CW_OK;
+  CW_NEW(*made, 1);
+  (*made)->order = *order;
+  if (cw_team()->rank == 0) CW_TRY(start_thread(*made));
+done:
+  return status;
+}
+
+CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(int64_t ended)) {
+  CwPlaces places;
+  if (cw_team()->rank > 0) {
+    MPI_Request request;
+    MPI_Irecv(&places, 2, MPI_INT32_T, 0, GIVE_TAG, cw_team()->comm, &request);
+    MPI_Send(NULL, 0, MPI_BYTE, 0, ASK_TAG, cw_team()->comm);
+    cw_team_wait(&request);
+    return places;
+  }
+  pthread_mutex_lock(&server->lock);
+  take_up(server, 0);
+  for (;;) {
+    if (meanwhile) meanwhile(server->ended);
+    if (!server->asks[0]) break;
+    struct timespec end = after(SHOW_PAUSE);
+    pthread_cond_timedwait(&server->answered, &server->lock, &end);
+  }
+  places = server->held[0];
+  pthread_mutex_unlock(&server->lock);
+  return places;
+}
+
+void cw_task_server_stop(CwTaskServer *server) {
+  if (!server) return;
+  if (server->started) pthread_join(server->thread, NULL);
+  free(server->state);
+  free(server->held);
+  free(server->asks);
+  free(server);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Gives tasks to the ranks of a team, each to the rank that asks next. A thread of the team's first rank answers, so
+// that no rank waits for a task of another to end; it sleeps between its looks for messages. Two-sided messages alone.
+// For the files of this room, and for threads of a rank that may send at a time (team.h).
+#ifndef CUTWATER_MESHER_PARALLEL_TASK_SERVER_H
+#define CUTWATER_MESHER_PARALLEL_TASK_SERVER_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+// Tasks by place, in the order in which they are given.
+typedef struct {
+  int32_t count;
+  const double *left;    // predicted cost of a place and of all behind it; one entry more, 0
+  const int32_t *before; // a place ahead that has to have ended before this one is given, -1: none; NULL: none waits
+} CwTaskOrder;
+
+// The places first .. first + count - 1; count 0: all have ended.
+typedef struct {
+  int32_t first, count;
+} CwPlaces;
+
+typedef struct CwTaskServer CwTaskServer;
+
+// Collective over the team; all ranks give the same order, which lasts until the server stops. CW_ERR_MEMORY,
+// CW_ERR_LIBRARY where there is no thread.
+CwStatus cw_task_server_start(const CwTaskOrder *order, CwTaskServer **server);
+
+// The places that this rank had last have ended; returns the next. They are so many that their cost is a quarter of a
+// rank's part of what is left at most, one at least (guided self-scheduling: Polychronopoulos and Kuck 1987), and one
+// where tasks wait for others. Waits asleep until there is one to be had or all have ended; on the first rank calls
+// `meanwhile` (may be NULL) with the number that have, before and a few times a second.
+CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(int64_t ended));
+
+// After count 0 on all ranks. NULL is fine.
+void cw_task_server_stop(CwTaskServer *server);
+
+#endif

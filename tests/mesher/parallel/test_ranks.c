@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include "launch.h"
+#include "mesher/parallel/ranks.h"
+#include "mesher/parallel/team.h"
+#include "pipeline/log.h"
+
+enum { SIZE = 150000001 }; // more than two messages
+
+// Where two ranks of three fail, those that do not get another failure, and later.
+static CwStatus fail_where(const char *mode, int rank) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(strcmp(mode, "disagree") || rank == 0, CW_ERR_INPUT, "rank %d has no case file", rank);
+done:
+  return status;
+}
+
+static int spread_wrong(int rank, int ranks) {
+  int wrong = 0;
+  unsigned char *bytes = malloc(SIZE);
+  for (int64_t i = 0; i < SIZE; i += 997) bytes[i] = rank == ranks - 1 ? (unsigned char)(i / 997) : 0;
+  cw_mpi_broadcast(bytes, SIZE, ranks - 1);
+  for (int64_t i = 0; i < SIZE; i += 997) wrong += bytes[i] != (unsigned char)(i / 997);
+  free(bytes);
+  double value[2] = {rank, -rank};
+  cw_mpi_most(2, value);
+  return wrong + (value[0] != ranks - 1) + (value[1] != 0);
+}
+
+// The even ranks and the odd ones apart.
+static int split_wrong(int rank, int ranks) {
+  cw_mpi_split(rank % 2);
+  int wrong = cw_team()->rank != rank / 2 || cw_team()->ranks != (ranks + 1 - rank % 2) / 2;
+  double value = rank;
+  cw_team_most(1, &value);
+  wrong += value != (ranks - 1) - ((ranks - 1) % 2 != rank % 2);
+  cw_mpi_join();
+  return wrong + (cw_team()->ranks != ranks) + (cw_team()->rank != rank);
+}
+
+static int be_a_rank(int argc, char **argv) {
+  int rank, ranks;
+  cw_mpi_start(&argc, &argv, &rank, &ranks); // without a watch: all ranks agree first
+  cw_log_open("test", NULL, rank == 0, 0);
+  CwStatus status = cw_mpi_agree(fail_where(argv[1], rank));
+  if (status != CW_OK) return cw_mpi_fail(status);
+  int wrong = spread_wrong(rank, ranks) + (ranks > 1 ? split_wrong(rank, ranks) : 0);
+  wrong += cw_mpi_rank() != rank || cw_mpi_ranks() != ranks;
+  printf("RANK %d WRONG %d\n", rank, wrong);
+  cw_log_close();
+  cw_mpi_end();
+  return wrong != 0;
+}
+
+static char output[10000];
+
+static void ranks_spread_and_split(void **state) {
+  (void)state;
+  for (int ranks = 1; ranks <= 5; ranks += 2) {
+    int lines, code = launch(ranks, "spread", output, sizeof output);
+    if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
+    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+    assert_int_equal(lines, ranks);
+  }
+}
+
+static void the_first_that_fails_says_so(void **state) {
+  (void)state;
+  assert_int_equal(launch(3, "disagree", output, sizeof output), CW_ERR_INPUT);
+  assert_int_equal(count_lines_with(output, "error:"), 1);
+  assert_non_null(strstr(output, "error: rank 1 has no case file"));
+}
+
+int main(int argc, char **argv) {
+  if (launched(argc)) return be_a_rank(argc, argv);
+  const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_spread_and_split),
+                                     cmocka_unit_test(the_first_that_fails_says_so)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <time.h>
+#include <unistd.h>
+#include <cmocka.h>
+#include <mpi.h>
+
+#include "launch.h"
+#include "mesher/parallel/ranks.h"
+#include "mesher/parallel/task_server.h"
+#include "mesher/parallel/team.h"
+#include "pipeline/log.h"
+
+enum { PLACES = 1000 };
+
+static int64_t last_shown;
+
+static void show(int64_t ended) {
+  last_shown = ended;
+}
+
+// Places of cost 1. Each is given once; all ranks learn of the end; what is given at a time is a quarter of a rank's
+// part of what is left. `chain`: each place but the first waits for the one before it.
+static int serve_places(int rank, int ranks, int chain, int *most) {
+  static double left[PLACES + 1];
+  static int32_t before[PLACES], given[PLACES];
+  int wrong = 0;
+  for (int32_t i = 0; i < PLACES; i++) {
+    left[i] = PLACES - i;
+    before[i] = i - 1;
+    given[i] = 0;
+  }
+  CwTaskOrder order = {PLACES, left, chain ? before : NULL};
+  CwTaskServer *server = NULL;
+  if (cw_task_server_start(&order, &server) != CW_OK) return 1;
+  *most = 0;
+  for (;;) {
+    CwPlaces places = cw_task_server_next(server, show);
+    if (places.count == 0) break;
+    if (places.count > *most) *most = places.count;
+    wrong += !chain && places.count > 1 && 4 * ranks * places.count > PLACES - places.first;
+    for (int32_t i = 0; i < places.count; i++) given[places.first + i]++;
+  }
+  wrong += rank == 0 && last_shown != PLACES;
+  cw_task_server_stop(server);
+  MPI_Allreduce(MPI_IN_PLACE, given, PLACES, MPI_INT32_T, MPI_SUM, MPI_COMM_WORLD);
+  for (int32_t i = 0; i < PLACES; i++) wrong += given[i] != 1;
+  return wrong;
+}
+
+// The first rank takes a place and works for long; meanwhile the others are given all that is left.
+static int serve_while_at_work(int rank, int ranks) {
+  static const double left[] = {4, 3, 2, 1, 0};
+  CwTaskOrder order = {4, left, NULL};
+  CwTaskServer *server = NULL;
+  int taken = 0, sum = 0, others;
+  double longest = 0;
+  if (cw_task_server_start(&order, &server) != CW_OK) return 1;
+  for (;;) {
+    double asked = MPI_Wtime();
+    CwPlaces places = cw_task_server_next(server, NULL);
+    if (places.count == 0) break;
+    if (MPI_Wtime() - asked > longest) longest = MPI_Wtime() - asked;
+    taken += places.count;
+    if (rank == 0) sleep(1);
+  }
+  cw_task_server_stop(server);
+  MPI_Allreduce(&taken, &sum, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  others = rank == 0 ? sum - taken : 3;
+  return (sum != 4) + (others != 3) + (rank > 0 && longest > 0.5) + (ranks < 2);
+}
+
+static int be_a_rank(int argc, char **argv) {
+  int rank, ranks, most = 0, wrong = 0;
+  begin_as_rank(&argc, &argv, &rank, &ranks);
+  cw_log_open("test", NULL, rank == 0, 0);
+  for (int repeat = 0; repeat < 3; repeat++) {
+    wrong += serve_places(rank, ranks, 0, &most);
+    wrong += ranks == 1 && most != PLACES / 4;
+    wrong += serve_places(rank, ranks, 1, &most) + (most > 1);
+  }
+  if (ranks > 1) wrong += serve_while_at_work(rank, ranks);
+  printf("RANK %d WRONG %d\n", rank, wrong);
+  cw_log_close();
+  return end_as_rank(wrong != 0);
+}
+
+static char output[10000];
+
+static void each_place_is_given_once_and_at_once(void **state) {
+  (void)state;
+  for (int ranks = 1; ranks <= 5; ranks++) {
+    int lines, code = launch(ranks, "serve", output, sizeof output);
+    if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
+    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+    assert_int_equal(lines, ranks);
+  }
+}
+
+int main(int argc, char **argv) {
+  if (launched(argc)) return be_a_rank(argc, argv);
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_place_is_given_once_and_at_once)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
