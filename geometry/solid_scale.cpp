@@ -46,8 +46,8 @@ private:
   TopoDS_Edge edge(const TopoDS_Edge &old);
   double curve_scale(const TopoDS_Edge &old) const;
   // `plane`: what the scale does to the surface's parameters; `by`: to the edge's, from first to last.
-  Handle(Geom2d_Curve) curve(const Handle(Geom2d_Curve) & old, const gp_GTrsf2d &plane, double by, double first,
-                             double last) const;
+  Handle(Geom2d_Curve)
+      curve(const Handle(Geom2d_Curve) & old, const gp_GTrsf2d &plane, double by, double first, double last) const;
 };
 
 // Of the parameter of an edge; 1 of a degenerate one.

@@ -10,13 +10,14 @@
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
 
-static const char *const section_keys[] = {"files",      "unit_mm", "axis",    "tolerance_mm",
-                                           "face_names", "domains", "patches", NULL};
+static const char *const section_keys[] = {"files",   "unit_mm", "axis", "tolerance_mm", "face_names", "cut",
+                                           "domains", "patches", NULL};
 static const char *const axis_keys[] = {"point_mm", "direction", NULL};
+static const char *const cut_keys[] = {"radius_mm", "meridian_mm", NULL};
 static const char *const domain_keys[] = {"solid", "inside_mm", "rotating", NULL};
 static const char *const patch_keys[] = {"faces",  "colour",           "layer", "near_mm",   "domain", "kind", "walls",
                                          "y_plus", "velocity_m_per_s", "turns", "monitored", NULL};
-static const char *const kinds[] = {"auto", "wall", "inlet", "outlet", "symmetry", NULL};
+static const char *const kinds[] = {"auto", "wall", "inlet", "outlet", "symmetry", "interface", NULL};
 static const char *const groups[] = {"auto", "blade", "hub_shroud", "volute", "pipe", NULL};
 static const char *const truths[] = {"false", "true", NULL};
 static const char *const name_uses[] = {"ignored", "patches", NULL};
@@ -173,6 +174,30 @@ done:
   return status;
 }
 
+static CwStatus read_cut(const char *path, const CwCaseNode *node, CwCadCut *cut) {
+  CwStatus status = CW_OK;
+  const CwUnit *unit;
+  CW_TRY(require_map(path, node, cut_keys));
+  const CwCaseNode *radius = member(node, "radius_mm", &unit);
+  if (radius) CW_TRY(read_number(path, radius, unit, 1e-4, 10, &cut->radius));
+  const CwCaseNode *meridian = member(node, "meridian_mm", &unit);
+  if (!meridian == !radius || (meridian && (meridian->type != CW_NODE_LIST || meridian->count < 2)))
+    status = FAIL_AT(node, "it is no surface; allowed: %s", "radius_mm: R, or meridian_mm: [[r, z], [r, z]]");
+  if (status != CW_OK || !meridian) goto done;
+  CW_NEW(cut->meridian, meridian->count);
+  for (; cut->count < meridian->count; cut->count++) {
+    const CwCaseNode *point = &meridian->item[cut->count];
+    if (point->type != CW_NODE_LIST || point->count != 2) {
+      status = FAIL_AT(point, "it is no point of a meridian; allowed: [%s]", "r, z");
+      goto done;
+    }
+    CW_TRY(read_number(path, &point->item[0], unit, 0, 10, &cut->meridian[cut->count][0]));
+    CW_TRY(read_number(path, &point->item[1], unit, -1e3, 1e3, &cut->meridian[cut->count][1]));
+  }
+done:
+  return status;
+}
+
 static CwStatus read_domain(const char *path, const CwCaseNode *node, CwCadDomain *domain) {
   CwStatus status = CW_OK;
   const CwUnit *unit;
@@ -305,6 +330,7 @@ CwStatus cw_case_cad_read(const char *path, const char *case_path, const CwCaseN
   if ((item = member(section, "tolerance_mm", &unit)))
     CW_TRY(read_number(path, item, unit, 1e-9, 0.1, &cad->tolerance));
   if ((item = member(section, "axis", &unit))) CW_TRY(read_axis(path, item, cad));
+  if ((item = member(section, "cut", &unit))) CW_TRY(read_cut(path, item, &cad->cut));
   if ((item = member(section, "face_names", &unit)))
     CW_TRY(read_choice(path, item, name_uses, &cad->names_are_patches));
   if (!(item = member(section, "domains", &unit))) {
@@ -332,6 +358,7 @@ static void free_texts(CwCadTexts *texts) {
 void cw_case_cad_free(CwCaseCad *cad) {
   if (!cad) return;
   free_texts(&cad->files);
+  free(cad->cut.meridian);
   for (int i = 0; i < cad->domain_count; i++) {
     free_texts(&cad->domain[i].solids);
     free(cad->domain[i].inside.at);

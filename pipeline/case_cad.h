@@ -17,7 +17,8 @@ typedef enum {
   CW_CAD_KIND_WALL,
   CW_CAD_KIND_INLET,
   CW_CAD_KIND_OUTLET,
-  CW_CAD_KIND_SYMMETRY
+  CW_CAD_KIND_SYMMETRY,
+  CW_CAD_KIND_INTERFACE // its faces must touch another domain
 } CwCadKind;
 
 typedef enum {
@@ -64,12 +65,20 @@ typedef struct {
   CwEventPlace place;
 } CwCadPatch;
 
+// A surface of revolution about the axis along which solids are parted: a cylinder, or through points.
+typedef struct {
+  double radius; // m; 0: none
+  int count;
+  double (*meridian)[2]; // (r, z), m, z from the point of the axis along it
+} CwCadCut;
+
 typedef struct CwCaseCad {
   CwCadTexts files;         // as the case has them, beside the folder of the case file
   double unit;              // of the files, m; 0: STEP files have their own, B-rep files are in mm
   double point[3], axis[3]; // m; unit vector about which the wheel turns by the right hand
   double tolerance;         // of sewing, m; NAN: computed
-  int names_are_patches;    // 1: a face that no patch takes goes by its name in the file
+  CwCadCut cut;
+  int names_are_patches; // 1: a face that no patch takes goes by its name in the file
   int domain_count, patch_count;
   CwCadDomain *domain;
   CwCadPatch *patch; // the first that takes a face has it

@@ -173,7 +173,7 @@ static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const C
   const CwCadPatch *rule = &cad->patch[of->rule];
   if (cw_case_given(rule->velocity)) patch->flow.speed = rule->velocity;
   if (rule->turns >= 0) patch->turns = rule->turns;
-  patch->y_plus = rule->y_plus;
+  patch->y_plus_asked = rule->y_plus;
   patch->monitored = rule->monitored;
 }
 

@@ -26,6 +26,7 @@
 struct CwCadFaceOrigin {
   std::string name, layer;
   int colour = -1; // 0xRRGGBB
+  int number = -1; // of the face, over all that were chosen: its pieces share it
 };
 
 struct CwCadBody {
@@ -52,8 +53,9 @@ struct CwCadParts {
 // Runs what uses OpenCASCADE; its exceptions become CW_ERR_GEOMETRY with `what` before their text.
 CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &run);
 
-// Gives each face of `part` what the file says of the face of `from` that it lies on.
-void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part);
+// Gives each face of `part` what the file says of the face of `from` that it lies on; nothing where all are farther off
+// than `within`.
+void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within = 1e100);
 
 // The faces of a shape, in the order that counts.
 inline TopTools_IndexedMapOfShape cw_cad_faces(const TopoDS_Shape &shape) {

@@ -67,8 +67,9 @@ double radius_of(const TopoDS_Shape &shape) {
 }
 
 // A body in the pump's coordinates, mm, as a part of its own.
-CwCadPart placed(const CwCadBody &body, const CwCadFrame &frame, const std::string &domain) {
+CwCadPart placed(const CwCadBody &body, const CwCadFrame &frame, const std::string &domain, int &faces) {
   CwCadPart part = {domain, body.solid, body.origin};
+  for (CwCadFaceOrigin &origin : part.origin) origin.number = faces++;
   if (!frame.same || !body.solid.Location().IsIdentity()) {
     part.solid = moved(body.solid, frame.same ? gp_Trsf() : to_pump(frame));
   }
@@ -105,7 +106,7 @@ CwStatus check_size(const CwCaseCad &cad, double radius) {
 
 } // namespace
 
-void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part) {
+void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within) {
   struct Old {
     TopoDS_Face face;
     Bnd_Box box;
@@ -140,7 +141,7 @@ void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part) {
         nearest = distance.Value();
       }
     }
-    if (best) part.origin[i - 1] = *best->origin;
+    if (best && nearest <= within) part.origin[i - 1] = *best->origin;
   }
 }
 
@@ -150,11 +151,12 @@ CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const 
   return cw_cad_guard("cad.domains", [&]() -> CwStatus {
     CwStatus status = CW_OK;
     double radius = 0;
+    int faces = 0;
     for (int d = 0; d < cad->domain_count; d++) {
       bool begun = false;
       for (size_t i = 0; i < bodies->body.size(); i++) {
         if (domain[i] != d) continue;
-        const CwCadPart part = placed(bodies->body[i], *frame, cad->domain[d].name);
+        const CwCadPart part = placed(bodies->body[i], *frame, cad->domain[d].name, faces);
         if (begun) {
           status = fuse((*parts)->part.back(), part);
           if (status != CW_OK) return status;
@@ -204,6 +206,10 @@ const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face) 
 
 int cw_cad_part_face_colour(const CwCadParts *parts, int part, int face) {
   return parts->part[part].origin[face].colour;
+}
+
+int cw_cad_part_face_number(const CwCadParts *parts, int part, int face) {
+  return parts->part[part].origin[face].number;
 }
 
 CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const char *const *kind,

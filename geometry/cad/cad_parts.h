@@ -31,6 +31,8 @@ int cw_cad_part_face_count(const CwCadParts *parts, int part);
 const char *cw_cad_part_face_name(const CwCadParts *parts, int part, int face);
 const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face);
 int cw_cad_part_face_colour(const CwCadParts *parts, int part, int face);
+// Of the face in the file that it is all or a piece of; pieces have the same number, others another.
+int cw_cad_part_face_number(const CwCadParts *parts, int part, int face);
 
 // A part as a solid of the stage. Patch, kind and name of its faces, in their order, are copied.
 CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const char *const *kind,

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "geometry/cad/cad_cut.h"
 #include "geometry/cad/divide.h"
-#include "geometry/cad/heal.h"
 #include "geometry/cad/solid_choice.h"
 
 // Gap that is closed where the case gives none, over the model unit: the wheel has 128 to 256 of them.
@@ -22,12 +22,13 @@ static CwStatus read_parts(const CwCaseCad *cad, CwCadPump *pump) {
   cw_cad_frame_make(cad, &pump->frame);
   for (int i = 0; i < cad->files.count; i++)
     CW_TRY(cw_cad_file_read(cad->files.text[i], cad->unit, tolerance, &bodies));
+  CW_TRY(cw_cad_cut(cad, &pump->frame, bodies));
   CW_NEW(domain, cw_cad_body_count(bodies));
   CW_TRY(cw_cad_solid_choice(cad, bodies, domain));
   CW_TRY(cw_cad_parts_make(cad, &pump->frame, bodies, domain, &pump->parts));
   const double unit = cw_cad_parts_unit(pump->parts);
   pump->tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE * unit;
-  CW_TRY(cw_cad_heal(pump->tolerance / unit, &pump->frame, pump->parts));
+  CW_TRY(cw_cad_heal(pump->tolerance / unit, &pump->frame, pump->parts, &pump->fault));
 done:
   free(domain);
   cw_cad_bodies_free(&bodies);

@@ -4,6 +4,7 @@
 #define CUTWATER_GEOMETRY_CAD_CAD_PUMP_H
 
 #include "geometry/cad/cad_model.h"
+#include "geometry/cad/heal.h"
 #include "geometry/solid.h"
 
 #ifdef __cplusplus
@@ -14,6 +15,7 @@ typedef struct {
   CwCadFrame frame;
   double tolerance; // m
   CwCadParts *parts;
+  CwCadFault fault; // of the parts, where cw_cad_pump_read fails for one
   CwSurvey survey;
   CwContact *contact; // of each face
   CwFaceRole *role;   // of each face

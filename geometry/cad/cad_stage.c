@@ -6,12 +6,14 @@
 #include <string.h>
 
 #include "geometry/cad/cad_pump.h"
+#include "geometry/cad/faces_picture.h"
 #include "geometry/cad/faces_sheet.h"
 #include "geometry/faces_table.h"
 #include "geometry/step_file.h"
 #include "pipeline/case_cad.h"
 #include "pipeline/log.h"
 
+enum { MESSAGE_SIZE = 1000 };
 enum { FILE_FACES, FILE_MODEL, FILE_STEP, FILE_STEP_FACES, FILES };
 static const char *const file_names[] = {"faces.csv", "model.json", "pump.step", "pump_faces.step"};
 
@@ -38,6 +40,39 @@ static CwStatus write_sheet(const CwStageArgs *args, const Work *work, int named
 done:
   free(path);
   return status;
+}
+
+// One of each domain: faces_NAME.svg.
+static CwStatus write_pictures(const CwStageArgs *args, const CwCaseCad *cad, const CwSurvey *survey) {
+  CwStatus status = CW_OK;
+  char *path = NULL;
+  for (int d = 0; d < cad->domain_count; d++) {
+    char name[CW_NAME_SIZE + 16], title[CW_NAME_SIZE + 80];
+    snprintf(name, sizeof name, "faces_%s.svg", cad->domain[d].name);
+    snprintf(title, sizeof title, "%s: faces by their numbers in faces_sheet.csv", cad->domain[d].name);
+    CW_TRY(in_folder(args, name, &path));
+    CW_TRY(cw_faces_picture_write(survey, d, title, NULL, path));
+    free(path);
+    path = NULL;
+  }
+done:
+  free(path);
+  return status;
+}
+
+// Where a solid cannot be healed: fault.svg, with the place marked. The message is that of the solid whatever happens
+// here.
+static void show_fault(const CwStageArgs *args, const Work *work) {
+  CwSurvey survey = {0};
+  char *path = NULL, title[CW_NAME_SIZE + 80], message[MESSAGE_SIZE];
+  snprintf(message, sizeof message, "%s", cw_fail_message());
+  snprintf(title, sizeof title, "%s: where it cannot be healed", work->cad->domain[work->pump.fault.part].name);
+  if (cw_survey_make(work->pump.parts, &survey) == CW_OK && in_folder(args, "fault.svg", &path) == CW_OK &&
+      cw_faces_picture_write(&survey, work->pump.fault.part, title, work->pump.fault.at, path) == CW_OK)
+    cw_log("geometry/fault.svg shows the place");
+  CW_FAIL(CW_ERR_GEOMETRY, "%s", message);
+  cw_survey_free(&survey);
+  free(path);
 }
 
 static void show(const Work *work) {
@@ -122,8 +157,11 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   Work work = {.cad = table->cad};
   double begin = cw_seconds();
   CW_NEW(work.solid, work.cad->domain_count);
-  CW_TRY(cw_cad_pump_read(work.cad, &work.pump));
+  status = cw_cad_pump_read(work.cad, &work.pump);
+  if (status != CW_OK && work.pump.fault.found) show_fault(args, &work);
+  if (status != CW_OK) goto done;
   CW_TRY(write_sheet(args, &work, 0));
+  CW_TRY(write_pictures(args, work.cad, &work.pump.survey));
   CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, work.pump.survey.face_count, "faces"));
   begin = cw_seconds();
   CW_TRY(cw_cad_pump_name(work.cad, &work.pump));

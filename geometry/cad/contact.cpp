@@ -94,6 +94,15 @@ done:
   return status;
 }
 
+// A face that is much larger than the one before it may touch it between the points that were looked from.
+void touch_back(const CwSurvey &survey, CwContact *contact) {
+  for (int f = 0; f < survey.face_count; f++) {
+    if (contact[f].part < 0 || contact[f].share < 1) continue;
+    CwContact &other = contact[contact[f].other];
+    if (other.part < 0) other = {survey.face[f].part, 0, f};
+  }
+}
+
 TopoDS_Shape unified(const std::vector<TopoDS_Shape> &faces) {
   BRep_Builder builder;
   TopoDS_Shell shell;
@@ -161,6 +170,7 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
       contact[f] = {p, (double)seen.touching / seen.looked, seen.other};
     }
   }
+  touch_back(*survey, contact);
   return CW_OK;
 }
 

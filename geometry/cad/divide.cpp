@@ -8,13 +8,17 @@
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <Geom2d_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
 #include <ShapeExtend.hxx>
 #include <ShapeUpgrade_FaceDivide.hxx>
 #include <ShapeUpgrade_ShapeDivideClosed.hxx>
 #include <ShapeUpgrade_SplitSurface.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp_Explorer.hxx>
+#include <gp.hxx>
+#include <gp_Vec.hxx>
 #include <gp_Vec2d.hxx>
 
 #include "geometry/cad/cad_part.hpp"
@@ -22,7 +26,9 @@
 
 namespace {
 
-const double SAME = 1e-7; // of the face's extent in a parameter
+const double SAME = 1e-7;       // of the face's extent in a parameter
+const double STEP = 1e-6;       // of the range of a parameter, to both sides of a knot
+const double KINK = M_PI / 180; // rad
 enum { SAMPLES = 8 };
 
 int seams(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
@@ -46,29 +52,62 @@ bool is_point(const Geom_Surface &surface, int constant, double value, double fi
   return true;
 }
 
-// Cuts a surface midway between its poles. Sides of it that are points lie opposite or side by side.
-class BetweenPoles : public ShapeUpgrade_SplitSurface {
+// Parameters u (0) or v (1) inside of a range at which the tangent plane turns by an angle: knots of splines alone can
+// have that, and not all that formally might do.
+std::vector<double> kinks(const Handle(Geom_Surface) & surface, int along, const double u[2], const double v[2]) {
+  std::vector<double> found;
+  const GeomAdaptor_Surface adaptor(surface, u[0], u[1], v[0], v[1]);
+  const int count = along ? adaptor.NbVIntervals(GeomAbs_C1) : adaptor.NbUIntervals(GeomAbs_C1);
+  TColStd_Array1OfReal knots(1, count + 1);
+  along ? adaptor.VIntervals(knots, GeomAbs_C1) : adaptor.UIntervals(knots, GeomAbs_C1);
+  const double *range = along ? v : u, *across = along ? u : v, step = STEP * (range[1] - range[0]);
+  for (int i = 2; i <= count; i++) {
+    double most = 0;
+    for (int k = 0; k <= SAMPLES; k++) {
+      gp_Vec tangent[2], other;
+      gp_Pnt at;
+      const double w = across[0] + (across[1] - across[0]) * k / SAMPLES;
+      for (int side = 0; side < 2; side++) {
+        const double t = knots(i) + (side ? step : -step);
+        along ? surface->D1(w, t, at, other, tangent[side]) : surface->D1(t, w, at, tangent[side], other);
+      }
+      if (std::min(tangent[0].Magnitude(), tangent[1].Magnitude()) > gp::Resolution())
+        most = std::max(most, tangent[0].Angle(tangent[1]));
+    }
+    if (most > KINK) found.push_back(knots(i));
+  }
+  return found;
+}
+
+// Cuts a surface at its kinks, and midway between its poles: sides of it that are points lie opposite or side by side.
+class SimplePieces : public ShapeUpgrade_SplitSurface {
 public:
   void Compute(const Standard_Boolean) override {
     const double u[] = {myUSplitValues->First(), myUSplitValues->Last()},
                  v[] = {myVSplitValues->First(), myVSplitValues->Last()};
+    for (const double at : kinks(mySurface, 0, u, v)) add(myUSplitValues, at);
+    for (const double at : kinks(mySurface, 1, u, v)) add(myVSplitValues, at);
     const int at_u = is_point(*mySurface, 0, u[0], v[0], v[1]) + is_point(*mySurface, 0, u[1], v[0], v[1]);
     const int at_v = is_point(*mySurface, 1, v[0], u[0], u[1]) + is_point(*mySurface, 1, v[1], u[0], u[1]);
-    if (at_u + at_v < 2) return;
-    if (at_v == 2 || (at_u == 1 && at_v == 1)) myVSplitValues->InsertBefore(2, (v[0] + v[1]) / 2);
-    if (at_u == 2) myUSplitValues->InsertBefore(2, (u[0] + u[1]) / 2);
+    if (at_u + at_v >= 2 && at_v >= 1 && myVSplitValues->Length() == 2) add(myVSplitValues, (v[0] + v[1]) / 2);
+    if (at_u == 2 && myUSplitValues->Length() == 2) add(myUSplitValues, (u[0] + u[1]) / 2);
+  }
+
+private:
+  void add(const Handle(TColStd_HSequenceOfReal) & values, double at) {
+    values->InsertBefore(values->Length(), at);
     myStatus = ShapeExtend::EncodeStatus(ShapeExtend_DONE1);
   }
 };
 
-class PolesTool : public ShapeUpgrade_ShapeDivide {
+class PiecesTool : public ShapeUpgrade_ShapeDivide {
 public:
-  explicit PolesTool(const TopoDS_Shape &shape) : ShapeUpgrade_ShapeDivide(shape) {}
+  explicit PiecesTool(const TopoDS_Shape &shape) : ShapeUpgrade_ShapeDivide(shape) {}
 
 protected:
   Handle(ShapeUpgrade_FaceDivide) GetSplitFaceTool() const override {
     const Handle(ShapeUpgrade_FaceDivide) tool = new ShapeUpgrade_FaceDivide;
-    tool->SetSplitSurfaceTool(new BetweenPoles);
+    tool->SetSplitSurfaceTool(new SimplePieces);
     return tool;
   }
 };
@@ -100,6 +139,17 @@ int several_poles(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
   return count;
 }
 
+bool has_kinks(const TopoDS_Shape &shape) {
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+    double u[2], v[2];
+    BRepTools::UVBounds(TopoDS::Face(at.Current()), u[0], u[1], v[0], v[1]);
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(at.Current()));
+    for (int along = 0; along < 2; along++)
+      if (!kinks(surface, along, u, v).empty()) return true;
+  }
+  return false;
+}
+
 CwStatus fail_at(const CwCadPart &part, const CwCadFrame &frame, double unit, const TopoDS_Edge &edge, int face,
                  const char *what) {
   const TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
@@ -128,8 +178,8 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
   TopoDS_Edge edge;
   int face = 0;
   const int before = cw_cad_faces(part.solid).Extent();
-  if (several_poles(part.solid, &edge, &face)) {
-    PolesTool divide(part.solid);
+  if (several_poles(part.solid, &edge, &face) || has_kinks(part.solid)) {
+    PiecesTool divide(part.solid);
     divide.Perform();
     replace(part, divide.Result());
   }
@@ -141,7 +191,7 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
   }
   const int after = cw_cad_faces(part.solid).Extent();
   if (after != before)
-    cw_log("%s: closed faces divided, %d faces where the file has %d", part.domain.c_str(), after, before);
+    cw_log("%s: closed and kinked faces divided, %d faces where the file has %d", part.domain.c_str(), after, before);
   if (seams(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "stays closed upon itself");
   if (several_poles(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "has several poles, one");
   return CW_OK;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Cuts faces where the mesher needs edges: closed faces, so that no edge is a seam; faces with several points where a
-// side of their parameters ends (poles), so that each has one at the most. Method: OpenCASCADE's ShapeUpgrade.
+// side of their parameters ends (poles), so that each has one at the most; faces with kinks in them. Method:
+// OpenCASCADE's ShapeUpgrade.
 #ifndef CUTWATER_GEOMETRY_CAD_DIVIDE_H
 #define CUTWATER_GEOMETRY_CAD_DIVIDE_H
 

@@ -55,6 +55,12 @@ static void take(const Work *work, int rule, int face, int *found) {
   if (work->rule[face] < 0) work->rule[face] = rule;
 }
 
+// The pieces of a face of the file have one number.
+static int number_of(const Work *work, int face) {
+  const CwSurveyFace *of = &work->survey->face[face];
+  return cw_cad_part_face_number(work->parts, of->part, of->face);
+}
+
 static CwStatus take_points(const Work *work, int r, int *found) {
   CwStatus status = CW_OK;
   const CwCadPatch *rule = &work->cad->patch[r];
@@ -76,7 +82,10 @@ static CwStatus take_points(const Work *work, int r, int *found) {
         "cad.patches.%s.near_mm: (%.6g, %.6g, %.6g) lies as near to another face as to face %d; allowed: a point "
         "on the face, off its edges",
         rule->name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], face + 1);
-    take(work, r, face, found);
+    for (int f = 0; f < work->survey->face_count; f++)
+      if (f == face || (number_of(work, f) == number_of(work, face) &&
+                        (work->contact[f].part < 0) == (work->contact[face].part < 0)))
+        take(work, r, f, found);
   }
 done:
   return status;
@@ -121,10 +130,28 @@ static CwPatchKind role_kind(CwFaceRole role) {
                                    : CW_PATCH_WALL;
 }
 
+// A face that touches another domain is an interface and nothing else, and only such a one.
+static CwStatus check_kind(const Work *work, int face) {
+  CwStatus status = CW_OK;
+  const int rule = work->rule[face], touches = work->contact[face].part >= 0;
+  if (rule < 0) goto done;
+  const CwCadPatch *of = &work->cad->patch[rule];
+  CW_REQUIRE(
+      of->kind != CW_CAD_KIND_INTERFACE || touches, CW_ERR_INPUT,
+      "cad.patches.%s.kind: face %d touches no other domain; allowed: interface only for faces that coincide with "
+      "faces of another domain",
+      of->name, face + 1);
+  CW_REQUIRE(!touches || of->kind == CW_CAD_KIND_OPEN || of->kind == CW_CAD_KIND_INTERFACE, CW_ERR_INPUT,
+             "cad.patches.%s.kind: face %d touches %s; allowed there: interface", of->name, face + 1,
+             work->cad->domain[work->contact[face].part].name);
+done:
+  return status;
+}
+
 // The kind of a face by what it is called; else by itself.
 static CwPatchKind kind_of(const Work *work, int face, const char *name) {
-  static const CwPatchKind of_rule[] = {CW_PATCH_WALL, CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET,
-                                        CW_PATCH_SYMMETRY};
+  static const CwPatchKind of_rule[] = {CW_PATCH_WALL,   CW_PATCH_WALL,     CW_PATCH_INLET,
+                                        CW_PATCH_OUTLET, CW_PATCH_SYMMETRY, CW_PATCH_INTERFACE};
   const int rule = work->rule[face];
   if (work->role[face] == CW_ROLE_CONTACT) return CW_PATCH_INTERFACE;
   if (rule >= 0 && work->cad->patch[rule].kind != CW_CAD_KIND_OPEN) return of_rule[work->cad->patch[rule].kind];
@@ -232,6 +259,7 @@ CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, con
   for (int r = 0; r < cad->patch_count; r++) CW_TRY(apply_rule(&work, r));
   for (int f = 0; f < survey->face_count; f++) {
     char name[CW_NAME_SIZE];
+    CW_TRY(check_kind(&work, f));
     const CwPatchSource source = name_of(&work, f, name);
     int *patch = &patches->of_face[f];
     CW_TRY(patch_for(patches, name, survey->face[f].part, kind_of(&work, f, name), patch));

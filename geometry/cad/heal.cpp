@@ -152,25 +152,29 @@ bool has_small_edge(const TopoDS_Shape &shape, double tolerance) {
   return false;
 }
 
-CwStatus heal_part(double tolerance, const CwCadFrame &frame, double unit, CwCadPart &part) {
+CwStatus heal_part(double tolerance, const CwCadFrame &frame, double unit, CwCadPart &part, CwCadFault &of_all) {
   const TopoDS_Shape given = part.solid;
-  Fault fault = fault_of(part.solid, tolerance);
-  const std::string first = fault.what;
+  const Fault first = fault_of(given, tolerance);
+  Fault fault = first;
   if (!fault.what.empty()) part.solid = fixed(part.solid, tolerance), fault = fault_of(part.solid, tolerance);
   if (!fault.what.empty())
     part.solid = fixed(sewn(given, tolerance), tolerance), fault = fault_of(part.solid, tolerance);
-  if (fault.what.empty() && has_small_edge(part.solid, tolerance)) {
+  if (!fault.what.empty()) {
+    part.solid = given;
+    const gp_Pnt &at = first.place.at;
+    of_all = {first.place.found, of_all.part, {at.X() * unit, at.Y() * unit, at.Z() * unit}};
+    return CW_FAIL(CW_ERR_GEOMETRY,
+                   "cad.domains.%s: the solid cannot be healed within %.3g mm: %s%s; allowed: a closed, "
+                   "valid solid; mend it in CAD, or try a greater cad.tolerance_mm",
+                   part.domain.c_str(), tolerance * unit * 1e3, first.what.c_str(),
+                   words(first.place, unit, frame).c_str());
+  }
+  if (has_small_edge(part.solid, tolerance)) {
     const TopoDS_Shape whole = part.solid;
     part.solid = without_small(part.solid, tolerance);
     if (!fault_of(part.solid, tolerance).what.empty()) part.solid = fixed(part.solid, tolerance);
     if (!fault_of(part.solid, tolerance).what.empty()) part.solid = whole;
   }
-  if (!fault.what.empty())
-    return CW_FAIL(CW_ERR_GEOMETRY,
-                   "cad.domains.%s: the solid cannot be healed within %.3g mm: %s%s; allowed: a closed, "
-                   "valid solid; mend it in CAD, or try a greater cad.tolerance_mm",
-                   part.domain.c_str(), tolerance * unit * 1e3, fault.what.c_str(),
-                   words(fault.place, unit, frame).c_str());
   if (volume_of(part.solid) < 0) {
     TopoDS_Solid turned = TopoDS::Solid(part.solid);
     BRepLib::OrientClosedSolid(turned);
@@ -180,16 +184,18 @@ CwStatus heal_part(double tolerance, const CwCadFrame &frame, double unit, CwCad
   CwCadPart before = part;
   before.solid = given;
   cw_cad_carry({before}, part);
-  cw_log("%s: healed%s%s", part.domain.c_str(), first.empty() ? "" : ": ", first.c_str());
+  cw_log("%s: healed%s%s", part.domain.c_str(), first.what.empty() ? "" : ": ", first.what.c_str());
   return CW_OK;
 }
 
 } // namespace
 
-CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts) {
+CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts, CwCadFault *fault) {
+  *fault = CwCadFault();
   for (CwCadPart &part : parts->part) {
-    const CwStatus status =
-        cw_cad_guard("cad.domains." + part.domain, [&] { return heal_part(tolerance, *frame, parts->unit, part); });
+    fault->part = (int)(&part - parts->part.data());
+    const CwStatus status = cw_cad_guard("cad.domains." + part.domain,
+                                         [&] { return heal_part(tolerance, *frame, parts->unit, part, *fault); });
     if (status != CW_OK) return status;
   }
   return CW_OK;

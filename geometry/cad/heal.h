@@ -10,9 +10,16 @@
 extern "C" {
 #endif
 
+// What could not be healed.
+typedef struct {
+  int found;
+  int part;
+  double at[3]; // in the pump's coordinates, m
+} CwCadFault;
+
 // Heals all parts. `tolerance`: largest gap that is closed, in the model unit. CW_ERR_GEOMETRY, naming domain, face or
-// edge and the place in the file, where one stays open, invalid or without volume.
-CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts);
+// edge and the place in the file, where one stays open, invalid or without volume; *fault then is that place, if any.
+CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts, CwCadFault *fault);
 
 #ifdef __cplusplus
 }

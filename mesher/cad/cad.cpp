@@ -24,7 +24,7 @@
 #include "mesher/common/vec.h"
 
 static const double least_tolerance = 1e-9; // of the model's unit
-enum { BOX_PARTS = 8, SEARCH_PARTS = 12 }; // of an edge; of a face along u and v
+enum { BOX_PARTS = 8, SEARCH_PARTS = 12 };  // of an edge; of a face along u and v
 static const double pcurve_tolerance =
     1e-4; // in units of the B-rep: past it the point of an edge is projected onto its face
 

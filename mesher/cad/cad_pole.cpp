@@ -16,9 +16,9 @@
 namespace {
 
 // Shares of the face's extent in a parameter.
-const double SAME = 1e-7;  // within which parameters are one
-const double NEAR = 1e-3;  // from the pole, where the directions out of it are taken
-const double LEAST = 1e-6; // from the pole, where derivatives are taken
+const double SAME = 1e-7;                                 // within which parameters are one
+const double NEAR = 1e-3;                                 // from the pole, where the directions out of it are taken
+const double LEAST = 1e-6;                                // from the pole, where derivatives are taken
 const double LEAST_ANGLE = 0.05, MOST_ANGLE = 1.9 * M_PI; // rad, between the sides at the pole, as they are drawn
 enum { PARTS = 64 };
 

@@ -13,12 +13,17 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <gp_Circ.hxx>
 
 #include "cad/small_pump.hpp"
@@ -101,6 +106,22 @@ static void rings_beside_the_axis(void **) {
   check(BRepPrimAPI_MakeTorus(9, 2).Shape(), 3, 9, 2 * M_PI * 9 * M_PI * 4);
 }
 
+// A prism over a square that is one spline of degree 1, rounded nowhere: its wall is one face with three kinks inside.
+static void kinks_become_edges(void **) {
+  TColgp_Array1OfPnt corner(1, 5);
+  TColStd_Array1OfReal knots(1, 5);
+  TColStd_Array1OfInteger times(1, 5);
+  const double at[][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}};
+  for (int i = 1; i <= 5; i++) {
+    corner(i) = gp_Pnt(at[i - 1][0], at[i - 1][1], 0);
+    knots(i) = i;
+    times(i) = i == 1 || i == 5 ? 2 : 1;
+  }
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(new Geom_BSplineCurve(corner, knots, times, 1)).Edge();
+  const TopoDS_Face base = BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(edge).Wire()).Face();
+  check(BRepPrimAPI_MakePrism(base, gp_Vec(0, 0, 3)).Shape(), 2, 6, 48);
+}
+
 static void what_needs_no_cut_stays(void **) {
   CwCadParts parts = part_of(BRepPrimAPI_MakeBox(1, 2, 3).Shape());
   const TopoDS_Shape before = parts.part[0].solid;
@@ -124,6 +145,7 @@ int main() {
                                      cmocka_unit_test(ogives_keep_their_points),
                                      cmocka_unit_test(rings_through_the_axis),
                                      cmocka_unit_test(rings_beside_the_axis),
+                                     cmocka_unit_test(kinks_become_edges),
                                      cmocka_unit_test(what_needs_no_cut_stays),
                                      cmocka_unit_test(names_go_with_the_pieces)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Parts and a section `cad` for tests of single modules: solids in mm, the axis +z, nothing healed or divided.
+#ifndef CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PARTS_HPP
+#define CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PARTS_HPP
+
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "cad/small_pump.hpp"
+#include "geometry/cad/cad_part.hpp"
+#include "geometry/cad/contact.h"
+
+static const CwCadFrame small_frame = {{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1};
+static const double small_tolerance = 1e-5; // m
+
+// The parts, their domains, what touches, and what rotates: the first.
+struct SmallParts {
+  CwCadParts parts = {1e-3, {}};
+  CwCadDomain domain[4] = {};
+  CwCaseCad cad = {};
+  int rotating[4] = {1, 0, 0, 0};
+  CwSurvey survey = {};
+  CwContact *contact = nullptr;
+
+  explicit SmallParts(const std::initializer_list<std::pair<const char *, TopoDS_Shape>> &solids) {
+    int faces = 0;
+    for (const auto &[name, solid] : solids) {
+      CwCadPart part = {name, small_solid_of(solid), {}};
+      part.origin.resize(cw_cad_faces(part.solid).Extent());
+      for (CwCadFaceOrigin &origin : part.origin) origin.number = faces++;
+      snprintf(domain[parts.part.size()].name, CW_NAME_SIZE, "%s", name);
+      domain[parts.part.size()].rotating = parts.part.empty();
+      parts.part.push_back(part);
+    }
+    cad.domain = domain;
+    cad.domain_count = (int)parts.part.size();
+  }
+  ~SmallParts() {
+    cw_survey_free(&survey);
+    free(contact);
+  }
+  CwStatus look() {
+    CwStatus status = cw_survey_make(&parts, &survey);
+    contact = (CwContact *)calloc(survey.face_count + 1, sizeof *contact);
+    if (status == CW_OK) status = cw_contact_find(&parts, &survey, &small_frame, &cad, small_tolerance, contact);
+    return status;
+  }
+};
+
+inline TopoDS_Shape small_box(double x, double y, double z, double dx, double dy, double dz) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+}
+
+extern "C" {
+#include <cmocka.h> // last: its macros have names of the C++ library
+}
+
+inline void small_near(double value, double wanted, double within) {
+  if (!(std::fabs(value - wanted) <= within)) fail_msg("%.9g where %.9g is wanted", value, wanted);
+}
+
+#endif

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The model of the small pump: speeds from the operating point by hand, groups, what turns, shares of the outlets; and
+// what is refused.
+#include <BRepPrimAPI_MakeSphere.hxx>
+
+#include "cad/small_parts.hpp"
+
+extern "C" {
+#include "geometry/cad/cad_model.h"
+}
+
+static const double mm = 1e-3;
+
+struct Made : SmallParts {
+  CwCase table = {};
+  CwFaceRole *role = nullptr;
+  CwFacePatches patches = {};
+  CwCadInterface *interfaces = nullptr;
+  CwModel model = {};
+  int interface_count = 0, blades = 0;
+
+  explicit Made(const std::initializer_list<std::pair<const char *, TopoDS_Shape>> &solids) : SmallParts(solids) {
+    table.cad = &cad;
+    table.operating_point.flow_rate = 4. / 3600;
+    table.operating_point.head = 2;
+    table.operating_point.speed = 150;
+  }
+  ~Made() {
+    free(role);
+    free(interfaces);
+    cw_face_patches_free(&patches);
+    cw_model_free(&model);
+  }
+  CwStatus make() {
+    CwStatus status = CW_OK;
+    int cut;
+    CW_TRY(look());
+    CW_TRY(cw_contact_imprint(&survey, contact, small_tolerance, &parts, &cut));
+    cw_survey_free(&survey);
+    free(contact);
+    CW_TRY(look());
+    role = (CwFaceRole *)calloc(survey.face_count, sizeof *role);
+    CW_TRY(cw_proposal_make(&survey, contact, rotating, role, &blades));
+    CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, &patches));
+    CW_TRY(cw_cad_interfaces_make(&cad, &survey, contact, &patches, &interface_count, &interfaces));
+    CW_TRY(cw_cad_model_make(&table, &survey, &patches, interface_count, interfaces, blades, 1e-3, &model));
+  done:
+    return status;
+  }
+  const CwModelPatch &patch(const char *name) const {
+    const int found = cw_model_patch_find(&model, name);
+    if (found < 0) fail_msg("no patch %s", name);
+    return model.patch[found];
+  }
+};
+
+static void speeds_follow_from_the_operating_point(void **) {
+  Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  // Blades end at hypot(45, 1.5) mm, the interface stands at 50 mm and is 10 mm wide.
+  const double r2 = std::hypot(45, 1.5) * mm, u2 = 150 * r2, flow = 4. / 3600;
+  const double swirl = 9.80665 * 2 / (0.85 * u2), meridional = flow / (2 * M_PI * r2 * 10 * mm);
+  const double w2 = std::hypot(u2 - swirl, meridional), before = flow / (M_PI * 400 * mm * mm);
+  const double w1 = std::hypot(150 * 20 * mm, before);
+  small_near(made.patch("blade").flow.speed, (w1 + w2) / 2, 1e-5);
+  small_near(made.patch("hub").flow.speed, (w1 + w2) / 2, 1e-5);
+  small_near(made.patch("stator_wall").flow.speed, std::fmax(swirl * r2 / (50 * mm), flow / (320 * mm * mm)), 1e-5);
+  small_near(made.patch("stator_pipe").flow.speed, flow / (320 * mm * mm), 1e-5);
+  assert_int_equal(made.patch("blade").group, CW_GROUP_BLADE);
+  assert_int_equal(made.patch("shroud").group, CW_GROUP_HUB_SHROUD);
+  assert_int_equal(made.patch("stator_wall").group, CW_GROUP_VOLUTE);
+  assert_int_equal(made.patch("stator_pipe").group, CW_GROUP_PIPE);
+  assert_int_equal(made.patch("hub").turns, 1);
+  assert_int_equal(made.patch("stator_wall").turns, 0);
+  small_near(made.patch("outlet").flow_share, 1, 1e-9);
+  assert_int_equal(made.model.flow.blade_count, 6);
+  small_near(made.model.flow.reference_length, 2 * r2, 1e-6);
+}
+
+// What the case says of a patch goes before what is measured.
+static void rules_go_before(void **) {
+  Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  CwCadPatch rule = {};
+  double point[][3] = {{47 * mm, 0, 5 * mm}};
+  strcpy(rule.name, "back");
+  rule.near = {1, point};
+  rule.colour = -1;
+  rule.walls = CW_CAD_WALLS_PIPE;
+  rule.y_plus = 3;
+  rule.velocity = 9;
+  rule.turns = 0;
+  rule.monitored = 1;
+  made.cad.patch = &rule;
+  made.cad.patch_count = 1;
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  const CwModelPatch &patch = made.patch("back");
+  assert_int_equal(patch.group, CW_GROUP_PIPE);
+  small_near(patch.flow.speed, 9, 0);
+  small_near(patch.y_plus_asked, 3, 0);
+  assert_int_equal(patch.turns, 0);
+  assert_int_equal(patch.monitored, 1);
+}
+
+static void pumps_that_cannot_be_are_told(void **) {
+  Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  both.cad.domain[1].rotating = both.rotating[1] = 1;
+  assert_int_not_equal(both.make(), CW_OK);
+  assert_non_null(strstr(cw_fail_message(), "cad."));
+  Made high({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  high.table.operating_point.head = 50;
+  assert_int_equal(high.make(), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "operating_point.head_m: 50 contradicts speed_rpm and the wheel"));
+  gp_Trsf aside;
+  aside.SetTranslation(gp_Vec(400, 0, 0));
+  // A ball of metal beside the pump.
+  Made metal({{"rotor", small_rotor()},
+              {"stator", small_stator()},
+              {"metal", BRepBuilderAPI_Transform(BRepPrimAPI_MakeSphere(20).Shape(), aside, Standard_True).Shape()}});
+  assert_int_equal(metal.make(), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "cad.domains.metal: touches no other domain"));
+  assert_non_null(strstr(cw_fail_message(), "is it the metal?"));
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(speeds_follow_from_the_operating_point),
+                                     cmocka_unit_test(rules_go_before),
+                                     cmocka_unit_test(pumps_that_cannot_be_are_told)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The stage writes what later stages and people read; where it fails it leaves the sheet, or the place of the fault.
+#include <filesystem>
+#include <fstream>
+
+#include "cad/small_parts.hpp"
+
+extern "C" {
+#include "geometry/cad/cad_stage.h"
+#include "pipeline/case_read.h"
+}
+
+static std::string folder;
+
+static CwStatus run(const std::string &cad) {
+  CwStatus status = CW_OK;
+  CwCase table = {};
+  CwRecord *record = nullptr;
+  CwStageArgs args = {};
+  const std::string path = folder + "/case.yaml";
+  args.case_path = path.c_str();
+  args.run_path = folder.c_str();
+  std::filesystem::remove_all(folder + "/geometry");
+  std::filesystem::create_directory(folder + "/geometry");
+  std::ofstream(path) << "name: small\noperating_point: {flow_rate_m3_per_h: 4, head_m: 2, speed_rpm: 1450}\ncad:\n"
+                      << cad;
+  CW_TRY(cw_case_read(path.c_str(), &table));
+  CW_TRY(cw_record_start("geometry", &record));
+  status = cw_cad_stage(&args, &table, record);
+done:
+  cw_record_free(record);
+  cw_case_free(&table);
+  return status;
+}
+
+static bool is_there(const char *name) {
+  return std::filesystem::exists(folder + "/geometry/" + name);
+}
+
+static const char *const whole =
+    "  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n";
+
+static void all_files_are_written(void **) {
+  if (run(whole)) fail_msg("%s", cw_fail_message());
+  for (const char *name : {"rotor.brep", "stator.brep", "faces.csv", "faces_sheet.csv", "model.json", "pump.step",
+                           "faces_rotor.svg", "faces_stator.svg"})
+    if (!is_there(name)) fail_msg("%s is missing", name);
+  assert_false(is_there("fault.svg"));
+}
+
+static void the_sheet_is_there_where_a_rule_fails(void **) {
+  assert_int_equal(run(std::string(whole) + "  patches: {blade: {faces: PS*}}\n"), CW_ERR_INPUT);
+  assert_true(is_there("faces_sheet.csv"));
+  assert_true(is_there("faces_rotor.svg"));
+  assert_false(is_there("model.json"));
+}
+
+static void the_place_of_a_fault_is_drawn(void **) {
+  assert_int_equal(run("  files: open.brep\n  domains: {rotor: {solid: 1, rotating: true}}\n"), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "cad.domains.rotor: the solid cannot be healed"));
+  assert_true(is_there("fault.svg"));
+  assert_false(is_there("faces_sheet.csv"));
+}
+
+// A disc that lacks a lid, as a solid.
+static TopoDS_Shape open_disc() {
+  const TopTools_IndexedMapOfShape map = cw_cad_faces(small_cylinder(0, 50, 10));
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid solid;
+  builder.MakeShell(shell);
+  builder.Add(shell, map(1));
+  builder.Add(shell, map(2));
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
+
+static int make_files(void **) {
+  char name[] = "/tmp/cutwater_cad_XXXXXX";
+  if (!mkdtemp(name)) return -1;
+  folder = name;
+  small_write(folder + "/pump.brep", {small_rotor(), small_stator()});
+  small_write(folder + "/open.brep", {open_disc()});
+  return 0;
+}
+
+static int remove_files(void **) {
+  std::filesystem::remove_all(folder);
+  return 0;
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(all_files_are_written),
+                                     cmocka_unit_test(the_sheet_is_there_where_a_rule_fails),
+                                     cmocka_unit_test(the_place_of_a_fault_is_drawn)};
+  return cmocka_run_group_tests(tests, make_files, remove_files);
+}

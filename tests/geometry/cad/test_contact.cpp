@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Boxes side by side: which faces touch, with what share, at what gap; and what is cut.
+#include "cad/small_parts.hpp"
+
+// Faces of a part that touch another, and the least share of any.
+static int touching(const SmallParts &small, int part, double *least) {
+  int count = 0;
+  *least = 1;
+  for (int f = 0; f < small.survey.face_count; f++) {
+    if (small.survey.face[f].part != part || small.contact[f].part < 0) continue;
+    count++;
+    *least = std::min(*least, small.contact[f].share);
+  }
+  return count;
+}
+
+static void equal_faces_touch_wholly(void **) {
+  double share;
+  SmallParts small({{"a", small_box(0, 0, 0, 10, 10, 10)}, {"b", small_box(10, 0, 0, 5, 10, 10)}});
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  for (int part = 0; part < 2; part++) {
+    assert_int_equal(touching(small, part, &share), 1);
+    small_near(share, 1, 0);
+  }
+}
+
+// A small box on a large one: its face touches wholly, the large one in part until it is cut to 5 x 5 mm.
+static void faces_that_touch_in_part_are_cut(void **) {
+  double share, area = 0;
+  int cut;
+  SmallParts small({{"a", small_box(0, 0, 0, 20, 20, 5)}, {"b", small_box(8, 8, 5, 5, 5, 5)}});
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(touching(small, 1, &share), 1);
+  small_near(share, 1, 0);
+  assert_int_equal(cw_contact_imprint(&small.survey, small.contact, small_tolerance, &small.parts, &cut), CW_OK);
+  assert_int_equal(cut, 1);
+  cw_survey_free(&small.survey);
+  free(small.contact);
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(touching(small, 0, &share), 1);
+  small_near(share, 1, 0);
+  for (int f = 0; f < small.survey.face_count; f++)
+    if (small.contact[f].part == 1) area += small.survey.face[f].area;
+  small_near(area, 25e-6, 1e-12);
+}
+
+static void gaps_are_told_with_their_size(void **) {
+  SmallParts small({{"a", small_box(0, 0, 0, 100, 100, 100)}, {"b", small_box(100.05, 0, 0, 50, 100, 100)}});
+  assert_int_equal(small.look(), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "between a and b is a gap or an overlap of 0.05 mm, at (100.000"));
+}
+
+static void far_parts_do_not_touch(void **) {
+  double share;
+  SmallParts small({{"a", small_box(0, 0, 0, 100, 100, 100)}, {"b", small_box(110, 0, 0, 50, 100, 100)}});
+  assert_int_equal(small.look(), CW_OK);
+  assert_int_equal(touching(small, 0, &share), 0);
+}
+
+// Side walls that only share an edge with the neighbour's do not touch it.
+static void edges_alone_do_not_touch(void **) {
+  double share;
+  SmallParts small({{"a", small_box(0, 0, 0, 10, 10, 10)}, {"b", small_box(10, 10, 0, 10, 10, 10)}});
+  assert_int_equal(small.look(), CW_OK);
+  assert_int_equal(touching(small, 0, &share) + touching(small, 1, &share), 0);
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(equal_faces_touch_wholly), cmocka_unit_test(faces_that_touch_in_part_are_cut),
+      cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(far_parts_do_not_touch),
+      cmocka_unit_test(edges_alone_do_not_touch)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Sound solids stay as they are, bad ones are mended or refused with the place.
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+
+#include "cad/small_parts.hpp"
+
+extern "C" {
+#include "geometry/cad/heal.h"
+}
+
+static double volume(const TopoDS_Shape &shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+static void sound_solids_stay(void **) {
+  SmallParts small({{"rotor", small_rotor()}});
+  const TopoDS_Shape before = small.parts.part[0].solid;
+  CwCadFault fault;
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, &small.parts, &fault), CW_OK);
+  assert_true(small.parts.part[0].solid.IsSame(before));
+  assert_false(fault.found);
+}
+
+static void solids_inside_out_are_turned(void **) {
+  SmallParts small({{"water", small_box(0, 0, 0, 1, 2, 3)}});
+  small.parts.part[0].solid.Reverse();
+  CwCadFault fault;
+  assert_true(volume(small.parts.part[0].solid) < 0);
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, &small.parts, &fault), CW_OK);
+  small_near(volume(small.parts.part[0].solid), 6, 1e-9);
+}
+
+// A box of six faces that share nothing, the lid 0.005 off: sewn within 0.01.
+static TopoDS_Shape loose_box(double gap, int faces) {
+  const TopoDS_Shape box = small_box(0, 0, 0, 1, 2, 3);
+  const TopTools_IndexedMapOfShape map = cw_cad_faces(box);
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid solid;
+  builder.MakeShell(shell);
+  for (int f = 1; f <= faces; f++) {
+    gp_Trsf motion;
+    if (f == 6) motion.SetTranslation(gp_Vec(0, 0, gap)); // the lid
+    builder.Add(shell, BRepBuilderAPI_Transform(map(f), motion, Standard_True).Shape());
+  }
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
+
+static void gaps_are_sewn(void **) {
+  SmallParts small({{"water", loose_box(0.005, 6)}});
+  CwCadFault fault;
+  if (cw_cad_heal(0.01, &small_frame, &small.parts, &fault)) fail_msg("%s", cw_fail_message());
+  assert_true(BRepCheck_Analyzer(small.parts.part[0].solid).IsValid());
+  small_near(volume(small.parts.part[0].solid), 6, 0.02);
+  assert_int_equal(small.parts.part[0].origin.size(), 6);
+}
+
+static void what_stays_open_is_refused_with_its_place(void **) {
+  SmallParts small({{"wheel", small_box(5, 5, 5, 1, 1, 1)}, {"water", loose_box(0, 5)}});
+  CwCadFault fault;
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, &small.parts, &fault), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "cad.domains.water: the solid cannot be healed within 0.01 mm"));
+  assert_non_null(strstr(cw_fail_message(), "edges do not lie between two faces"));
+  assert_non_null(strstr(cw_fail_message(), "mm; allowed"));
+  assert_true(fault.found);
+  assert_int_equal(fault.part, 1);
+  small_near(fault.at[2], 3e-3, 1e-9); // the lid is missing
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(sound_solids_stay),
+                                     cmocka_unit_test(solids_inside_out_are_turned), cmocka_unit_test(gaps_are_sewn),
+                                     cmocka_unit_test(what_stays_open_is_refused_with_its_place)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Areas, forms and edges of a box, a pipe and a step, by hand.
+#include "cad/small_parts.hpp"
+
+static const double mm = 1e-3;
+
+static void a_box_has_planes_and_right_angles(void **) {
+  SmallParts small({{"water", small_box(10, 0, 0, 2, 3, 4)}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(small.survey.face_count, 6);
+  assert_int_equal(small.survey.edge_count, 12);
+  double area = 0, length = 0;
+  for (int f = 0; f < 6; f++) {
+    const CwSurveyFace &face = small.survey.face[f];
+    area += face.area;
+    assert_int_equal(face.form, CW_FORM_PLANE);
+    assert_int_equal(face.turned, std::fabs(face.normal[2]) > 0.5); // across the axis
+    const double middle[] = {11 * mm, 1.5 * mm, 2 * mm};
+    double outward = 0;
+    for (int i = 0; i < 3; i++) outward += face.normal[i] * (face.at[i] - middle[i]);
+    assert_true(outward > 0);
+  }
+  small_near(area, 52 * mm * mm, 1e-12);
+  for (int e = 0; e < 12; e++) {
+    length += small.survey.edge[e].length;
+    small_near(small.survey.edge[e].angle, M_PI / 2, 1e-9);
+  }
+  small_near(length, 36 * mm, 1e-12);
+}
+
+// Into a notch the water has three right angles.
+static void notches_are_concave(void **) {
+  SmallParts small({{"water", BRepAlgoAPI_Cut(small_box(0, 0, 0, 4, 4, 4), small_box(2, 2, -1, 4, 4, 6)).Shape()}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  int concave = 0;
+  for (int e = 0; e < small.survey.edge_count; e++)
+    if (small.survey.edge[e].angle > M_PI) {
+      concave++;
+      small_near(small.survey.edge[e].angle, 3 * M_PI / 2, 1e-9);
+    }
+  assert_int_equal(concave, 1);
+}
+
+static void pipes_are_revolved(void **) {
+  SmallParts small({{"water", small_cylinder(-3, 5, 10)}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  int revolved = 0;
+  for (int f = 0; f < small.survey.face_count; f++) {
+    const CwSurveyFace &face = small.survey.face[f];
+    assert_true(face.turned);
+    if (face.form != CW_FORM_REVOLVED) continue;
+    revolved++;
+    small_near(face.area, 2 * M_PI * 5 * 10 * mm * mm, 1e-10);
+    small_near(face.radius[0], 5 * mm, 1e-9);
+    small_near(face.height[0], -3 * mm, 1e-9);
+    small_near(face.height[1], 7 * mm, 1e-9);
+  }
+  assert_int_equal(revolved, 1);
+}
+
+// Of a pipe beside the axis nothing is revolved; the blade-like wall has a twist where it looks along the rotation.
+static void off_the_axis_nothing_is_revolved(void **) {
+  gp_Trsf aside;
+  aside.SetTranslation(gp_Vec(20, 0, 0));
+  SmallParts small({{"water", BRepBuilderAPI_Transform(small_cylinder(0, 5, 10), aside, Standard_True).Shape()}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  for (int f = 0; f < small.survey.face_count; f++) assert_int_not_equal(small.survey.face[f].form, CW_FORM_REVOLVED);
+}
+
+static void the_nearest_face_is_found(void **) {
+  SmallParts small({{"water", small_box(0, 0, 0, 10, 10, 10)}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  const double at[] = {5 * mm, 4 * mm, 10.5 * mm};
+  int face;
+  double distance, second;
+  assert_int_equal(cw_survey_nearest(&small.parts, &small.survey, -1, at, 1, &face, &distance, &second), CW_OK);
+  small_near(small.survey.face[face].normal[2], 1, 1e-12);
+  small_near(distance, 0.5 * mm, 1e-12);
+  small_near(second, std::hypot(4, 0.5) * mm, 1e-12);
+  assert_int_equal(cw_survey_nearest(&small.parts, &small.survey, -1, at, 0.1 * mm, &face, &distance, nullptr), CW_OK);
+  assert_int_equal(face, -1);
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_has_planes_and_right_angles),
+                                     cmocka_unit_test(notches_are_concave), cmocka_unit_test(pipes_are_revolved),
+                                     cmocka_unit_test(off_the_axis_nothing_is_revolved),
+                                     cmocka_unit_test(the_nearest_face_is_found)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
