@@ -50,6 +50,7 @@ void cw_assembly_free(CwAssembly *assembly) {
   free(assembly->parts);
   free(assembly->patches);
   free(assembly->across);
+  free(assembly->partner);
   for (int d = 0; d < CW_DOMAINS_MOST; ++d) free(assembly->shared[d]);
   for (int i = 0; i < CW_INTERFACES_MOST; ++i) {
     free(assembly->interface[i][0]);
@@ -291,6 +292,7 @@ static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
       CwRegionPlace *place = &a->places[here->region];
       int64_t mine = place->cell + here->cell, other = a->places[there->region].cell + there->cell;
       a->across[place->open + here->slot] = other;
+      a->partner[place->open + here->slot] = a->places[there->region].open + there->slot;
       if (mine < other) ++*(here->loop[3] < 0 ? &place->outer_triangles : &place->outer_quads);
     }
   }
@@ -303,6 +305,7 @@ static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected
   OpenFace *all = NULL;
   int64_t total = 0;
   CW_NEW(a->across, a->open_count);
+  CW_NEW(a->partner, a->open_count);
   CW_TRY(cw_ranks_gather(ranks, c->open, c->open_count, sizeof *all, (void **)&all, &total));
   // A stable split by domain, as each numbers its shared points from 0.
   if (ranks->rank == 0) {
@@ -318,6 +321,7 @@ static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected
   }
   CW_TRY(cw_ranks_agree(ranks, status));
   cw_ranks_broadcast(ranks, a->across, a->open_count, sizeof *a->across);
+  cw_ranks_broadcast(ranks, a->partner, a->open_count, sizeof *a->partner);
   cw_ranks_broadcast(ranks, a->places, a->mesh->region_count, sizeof *a->places);
 done:
   free(all);

@@ -50,6 +50,7 @@ typedef struct {
   CwPatchPart *patches;  // by patch: the sums over the regions
   double (*shared[CW_DOMAINS_MOST])[3];
   int64_t *across; // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
+  int64_t *partner; // by open face: the same face as an open one of the region on its other side
   int64_t open_count;
   CwInterfaceFace *interface[CW_INTERFACES_MOST][2]; // by interface and side; on rank 0 only, by place
 } CwAssembly;

@@ -83,26 +83,36 @@ done:
 // section.
 static CwStatus write_elements(hid_t file, const CwAssembly *a, int region, const CwRegionData *data,
                                const CwSection *section, int64_t first, const int32_t *elements, int64_t count,
-                               const int32_t *patch_of) {
+                               const int32_t *patch_of, int wide) {
   CwStatus status = CW_OK;
   int32_t *out = NULL;
+  int64_t *wide_out = NULL;
   int64_t used = 0;
   char path[100];
   int local_patch = section->patch - a->mesh->domains[data->domain].first_patch;
-  CW_NEW_UNSET(out, count * section->nodes);
+  if (wide)
+    CW_NEW_UNSET(wide_out, count * section->nodes);
+  else
+    CW_NEW_UNSET(out, count * section->nodes);
   for (int64_t i = 0; i < count; ++i)
-    if (!patch_of || patch_of[i] == local_patch)
-      for (int n = 0; n < section->nodes; ++n)
-        out[used++] = (int32_t)cw_point_number(a, region, data, elements[i * section->nodes + n]) + 1;
+    for (int n = 0; n < section->nodes && (!patch_of || patch_of[i] == local_patch); ++n) {
+      const int64_t number = cw_point_number(a, region, data, elements[i * section->nodes + n]) + 1;
+      if (wide)
+        wide_out[used++] = number;
+      else
+        out[used++] = (int32_t)number;
+    }
   snprintf(path, sizeof path, "/pump/%s/%s/ElementConnectivity/ data", a->mesh->domains[data->domain].zone,
            section->name);
-  CW_TRY(write_stretch(file, path, H5T_NATIVE_INT32, first * section->nodes, used, out));
+  CW_TRY(write_stretch(file, path, wide ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32, first * section->nodes, used,
+                       wide ? (const void *)wide_out : out));
 done:
   free(out);
+  free(wide_out);
   return status;
 }
 
-CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const CwRegionData *data) {
+CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const CwRegionData *data, int wide) {
   CwStatus status = CW_OK;
   CwSection *sections = NULL;
   int count = 0;
@@ -134,7 +144,8 @@ CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const
       elements = *data->quads, elements_count = part->quads ? data->quad_count : 0;
       patch_of = data->quad_patch, first = part->quad;
     }
-    CW_TRY(write_elements(file, a, region, data, &sections[s], first, elements, elements_count, patch_of));
+    CW_TRY(write_elements(file, a, region, data, &sections[s], first, elements, elements_count, patch_of,
+                          wide));
   }
 done:
   free(sections);

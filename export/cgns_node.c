@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/cgns_node.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { NAME_SIZE = 33, TYPE_SIZE = 3 };
@@ -92,6 +93,7 @@ CwStatus cw_cgns_node(hid_t parent, const char *name, const char *label, const c
   if (strcmp(type, "MT") != 0) {
     hid_t of = strcmp(type, "C1") == 0   ? H5T_STD_I8LE
                : strcmp(type, "I4") == 0 ? H5T_STD_I32LE
+               : strcmp(type, "I8") == 0 ? H5T_STD_I64LE
                : strcmp(type, "R4") == 0 ? H5T_IEEE_F32LE
                                          : H5T_IEEE_F64LE;
     CW_TRY(put_data(group, " data", of, dimensions, size, data));
@@ -114,6 +116,22 @@ CwStatus cw_cgns_text(hid_t parent, const char *name, const char *label, const c
 CwStatus cw_cgns_list(hid_t parent, const char *name, const char *label, const char *type, hsize_t count,
                       const void *data, hid_t *node) {
   return cw_cgns_node(parent, name, label, type, 1, &count, data, node);
+}
+
+CwStatus cw_cgns_integers(hid_t parent, const char *name, const char *label, int wide, hsize_t count, hsize_t columns,
+                          const int64_t *data, hid_t *node) {
+  CwStatus status = CW_OK;
+  const hsize_t size[2] = {count, columns}, values = count * (columns ? columns : 1);
+  int32_t *narrow = NULL;
+  if (data && !wide) {
+    CW_NEW_UNSET(narrow, values);
+    for (hsize_t i = 0; i < values; ++i) narrow[i] = (int32_t)data[i];
+  }
+  CW_TRY(cw_cgns_node(parent, name, label, wide ? "I8" : "I4", columns ? 2 : 1, size,
+                      wide ? (const void *)data : narrow, node));
+done:
+  free(narrow);
+  return status;
 }
 
 CwStatus cw_cgns_exponents(hid_t parent, const float exponents[5]) {

@@ -13,7 +13,7 @@
 // same bytes. Fails with CW_ERR_IO.
 CwStatus cw_cgns_create(const char *path, hid_t *file);
 
-// Adds a node to `parent` and gives its group in *node (NULL: closes it). `type` is MT, C1, I4, R4 or R8.
+// Adds a node to `parent` and gives its group in *node (NULL: closes it). `type` is MT, C1, I4, I8, R4 or R8.
 // `size` is in C order, the reverse of the standard's, with `dimensions` entries. data NULL with another type
 // than MT: the space is set aside, to be filled later. Fails with CW_ERR_LIBRARY.
 CwStatus cw_cgns_node(hid_t parent, const char *name, const char *label, const char *type, int dimensions,
@@ -25,6 +25,10 @@ CwStatus cw_cgns_text(hid_t parent, const char *name, const char *label, const c
 // A node with `count` values in one dimension.
 CwStatus cw_cgns_list(hid_t parent, const char *name, const char *label, const char *type, hsize_t count,
                       const void *data, hid_t *node);
+
+// A node with `count` integers in one dimension or, where `columns` is above 0, in two; stored in 64 or 32 bits.
+CwStatus cw_cgns_integers(hid_t parent, const char *name, const char *label, int wide, hsize_t count, hsize_t columns,
+                          const int64_t *data, hid_t *node);
 
 // DimensionalExponents of mass, length, time, temperature, angle for the data of `parent`.
 CwStatus cw_cgns_exponents(hid_t parent, const float exponents[5]);

@@ -85,26 +85,27 @@ done:
   return status;
 }
 
-static CwStatus put_section(hid_t zone, const CwSection *section) {
+static CwStatus put_section(hid_t zone, const CwSection *section, int wide) {
   CwStatus status = CW_OK;
   hid_t elements = -1;
   const int code[] = {section->type, 0};
-  const int range[] = {(int)section->first, (int)(section->first + section->count - 1)};
+  const int64_t range[] = {section->first, section->first + section->count - 1};
   CW_TRY(cw_cgns_list(zone, section->name, "Elements_t", "I4", 2, code, &elements));
-  CW_TRY(cw_cgns_list(elements, "ElementRange", "IndexRange_t", "I4", 2, range, NULL));
-  CW_TRY(cw_cgns_list(elements, "ElementConnectivity", "DataArray_t", "I4", (hsize_t)(section->count * section->nodes),
-                      NULL, NULL));
+  CW_TRY(cw_cgns_integers(elements, "ElementRange", "IndexRange_t", wide, 2, 0, range, NULL));
+  CW_TRY(cw_cgns_integers(elements, "ElementConnectivity", "DataArray_t", wide,
+                          (hsize_t)(section->count * section->nodes), 0, NULL, NULL));
 done:
   if (elements >= 0) H5Gclose(elements);
   return status;
 }
 
-static CwStatus put_point_range(hid_t parent, const int range[2]) {
-  return cw_cgns_node(parent, "PointRange", "IndexRange_t", "I4", 2, (hsize_t[]){2, 1}, range, NULL);
+static CwStatus put_point_range(hid_t parent, int64_t first, int64_t count, int wide) {
+  const int64_t range[] = {first, first + count - 1};
+  return cw_cgns_integers(parent, "PointRange", "IndexRange_t", wide, 2, 1, range, NULL);
 }
 
 // A reader shows a surface only where a BC names it, so the interface has one too.
-static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
+static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain, int wide) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   hid_t all = -1, one = -1;
@@ -112,9 +113,8 @@ static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
   for (int p = 0; p < mesh->patch_count; ++p) {
     const CwPatchPart *sum = &a->patches[p];
     if (mesh->patches[p].domain != domain || sum->triangles + sum->quads == 0) continue;
-    int first = (int)cw_cgns_patch_first(a, p);
     CW_TRY(cw_cgns_text(all, mesh->patches[p].name, "BC_t", "FamilySpecified", &one));
-    CW_TRY(put_point_range(one, (int[]){first, first + (int)(sum->triangles + sum->quads) - 1}));
+    CW_TRY(put_point_range(one, cw_cgns_patch_first(a, p), sum->triangles + sum->quads, wide));
     CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
     CW_TRY(cw_cgns_text(one, "FamilyName", "FamilyName_t", mesh->patches[p].name, NULL));
     H5Gclose(one);
@@ -138,27 +138,27 @@ static int connections_before(const CwMesh *mesh, int number, int side) {
 }
 
 // The connection of one side of an interface, in the ZoneGridConnectivity of its zone.
-static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const CwInterface *interface, int side) {
+static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const CwInterface *interface, int side,
+                               int wide) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   const int *patch = mesh->interfaces[number].patch;
   const CwMeshDomain *here = &mesh->domains[mesh->patches[patch[side]].domain];
   const CwMeshDomain *there = &mesh->domains[mesh->patches[patch[1 - side]].domain];
   hid_t one = -1;
-  int32_t *donors = NULL;
+  int64_t *donors = NULL;
   int64_t count = interface->count[side], donor_first = cw_cgns_patch_first(a, patch[1 - side]);
-  int first = (int)cw_cgns_patch_first(a, patch[side]);
   char name[48]; // no more than CGNS's 32 are used
   CW_NEW(donors, count);
-  for (int64_t i = 0; i < count; ++i) donors[i] = (int32_t)(donor_first + interface->donor[side][i]);
+  for (int64_t i = 0; i < count; ++i) donors[i] = donor_first + interface->donor[side][i];
   int again = connections_before(mesh, number, side);
   snprintf(name, sizeof name, "%.14s_to_%.14s", here->name, there->name);
   if (again) snprintf(name, sizeof name, "%.12s_to_%.12s_%d", here->name, there->name, again + 1);
   CW_TRY(cw_cgns_text(all, name, "GridConnectivity_t", there->zone, &one));
   CW_TRY(cw_cgns_text(one, "GridConnectivityType", "GridConnectivityType_t", "Abutting", NULL));
   CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
-  CW_TRY(put_point_range(one, (int[]){first, first + (int)count - 1}));
-  CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors, NULL));
+  CW_TRY(put_point_range(one, cw_cgns_patch_first(a, patch[side]), count, wide));
+  CW_TRY(cw_cgns_integers(one, "CellListDonor", "IndexArray_t", wide, (hsize_t)count, 1, donors, NULL));
   CW_TRY(cw_cgns_node(one, "InterpolantsDonor", "DataArray_t", "R8", 2, (hsize_t[]){(hsize_t)count, 2},
                       interface->place[side], NULL));
 done:
@@ -167,14 +167,14 @@ done:
   return status;
 }
 
-static CwStatus put_connections(hid_t zone, const CwAssembly *a, const CwInterface *interfaces, int domain) {
+static CwStatus put_connections(hid_t zone, const CwAssembly *a, const CwInterface *interfaces, int domain, int wide) {
   CwStatus status = CW_OK;
   hid_t all = -1;
   CW_TRY(cw_cgns_node(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t", "MT", 0, NULL, NULL, &all));
   for (int i = 0; i < a->mesh->interface_count; ++i)
     for (int side = 0; side < 2; ++side)
       if (a->mesh->patches[a->mesh->interfaces[i].patch[side]].domain == domain)
-        CW_TRY(put_connection(all, a, i, &interfaces[i], side));
+        CW_TRY(put_connection(all, a, i, &interfaces[i], side, wide));
 done:
   if (all >= 0) H5Gclose(all);
   return status;
@@ -197,29 +197,23 @@ done:
 }
 
 static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *interfaces, const CwCase *table,
-                         int domain) {
+                         int domain, int wide) {
   CwStatus status = CW_OK;
   hid_t zone = -1;
   CwSection *sections = NULL;
   int section_count = 0;
   const CwDomainTotal *total = &a->totals[domain];
   char family[CW_MESH_NAME_SIZE];
-  int64_t elements = total->cells;
-  for (int p = 0; p < a->mesh->patch_count; ++p)
-    if (a->mesh->patches[p].domain == domain) elements += a->patches[p].triangles + a->patches[p].quads;
-  CW_REQUIRE(total->points <= INT32_MAX && elements <= INT32_MAX, CW_ERR_EXPORT,
-             "domain %s: %lld points and %lld elements; CGNS with 32-bit numbers allows %d",
-             a->mesh->domains[domain].name, (long long)total->points, (long long)elements, INT32_MAX);
-  const int size[] = {(int)total->points, (int)total->cells, 0};
+  const int64_t size[] = {total->points, total->cells, 0};
   CW_TRY(cw_cgns_sections(a, domain, &sections, &section_count));
-  CW_TRY(cw_cgns_node(base, a->mesh->domains[domain].zone, "Zone_t", "I4", 2, (hsize_t[]){3, 1}, size, &zone));
+  CW_TRY(cw_cgns_integers(base, a->mesh->domains[domain].zone, "Zone_t", wide, 3, 1, size, &zone));
   CW_TRY(cw_cgns_text(zone, "ZoneType", "ZoneType_t", "Unstructured", NULL));
   snprintf(family, sizeof family, "%.20s_domain", a->mesh->domains[domain].name);
   CW_TRY(cw_cgns_text(zone, "FamilyName", "FamilyName_t", family, NULL));
   CW_TRY(put_coordinates(zone, total->points));
-  for (int s = 0; s < section_count; ++s) CW_TRY(put_section(zone, &sections[s]));
-  CW_TRY(put_conditions(zone, a, domain));
-  CW_TRY(put_connections(zone, a, interfaces, domain));
+  for (int s = 0; s < section_count; ++s) CW_TRY(put_section(zone, &sections[s], wide));
+  CW_TRY(put_conditions(zone, a, domain, wide));
+  CW_TRY(put_connections(zone, a, interfaces, domain, wide));
   if (a->mesh->domains[domain].rotating) CW_TRY(put_rotation(zone, table->operating_point.speed));
 done:
   free(sections);
@@ -227,7 +221,26 @@ done:
   return status;
 }
 
-CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interfaces, const CwCase *table) {
+CwStatus cw_cgns_plan(const CwAssembly *a, CwIntegers integers, int *wide) {
+  CwStatus status = CW_OK;
+  *wide = integers == CW_INTEGERS_64;
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
+    int64_t elements = a->totals[d].cells;
+    for (int p = 0; p < a->mesh->patch_count; ++p)
+      if (a->mesh->patches[p].domain == d) elements += a->patches[p].triangles + a->patches[p].quads;
+    if (a->totals[d].points <= INT32_MAX && elements <= INT32_MAX) continue;
+    CW_REQUIRE(integers != CW_INTEGERS_32, CW_ERR_EXPORT,
+               "domain %s: %lld points and %lld elements; CGNS with 32-bit integers allows %d (cgns.integers: 64 holds "
+               "them)",
+               a->mesh->domains[d].name, (long long)a->totals[d].points, (long long)elements, INT32_MAX);
+    *wide = 1;
+  }
+done:
+  return status;
+}
+
+CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interfaces, const CwCase *table,
+                            int wide) {
   CwStatus status = CW_OK;
   hid_t file = -1, base = -1;
   const int dimensions[] = {3, 3};
@@ -244,7 +257,7 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CW_TRY(put_equations(base));
   CW_TRY(put_reference_state(base, table, a->mesh->flow.reference_length));
   CW_TRY(put_families(base, a->mesh));
-  for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d));
+  for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d, wide));
 done:
   if (base >= 0) H5Gclose(base);
   if (status == CW_ERR_IO) status = CW_FAIL(status, "%s: %s (is the disk full?)", path, cw_fail_message());

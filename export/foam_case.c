@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "export/blocks.h"
+#include "export/foam_processors.h"
 #include "export/foam_zones.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
@@ -119,6 +120,10 @@ static void put_scalar(FILE *out, Field field, const CwModelPatch *patch, double
   if (strcmp(type, "zeroGradient") != 0) fprintf(out, "        value           uniform %.9g;\n", value);
 }
 
+// The group of all patches between parts of a divided mesh.
+static const char processor_patches[] = "    processor\n    {\n        type            processor;\n"
+                                        "        value           uniform %s;\n    }\n";
+
 // Literal values throughout: readers of such files do not expand macros.
 static CwStatus write_field(const char *folder, Field field, const Start *start) {
   CwStatus status = CW_OK;
@@ -135,11 +140,9 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
           "ascii;\n"
           "    class       %s;\n    object      %s;\n}\n\ndimensions      %s;\ninternalField   uniform ",
           fields[field].class, fields[field].name, fields[field].dimensions);
-  if (field == FIELD_U)
-    fprintf(out, "(0 0 0)");
-  else
-    fprintf(out, "%.9g", inside);
-  fprintf(out, ";\nboundaryField\n{\n");
+  char uniform[32] = "(0 0 0)";
+  if (field != FIELD_U) snprintf(uniform, sizeof uniform, "%.9g", inside);
+  fprintf(out, "%s;\nboundaryField\n{\n", uniform);
   for (int p = 0; p < start->assembly->mesh->patch_count; ++p) {
     const CwModelPatch *patch = &start->assembly->mesh->patches[p];
     if (!cw_patch_is_there(start->assembly, p)) continue;
@@ -154,6 +157,8 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
       put_scalar(out, field, patch, inlet, inside);
     fprintf(out, "    }\n");
   }
+  if (start->table->output.foam_processors > 1)
+    fprintf(out, processor_patches, uniform);
   fprintf(out, "}\n");
   CW_REQUIRE(fflush(out) == 0, CW_ERR_MEMORY, "out of memory");
   CW_REQUIRE(asprintf(&path, "%s/%s", folder, fields[field].name) >= 0, CW_ERR_MEMORY, "out of memory");
@@ -162,6 +167,31 @@ done:
   if (out) fclose(out);
   free(path);
   free(text);
+  return status;
+}
+
+// What follows from the release and from the number of processors. Debian's v1912 has no scotch.
+static CwStatus set_release(const CwCase *table, CwValues *values) {
+  CwStatus status = CW_OK;
+  const int processors = table->output.foam_processors > 1 ? table->output.foam_processors : 2;
+  const int is_old = table->output.foam_release == CW_FOAM_V1912;
+  CW_TRY(cw_values_set(values, "release", "%s", is_old ? "v1912" : "v2406"));
+  CW_TRY(cw_values_set(values, "tried", "%s",
+                       is_old ? "" : " The keywords follow its documentation; this case has not been run with it."));
+  CW_TRY(cw_values_set(values, "environment", "%s",
+                       is_old ? "export WM_PROJECT_DIR=/usr/share/openfoam   # where the package keeps its etc/ folder"
+                              : ". /usr/lib/openfoam/openfoam2406/etc/bashrc"));
+  CW_TRY(cw_values_set(values, "project_folder", "%s",
+                       is_old ? "/usr/share/openfoam" : "/usr/lib/openfoam/openfoam2406"));
+  CW_TRY(cw_values_set(values, "processors", "%d", processors));
+  if (is_old)
+    CW_TRY(cw_values_set(values, "decomposition",
+                         "method              hierarchical;\ncoeffs\n{\n    n               (%d 1 1);\n"
+                         "    order           xyz;\n}\n",
+                         processors));
+  else
+    CW_TRY(cw_values_set(values, "decomposition", "method              scotch;\n"));
+done:
   return status;
 }
 
@@ -183,6 +213,7 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   CW_TRY(cw_values_set(values, "turbulence_model", "%s", resolved ? "kOmegaSST" : "kEpsilon"));
   CW_TRY(cw_values_set(values, "dissipation", "%s", resolved ? "omega" : "epsilon"));
   CW_TRY(cw_values_set(values, "report_interval", "10"));
+  CW_TRY(set_release(table, values));
   CW_TRY(cw_foam_zones_set(a, values));
 done:
   return status;
@@ -278,10 +309,28 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwAs
       CW_REQUIRE(asprintf(&link, "%s/%s", point, shared[i]) >= 0, CW_ERR_MEMORY, "out of memory");
       CW_REQUIRE(symlink(target, link) == 0, CW_ERR_IO, "%s: cannot be made: %s", link, strerror(errno));
     }
+    if (table->output.foam_processors > 1)
+      CW_TRY(cw_foam_processors_link(point, table->output.foam_processors, "../../.."));
   }
 done:
   free(point);
   free(link);
+  return status;
+}
+
+// Those of the steady case and of the two in time, which use its mesh.
+static CwStatus link_processors(const char *folder, int count) {
+  CwStatus status = CW_OK;
+  static const char *const parts[] = {"transient", "les"};
+  char *path = NULL;
+  CW_TRY(cw_foam_processors_link(folder, count, NULL));
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
+    free(path);
+    CW_REQUIRE(asprintf(&path, "%s/%s", folder, parts[i]) >= 0, CW_ERR_MEMORY, "out of memory");
+    CW_TRY(cw_foam_processors_link(path, count, "../.."));
+  }
+done:
+  free(path);
   return status;
 }
 
@@ -298,6 +347,7 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAss
   start.eddies = 1;
   CW_TRY(write_fields(folder, "les", &start));
   CW_TRY(write_points(folder, table, a));
+  if (table->output.foam_processors > 1) CW_TRY(link_processors(folder, table->output.foam_processors));
 done:
   cw_values_free(&values);
   return status;

@@ -18,7 +18,8 @@ int main(int argc, char **argv) {
   static const CwStageUsage usage = {
       .stage = "export",
       .version = cw_version,
-      .summary = "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
+      .summary = "Writes RUN/export from the mesh in RUN/mesh: what the case's export.formats asks, which is\n"
+                 "pump.cgns, an OpenFOAM case and a CFX set-up where it asks nothing.\n"
                  "Runs under mpirun with any number of ranks; what it writes is the same for all.\n",
       .reads = {"geometry", "mesh"}};
   CwStageArgs args = {0};

@@ -6,50 +6,18 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "export/cfx_case.h"
-#include "export/cgns_file.h"
-#include "export/foam_case.h"
-#include "export/foam_mesh.h"
 #include "export/folder.h"
-#include "export/interface.h"
+#include "export/output.h"
 #include "export/patch_role.h"
 #include "export/region_check.h"
-#include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
 #include "pipeline/file_digest.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
-// Everything is made in one folder next to the final places, and moved out of it at the end.
-typedef struct {
-  char *folder, *part; // RUN/export, RUN/export/.part
-  char *cgns, *foam, *foam_mesh, *cfx;
-} Paths;
-
-static void paths_free(Paths *p) {
-  free(p->folder);
-  free(p->part);
-  free(p->cgns);
-  free(p->foam);
-  free(p->foam_mesh);
-  free(p->cfx);
-}
-
 static CwStatus join(const char *folder, const char *name, char **path) {
   CwStatus status = CW_OK;
   CW_REQUIRE(asprintf(path, "%s/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
-done:
-  return status;
-}
-
-static CwStatus paths_make(const char *run, Paths *p) {
-  CwStatus status = CW_OK;
-  CW_TRY(join(run, "export", &p->folder));
-  CW_TRY(join(p->folder, ".part", &p->part));
-  CW_TRY(join(p->part, "pump.cgns", &p->cgns));
-  CW_TRY(join(p->part, "openfoam", &p->foam));
-  CW_TRY(join(p->foam, "constant/polyMesh", &p->foam_mesh));
-  CW_TRY(join(p->part, "cfx", &p->cfx));
 done:
   return status;
 }
@@ -67,31 +35,23 @@ done:
 }
 
 // What rank 0 does alone before the regions are written.
-static CwStatus begin_files(const CwCase *table, const CwAssembly *assembly, CwInterface *interfaces,
-                            const Paths *paths, CwFoamMesh *foam) {
+static CwStatus begin_files(const CwAssembly *assembly, CwInterface *interfaces, CwOutput *output) {
   CwStatus status = CW_OK;
   for (int i = 0; i < assembly->mesh->interface_count; ++i)
     CW_TRY(cw_interface_make(assembly, i, &interfaces[i]));
-  CW_TRY(cw_folder_remove(paths->part));
-  CW_TRY(cw_make_directory(paths->foam_mesh));
-  CW_TRY(cw_make_directory(paths->cfx));
-  CW_TRY(cw_cgns_tree_write(paths->cgns, assembly, interfaces, table));
-  CW_TRY(cw_foam_mesh_create(foam));
-  CW_TRY(cw_foam_case_write(paths->foam, table, assembly));
-  CW_TRY(cw_cfx_case_write(paths->cfx, table, assembly));
+  CW_TRY(cw_folder_remove(output->folder));
+  CW_TRY(cw_output_begin(output, interfaces));
 done:
   return status;
 }
 
-static CwStatus write_region(const CwAssembly *assembly, int region, hid_t cgns, const CwFoamMesh *foam,
-                             CwRegionFigures *figures) {
+static CwStatus write_region(const CwAssembly *assembly, int region, const CwOutput *output, CwRegionFigures *figures) {
   CwStatus status = CW_OK;
   CwRegionData data = {0};
   CwRegionFaces faces = {0};
   CW_TRY(cw_mesh_region_read(assembly->mesh, region, CW_REGION_WHOLE, &data));
   CW_TRY(cw_region_check(assembly, region, &data, &faces, figures));
-  CW_TRY(cw_cgns_write_region(cgns, assembly, region, &data));
-  CW_TRY(cw_foam_mesh_write_region(foam, region, &data, &faces));
+  CW_TRY(cw_output_write_region(output, region, &data, &faces));
 done:
   cw_region_faces_free(&faces);
   cw_mesh_region_free(&data);
@@ -100,28 +60,20 @@ done:
 
 // The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is
 // collective.
-static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, const Paths *paths, CwFoamMesh *foam) {
-  CwStatus status = CW_OK, closed;
-  hid_t cgns = -1;
+static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutput *output) {
+  CwStatus status = CW_OK;
   CwRegionFigures *figures = calloc((size_t)assembly->mesh->region_count, sizeof *figures);
   if (!figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
   CW_TRY(cw_ranks_agree(ranks, status));
-  status = cw_cgns_open(paths->cgns, ranks, &cgns);
-  if (status == CW_OK) status = cw_foam_mesh_open(foam);
-  CW_TRY(cw_ranks_agree(ranks, status));
-  if (ranks->rank == 0) status = cw_cgns_write_shared(cgns, assembly);
+  status = cw_output_open(output, ranks);
   cw_progress_start("check and write the mesh", assembly->mesh->region_count, "regions");
   for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r)) status = write_region(assembly, r, cgns, foam, &figures[r]);
+    if (cw_ranks_own(ranks, r)) status = write_region(assembly, r, output, &figures[r]);
     cw_progress(r + 1);
   }
   cw_progress_end();
-done:
-  if (cgns >= 0) {
-    closed = cw_cgns_close(cgns);
-    status = status == CW_OK ? closed : status;
-  }
-  closed = cw_foam_mesh_close(foam);
+done:;
+  CwStatus closed = cw_output_close(output);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
   if (status == CW_OK) cw_region_figures_sum(ranks, figures, assembly);
   free(figures);
@@ -231,37 +183,67 @@ done:
   return status;
 }
 
-static CwStatus finish_files(const Paths *paths) {
+// Moves what was made to its place. What an earlier run left of other formats is not of this mesh.
+static CwStatus finish_files(const char *folder, const char *part, int formats) {
   CwStatus status = CW_OK;
-  static const char *const names[] = {"pump.cgns", "openfoam", "cfx"};
   char *from = NULL, *to = NULL;
-  CW_TRY(cw_folder_sync(paths->part));
-  for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-    CW_TRY(join(paths->part, names[i], &from));
-    CW_TRY(join(paths->folder, names[i], &to));
-    CW_TRY(cw_folder_replace(from, to));
+  CW_TRY(cw_folder_sync(part));
+  for (int f = 0; f < CW_FORMATS; ++f) {
+    CW_TRY(join(part, cw_output_names[f], &from));
+    CW_TRY(join(folder, cw_output_names[f], &to));
+    CW_TRY(formats >> f & 1 ? cw_folder_replace(from, to) : cw_folder_remove(to));
     free(from);
     free(to);
     from = to = NULL;
   }
-  CW_TRY(cw_folder_remove(paths->part));
+  CW_TRY(cw_folder_remove(part));
 done:
   free(from);
   free(to);
   return status;
 }
 
+// The formats that were written, and why another one was not.
+static CwStatus record_formats(const CwOutput *output, CwRecord *record) {
+  CwStatus status = CW_OK;
+  json_t *written = json_array(), *headlines = json_array();
+  for (int f = 0; f < CW_FORMATS; ++f) {
+    if (cw_output_has(output, (CwFormat)f)) json_array_append_new(written, json_string(cw_output_names[f]));
+    if (!output->left_out[f][0]) continue;
+    cw_log_warn("%s", output->left_out[f]);
+    json_array_append_new(headlines, json_string(output->left_out[f]));
+  }
+  CW_TRY(cw_record_json(record, "formats", written));
+  CW_TRY(cw_record_json(record, "headlines", headlines));
+done:
+  return status;
+}
+
+static CwStatus fill_record(const CwCase *table, const CwRanks *ranks, const CwAssembly *assembly,
+                             const CwInterface *interfaces, const CwOutput *output, CwRecord *record) {
+  CwStatus status = CW_OK;
+  warn(assembly, interfaces);
+  CW_TRY(record_results(assembly, interfaces, record));
+  CW_TRY(record_points(table, record));
+  CW_TRY(record_formats(output, record));
+  CW_TRY(cw_record_case(record, table));
+  CW_TRY(cw_record_integer(record, "ranks", ranks->size));
+done:
+  return status;
+}
+
 CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *reads, const CwRanks *ranks) {
   CwStatus status = CW_OK;
-  Paths paths = {0};
   CwMesh mesh = {0};
   CwAssembly assembly = {0};
   CwInterface *interfaces = NULL;
-  CwFoamMesh foam = {0};
+  CwOutput output = {.cgns = -1};
   CwRecord *record = NULL;
-  char *path = NULL, digest[CW_HASH_TEXT];
+  char *folder = NULL, *part = NULL, *path = NULL, *known = NULL, digest[CW_HASH_TEXT];
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
-  CW_TRY(paths_make(run, &paths));
+  CW_TRY(join(run, "export", &folder));
+  CW_TRY(join(folder, ".part", &part));
+  CW_TRY(join(folder, "record.json", &path));
   CW_TRY(cw_record_start("export", &record));
   status = cw_record_made_from(record, run, reads);
   if (status == CW_OK) status = cw_mesh_manifest_read(run, &mesh);
@@ -272,48 +254,44 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   interfaces = calloc((size_t)mesh.interface_count + 1, sizeof *interfaces);
   status = interfaces ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory: %d interfaces", mesh.interface_count);
   CW_TRY(cw_ranks_agree(ranks, status));
-  status = cw_foam_mesh_plan(&assembly, paths.foam_mesh, &foam);
-  if (status == CW_OK && ranks->rank == 0) status = begin_files(table, &assembly, interfaces, &paths, &foam);
+  status = cw_output_plan(table, &assembly, part, &output);
+  if (status == CW_OK && ranks->rank == 0) status = begin_files(&assembly, interfaces, &output);
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
-  CW_TRY(write_regions(&assembly, ranks, &paths, &foam));
-  CW_TRY(digest_together(paths.cgns, ranks, digest));
+  CW_TRY(write_regions(&assembly, ranks, &output));
+  CW_TRY(cw_ranks_agree(ranks, join(part, cw_output_known_by(&output), &known)));
+  CW_TRY(digest_together(known, ranks, digest));
   written = cw_seconds();
   int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
   for (int d = 0; d < mesh.domain_count; ++d) cells += assembly.totals[d].cells;
   for (int i = 0; i < mesh.interface_count; ++i) faces += interfaces[i].count[0] + interfaces[i].count[1];
   MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
   if (ranks->rank == 0) {
-    warn(&assembly, interfaces);
     CW_TRY(cw_record_step(record, "number the mesh", checked - start, cells, "cells"));
     CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
     CW_TRY(cw_record_step(record, "check and write the mesh", written - planned, cells, "cells"));
-    CW_TRY(record_results(&assembly, interfaces, record));
-    CW_TRY(record_points(table, record));
-    CW_TRY(cw_record_case(record, table));
-    CW_TRY(cw_record_integer(record, "ranks", ranks->size));
-    CW_TRY(cw_record_file_digest(record, "pump.cgns", digest));
+    CW_TRY(fill_record(table, ranks, &assembly, interfaces, &output, record));
+    CW_TRY(cw_record_file_digest(record, cw_output_known_by(&output), digest));
     cw_record_set_peak_memory(record, memory);
-    CW_TRY(finish_files(&paths));
-    free(path);
-    path = NULL;
-    CW_TRY(join(paths.folder, "record.json", &path));
+    CW_TRY(finish_files(folder, part, output.formats));
     CW_TRY(cw_record_write(record, path));
-    cw_log("%lld cells written to %s in %.1f s", (long long)cells, paths.folder, cw_seconds() - start);
+    cw_log("%lld cells written to %s in %.1f s", (long long)cells, folder, cw_seconds() - start);
   }
 done:
-  if (status != CW_OK && ranks->rank == 0 && paths.part) {
+  if (status != CW_OK && ranks->rank == 0 && part) {
     // Keeps the message of the failure: removing a folder that is not there is none.
-    cw_folder_remove(paths.part);
-    rmdir(paths.folder); // only if nothing is in it
+    cw_folder_remove(part);
+    rmdir(folder); // only if nothing is in it
   }
-  cw_foam_mesh_close(&foam);
+  cw_output_free(&output);
   for (int i = 0; interfaces && i < mesh.interface_count; ++i) cw_interface_free(&interfaces[i]);
   free(interfaces);
   cw_assembly_free(&assembly);
   cw_mesh_free(&mesh);
   cw_record_free(record);
-  paths_free(&paths);
+  free(folder);
+  free(part);
   free(path);
+  free(known);
   return cw_ranks_agree(ranks, status);
 }

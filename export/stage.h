@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The export stage: a meshed run in, RUN/export with pump.cgns, openfoam/, cfx/ and record.json out.
+// The export stage: a meshed run in, RUN/export with record.json and what export.formats asks out.
 #ifndef CUTWATER_EXPORT_STAGE_H
 #define CUTWATER_EXPORT_STAGE_H
 

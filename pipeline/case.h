@@ -30,6 +30,9 @@ typedef enum { CW_FILL_KERNEL, CW_FILL_TETGEN } CwFillMethod;
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
 typedef enum { CW_SWEEP_LAYERS_STAY, CW_SWEEP_SIMILAR } CwSweep;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
+typedef enum { CW_FORMAT_CGNS, CW_FORMAT_OPENFOAM, CW_FORMAT_CFX, CW_FORMAT_FLUENT, CW_FORMATS } CwFormat;
+typedef enum { CW_FOAM_V1912, CW_FOAM_V2406 } CwFoamRelease;
+typedef enum { CW_INTEGERS_AUTO, CW_INTEGERS_32, CW_INTEGERS_64 } CwIntegers;
 
 // A value the case leaves out (an optional key) is NAN: the hydraulic design or, of an automatic key, the mesher then
 // finds it.
@@ -164,6 +167,15 @@ typedef struct {
   double size_blade, size_hub_shroud, size_volute, size_pipe, size_interface; // relative to the base size
 } CwMeshTable;
 
+// What the mesh is exported to.
+typedef struct {
+  int formats;              // 1 << CwFormat of each
+  int foam_processors;      // folders that OpenFOAM's mesh is divided into; 1: it is whole
+  CwIntegers cgns_integers; // bits of the integers of pump.cgns
+  CwFoamRelease foam_release;
+  CwIntegers foam_labels; // bits of OpenFOAM's labels
+} CwExportTable;
+
 typedef struct {
   char name[CW_NAME_SIZE];
   CwOperatingPoint operating_point;
@@ -174,6 +186,7 @@ typedef struct {
   CwVoluteTable volute;
   CwWalls walls;
   CwMeshTable mesh;
+  CwExportTable output;
   struct CwCaseCad *cad; // case_cad.h; NULL: the pump is designed. Copies of the case share it
 } CwCase;
 

@@ -87,7 +87,10 @@ static CwStatus read_pair(Reader *reader, const char *section, const CwEvent *ke
                wrong);
   }
   CW_TRY(require_once(reader, path, &reader->places[index], key->place, value->place));
-  if (cw_case_keys[index].type == CW_KEY_LIST && value->type == FYET_SEQUENCE_START && !value->tagged)
+  const CwCaseKey *known = &cw_case_keys[index];
+  if (known->type == CW_KEY_CHOICES) cw_case_key_set(known, 0, &reader->table);
+  const int many = known->type == CW_KEY_LIST || known->type == CW_KEY_CHOICES;
+  if (many && value->type == FYET_SEQUENCE_START && !value->tagged)
     CW_TRY(read_list(reader, index, unit, path));
   else
     CW_TRY(read_value(reader, index, unit, path, value));

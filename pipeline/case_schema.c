@@ -2,11 +2,8 @@
 #include "pipeline/case_schema.h"
 
 #include <string.h>
-#include <strings.h>
 
 #include "pipeline/water.h"
-
-static const double pi = 3.14159265358979323846;
 
 static const char *const priorities[] = {"wrap", "head", "beta", "auto", NULL};
 static const char *const correlation_families[] = {"guelich", "guan", NULL};
@@ -23,6 +20,9 @@ static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
 static const char *const truths[] = {"false", "true", NULL};
 static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const sweeps[] = {"layers_stay", "similar", NULL};
+static const char *const formats[] = {"cgns", "openfoam", "cfx", "fluent", NULL};
+static const char *const foam_releases[] = {"v1912", "v2406", NULL};
+static const char *const integers[] = {"auto", "32", "64", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
 #define AT(field) offsetof(CwCase, field)
@@ -36,6 +36,8 @@ static const char *const treatments[] = {"smooth", "rough", NULL};
   { section, key, CW_KEY_REAL, CW_KEY_AUTO, unit, least, most, NAN, NULL, AT(field), meaning }
 #define LIST(section, key, unit, least, most, field, meaning)                                                          \
   { section, key, CW_KEY_LIST, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
+#define CHOICES(section, key, choices, fallback, field, meaning)                                                       \
+  { section, key, CW_KEY_CHOICES, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
 #define CHOICE(section, key, choices, fallback, field, meaning)                                                        \
   { section, key, CW_KEY_CHOICE, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
 
@@ -243,72 +245,19 @@ const CwCaseKey cw_case_keys[] = {
     REAL_DEFAULT("mesh", "size_pipe", "", 0.05, 20, 1.2, mesh.size_pipe, "the same in the pipes"),
     REAL_DEFAULT("mesh", "size_interface", "", 0.05, 20, 0.9, mesh.size_interface,
                  "the same on the interface between rotor and stator"),
+
+    CHOICES("export", "formats", formats, 1 << CW_FORMAT_CGNS | 1 << CW_FORMAT_OPENFOAM | 1 << CW_FORMAT_CFX,
+            output.formats, "what the mesh is written for; cfx reads pump.cgns and brings it with it"),
+    CHOICE("cgns", "integers", integers, CW_INTEGERS_AUTO, output.cgns_integers,
+           "bits of the integers of pump.cgns; auto: 64 where a zone has 2^31 points or elements or more, else 32"),
+    {"openfoam", "processors", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 100000, 1, NULL, AT(output.foam_processors),
+     "above 1: the mesh is written divided into so many folders processorN, for as many ranks, instead of whole"},
+    CHOICE("openfoam", "release", foam_releases, CW_FOAM_V1912, output.foam_release,
+           "whose dictionaries; v2406 by its documentation, not run here"),
+    CHOICE("openfoam", "labels", integers, CW_INTEGERS_AUTO, output.foam_labels,
+           "bits of the labels; auto: 64 where a count of the mesh is 2^31 or more, else 32"),
 };
 const size_t cw_case_key_count = sizeof cw_case_keys / sizeof *cw_case_keys;
-
-// Those that keys end in, and those that people write by mistake.
-static const CwUnit units[] = {
-    {"mm", "mm", "length", 1, 1000},
-    {"m", "m", "length", 1, 1},
-    {"cm", "cm", "length", 1, 100},
-    {"um", "um", "length", 1, 1e6},
-    {"in", "in", "length", 254, 10000},
-    {"in2", "in2", "area", 64516, 1e8},
-    {"inch", "in", "length", 254, 10000},
-    {"ft", "ft", "length", 3048, 10000},
-    {"mm2", "mm2", "area", 1, 1e6},
-    {"cm2", "cm2", "area", 1, 1e4},
-    {"m2", "m2", "area", 1, 1},
-    {"deg", "degrees", "angle", pi, 180},
-    {"rad", "rad", "angle", 1, 1},
-    {"rpm", "rpm", "speed", pi, 30},
-    {"rad_per_s", "rad/s", "speed", 1, 1},
-    {"hz", "Hz", "speed", 2 * pi, 1},
-    {"m3_per_h", "m3/h", "flow rate", 1, 3600},
-    {"m3_per_s", "m3/s", "flow rate", 1, 1},
-    {"l_per_s", "l/s", "flow rate", 1, 1000},
-    {"l_per_min", "l/min", "flow rate", 1, 60000},
-    {"gpm", "US gal/min", "flow rate", 3785411784.0, 60e12},
-    {"ft3_per_s", "ft3/s", "flow rate", 28316846592.0, 1e12},
-    {"pa", "Pa", "pressure", 1, 1},
-    {"kpa", "kPa", "pressure", 1000, 1},
-    {"mpa", "MPa", "pressure", 1e6, 1},
-    {"bar", "bar", "pressure", 1e5, 1},
-    {"atm", "atm", "pressure", 101325, 1},
-    {"psi", "psi", "pressure", 6894757293168.0, 1e9},
-    {"kg_per_m3", "kg/m3", "density", 1, 1},
-    {"g_per_cm3", "g/cm3", "density", 1000, 1},
-    {"lb_per_ft3", "lb/ft3", "density", 45359237e4, 28316846592.0},
-    {"m2_per_s", "m2/s", "viscosity", 1, 1},
-    {"mm2_per_s", "mm2/s", "viscosity", 1, 1e6},
-    {"cst", "cSt", "viscosity", 1, 1e6},
-    {"ft2_per_s", "ft2/s", "viscosity", 9290304, 1e8},
-    {"c", "degrees Celsius", "temperature", 1, 1},
-};
-enum { UNIT_COUNT = sizeof units / sizeof *units };
-
-const CwUnit *cw_unit_find(const char *suffix) {
-  for (int i = 0; i < UNIT_COUNT; ++i)
-    if (!strcmp(units[i].suffix, suffix)) return &units[i];
-  return NULL;
-}
-
-const CwUnit *cw_unit_of_key(const char *key, size_t *stem) {
-  // The longest suffix wins: "speed_rad_per_s" does not end in "s" and "kinematic_viscosity_m2_per_s" not in
-  // "m2".
-  const CwUnit *best = NULL;
-  size_t length = strlen(key), best_size = 0;
-  *stem = length;
-  for (int i = 0; i < UNIT_COUNT; ++i) {
-    size_t size = strlen(units[i].suffix);
-    if (size <= best_size || size + 2 > length || key[length - size - 1] != '_') continue;
-    if (strcasecmp(key + length - size, units[i].suffix)) continue;
-    best = &units[i];
-    best_size = size;
-    *stem = length - size - 1;
-  }
-  return best;
-}
 
 int cw_case_key_find(const char *section, const char *key) {
   for (size_t i = 0; i < cw_case_key_count; ++i)
@@ -338,8 +287,10 @@ int cw_case_section_known(const char *section) {
 }
 
 int cw_case_key_shapes_pump(const CwCaseKey *key) {
-  return strcmp(key->section, "walls") && strcmp(key->section, "mesh") && strcmp(key->section, "operating_points") &&
-         key->offset != AT(operating_point.time_step_angle) && key->offset != AT(operating_point.test_head);
+  static const char *const others[] = {"walls", "mesh", "operating_points", "export", "cgns", "openfoam"};
+  for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
+    if (!strcmp(key->section, others[i])) return 0;
+  return key->offset != AT(operating_point.time_step_angle) && key->offset != AT(operating_point.test_head);
 }
 
 void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]) {
@@ -366,7 +317,8 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
     snprintf(allowed, size, "a whole number from %.0f to %.0f, as 500000, 500k or 2M", key->least, key->most);
     return;
   case CW_KEY_CHOICE:
-    allowed[0] = '\0';
+  case CW_KEY_CHOICES:
+    used = (size_t)snprintf(allowed, size, "%s", key->type == CW_KEY_CHOICES ? "a list of one or more of " : "");
     for (int i = 0; key->choices[i] && used < size; ++i) {
       const char *between = i == 0 ? "" : key->choices[i + 1] ? ", " : " or ";
       used += (size_t)snprintf(allowed + used, size - used, "%s%s", between, key->choices[i]);
@@ -382,6 +334,18 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
   }
 }
 
+void cw_case_key_chosen(const CwCaseKey *key, double value, char text[CW_KEY_ALLOWED_SIZE]) {
+  size_t used = 0, size = CW_KEY_ALLOWED_SIZE;
+  if (key->type == CW_KEY_CHOICE) {
+    snprintf(text, size, "%s", key->choices[(int)value]);
+    return;
+  }
+  for (int i = 0; key->choices[i] && used < size; ++i)
+    if ((int)value & 1 << i)
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "[", key->choices[i]);
+  if (used < size) snprintf(text + used, size - used, "%s", used ? "]" : "[]");
+}
+
 double cw_case_key_value(const CwCaseKey *key, const CwCase *table) {
   const char *field = (const char *)table + key->offset;
   const CwUnit *unit = cw_unit_find(key->unit);
@@ -394,6 +358,7 @@ double cw_case_key_value(const CwCaseKey *key, const CwCase *table) {
     return unit ? real * unit->denominator / unit->numerator : real;
   case CW_KEY_INT:
   case CW_KEY_CHOICE:
+  case CW_KEY_CHOICES:
     memcpy(&integer, field, sizeof integer);
     return integer;
   case CW_KEY_INT64:
@@ -428,6 +393,7 @@ void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, 
     return;
   case CW_KEY_INT:
   case CW_KEY_CHOICE:
+  case CW_KEY_CHOICES:
     integer = (int)value;
     memcpy(field, &integer, sizeof integer);
     return;
@@ -450,22 +416,6 @@ void cw_case_defaults(CwCase *table) {
   }
 }
 
-static void units_markdown(FILE *stream) {
-  fputs("\n### Units\n\nA key takes any unit of its quantity: `outlet_diameter_in: 8` stands for "
-        "`outlet_diameter_mm: 203.2`.\n\n| quantity | a key may end in |\n|---|---|\n",
-        stream);
-  for (int i = 0; i < UNIT_COUNT; ++i) {
-    int known = 0;
-    for (int j = 0; j < i; ++j) known |= !strcmp(units[i].quantity, units[j].quantity);
-    if (known) continue;
-    fprintf(stream, "| %s |", units[i].quantity);
-    for (int j = i; j < UNIT_COUNT; ++j)
-      if (!strcmp(units[i].quantity, units[j].quantity))
-        fprintf(stream, "%s `_%s`", j == i ? "" : ",", units[j].suffix);
-    fputs(" |\n", stream);
-  }
-}
-
 void cw_case_schema_markdown(FILE *stream) {
   const char *section = NULL;
   for (size_t i = 0; i < cw_case_key_count; ++i) {
@@ -476,7 +426,7 @@ void cw_case_schema_markdown(FILE *stream) {
       fprintf(stream, section[0] ? "### %s\n\n" : "### Top of the file\n\n", section);
       fputs("| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n", stream);
     }
-    char allowed[CW_KEY_ALLOWED_SIZE], fallback[64];
+    char allowed[CW_KEY_ALLOWED_SIZE], fallback[CW_KEY_ALLOWED_SIZE];
     cw_case_key_allowed(key, allowed);
     if (key->presence == CW_KEY_REQUIRED)
       snprintf(fallback, sizeof fallback, "required");
@@ -484,12 +434,12 @@ void cw_case_schema_markdown(FILE *stream) {
       snprintf(fallback, sizeof fallback, "computed");
     else if (key->presence == CW_KEY_AUTO)
       snprintf(fallback, sizeof fallback, "auto");
-    else if (key->type == CW_KEY_CHOICE)
-      snprintf(fallback, sizeof fallback, "%s", key->choices[(int)key->fallback]);
+    else if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES)
+      cw_case_key_chosen(key, key->fallback, fallback);
     else
       snprintf(fallback, sizeof fallback, "%.10g", key->fallback);
     fprintf(stream, "| `%s` | %s | %s | %s | %s |\n", key->key, key->unit[0] ? unit_text(key) : "-", allowed, fallback,
             key->meaning);
   }
-  units_markdown(stream);
+  cw_units_markdown(stream);
 }

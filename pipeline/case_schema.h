@@ -8,26 +8,27 @@
 #include <stdio.h>
 
 #include "pipeline/case.h"
+#include "pipeline/case_unit.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// The field at `offset` is a double, an int, an int64_t, an enum, a char[CW_NAME_SIZE], or a CwList of doubles.
-typedef enum { CW_KEY_REAL, CW_KEY_INT, CW_KEY_INT64, CW_KEY_CHOICE, CW_KEY_NAME, CW_KEY_LIST } CwKeyType;
+// The field at `offset` is a double, an int, an int64_t, an enum, an int with the bit 1 << i for each
+// choice i of several, a char[CW_NAME_SIZE], or a CwList of doubles.
+typedef enum {
+  CW_KEY_REAL,
+  CW_KEY_INT,
+  CW_KEY_INT64,
+  CW_KEY_CHOICE,
+  CW_KEY_CHOICES,
+  CW_KEY_NAME,
+  CW_KEY_LIST
+} CwKeyType;
 
 // A key left out is an error, has its default, or is left to the hydraulic design. An automatic key may also be given
 // as "auto", which is its default: the mesher then finds the value. A value left open is NAN, or 0 of a count.
 typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED, CW_KEY_AUTO } CwKeyPresence;
-
-// Units that a key may end in. `value` SI units are value * numerator / denominator: a quotient, so that 74
-// mm is the double nearest to 0.074 m.
-typedef struct {
-  const char *suffix;   // as in keys: "m3_per_h"
-  const char *text;     // as people write it: "m3/h"
-  const char *quantity; // "length"
-  double numerator, denominator;
-} CwUnit;
 
 typedef struct {
   const char *section; // "" for the top of the file
@@ -36,7 +37,7 @@ typedef struct {
   CwKeyPresence presence;
   const char *unit;           // suffix of the key, an entry of the table of units; "" without
   double least, most;         // in the unit, both allowed
-  double fallback;            // the default in the unit; of a choice: its index
+  double fallback;            // the default in the unit; of a choice: its index; of several: their bits
   const char *const *choices; // NULL-terminated, in the order of the enum
   size_t offset;              // into CwCase
   const char *meaning;
@@ -69,7 +70,8 @@ void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]);
 // or beta".
 void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]);
 
-// Value of the key's field in the unit of the key; of a choice: its index; NAN of names and lists.
+// Value of the key's field in the unit of the key; of a choice: its index; of several: their bits; NAN of
+// names and lists.
 double cw_case_key_value(const CwCaseKey *key, const CwCase *table);
 
 // Sets the key's field from a value in the unit of the key; adds it to a list that has room. Not for names. No check
@@ -79,18 +81,15 @@ void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table);
 // The same from a value in `unit`, or NULL for none.
 void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, CwCase *table);
 
+// A value of a key of choices as people write it: "wrap", of several "[cgns, openfoam]".
+void cw_case_key_chosen(const CwCaseKey *key, double value, char text[CW_KEY_ALLOWED_SIZE]);
+
 // Every key at its default, as for an empty file: keys that the hydraulic design computes are NAN, required ones NAN, 0
 // or "".
 void cw_case_defaults(CwCase *table);
 
 // Writes the sections and their tables as docs/case-reference.md holds them.
 void cw_case_schema_markdown(FILE *stream);
-
-// The unit of a suffix, or NULL.
-const CwUnit *cw_unit_find(const char *suffix);
-
-// The unit that `key` ends in, or NULL; `*stem` is the length of the key without it ("wrap_angle_deg": 10).
-const CwUnit *cw_unit_of_key(const char *key, size_t *stem);
 
 #ifdef __cplusplus
 }

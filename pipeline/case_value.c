@@ -94,12 +94,12 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
       snprintf((char *)table + key->offset, CW_NAME_SIZE, "%s", text);
     else
       what = "is not a name that files and solvers take";
-  } else if (key->type == CW_KEY_CHOICE) {
+  } else if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES) {
     what = "is not one of the choices";
     for (int i = 0; key->choices[i]; ++i)
       if (!strcmp(text, key->choices[i])) {
         what = NULL;
-        number = i;
+        number = key->type == CW_KEY_CHOICE ? i : (int)cw_case_key_value(key, table) | 1 << i;
       }
   } else {
     what = !plain                      ? "is text, not a number (it stands in quotes)"

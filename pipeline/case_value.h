@@ -24,8 +24,9 @@ const char *cw_number_text_read(const char *text, double *number);
 // not negative.
 const char *cw_count_text_read(const char *text, double *count);
 
-// Reads `text` (plain: without quotes in the file), in `unit` (of cw_case_key_find_in()), into the key's field. On
-// failure writes "VALUE is wrong; allowed: ..." to `wrong` and returns 0; else returns 1.
+// Reads `text` (plain: without quotes in the file), in `unit` (of cw_case_key_find_in()), into the key's field; of
+// several choices it is added to those that are there. On failure writes "VALUE is wrong; allowed: ..." to `wrong` and
+// returns 0; else returns 1.
 int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *text, int plain, CwCase *table,
                        char wrong[CW_WRONG_SIZE]);
 

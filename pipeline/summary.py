@@ -36,6 +36,7 @@ def files(run):
             ("export/pump.cgns", "the mesh with patches and interface, CGNS"),
             ("export/openfoam", "the OpenFOAM case: ./Allrun"),
             ("export/cfx", "the CFX set-up on pump.cgns"),
+            ("export/fluent", "the mesh for Fluent"),
             ("solve", "the solved flow: steady/ is the OpenFOAM case"),
             ("solve/curve.csv", "head, power and efficiency over the flow rate"),
             ("report/index.html", "the report")]
@@ -88,7 +89,8 @@ def main():
         head = record["geometry"]["results"].get("predicted_head_m")  # none of solids from elsewhere
         lines = [("head", f"{head:.2f} m predicted by the design")] if head else []
         lines += mesh_lines(record["mesh"]["results"])
-        lines += [("note", text) for text in record["mesh"]["results"]["headlines"]]
+        lines += [("note", text) for stage in ("mesh", "export")
+                  for text in record[stage]["results"].get("headlines", [])]
         seconds = {stage: record[stage]["seconds"] for stage in record}
         whole = sum(seconds[stage] for stage in ("geometry", "mesh", "export"))
         lines.append(("time", ", ".join(f"{stage} {shown_time(value)}" for stage, value in seconds.items()) +

@@ -40,7 +40,7 @@ void cw_html_label(FILE *page, const char *key) {
     return;
   }
   // Names and abbreviations, which keys have in small letters.
-  static const char *const words[] = {"NPSH", "Wiesner", "Pfleiderer", "Guelich"};
+  static const char *const words[] = {"NPSH", "Wiesner", "Pfleiderer", "Guelich", "CGNS", "OpenFOAM", "CFX"};
   for (const char *c = key; *c; c++) {
     int starts = c == key || c[-1] == '_';
     for (size_t k = 0; starts && k < sizeof words / sizeof *words; k++) {

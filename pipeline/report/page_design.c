@@ -38,9 +38,11 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   int automatic = key->presence == CW_KEY_AUTO && (isnan(value) || value == key->fallback);
   if (automatic || (key->presence == CW_KEY_DEFAULT && value == key->fallback)) origin = "default";
   cw_quantity_start(page, stem, NULL);
-  if (key->type == CW_KEY_CHOICE) {
+  if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES) {
+    char chosen[CW_KEY_ALLOWED_SIZE];
+    cw_case_key_chosen(key, value, chosen);
     fputs("<td class=\"n\">", page);
-    cw_html_label(page, key->choices[(int)value]);
+    cw_html_label(page, chosen);
     fputs("<span></span></td>", page);
   } else if (automatic) {
     cw_html_number_cell(page, "auto");

@@ -224,6 +224,9 @@ def main():
         foam.require_programs()
         if not (options.run / "export/openfoam/system").is_dir():
             raise Trouble(f"{options.run}/export/openfoam: no case; make it first (make -C cases NAME)")
+        if (options.run / "export/openfoam/processor0").is_dir():
+            raise Trouble(f"{options.run}/export/openfoam: the mesh is divided; run its Allrun, or export it whole "
+                          "(openfoam.processors: 1)")
         held = lock(options.run)
         if options.fresh:
             shutil.rmtree(options.run / "solve", ignore_errors=True)

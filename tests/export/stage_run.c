@@ -15,6 +15,7 @@ int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
   if (!mkdtemp(folder)) return -1;
   snprintf(run, sizeof run, "%s/run", folder);
@@ -51,6 +52,13 @@ int stage_export(const char *run, int ranks, char *output) {
   if (ranks > 1) snprintf(launch, sizeof launch, "mpirun -q -n %d ", ranks);
   return stage_shell(output, "%s'%s/cutwater-export' --case '%s/cases/paper/case.yaml' --run '%s'", launch,
                      CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, run);
+}
+
+int stage_export_with(const char *run, int ranks, const char *more, char *output) {
+  return stage_shell(output,
+                     "{ cat '%s/cases/paper/case.yaml'; echo '%s'; } > '%s/case.yaml' && mpirun -q -n %d "
+                     "'%s/cutwater-export' --case '%s/case.yaml' --run '%s'",
+                     CUTWATER_SOURCE_DIR, more, run, ranks, CUTWATER_BIN_DIR, run, run);
 }
 
 int stage_has_program(const char *name) {

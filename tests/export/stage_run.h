@@ -19,6 +19,9 @@ int stage_shell(char *output, const char *format, ...) __attribute__((format(pri
 // Runs the exporter on `run` with so many ranks, on the paper's case. Returns its exit status.
 int stage_export(const char *run, int ranks, char *output);
 
+// The same on the paper's case with `more` behind it, keys of sections that the paper's does not have.
+int stage_export_with(const char *run, int ranks, const char *more, char *output);
+
 // Whether a program can be called.
 int stage_has_program(const char *name);
 

@@ -242,6 +242,24 @@ static void counts_of_cells_take_a_suffix(void **state) {
   assert_int_equal(table.mesh.cells_per_region, 200000);
 }
 
+static void formats_are_chosen_in_a_list(void **state) {
+  CwCase table;
+  write_changed(20, "  cells: 1M\nexport: {formats: [fluent, cgns]}\nopenfoam: {labels: 64}");
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
+  assert_int_equal(table.output.formats, 1 << CW_FORMAT_FLUENT | 1 << CW_FORMAT_CGNS);
+  assert_int_equal(table.output.foam_labels, CW_INTEGERS_64);
+  assert_int_equal(table.output.cgns_integers, CW_INTEGERS_AUTO);
+  write_changed(20, "  cells: 1M\nexport: {formats: openfoam}");
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
+  assert_int_equal(table.output.formats, 1 << CW_FORMAT_OPENFOAM);
+  write_changed(20, "  cells: 1M\nexport: {formats: [cgns, star]}");
+  assert_true(is_refused("21:26: export.formats: star is not one of the choices; allowed: a list of one or more of "
+                         "cgns, openfoam, cfx or fluent"));
+  write_changed(20, "  cells: 1M\nexport: {formats: []}");
+  assert_true(is_refused("21:20: export.formats: the list has no value; allowed: a list of one or more of cgns, "
+                         "openfoam, cfx or fluent"));
+}
+
 static void forms_that_yaml_allows(void **state) {
   static const BadCase fine[] = {
       {1, "%YAML 1.2\n---\nname: 'test'", NULL}, // directive, document start, quoted name
@@ -292,6 +310,7 @@ int main(void) {
       cmocka_unit_test(units_of_other_systems),
       cmocka_unit_test(duty_point_alone),
       cmocka_unit_test(counts_of_cells_take_a_suffix),
+      cmocka_unit_test(formats_are_chosen_in_a_list),
       cmocka_unit_test(forms_that_yaml_allows),
       cmocka_unit_test(case_of_the_paper_is_valid),
   };

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # Sourced by the Allrun scripts, whose name it tells errors by.
-: "${WM_PROJECT_DIR:=/usr/share/openfoam}"
+: "${WM_PROJECT_DIR:=@project_folder@}"
 export WM_PROJECT_DIR
 # Open MPI: also as root, and with more ranks than cores.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
@@ -20,18 +20,40 @@ logged() { # runs PROGRAM ARGUMENTS..., its words into log.PROGRAM
     "$@" > "log.$1" 2>&1 || die "$1 failed: see log.$1"
 }
 
+divided() { # whether the mesh of the case folder $1 was exported in parts
+    [ -e "$1/processor0/constant" ] && [ ! -e "$1/constant/polyMesh/points" ]
+}
+
 latest() { # the latest time after 0 of the case folder $1 that has fields; nothing without one
+    divided "$1" && set -- "$1/processor0"
     for folder in "$1"/[0-9]*; do
         [ -e "$folder/U" ] && [ "${folder##*/}" != 0 ] && echo "${folder##*/}"
     done | sort -g | tail -n 1
 }
 
+rank_count() { # the ranks that the caller asks for: $1, else as many as the mesh is divided for
+    divided . || { echo "${1:-1}" && return; }
+    parts=$(find . -maxdepth 1 -name 'processor[0-9]*' | wc -l)
+    [ "${1:-$parts}" = "$parts" ] || die "RANKS is '$1'; allowed: $parts, for which the mesh is divided"
+    echo "$parts"
+}
+
+in_parallel() { # $1: ranks, then PROGRAM ARGUMENTS...
+    count=$1
+    shift
+    mpirun -n "$count" "$@" -parallel > "log.$1" 2>&1 || die "$1 failed: see log.$1"
+}
+
 run_solver() { # $1: the solver, $2: ranks
-    if [ "$2" -gt 1 ]; then
+    if divided .; then
+        in_parallel "$2" "$1"
+    elif [ "$2" -gt 1 ]; then
         foamDictionary -entry numberOfSubdomains -set "$2" system/decomposeParDict > /dev/null || exit 1
-        foamDictionary -entry coeffs/n -set "($2 1 1)" system/decomposeParDict > /dev/null || exit 1
+        if grep -q hierarchical system/decomposeParDict; then
+            foamDictionary -entry coeffs/n -set "($2 1 1)" system/decomposeParDict > /dev/null || exit 1
+        fi
         logged decomposePar -force -latestTime
-        mpirun -n "$2" "$1" -parallel > "log.$1" 2>&1 || die "$1 failed: see log.$1"
+        in_parallel "$2" "$1"
         logged reconstructPar -latestTime
     else
         logged "$1"

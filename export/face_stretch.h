@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The faces of the mesh in upper-triangular order, for formats that are written by faces: those between two cells
+// region by region, by the cell of the lower number and then the other, then those of each patch. A face between
+// regions belongs to the region of its lower cell.
+#ifndef CUTWATER_EXPORT_FACE_STRETCH_H
+#define CUTWATER_EXPORT_FACE_STRETCH_H
+
+#include "export/assembly.h"
+
+typedef struct {
+  int64_t triangles, quads;
+} CwFaceCount;
+
+static inline int64_t cw_face_count(CwFaceCount count) {
+  return count.triangles + count.quads;
+}
+
+static inline int64_t cw_corner_count(CwFaceCount count) {
+  return 3 * count.triangles + 4 * count.quads;
+}
+
+// Where the faces of the whole mesh stand; points and cells of all domains together.
+typedef struct {
+  int64_t points, cells;
+  CwFaceCount inner, all;
+  CwFaceCount *region; // faces before the inner ones of each region
+  CwFaceCount *patch;  // faces before those of each patch
+} CwFaceLayout;
+
+CwStatus cw_face_layout_make(const CwAssembly *assembly, CwFaceLayout *layout);
+void cw_face_layout_free(CwFaceLayout *layout);
+
+// The faces before those of a region on a patch.
+CwFaceCount cw_face_layout_patch(const CwFaceLayout *layout, const CwAssembly *assembly, int region, int patch);
+
+// Some faces of a region, in their order. Nodes are points of the region; the normal points out of `cell`.
+typedef struct {
+  CwFaceCount count;
+  int64_t faces, corners; // in the arrays
+  int32_t *cell;          // of the region
+  int64_t *across;        // the other cell, as CwRegionPlace.cell counts; -1 on a patch
+  int64_t *open;          // on a partition plane: the face's place in CwAssembly.across; else -1
+  int8_t *sides;          // 3 or 4
+  int32_t *corner;        // of one face after the other
+} CwFaceStretch;
+
+// The inner faces that belong to the region, or its faces on a patch, into new memory.
+CwStatus cw_face_stretch_inner(const CwAssembly *assembly, int region, const CwRegionData *data,
+                               const CwRegionFaces *faces, CwFaceStretch *stretch);
+CwStatus cw_face_stretch_patch(const CwAssembly *assembly, int region, int patch, const CwRegionData *data,
+                               const CwRegionFaces *faces, CwFaceStretch *stretch);
+void cw_face_stretch_free(CwFaceStretch *stretch);
+
+#endif

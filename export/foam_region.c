@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/foam_region.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "export/foam_files.h"
+
+enum { POINT_SIZE = 24 };
+
+// A region on its way into the files of a part.
+typedef struct {
+  const CwFoamMesh *mesh;
+  int region;
+  const CwRegionData *data;
+  const int32_t *piece_of; // by cell
+  const int64_t *cell;     // by cell: its number in its part
+  const int64_t *point;    // by point: its number in the part, or -1
+  CwFoamFiles *files;
+} Writer;
+
+// Faces in memory.
+typedef struct {
+  int64_t *offsets, *labels, *owners, *neighbours, *numbers; // numbers: in the whole mesh, from 1; below 0: turned over
+  int64_t faces, labels_used, first_label;
+} Stretch;
+
+static void stretch_free(Stretch *s) {
+  free(s->offsets);
+  free(s->owners);
+  free(s->neighbours);
+  free(s->labels);
+  free(s->numbers);
+  memset(s, 0, sizeof *s);
+}
+
+static CwStatus stretch_new(CwFaceCount count, CwFaceCount before, Stretch *s) {
+  CwStatus status = CW_OK;
+  const int64_t faces = cw_face_count(count);
+  *s = (Stretch){.first_label = cw_corner_count(before)};
+  CW_NEW_UNSET(s->offsets, faces);
+  CW_NEW_UNSET(s->owners, faces);
+  CW_NEW_UNSET(s->neighbours, faces);
+  CW_NEW_UNSET(s->numbers, faces);
+  CW_NEW_UNSET(s->labels, cw_corner_count(count));
+done:
+  return status;
+}
+
+// Turned over, a face begins with the same node.
+static void stretch_add(Stretch *s, const Writer *w, const int32_t *corner, int sides, int64_t owner, int64_t neighbour,
+                        int64_t number) {
+  s->offsets[s->faces] = s->first_label + s->labels_used;
+  s->owners[s->faces] = owner;
+  s->neighbours[s->faces] = neighbour;
+  s->numbers[s->faces++] = number;
+  for (int i = 0; i < sides; ++i) s->labels[s->labels_used++] = w->point[corner[number > 0 ? i : (sides - i) % sides]];
+}
+
+static CwStatus stretch_write(const Stretch *s, const Writer *w, CwFaceCount before, int is_inner) {
+  CwStatus status = CW_OK;
+  const CwFoamPart *part = &w->mesh->parts[w->files->part];
+  const int64_t first = cw_face_count(before);
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->offsets, s->faces, part->start[CW_FOAM_FACES], first));
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->labels, s->labels_used, part->label_start, s->first_label));
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OWNER, s->owners, s->faces, part->start[CW_FOAM_OWNER], first));
+  if (is_inner)
+    CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_NEIGHBOUR, s->neighbours, s->faces, part->start[CW_FOAM_NEIGHBOUR],
+                              first));
+  if (cw_foam_is_divided(w->mesh))
+    CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_FACES, s->numbers, s->faces, part->start[CW_FOAM_OF_FACES], first));
+done:
+  return status;
+}
+
+// The other cell of an inner face: its part and its number there.
+static int64_t other_cell(const Writer *w, const CwFaceStretch *s, int64_t f, int *part) {
+  const CwDivision *v = &w->mesh->division;
+  const int64_t local = s->across[f] - w->mesh->assembly->places[w->region].cell;
+  if (s->open[f] < 0) {
+    *part = v->pieces[v->first_piece[w->region] + w->piece_of[local]].part;
+    return w->cell[local];
+  }
+  *part = 0;
+  if (!cw_foam_is_divided(w->mesh)) return s->across[f];
+  const int64_t there = w->mesh->assembly->partner[s->open[f]];
+  *part = v->open_part[there];
+  return v->open_cell[there];
+}
+
+// The inner faces of the region that lie in the writer's part, or between it and the part `link->other`.
+static CwStatus write_inner(const Writer *w, const CwFaceStretch *all, const CwLink *link, CwFaceCount count,
+                            CwFaceCount before) {
+  CwStatus status = CW_OK;
+  Stretch s = {0};
+  const CwDivision *v = &w->mesh->division;
+  const int32_t *corner = all->corner;
+  const int64_t number = cw_face_count(w->mesh->layout.region[w->region]) + 1;
+  const int mine = w->files->part;
+  CW_TRY(stretch_new(count, before, &s));
+  for (int64_t f = 0; f < all->faces; corner += all->sides[f++]) {
+    int there;
+    const int here = v->pieces[v->first_piece[w->region] + w->piece_of[all->cell[f]]].part;
+    const int64_t own = w->cell[all->cell[f]], other = other_cell(w, all, f, &there);
+    if (!link && here == mine && there == mine)
+      stretch_add(&s, w, corner, all->sides[f], own, other, number + f);
+    else if (link && here == mine && there == link->other)
+      stretch_add(&s, w, corner, all->sides[f], own, -1, number + f);
+    else if (link && there == mine && here == link->other)
+      stretch_add(&s, w, corner, all->sides[f], other, -1, -(number + f));
+  }
+  CW_TRY(stretch_write(&s, w, before, !link));
+done:
+  stretch_free(&s);
+  return status;
+}
+
+static CwFaceCount plus(CwFaceCount a, CwFaceCount b) {
+  return (CwFaceCount){a.triangles + b.triangles, a.quads + b.quads};
+}
+
+// The faces of the region to other parts. A part that has no cell of the region may lie beyond a partition plane.
+static CwStatus write_links(const Writer *w, const CwFaceStretch *all) {
+  CwStatus status = CW_OK;
+  const CwDivision *v = &w->mesh->division;
+  const CwPart *part = &v->parts[w->files->part];
+  for (int i = 0; i < part->link_count; ++i) {
+    const CwLink *link = &v->links[part->first_link + i];
+    if (link->region == w->region)
+      CW_TRY(write_inner(w, all, link, link->count, w->mesh->parts[w->files->part].link[i]));
+  }
+done:
+  return status;
+}
+
+static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch, const CwRegionFaces *faces) {
+  CwStatus status = CW_OK;
+  Stretch s = {0};
+  CwFaceStretch all = {0};
+  const CwAssembly *a = w->mesh->assembly;
+  const int local = patch - a->mesh->domains[w->data->domain].first_patch;
+  const CwFaceCount before = plus(w->mesh->parts[piece->part].patch[patch], piece->first_patch[local]);
+  const int64_t number = cw_face_count(cw_face_layout_patch(&w->mesh->layout, a, w->region, patch)) + 1;
+  if (cw_face_count(piece->patch[local]) == 0) goto done;
+  CW_TRY(cw_face_stretch_patch(a, w->region, patch, w->data, faces, &all));
+  CW_TRY(stretch_new(piece->patch[local], before, &s));
+  const int32_t *corner = all.corner;
+  for (int64_t f = 0; f < all.faces; corner += all.sides[f++])
+    if (&w->mesh->division.pieces[w->mesh->division.first_piece[w->region] + w->piece_of[all.cell[f]]] == piece)
+      stretch_add(&s, w, corner, all.sides[f], w->cell[all.cell[f]], -1, number + f);
+  CW_TRY(stretch_write(&s, w, before, 0));
+done:
+  cw_face_stretch_free(&all);
+  stretch_free(&s);
+  return status;
+}
+
+static CwStatus write_points(const Writer *w, const CwPiece *piece) {
+  CwStatus status = CW_OK;
+  const CwAssembly *a = w->mesh->assembly;
+  const CwFoamPart *part = &w->mesh->parts[piece->part];
+  const int64_t number = a->totals[w->data->domain].first_point + a->places[w->region].own_point;
+  double(*points)[3] = NULL;
+  int64_t *numbers = NULL, count = 0;
+  CW_NEW(points, piece->own_points);
+  CW_NEW(numbers, piece->own_points);
+  for (int32_t p = w->data->shared_count; p < w->data->point_count; ++p) {
+    if (w->point[p] < 0) continue;
+    memcpy(points[count], w->data->points[p], sizeof *points);
+    numbers[count++] = number + p - w->data->shared_count;
+  }
+  CW_TRY(cw_place_file_put(&w->files->file[CW_FOAM_POINTS], points, POINT_SIZE * count,
+                           part->start[CW_FOAM_POINTS] + POINT_SIZE * piece->first_own_point));
+  if (cw_foam_is_divided(w->mesh))
+    CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_POINTS, numbers, count, part->start[CW_FOAM_OF_POINTS],
+                              piece->first_own_point));
+done:
+  free(points);
+  free(numbers);
+  return status;
+}
+
+// The numbers that the cells of a piece have in the whole mesh.
+static CwStatus write_cells(const Writer *w, const CwPiece *piece) {
+  CwStatus status = CW_OK;
+  int64_t *numbers = NULL, count = 0;
+  const int own = (int)(piece - &w->mesh->division.pieces[w->mesh->division.first_piece[w->region]]);
+  if (!cw_foam_is_divided(w->mesh)) goto done;
+  CW_NEW(numbers, piece->cells);
+  for (int32_t i = 0; i < cw_region_cell_count(w->data); ++i)
+    if (w->piece_of[i] == own) numbers[count++] = w->mesh->assembly->places[w->region].cell + i;
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_CELLS, numbers, count,
+                            w->mesh->parts[piece->part].start[CW_FOAM_OF_CELLS], piece->first_cell));
+done:
+  free(numbers);
+  return status;
+}
+
+// What the region gives to a part: to one of its pieces or, where `piece` is NULL, to one beyond a partition plane that
+// has the other cells of some of its faces.
+static CwStatus write_part(Writer *w, int part, const CwPiece *piece, const CwFaceStretch *inner,
+                           const CwRegionFaces *faces, int64_t *point) {
+  CwStatus status = CW_OK;
+  CwFoamFiles files = {0};
+  const CwDivision *v = &w->mesh->division;
+  const CwMeshDomain *domain = &w->mesh->assembly->mesh->domains[w->data->domain];
+  CW_TRY(cw_foam_files_open(w->mesh, part, 0, &files));
+  w->files = &files;
+  w->point = point;
+  if (piece) {
+    const int own = (int)(piece - &v->pieces[v->first_piece[w->region]]);
+    cw_division_points(v, w->region, own, w->data, w->piece_of, point);
+    CW_TRY(write_points(w, piece));
+    CW_TRY(write_cells(w, piece));
+  }
+  // A face to another part may have nodes that no cell of the piece has.
+  for (int32_t p = 0; p < w->data->shared_count && cw_foam_is_divided(w->mesh); ++p)
+    point[p] = cw_division_shared(v, part, w->data->domain, w->data->shared_id[p]);
+  if (piece) CW_TRY(write_inner(w, inner, NULL, piece->inner, piece->first_inner));
+  for (int p = domain->first_patch; piece && p < domain->first_patch + domain->patch_count; ++p)
+    CW_TRY(write_patch(w, piece, p, faces));
+  CW_TRY(write_links(w, inner));
+done:
+  return cw_foam_files_close(&files, status);
+}
+
+CwStatus cw_foam_region_write(const CwFoamMesh *mesh, int region, const CwRegionData *data,
+                              const CwRegionFaces *faces) {
+  CwStatus status = CW_OK;
+  const CwDivision *v = &mesh->division;
+  const CwPiece *pieces = &v->pieces[v->first_piece[region]];
+  const int count = v->first_piece[region + 1] - v->first_piece[region];
+  CwFaceStretch inner = {0};
+  int32_t *piece_of = NULL;
+  int64_t *cell = NULL, *point = NULL;
+  CW_NEW(piece_of, cw_region_cell_count(data));
+  CW_NEW(cell, cw_region_cell_count(data));
+  CW_NEW(point, data->point_count);
+  Writer w = {.mesh = mesh, .region = region, .data = data, .piece_of = piece_of, .cell = cell};
+  CW_TRY(cw_division_cells(v, region, data, piece_of, cell));
+  CW_TRY(cw_face_stretch_inner(mesh->assembly, region, data, faces, &inner));
+  for (int k = 0; k < count; ++k) CW_TRY(write_part(&w, pieces[k].part, &pieces[k], &inner, faces, point));
+  for (int i = 0, last = -1; i < v->link_count; ++i) {
+    const int part = v->links[i].part, is_own = part >= pieces[0].part && part <= pieces[count - 1].part;
+    if (v->links[i].region != region || is_own || part == last) continue;
+    CW_TRY(write_part(&w, part, NULL, &inner, faces, point));
+    last = part;
+  }
+done:
+  cw_face_stretch_free(&inner);
+  free(piece_of);
+  free(cell);
+  free(point);
+  return status;
+}
