@@ -15,7 +15,7 @@
 #include "pipeline/version.h"
 
 static const CwStageOption OPTIONS[] = {
-    {"stop-after", "STAGE", "end after a stage, without a mesh: surface, layers or interfaces"},
+    {"stop-after", "STAGE", "end after size, decomposition, curves, surface, layers or interfaces, without a mesh"},
     {"vtk", NULL, "write what that stage made, RUN/mesh/DOMAIN-STAGE.vtk"},
 };
 enum { STOP_AFTER, VTK, OPTION_COUNT };

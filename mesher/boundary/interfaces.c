@@ -121,7 +121,7 @@ CwStatus cw_interfaces_vtk(const CwInterfaces *interfaces, const char *path) {
       region[t] = refined->region[on][refined->region[on][1] < refined->region[on][0]];
     }
   }
-  const CwVtkField field[2] = {{"face", face}, {"region", region}};
+  const CwVtkField field[2] = {{"face", face, NULL}, {"region", region, NULL}};
   const CwVtkTriangles triangles = {.title = "open patches and interfaces",
                                     .point_count = interfaces->nodes.count,
                                     .x = (const double(*)[3])interfaces->nodes.x,

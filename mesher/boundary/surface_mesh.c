@@ -96,7 +96,7 @@ done:
 }
 
 CwStatus cw_surface_mesh_vtk(const CwSurfaceMesh *surface, const char *path) {
-  const CwVtkField field[2] = {{"face", surface->face}, {"region", surface->region}};
+  const CwVtkField field[2] = {{"face", surface->face, NULL}, {"region", surface->region, NULL}};
   const CwVtkTriangles triangles = {.title = "surface mesh",
                                     .point_count = surface->vertex_count,
                                     .x = (const double(*)[3])surface->x,

@@ -111,7 +111,7 @@ CwStatus cw_layers_vtk(const CwLayers *layers, const int32_t *region, const char
       if (of > reason[t]) reason[t] = of;
     }
   }
-  const CwVtkField field[2] = {{"reason", reason}, {"region", region}};
+  const CwVtkField field[2] = {{"reason", reason, NULL}, {"region", region, NULL}};
   const CwVtkTriangles triangles = {.title = "layer top",
                                     .point_count = layers->column_count,
                                     .x = (const double(*)[3])layers->top,

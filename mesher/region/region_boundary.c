@@ -110,7 +110,7 @@ CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *cr
   CW_NEW(surface, count);
   for (int32_t t = inner->wall_count; t < count; t++)
     surface[t] = 1 + (t >= inner->wall_count + inner->open_patch_count);
-  const CwVtkField field[2] = {{"surface", surface}, {"crossing", crossing}};
+  const CwVtkField field[2] = {{"surface", surface, NULL}, {"crossing", crossing, NULL}};
   const CwVtkTriangles triangles = {.title = title,
                                     .point_count = inner->node_count,
                                     .x = (const double(*)[3])inner->x,

@@ -8,12 +8,14 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/parallel/groups.h"
 #include "mesher/parallel/profiler.h"
+#include "mesher/plan/plan_audit.h"
 #include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/domain_size.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"
+#include "mesher/size/size_audit.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/log.h"
 #include "pipeline/wall_group.h"
@@ -193,6 +195,8 @@ static CwStatus make_sizes(CwMeshRun *run) {
   cw_profiler_part("integrals of the size");
   for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
   CW_TRY(hold_gradation(run));
+  for (int d = 0; d < run->model.domain_count; d++)
+    CW_AUDIT(cw_size_audit(run->domain[d].size, &run->domain[d].background));
 done:
   for (int d = 0; d < run->model.domain_count; d++) run->seeds[d] = NULL;
   cw_results_free(&seeds);
@@ -251,8 +255,13 @@ done:
 
 // Collective. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
 static CwStatus plan_domain(CwMeshRun *run, int d, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
   cw_profiler_part("planes weighed");
-  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, outcome);
+  CW_TRY_STAGE(cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, outcome),
+               outcome);
+  CW_AUDIT(cw_plan_audit(&run->domain[d].plan));
+done:
+  return status;
 }
 
 // Plans a domain without symmetry anew, at the scale and factors of the first plan: a run that goes on from a later

@@ -84,7 +84,11 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->model, fingerprint));
   cw_pass_state_read(run->run_path, fingerprint, &state);
   for (int d = 0; d < run->model.domain_count; d++) run->domain[d].more_regions = state.more_regions[d];
+  CW_TRY(cw_stage_view(run, CW_STAGE_SIZE));
+  if (run->stopped) goto done;
   CW_TRY(cw_mesh_plan(run));
+  CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
+  if (run->stopped) goto done;
   if (state.pass > 1) {
     run->prism_factor = state.prism_factor;
     run->tet_factor = state.tet_factor;

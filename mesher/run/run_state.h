@@ -35,7 +35,16 @@ typedef struct {
 } CwRegionSummary;
 
 // The stages whose product can be looked at.
-typedef enum { CW_STAGE_NONE, CW_STAGE_SURFACE, CW_STAGE_LAYERS, CW_STAGE_INTERFACES, CW_STAGE_COUNT } CwStage;
+typedef enum {
+  CW_STAGE_NONE,
+  CW_STAGE_SIZE,
+  CW_STAGE_DECOMPOSITION,
+  CW_STAGE_CURVES,
+  CW_STAGE_SURFACE,
+  CW_STAGE_LAYERS,
+  CW_STAGE_INTERFACES,
+  CW_STAGE_COUNT
+} CwStage;
 
 // The fields are what a run is asked, its domains, and what its passes have learnt.
 typedef struct {

@@ -4,11 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/network/network_audit.h"
 #include "mesher/parallel/profiler.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_layers.h"
 #include "mesher/run/run_step.h"
+#include "mesher/run/stage_view.h"
 #include "mesher/thickness/coupled_edges.h"
 #include "pipeline/log.h"
 
@@ -22,6 +24,7 @@ static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   for (int d = 0; d < run->model.domain_count; d++) {
     outcome->domain = d;
     CW_TRY_STAGE(cw_domain_start(&run->domain[d], outcome), outcome);
+    CW_AUDIT(cw_network_audit(&run->domain[d].network));
   }
   for (int i = 0; i < run->model.interface_count; i++) {
     const CwModelPatch *a = &run->model.patch[run->model.interface[i].patch[0]],
@@ -51,6 +54,8 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     int64_t triangles = 0;
     cw_profiler_part("curves of the walls");
     CW_TRY_STAGE(start_walls(run, outcome), outcome);
+    CW_TRY(cw_stage_view(run, CW_STAGE_CURVES));
+    if (run->stopped) break;
     CW_TRY(cw_results_make(&results, run->model.domain_count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_profiler_part("walls merged");

@@ -5,7 +5,7 @@
 
 #include "mesher/run/run_state.h"
 
-// The stage of a name: surface, layers, interfaces. CW_ERR_USAGE for another.
+// The stage of a name: size, decomposition, curves, surface, layers, interfaces. CW_ERR_USAGE for another.
 CwStatus cw_stage_of(const char *name, CwStage *stage);
 
 // Where the run is to end after `stage`: notes that it has, and writes the stage's product of each domain to

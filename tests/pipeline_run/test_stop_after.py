@@ -50,12 +50,32 @@ class StopAfter(unittest.TestCase):
                 self.assertGreater(len(rims(corners)), 0)
             shutil.rmtree(run)
 
+    def test_stages_before_the_surface(self):
+        """Wanted edge lengths are finite, the surface lies in all regions, and curves end at their corners."""
+        whole = record(RUN, "mesh")["results"]
+        for stage, field in (("size", "size_m"), ("decomposition", "region"), ("curves", "wall")):
+            run = self.stopped(stage)
+            for domain in whole["domains"]:
+                text = (run / f"mesh/{domain['name']}-{stage}.vtk").read_text()
+                values = text[text.index(f"SCALARS {field} "):].split("LOOKUP_TABLE default\n")[1].split("SCALARS")[0]
+                values = [float(value) for value in values.split()]
+                self.assertEqual(len(values), int(re.search(r"CELL_DATA (\d+)", text)[1]))
+                if stage == "size":
+                    self.assertGreater(min(values), 0)
+                    self.assertLess(max(values), 0.1)
+                elif stage == "decomposition":
+                    self.assertEqual(set(values), set(range(domain["regions"])))
+                else:
+                    self.assertEqual(set(values), {0, 1})
+            shutil.rmtree(run)
+
     def test_another_stage_is_refused(self):
         run = with_geometry("stop-unknown")
         result = execute(command("mesh", run, cells=CELLS) + ["--stop-after", "fill"])
         self.assertEqual(result.returncode, 2, result.stdout)
         self.assertEqual(error_lines(result.stdout, "mesh"), [
-            "cutwater-mesh: error: --stop-after: fill is no stage; allowed: surface, layers, interfaces"])
+            "cutwater-mesh: error: --stop-after: fill is no stage; allowed: size, decomposition, curves, surface, "
+            "layers, interfaces"])
         shutil.rmtree(run)
 
 

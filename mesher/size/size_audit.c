@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/size/size_audit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "mesher/common/model_unit.h"
+#include "mesher/common/vtk.h"
+
+CwStatus cw_size_audit(const CwSize *size, const CwBackground *background) {
+  CwStatus status = CW_OK;
+  for (int32_t p = 0; p < background->point_count; p++) {
+    double h = cw_size_at(size, background->x[p]);
+    CW_REQUIRE(h > 0 && isfinite(h), CW_ERR_MESH, "size field: edges of %g mm are wanted at (%.3f, %.3f, %.3f) mm",
+               cw_mm(h), CW_MM(background->x[p]));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_size_vtk(const CwSize *size, const CwBackground *background, const char *path) {
+  CwStatus status = CW_OK;
+  double *h = NULL;
+  CW_NEW(h, background->triangle_count);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    double centre[3];
+    cw_background_area(background, t, centre);
+    h[t] = cw_model_unit() * cw_size_at(size, centre);
+  }
+  const CwVtkField field = {"size_m", NULL, h};
+  const CwVtkTriangles triangles = {.title = "wanted edge lengths",
+                                    .point_count = background->point_count,
+                                    .x = (const double(*)[3])background->x,
+                                    .triangle_count = background->triangle_count,
+                                    .triangle = (const int32_t(*)[3])background->triangle,
+                                    .field_count = 1,
+                                    .field = &field};
+  CW_TRY(cw_vtk_write(path, &triangles));
+done:
+  free(h);
+  return status;
+}
