@@ -56,6 +56,27 @@ done:
   return status;
 }
 
+static int number_of(const CwCadPump *pump, int face) {
+  const CwSurveyFace *of = &pump->survey.face[face];
+  return cw_cad_part_face_number(pump->parts, of->part, of->face);
+}
+
+// The faces of the file that are blades, by their numbers, as long as none is divided: pieces of equal blades may
+// differ, where their seams do. `blade` holds `count`.
+static void note_blades(const CwCadPump *pump, int count, int *blade) {
+  for (int f = 0; f < pump->survey.face_count; f++)
+    if (number_of(pump, f) >= 0 && number_of(pump, f) < count)
+      blade[number_of(pump, f)] = pump->role[f] == CW_ROLE_BLADE;
+}
+
+// Pieces of blades are blades.
+static void keep_blades(CwCadPump *pump, int count, const int *blade) {
+  for (int f = 0; f < pump->survey.face_count; f++) {
+    const int number = number_of(pump, f);
+    if (pump->role[f] == CW_ROLE_WALL && number >= 0 && number < count && blade[number]) pump->role[f] = CW_ROLE_BLADE;
+  }
+}
+
 static CwStatus cut_contacts(const CwCaseCad *cad, CwCadPump *pump) {
   CwStatus status = CW_OK;
   int cut = 0;
@@ -74,17 +95,23 @@ done:
 
 CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwCadPump *pump) {
   CwStatus status = CW_OK;
-  int *pieces = NULL;
+  int *pieces = NULL, *blade = NULL;
   CW_TRY(read_parts(cad, pump));
   CW_TRY(look(cad, pump));
+  const int faces = pump->survey.face_count, blades = pump->blade_count;
   CW_NEW(pieces, cad->domain_count);
+  CW_NEW(blade, faces);
+  note_blades(pump, faces, blade);
   for (int d = 0; d < cad->domain_count; d++)
     pieces[d] = cad->domain[d].rotating && pump->blade_count > 1 ? pump->blade_count : PIECES;
   CW_TRY(cw_cad_divide(pieces, &pump->frame, pump->parts));
   CW_TRY(look(cad, pump));
   CW_TRY(cut_contacts(cad, pump));
+  keep_blades(pump, faces, blade);
+  if (blades > 1) pump->blade_count = blades;
 done:
   free(pieces);
+  free(blade);
   return status;
 }
 

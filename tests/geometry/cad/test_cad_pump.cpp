@@ -75,6 +75,32 @@ static void patches_are_proposed(void **) {
   cw_case_free(&table);
 }
 
+// Round posts for blades, the seam of each elsewhere: the pieces that they are divided into are no turned copies.
+static TopoDS_Shape rotor_with_posts() {
+  TopoDS_Shape water = BRepAlgoAPI_Fuse(small_cylinder(-5, 50, 10), small_cylinder(-60, 20, 55)).Shape();
+  for (int k = 0; k < 6; k++) {
+    const double at = k * M_PI / 3, seam = 0.7 * k;
+    const gp_Ax2 place(gp_Pnt(35 * std::cos(at), 35 * std::sin(at), -20), gp::DZ(),
+                       gp_Dir(std::cos(seam), std::sin(seam), 0));
+    water = BRepAlgoAPI_Cut(water, BRepPrimAPI_MakeCylinder(place, 3, 40).Shape()).Shape();
+  }
+  return small_solid_of(water);
+}
+
+static void pieces_of_blades_are_blades(void **) {
+  CwCase table;
+  CwCadPump pump = {};
+  std::string posts(whole);
+  posts.replace(posts.find("pump.brep"), 9, "posts.brep");
+  if (read_case(posts, &table) || cw_cad_pump_read(table.cad, &pump) || cw_cad_pump_name(table.cad, &pump))
+    fail_msg("%s", cw_fail_message());
+  assert_int_equal(pump.blade_count, 6);
+  near_to(area_of(pump, "blade", CW_PATCH_WALL), 6 * 2 * M_PI * 3 * 10);
+  assert_true(area_of(pump, "rotor_wall", CW_PATCH_WALL) == 0);
+  cw_cad_pump_free(&pump);
+  cw_case_free(&table);
+}
+
 // The first rule that takes a face has it; a point chooses one; a number is that of the sheet.
 static void rules_name_patches(void **) {
   CwCase table;
@@ -141,6 +167,7 @@ static int make_files(void **) {
   if (!mkdtemp(name)) return -1;
   folder = name;
   const TopoDS_Shape rotor = small_rotor(), stator = small_stator();
+  small_write(folder + "/posts.brep", {rotor_with_posts(), stator});
   gp_Trsf wider;
   wider.SetScale(gp::Origin(), 50.02 / 50);
   small_write(folder + "/pump.brep", {rotor, stator});
@@ -149,12 +176,14 @@ static int make_files(void **) {
 }
 
 static int remove_files(void **) {
-  for (const char *name : {"/pump.brep", "/apart.brep", "/case.yaml", ""}) remove((folder + name).c_str());
+  for (const char *name : {"/pump.brep", "/posts.brep", "/apart.brep", "/case.yaml", ""})
+    remove((folder + name).c_str());
   return 0;
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_proposed), cmocka_unit_test(rules_name_patches),
-                                     cmocka_unit_test(wrong_input_is_told)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_proposed),
+                                     cmocka_unit_test(pieces_of_blades_are_blades),
+                                     cmocka_unit_test(rules_name_patches), cmocka_unit_test(wrong_input_is_told)};
   return cmocka_run_group_tests(tests, make_files, remove_files);
 }
