@@ -200,6 +200,40 @@ done:
   return status;
 }
 
+// Mean and greatest y+ of each boundary of walls, as expressions and as monitors of these.
+static CwStatus set_y_plus(const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  static const struct {
+    const char *what, *function;
+  } kinds[] = {{"mean", "areaAve"}, {"greatest", "maxVal"}};
+  CwBlocks expressions = {0}, monitors = {0};
+  char name[WALL_NAME_SIZE];
+  CW_TRY(cw_blocks_open(&expressions));
+  CW_TRY(cw_blocks_open(&monitors));
+  for (int wall = 0; wall < 2 * a->mesh->domain_count; ++wall) {
+    int count = 0;
+    for (int p = 0; p < a->mesh->patch_count; ++p) {
+      const CwModelPatch *patch = &a->mesh->patches[p];
+      count += patch->domain == wall / 2 && patch->kind == CW_PATCH_WALL && cw_patch_is_there(a, p) &&
+               !cw_patch_turns(a->mesh, patch) == !(wall % 2);
+    }
+    wall_name(a->mesh, wall / 2, wall % 2, name);
+    for (size_t k = 0; count && k < sizeof kinds / sizeof *kinds; ++k) {
+      fprintf(expressions.out, "      %s y plus of %s = %s(Yplus)@%s\n", kinds[k].what, name, kinds[k].function, name);
+      fprintf(monitors.out,
+              "      MONITOR POINT: %s y plus of %s\n        Expression Value = %s y plus of %s\n"
+              "        Option = Expression\n      END\n",
+              kinds[k].what, name, kinds[k].what, name);
+    }
+  }
+  CW_TRY(cw_blocks_close(&expressions, "y_plus_expressions", values));
+  CW_TRY(cw_blocks_close(&monitors, "y_plus_monitors", values));
+done:
+  cw_blocks_close(&expressions, NULL, values);
+  cw_blocks_close(&monitors, NULL, values);
+  return status;
+}
+
 static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
   CwStatus status = CW_OK;
   CwBlocks steady = {0}, transient = {0};
@@ -248,6 +282,7 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
   CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));
   CW_TRY(set_ends(mesh, CW_PATCH_OUTLET, "outlet_pressure", "outlet_mass_flow", values));
   CW_TRY(set_torque(a, values));
+  CW_TRY(set_y_plus(a, values));
   CW_TRY(set_interfaces(mesh, values));
 done:
   return status;

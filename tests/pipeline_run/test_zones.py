@@ -61,7 +61,7 @@ class Zones(unittest.TestCase):
     def test_cfx(self):
         for name in ("steady.ccl", "transient.ccl"):
             text = (RUN / "export/cfx" / name).read_text()
-            self.assertNotIn("@", text.replace("@outlet", "").replace("@inlet", "").replace("@impeller", ""))
+            self.assertNotRegex(text, "@[a-z_]+@")  # a key without its value
             self.assertEqual(len(re.findall(r"^  DOMAIN: ", text, re.M)), 4)
             depth = 0
             for line in text.splitlines():
