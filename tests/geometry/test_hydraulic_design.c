@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+// Modules without a test of their own that it runs: correlations.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+// Modules without a test of their own that it runs: rotor_edges, rotor_faces, shell_builder.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

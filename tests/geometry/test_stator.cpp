@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+// Modules without a test of their own that it runs: stator_builder, stator_check, stator_spline.
 #include <cmath>
 #include <csetjmp>
 #include <cstdarg>

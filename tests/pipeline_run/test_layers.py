@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The layers of the shared run at places that are hard for them, and their last layers against the tetrahedra."""
+"""The layers of the shared run at places that are hard for them, and their last layers against the tetrahedra.
+Modules without a test of their own that it runs: layer_coverage."""
 import json
 import re
 import shutil
