@@ -91,7 +91,6 @@ NUMBER(double, surface_short_edge, 0.62, 0, "h", "shorter ones go")
 NUMBER(double, surface_least_height, 0.4, 0, "h", "that free points keep from given edges")
 NUMBER(double, surface_steep_cosine, 0.5, -1, "cosine",
        "between a triangle's normal and the surface's at a corner: below it the triangle is divided")
-NUMBER(double, surface_steep_room, 0.3, 0, "h", "that the new points keep free around them")
 NUMBER(double, surface_clearly_less, 0.9, 1, "1",
        "of the longest: triangles are too large only where edges are wanted that are shorter")
 NUMBER(double, interface_sphere, 1.05, none, "1",

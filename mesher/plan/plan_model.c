@@ -9,12 +9,13 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
-enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
+enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64, HITS_MOST = 64 };
 enum {
   SAMPLES_OF_REGION = 1000, // of the volume
   TOGETHER = 8,             // places of the size field in one sample, at most
   PARTS_ALONG = 4           // parts of a place along each side, at most
 };
+static const double HAIR = 1e-6;      // of the reach of a ray: the triangle that it starts from is nearer
 static const double EDGE_STEP = 0.25; // base sizes between points along CAD edges
 // Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the layer top (the paper's pump from
 // 1 to 20 million cells, by region).
@@ -61,14 +62,15 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
   CW_NEW(model->edge_end, most);
   CW_NEW(model->edge_sharp, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
-    double room = 0;
+    double thickness = 0;
     int faces[2];
     cw_cad_edge_faces(cad, e, faces);
     cw_cad_edge_range(cad, e, range);
-    for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
-    if (room == 0) continue; // between two open patches
+    for (int side = 0; side < 2; side++)
+      thickness = fmax(thickness, options->thickness[cw_cad_face_patch(cad, faces[side])]);
+    if (thickness == 0) continue; // between two open patches
     int smooth = cw_plan_edge_is_smooth(cad, e);
-    room *= smooth ? cw_policy.plan_smooth_room : cw_policy.plan_edge_room;
+    double layers = smooth ? cw_policy.plan_smooth_room : cw_policy.plan_edge_room;
     int32_t points = points_of_edge(cad, e, range, step);
     for (int32_t i = 0; i < points; i++) {
       int32_t at = model->edge_count++;
@@ -76,7 +78,8 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
                         model->edge_tangent[at]);
       cw_unit(model->edge_tangent[at]);
       model->edge_touch[at] = cw_policy.plan_touch_room * cw_size_at(model->size, model->edge_x[at]);
-      model->edge_room[at] = room;
+      CwPlanWall wall = cw_plan_wall_near(model, model->edge_x[at], thickness);
+      model->edge_room[at] = layers * (wall.thickness > 0 ? wall.thickness : thickness);
       model->edge_sharp[at] = (uint8_t)!smooth;
       model->edge_end[at] = i == 0 || i == points - 1;
     }
@@ -296,6 +299,39 @@ static CwStatus measure(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
+// A column takes no more than its share of the way to a wall that faces it, as layers/ has it.
+static CwStatus limit_by_gap(void *context, int32_t t, void *out) {
+  const CwPlanModel *model = context;
+  const CwBackground *background = model->background;
+  double *thickness = out, centre[3] = {0, 0, 0}, inward[3];
+  CwPlanHit hit[HITS_MOST];
+  *thickness = model->thickness[t];
+  if (*thickness == 0) return CW_OK;
+  for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
+  for (int k = 0; k < 3; k++) inward[k] = -model->normal[t][k];
+  double far = *thickness / cw_policy.gap_share;
+  int32_t hits = cw_plan_line_hits(model, centre, inward, HAIR * far, far, HITS_MOST, hit);
+  for (int32_t i = 0; i < hits; i++) {
+    int32_t met = hit[i].triangle;
+    if (!model->wall[met] || cw_dot(inward, model->normal[met]) < cw_policy.size_facing) continue;
+    *thickness = cw_policy.gap_share * hit[i].place;
+    break;
+  }
+  return CW_OK;
+}
+
+static CwStatus limit_layers(CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  int32_t count = model->background->triangle_count;
+  double *limited = NULL;
+  CW_NEW_UNSET(limited, count);
+  CW_TRY(cw_parallel_for("decomposition", count, sizeof *limited, limit_by_gap, model, limited));
+  memcpy(model->thickness, limited, (size_t)count * sizeof *limited);
+done:
+  free(limited);
+  return status;
+}
+
 static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   const CwBackground *background = model->background;
@@ -420,8 +456,9 @@ CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, co
   model->region_count = options->region_count;
   model->base_size = options->base_size;
   CW_TRY(measure_walls(cad, options, model));
-  CW_TRY(sample_walls(model));
   CW_TRY(sort_triangles(model));
+  CW_TRY(limit_layers(model));
+  CW_TRY(sample_walls(model));
   CW_TRY(sample_volume(options, model));
   CW_TRY(sample_edges(cad, options, model));
 done:

@@ -191,14 +191,31 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   return place;
 }
 
+// Of a plane with normal n, 0 where it crosses the edge at one of its points, 1 where it runs along.
+static double along_edge(const CwPlanModel *model, int32_t e, const double n[3]) {
+  return fmax(0, 1 - fabs(cw_dot(n, model->edge_tangent[e])) / cw_policy.plan_along_edge);
+}
+
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
   double most = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
     double room = model->edge_touch[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
     if (near <= most || (end && cw_plane_distance(end, model->edge_x[e]) < -room)) continue;
-    double along = 1 - fabs(cw_dot(plane->normal, model->edge_tangent[e])) / cw_policy.plan_along_edge;
-    most = fmax(most, near * along);
+    most = fmax(most, near * along_edge(model, e, plane->normal));
   }
   return most;
+}
+
+void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const double n[3], double low, double step,
+                     int32_t count, double *touch) {
+  for (int32_t i = 0; i < count; i++) touch[i] = 0;
+  for (int32_t i = 0; i < part->edge_count; i++) {
+    int32_t e = part->edge[i];
+    double place = cw_dot(n, model->edge_x[e]), room = model->edge_touch[e], along = along_edge(model, e, n);
+    if (along == 0) continue;
+    int32_t first = (int32_t)fmax(ceil((place - room - low) / step), 0);
+    for (int32_t p = first; p < count && low + step * p <= place + room; p++)
+      touch[p] = fmax(touch[p], along * nearness(fabs(low + step * p - place), room));
+  }
 }

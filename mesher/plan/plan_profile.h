@@ -39,6 +39,9 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
 // How near one plane, where it lies on the positive side of `end` (NULL: everywhere), comes to an edge that it runs
 // along: 0 where there is room for triangles between both, 1 where there is none.
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
+// The same of all planes with normal n at the places low, low + step, ...
+void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const double n[3], double low, double step,
+                     int32_t count, double *touch);
 CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin);
 
 #endif

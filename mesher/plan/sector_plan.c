@@ -20,7 +20,8 @@ enum {
   REFUSED = 2,   // places to either side of one that are refused with it
   STEPS = 36,    // of equal work in a slice, where planes between slices may stand
   WINDOW = 3,    // slices to either side of its even place in which such a plane is looked for
-  ANGLES = 120   // places tried for half-planes in one pitch
+  ANGLES = 120,  // places tried for half-planes in one pitch
+  TOUCHES = 4096 // places along the axis where planes across it are known to touch edges
 };
 // Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
 enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
@@ -36,12 +37,13 @@ typedef struct {
   CwPlan *plan;
   int32_t count;
   int32_t slices_most;
-  double up;                 // 1: z grows from pipe to impeller, -1: it falls
-  double low, nose, high;    // along up * z: ends of the domain, end of the fluid on the axis, m
-  CwPlanProfile along;       // the domain along up * z
-  uint8_t refused[STATIONS]; // places of the plane across the axis before which no half-planes fit
-  int station;               // that of the present one
-  Judged judged[ANGLES];     // half-planes, once they were judged
+  double up;                         // 1: z grows from pipe to impeller, -1: it falls
+  double low, nose, high;            // along up * z: ends of the domain, end of the fluid on the axis, m
+  CwPlanProfile along;               // the domain along up * z
+  double touch[TOUCHES], touch_step; // of planes across the axis (cw_plan_touch), from `low` to `high`
+  uint8_t refused[STATIONS];         // places of the plane across the axis before which no half-planes fit
+  int station;                       // that of the present one
+  Judged judged[ANGLES];             // half-planes, once they were judged
   int is_judged;
 } Sectors;
 
@@ -52,8 +54,9 @@ static CwPlane across(const Sectors *sectors, double place) {
 // What a plane across the axis costs.
 static double judge_across(const Sectors *sectors, double place, double *worst) {
   CwPlanPlace found = cw_profile_at(&sectors->along, cw_profile_bin(&sectors->along, place));
+  double touch = round((place - sectors->low) / sectors->touch_step);
   *worst = found.worst;
-  return cw_plan_place_cost(found);
+  return cw_plan_place_cost(found) + cw_plan_touch_cost(sectors->touch[(int)fmin(fmax(touch, 0), TOUCHES - 1)]);
 }
 
 static CwPlane half_plane(double angle) {
@@ -472,6 +475,8 @@ CwStatus cw_sector_plan_make(const CwCad *cad, const CwBackground *background, c
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
   CwPlane along = across(&sectors, 0);
   cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &sectors.along);
+  sectors.touch_step = (sectors.high - sectors.low) / (TOUCHES - 1);
+  cw_plan_touches(&model, &whole, along.normal, sectors.low, sectors.touch_step, TOUCHES, sectors.touch);
   CW_TRY_STAGE(place_root(&sectors, 0, &slices, outcome), outcome);
   double pipe = cw_profile_below(&sectors.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
   CW_TRY_STAGE(weigh_numbers(&sectors, pipe, pitch, options->region_count, number, &numbers, outcome), outcome);

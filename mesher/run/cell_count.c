@@ -36,8 +36,9 @@ static double tets_per_volume(const CwMeshRun *run, double scale) {
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
   double asked = (double)run->table->mesh.cells;
-  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(asked) * run->layer_count;
-  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(run, scale); // 0: nothing learned yet
+  double prisms =
+      run->prisms.factor > 0 ? cw_cell_law_at(&run->prisms, scale) : prisms_per_layer(asked) * run->layer_count;
+  double tets = run->tets.factor > 0 ? cw_cell_law_at(&run->tets, scale) : tets_per_volume(run, scale);
   return prisms * run->domain[d].prism_integral / (scale * scale) +
          tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
@@ -57,8 +58,8 @@ double cw_predicted_off(const CwMeshRun *run) {
 }
 
 void cw_start_factors(CwMeshRun *run) {
-  run->prism_factor = prisms_per_layer((double)run->table->mesh.cells) * run->layer_count;
-  run->tet_factor = tets_per_volume(run, run->scale);
+  run->prisms = (CwCellLaw){.factor = prisms_per_layer((double)run->table->mesh.cells) * run->layer_count};
+  run->tets = (CwCellLaw){.factor = tets_per_volume(run, run->scale)};
 }
 
 void cw_mesh_set_scale(CwMeshRun *run, double scale) {
@@ -73,8 +74,8 @@ void cw_mesh_solve_scale(CwMeshRun *run) {
   for (int i = 0; i < SCALE_STEPS; i++) {
     double off = log(all_cells_at(run, run->scale) / asked);
     if (fabs(off) < 1e-12) break;
-    if (i > 0 && off != before) slope = fmin(fmax((off - before) / step, -4), -1.5);
-    step = -off / slope;
+    if (i > 0 && off != before) slope = fmin(fmax((off - before) / step, -6), -1);
+    step = fmin(fmax(-off / slope, -1), 1);
     before = off;
     run->scale *= exp(step);
   }
@@ -112,7 +113,8 @@ void cw_mesh_solve_layers(CwMeshRun *run) {
 void cw_learn_prisms(CwMeshRun *run, int64_t triangles) {
   double integral = 0;
   for (int d = 0; d < run->model.domain_count; d++) integral += run->domain[d].prism_integral;
-  run->prism_factor = (double)triangles * run->layer_count * run->scale * run->scale / integral;
+  double factor = (double)triangles * run->layer_count * run->scale * run->scale / integral;
+  cw_cell_law_learn(&run->prisms, factor, run->scale, 2);
 }
 
 void cw_learn_tets(CwMeshRun *run) {
@@ -121,7 +123,7 @@ void cw_learn_tets(CwMeshRun *run) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
     integral += cw_domain_tet_integral(&run->domain[d], run->scale);
   }
-  run->tet_factor = made * run->scale * run->scale * run->scale / integral;
-  cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals", run->tet_factor,
-               run->prism_factor / run->layer_count);
+  cw_cell_law_learn(&run->tets, made * run->scale * run->scale * run->scale / integral, run->scale, 3);
+  cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals; exponents %.2f, %.2f",
+               run->tets.factor, run->prisms.factor / run->layer_count, run->tets.exponent, run->prisms.exponent);
 }

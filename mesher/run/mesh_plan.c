@@ -257,8 +257,8 @@ done:
 static CwStatus plan_domain(CwMeshRun *run, int d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   cw_profiler_part("planes weighed");
-  CW_TRY_STAGE(cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, outcome),
-               outcome);
+  double prisms = cw_cell_law_at(&run->prisms, run->scale);
+  CW_TRY_STAGE(cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), prisms, outcome), outcome);
   CW_AUDIT(cw_plan_audit(&run->domain[d].plan));
 done:
   return status;
@@ -269,14 +269,15 @@ done:
 static CwStatus plan_anew(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
   CwOutcome outcome = {0}; // done: there is no symmetry to miss
-  double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
+  CwCellLaw prisms = run->prisms, tets = run->tets;
+  double scale = run->scale;
   cw_domain_clear(&run->domain[d]);
-  run->prism_factor = run->planned_prism_factor;
-  run->tet_factor = run->planned_tet_factor;
+  run->prisms = run->planned_prisms;
+  run->tets = run->planned_tets;
   cw_mesh_set_scale(run, run->planned_scale);
   CW_TRY(plan_domain(run, d, &outcome));
-  run->prism_factor = prism_factor;
-  run->tet_factor = tet_factor;
+  run->prisms = prisms;
+  run->tets = tets;
   cw_mesh_set_scale(run, scale);
 done:
   return status;
@@ -382,8 +383,8 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   CwOutcome outcome[CW_DOMAINS_MOST];
   char text[CW_OUTCOME_TEXT_SIZE];
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
-  run->planned_prism_factor = run->prism_factor;
-  run->planned_tet_factor = run->tet_factor;
+  run->planned_prisms = run->prisms;
+  run->planned_tets = run->tets;
   run->planned_scale = run->scale;
   for (int d = 0; d < run->model.domain_count; d++) cost[d] = run->domain[d].symmetry ? PERIODIC_PLAN : 1;
   CwGroupWork work = {.step = "decomposition",

@@ -72,6 +72,10 @@ static double rounded(double value) {
   return strtod(text, NULL);
 }
 
+static CwCellLaw rounded_law(const CwCellLaw *law) {
+  return (CwCellLaw){rounded(law->factor), rounded(law->scale), rounded(law->exponent)};
+}
+
 CwStatus cw_mesh_run(CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096], fingerprint[CW_HASH_TEXT];
@@ -90,8 +94,8 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
   if (run->stopped) goto done;
   if (state.pass > 1) {
-    run->prism_factor = state.prism_factor;
-    run->tet_factor = state.tet_factor;
+    run->prisms = state.prisms;
+    run->tets = state.tets;
     cw_mesh_solve_scale(run);
     cw_log("going on with pass %d of an earlier run", state.pass);
     if (state.whole) CW_TRY(cw_mesh_plan_whole(run, "as in the run that this one goes on from"));
@@ -109,9 +113,9 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
       break;
     }
     // As many digits as the file keeps, so that a run that goes on from it has the same bits.
-    run->prism_factor = rounded(run->prism_factor);
-    run->tet_factor = rounded(run->tet_factor);
-    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole, {0}};
+    run->prisms = rounded_law(&run->prisms);
+    run->tets = rounded_law(&run->tets);
+    state = (CwPassState){run->passes + 1, run->prisms, run->tets, run->whole, {0}};
     for (int d = 0; d < run->model.domain_count; d++) state.more_regions[d] = run->domain[d].more_regions;
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
     for (int d = 0; d < run->model.domain_count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;

@@ -62,6 +62,16 @@ done:
   return status;
 }
 
+static CwCellLaw law_in(const json_t *file) {
+  return (CwCellLaw){json_number_value(json_object_get(file, "factor")),
+                     json_number_value(json_object_get(file, "scale")),
+                     json_number_value(json_object_get(file, "exponent"))};
+}
+
+static json_t *law_packed(const CwCellLaw *law) {
+  return json_pack("{s:f, s:f, s:f}", "factor", law->factor, "scale", law->scale, "exponent", law->exponent);
+}
+
 void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state) {
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
@@ -70,9 +80,8 @@ void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassSta
     cw_log_warn("%s; the passes begin anew", cw_fail_message());
   const char *of = json_string_value(json_object_get(file, "fingerprint"));
   json_int_t pass = json_integer_value(json_object_get(file, "pass"));
-  double prisms = json_number_value(json_object_get(file, "prism_factor"));
-  double tets = json_number_value(json_object_get(file, "tet_factor"));
-  if (of && !strcmp(of, fingerprint) && pass > 1 && prisms > 0 && tets > 0) {
+  CwCellLaw prisms = law_in(json_object_get(file, "prisms")), tets = law_in(json_object_get(file, "tetrahedra"));
+  if (of && !strcmp(of, fingerprint) && pass > 1 && prisms.factor > 0 && tets.factor > 0) {
     *state = (CwPassState){(int)pass, prisms, tets, json_is_true(json_object_get(file, "whole")), {0}};
     for (size_t d = 0; d < CW_DOMAINS_MOST; d++) {
       state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
@@ -86,8 +95,9 @@ CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, cons
   char path[PATH_SIZE];
   json_t *more = json_array(), *file = NULL;
   for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
-  file = json_pack("{s:s, s:i, s:f, s:f, s:b, s:o}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
-                   state->prism_factor, "tet_factor", state->tet_factor, "whole", state->whole, "more_regions", more);
+  file = json_pack("{s:s, s:i, s:o, s:o, s:b, s:o}", "fingerprint", fingerprint, "pass", state->pass, "prisms",
+                   law_packed(&state->prisms), "tetrahedra", law_packed(&state->tets), "whole", state->whole,
+                   "more_regions", more);
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_sealed_json_write(file, path));

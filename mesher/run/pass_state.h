@@ -4,12 +4,13 @@
 #ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
 #define CUTWATER_MESHER_RUN_PASS_STATE_H
 
+#include "mesher/run/cell_law.h"
 #include "pipeline/hash.h"
 #include "pipeline/model.h"
 
 typedef struct {
   int pass;                              // the pass to run, from 1
-  double prism_factor, tet_factor;       // cells per unit of the integrals, as learned
+  CwCellLaw prisms, tets;                // as learned
   int whole;                             // 1: the symmetry of the impeller was given up
   int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
 } CwPassState;

@@ -8,6 +8,7 @@
 #include "mesher/region/audit.h"
 #include "mesher/region/layer_ratio.h"
 #include "mesher/region/region_failure.h"
+#include "mesher/run/cell_law.h"
 #include "mesher/run/domain.h"
 #include "mesher/run/layer_coverage.h"
 #include "pipeline/model.h"
@@ -63,13 +64,14 @@ typedef struct {
   void **seeds[CW_DOMAINS_MOST];           // of the size field, by part, while it is made
   int layer_count;                         // as the case gives it, or as the size fields ask
   double y_plus_auto;                      // where the case leaves it open
-  double prism_factor, tet_factor;         // cells per unit of the integrals
+  CwCellLaw prisms, tets;                  // as the passes learn them
   double scale;                            // of the size field
   double gradation;                        // of the size field at scale 1
   double wall_scale;                       // at which walls limit its edges; 0: they do not
   double *most_thickness[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
   // With which the domains were planned.
-  double planned_prism_factor, planned_tet_factor, planned_scale;
+  CwCellLaw planned_prisms, planned_tets;
+  double planned_scale;
   int whole;           // 1: a symmetry was given up
   int passes, retries; // retries: of all passes
   int64_t cells;       // made

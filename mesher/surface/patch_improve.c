@@ -371,7 +371,7 @@ static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *
       for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);
     }
     if (most == 0) continue;
-    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.surface_steep_room, 0.5 * sqrt(most), &inserted));
+    CW_TRY(cw_patch_insert(work, uv, t, 0, 0.5 * sqrt(most), &inserted));
     *changes += inserted;
   }
 done:

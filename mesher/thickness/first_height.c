@@ -47,6 +47,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   first.height = first.asked;
   if (laminar && !cw_case_given(group->first_height)) {
     first.height = CW_LAMINAR_SHARE * flow->width;
+    if (flow->before > 0) first.height = fmin(first.height, even_layers(cw_column_room(flow), layer_count));
     first.source = CW_FIRST_LAMINAR;
   }
   if (first.height > fitting) {

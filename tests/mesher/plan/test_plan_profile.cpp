@@ -61,6 +61,20 @@ static void planes_that_cross_edges_do_not_touch_them(void **) {
   assert_near(ring.touch({{0, 1, 0}, 0.012}), 0, 1e-9);
 }
 
+// Many planes across one direction at once, each as if it were alone.
+static void planes_of_one_direction_are_told_together(void **) {
+  enum { COUNT = 301 };
+  Ring ring;
+  const double direction[] = {0, 0, 1}, low = -0.001, step = 22e-3 / (COUNT - 1);
+  double touch[COUNT], most = 0;
+  cw_plan_touches(&ring.model, &ring.whole, direction, low, step, COUNT, touch);
+  for (int i = 0; i < COUNT; i++) {
+    assert_near(touch[i], ring.touch({{0, 0, 1}, low + step * i}), 1e-9);
+    most = std::fmax(most, touch[i]);
+  }
+  assert_near(most, 1, 1e-6);
+}
+
 // Both sides of a plane know the edge beside it.
 static void parts_keep_the_edges_beside_them(void **) {
   Ring ring;
@@ -76,6 +90,7 @@ int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(planes_beside_a_smooth_edge_touch_it),
                               cmocka_unit_test(planes_that_pass_an_edge_closely_touch_it),
                               cmocka_unit_test(planes_that_cross_edges_do_not_touch_them),
+                              cmocka_unit_test(planes_of_one_direction_are_told_together),
                               cmocka_unit_test(parts_keep_the_edges_beside_them)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -69,15 +69,15 @@ static void state_comes_back_as_written(void **unused) {
   cw_case_defaults(&table);
   char fingerprint[33];
   assert_int_equal(cw_pass_fingerprint(&table, run, &domains, fingerprint), CW_OK);
-  const CwPassState written = {3, 12.2450980392, 10.8712345678, 1, {0, 2}};
+  const CwPassState written = {3, {12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 1, {0, 2}};
   assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
   CwPassState read = {.pass = 1};
   cw_pass_state_read(run, fingerprint, &read);
   assert_int_equal(read.pass, 3);
   assert_int_equal(read.whole, 1);
   assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
-  assert_memory_equal(&read.prism_factor, &written.prism_factor, sizeof(double));
-  assert_memory_equal(&read.tet_factor, &written.tet_factor, sizeof(double));
+  assert_memory_equal(&read.prisms, &written.prisms, sizeof read.prisms);
+  assert_memory_equal(&read.tets, &written.tets, sizeof read.tets);
 }
 
 static void another_case_or_geometry_starts_anew(void **unused) {

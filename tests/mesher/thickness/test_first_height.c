@@ -109,6 +109,9 @@ static void laminar_flow_takes_a_share_of_the_passage(void **state) {
   // small.
   double s = first.height / FLOW.width, centre = s / 2, shear = centre * (1 - centre) / centre;
   NEAR(1 - shear, 0.01);
+  CwWallFlow end = FLOW;
+  end.before = 0.0008; // a trailing edge: four even layers fit before the interface
+  NEAR(cw_first_height_choose(&table, &table.walls.blade, &end, 30, 4).height, 0.6 * 0.0008 / (4 * 1.05));
   table.walls.blade.first_height = 2e-4; // is taken
   assert_int_equal(choose(&table, 30).source, CW_FIRST_ASKED);
   table.walls.blade.first_height = NAN;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How cells follow the scale of the size fields: an integral of the field, s^-2 over walls or s^-3 over the volume,
+// times a factor that follows a power of s. The factor is constant in fine meshes. In coarse ones the curves of the
+// model, each with a whole number of edges, hold up the count, and the exponent is what two counts tell (secants in
+// the logarithms).
+#ifndef CUTWATER_MESHER_RUN_CELL_LAW_H
+#define CUTWATER_MESHER_RUN_CELL_LAW_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  double factor;   // cells per unit of the integral; 0: not known yet
+  double scale;    // at which they were counted; 0: predicted, for any scale
+  double exponent; // of the factor, as a function of the scale
+} CwCellLaw;
+
+double cw_cell_law_at(const CwCellLaw *law, double scale);
+
+// Takes in what was counted at a scale: cells = factor * integral / scale^power. [in,out] law.
+void cw_cell_law_learn(CwCellLaw *law, double factor, double scale, int power);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
