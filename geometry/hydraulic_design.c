@@ -161,6 +161,29 @@ done:
   return status;
 }
 
+// Where two root fillets meet round an edge, their feet have corners of half of its wedge. A sharper edge leaves no
+// sound triangle there, and nobody casts a fillet round a feather.
+static const double LEAST_FILLETED_WEDGE = 30 * M_PI / 180;
+
+static double usual_bevel(CwTrailingEdge edge, const CwDesign *design) {
+  return cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle);
+}
+
+// The acute corner of a blunt edge has the blade angle as its wedge, a sharp edge less.
+static void trailing_edge(const CwImpellerTable *given, CwDesign *design) {
+  const CwTrailingEdge edge = given->trailing_edge;
+  const int blunt = edge == CW_EDGE_BLUNT, sharp = edge == CW_EDGE_SHARP;
+  design->trailing_edge = edge;
+  TAKE(trailing_edge_bevel, given->trailing_edge_bevel, usual_bevel(edge, design),
+       sharp ? "leg along the blade twice the cut" : "as long as the rest of the trailing edge");
+  if (design->root_fillet_radius > 0 && (sharp || (blunt && design->outlet_blade_angle < LEAST_FILLETED_WEDGE))) {
+    design->trailing_edge = CW_EDGE_BEVELLED;
+    GIVE_WAY(trailing_edge_bevel, usual_bevel(CW_EDGE_BEVELLED, design), blunt ? 0 : design->trailing_edge_bevel,
+             blunt ? "trailing_edge blunt gives way to bevelled: root fillets need a wedge of 30 deg"
+                   : "trailing_edge sharp gives way to bevelled: root fillets need a wedge of 30 deg");
+  }
+}
+
 // All of the design behind the duty point.
 static CwStatus pump(const CwCase *table, CwDesign *design) {
   CwStatus status = CW_OK;
@@ -170,10 +193,7 @@ static CwStatus pump(const CwCase *table, CwDesign *design) {
   CW_TRY(make_clearance(&meridian, design));
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
-  TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,
-       cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness, design->outlet_blade_angle),
-       design->trailing_edge == CW_EDGE_SHARP ? "leg along the blade twice the cut"
-                                              : "as long as the rest of the trailing edge");
+  trailing_edge(&table->impeller, design);
   CW_TRY(cw_design_volute(&table->volute, design));
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   SET(relative_speed, 0.5 * (design->inlet_relative_speed + design->outlet_relative_speed), "(w1 + w2) / 2");

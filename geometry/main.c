@@ -29,6 +29,7 @@ static const CwStageUsage usage = {
 };
 
 static const double degree = M_PI / 180;
+static const double LEAST_CORNER = 15 * M_PI / 180; // of a face
 
 static void show_design(const CwDesign *design) {
   char line[200];
@@ -54,6 +55,11 @@ static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
          measured->wall_edge.angle / degree, cw_solid_face_name(solid, measured->wall_edge_of[0]),
          cw_solid_face_name(solid, measured->wall_edge_of[1]), measured->corner.angle / degree,
          cw_solid_face_name(solid, measured->corner_of));
+  if (measured->corner.angle < LEAST_CORNER)
+    cw_log_warn("%s: %s has a corner of %.1f deg at (%.2f, %.2f, %.2f) mm, and so have triangles there; 15 deg are "
+                "usual: leave out root_fillet_radius_mm, or take trailing_edge bevelled",
+                cw_solid_domain(solid), cw_solid_face_name(solid, measured->corner_of), measured->corner.angle / degree,
+                measured->corner.at[0] * 1e3, measured->corner.at[1] * 1e3, measured->corner.at[2] * 1e3);
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
@@ -69,12 +75,12 @@ static void show_rotor(const CwDesign *design, const CwMeasuredRotor *rotor) {
            rotor->shroud_crease.angle / degree);
   cw_log("measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
   if (least < 66)
-    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
-                "leading edge outward",
+    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: lower "
+                "lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm",
                 least);
   if (360 - rotor->trailing_edge.angle / degree < 75)
-    cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: lengthen "
-                "the bevel",
+    cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: take "
+                "trailing_edge bevelled, or raise trailing_edge_bevel_mm",
                 360 - rotor->trailing_edge.angle / degree);
 }
 

@@ -36,7 +36,9 @@ LEAST_DIHEDRAL = 12.0  # degrees
 FIRST_HEIGHT_MET = 0.99
 WARNED_DETERMINANT = "checkMesh calls their determinant small"
 TIMED_OUT = "ran past the limit"
-FIGURES = (("cells over asked", "count", "{:.3f}"), ("least dihedral, degrees", "dihedral", "{:.1f}"),
+FIGURES = (("sharpest edge of the fluid, degrees", "fluid_edge", "{:.1f}"),
+           ("sharpest edge of the walls, degrees", "wall_edge", "{:.1f}"),
+           ("sharpest corner of a face, degrees", "corner", "{:.1f}"), ("cells over asked", "count", "{:.3f}"), ("least dihedral, degrees", "dihedral", "{:.1f}"),
            ("dihedral over its bound", "dihedral_over_bound", "{:.2f}"), ("mean aspect", "aspect", "{:.2f}"),
            ("greatest aspect", "aspect_most", "{:.1f}"), ("first height met", "first_height", "{:.3f}"),
            ("layer top with volumes alike, share", "even", "{:.3f}"),
@@ -100,6 +102,14 @@ def cause(message, name):
     message = re.sub(r"\S*/(\S+)", r"\1", message).replace(f"{name}.yaml", "case.yaml")
     message = re.sub(r"(?<![A-Za-z0-9_])[-+]?\d[\d.,]*(e[-+]?\d+)?", "#", message)
     return message[:300]
+
+
+def judge_solids(run, figures):
+    """The sharpest edges and the sharpest corner of the solids."""
+    measured = json.loads((run / "geometry/record.json").read_text())["results"]["measured"]
+    for figure, key in (("fluid_edge", "sharpest_edge_of_fluid"), ("wall_edge", "sharpest_edge_of_wall"),
+                        ("corner", "sharpest_corner")):
+        figures[figure] = min(measured[domain][key]["angle_deg"] for domain in ("rotor", "stator"))
 
 
 def judge_mesh(run, figures):
@@ -169,6 +179,8 @@ def run_pump(options, index, result, case):
         if done.status:
             result.update(verdict="failed", stage=stage, status=done.status, message=stage_error(stage, done))
             break
+        if stage == "geometry":
+            judge_solids(run, result["figures"])
         if stage == "mesh":
             bad += judge_mesh(run, result["figures"])
         if stage == "export":

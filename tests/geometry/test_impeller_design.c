@@ -75,6 +75,18 @@ static void given_values_give_way(void **state) {
   const CwDesign rounded = design_of(&table);
   near_to(rounded.asked[CW_DESIGN_root_fillet_radius], open.outlet_diameter / 10, 1e-12);
   assert_true(rounded.root_fillet_radius > 0 && rounded.root_fillet_radius < open.outlet_diameter / 10);
+  assert_int_equal(rounded.trailing_edge, CW_EDGE_BEVELLED);
+  assert_true(isnan(rounded.asked[CW_DESIGN_trailing_edge_bevel]));
+  for (CwTrailingEdge edge = CW_EDGE_BLUNT; edge <= CW_EDGE_SHARP; edge++) { // a wedge of under 30 degrees
+    table.impeller.trailing_edge = edge;
+    const int feather = edge != CW_EDGE_ROUNDED;
+    const CwDesign filleted = design_of(&table);
+    assert_int_equal(filleted.trailing_edge, feather ? CW_EDGE_BEVELLED : edge);
+    assert_int_equal(!isnan(filleted.asked[CW_DESIGN_trailing_edge_bevel]), feather);
+    if (feather) near_to(filleted.trailing_edge_bevel, rounded.trailing_edge_bevel, 1e-12);
+  }
+  table.impeller.root_fillet_radius = 0;
+  assert_int_equal(design_of(&table).trailing_edge, CW_EDGE_SHARP);
 
   table = duty_point(2287.1, 1369.9, 6803.2); // whose shaft asks for a thick hub
   table.impeller.inlet_diameter = 0.85 * design_of(&table).inlet_diameter;
