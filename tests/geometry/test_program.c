@@ -43,12 +43,19 @@ static int messages_have(const char *words) {
 
 // Two runs give the same bytes, and nothing is left under a temporary name.
 static void files_are_written_and_the_same_each_time(void **state) {
-  static const char *const names[] = {"rotor.brep",         "stator.brep",
-                                      "faces.csv",          "pump.step",          "design.json",
-                                      "blade_to_blade.svg", "meridional_section.svg",
-                                      "blade_angle.svg",    "velocity_triangles.svg",
-                                      "volute_plan.svg",    "volute_sections.svg",
-                                      "model.json",         "pump_faces.step"};
+  static const char *const names[] = {"rotor.brep",
+                                      "stator.brep",
+                                      "faces.csv",
+                                      "pump.step",
+                                      "design.json",
+                                      "blade_to_blade.svg",
+                                      "meridional_section.svg",
+                                      "blade_angle.svg",
+                                      "velocity_triangles.svg",
+                                      "volute_plan.svg",
+                                      "volute_sections.svg",
+                                      "model.json",
+                                      "pump_faces.step"};
   char command[300];
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "a"), 0);
   assert_true(messages_have("measured: wrap 71.000 deg, D1 74.0000, D2 200.0000, b2 8.0000 mm"));
@@ -80,10 +87,55 @@ static void failure_leaves_no_record(void **state) {
   assert_int_equal(system(command), 0);
 }
 
+typedef struct {
+  const char *key;
+  double value;
+} Given;
+
+// A water pump of 54 m3/h, 20 m and 1800 rpm with some keys of its impeller given, up to one without a name.
+static void write_case(const char *path, const Given *given) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, "name: given\noperating_point: {flow_rate_m3_per_h: 54, head_m: 20, speed_rpm: 1800}\nimpeller:\n");
+  for (; given->key; given++) fprintf(file, "  %s: %.6g\n", given->key, given->value);
+  fclose(file);
+}
+
+// Key and value behind "tried:" in the only line that says error.
+static void read_remedy(char key[64], double *value) {
+  char path[64], line[2000];
+  int errors = 0, found = 0;
+  snprintf(path, sizeof path, "%s/messages", folder);
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  while (fgets(line, sizeof line, file)) {
+    const char *tried = strstr(line, "tried: impeller.");
+    errors += strstr(line, ": error: ") != NULL;
+    if (tried) found = sscanf(tried, "tried: impeller.%63[a-z_]: %lf works", key, value);
+  }
+  fclose(file);
+  assert_int_equal(errors, 1);
+  assert_int_equal(found, 2);
+}
+
+// A wheel far too small for its head: put into the case, the value that the refusal names works.
+static void what_a_refusal_names_works(void **state) {
+  Given given[] = {{"outlet_width_mm", 14}, {"outlet_diameter_mm", 150}, {NULL, 0}};
+  char path[64], key[64];
+  snprintf(path, sizeof path, "%s/given.yaml", folder);
+  write_case(path, given);
+  assert_int_not_equal(run(path, "given"), 0);
+  read_remedy(key, &given[1].value);
+  assert_string_equal(key, given[1].key);
+  write_case(path, given);
+  assert_int_equal(run(path, "given"), 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(files_are_written_and_the_same_each_time),
       cmocka_unit_test(failure_leaves_no_record),
+      cmocka_unit_test(what_a_refusal_names_works),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
