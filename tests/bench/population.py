@@ -38,7 +38,8 @@ WARNED_DETERMINANT = "checkMesh calls their determinant small"
 TIMED_OUT = "ran past the limit"
 FIGURES = (("sharpest edge of the fluid, degrees", "fluid_edge", "{:.1f}"),
            ("sharpest edge of the walls, degrees", "wall_edge", "{:.1f}"),
-           ("sharpest corner of a face, degrees", "corner", "{:.1f}"), ("cells over asked", "count", "{:.3f}"), ("least dihedral, degrees", "dihedral", "{:.1f}"),
+           ("sharpest corner of a face, degrees", "corner", "{:.1f}"), ("cells over asked", "count", "{:.3f}"),
+           ("least dihedral, degrees", "dihedral", "{:.1f}"),
            ("dihedral over its bound", "dihedral_over_bound", "{:.2f}"), ("mean aspect", "aspect", "{:.2f}"),
            ("greatest aspect", "aspect_most", "{:.1f}"), ("first height met", "first_height", "{:.3f}"),
            ("layer top with volumes alike, share", "even", "{:.3f}"),
