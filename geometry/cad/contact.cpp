@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <BRepAlgoAPI_Splitter.hxx>
@@ -19,6 +20,7 @@ namespace {
 
 const int TRIANGLES = 24;   // that are looked from in a face, about
 const double NEAR = 1e-3;   // of the size: a gap up to it is meant to be none
+const double MOST = 0.5;    // of a face's points: it can be one part alone that so many touch
 const double FACING = -0.7; // cosine of the normals of faces that face one another, by their triangles
 
 double dot(const double a[3], const double b[3]) {
@@ -57,7 +59,8 @@ bool faces(const CwSurvey &survey, int triangle, int other, const double at[3]) 
 }
 
 struct Seen {
-  int touching = 0, near = 0, looked = 0, other = -1;
+  int touching = 0, near = 0, looked = 0;
+  std::map<int, int> others; // touching points by the face that they touch
   double gap = 0;
   const double *at = nullptr;
 };
@@ -73,7 +76,7 @@ CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, int triangle
   if (other < 0 || !faces(survey, triangle, other, at)) return CW_OK;
   if (distance <= tolerance) {
     seen.touching++;
-    seen.other = other;
+    seen.others[other]++;
   } else {
     seen.near++;
     if (distance > seen.gap) seen.gap = distance, seen.at = at;
@@ -101,6 +104,18 @@ void touch_back(const CwSurvey &survey, CwContact *contact) {
     CwContact &other = contact[contact[f].other];
     if (other.part < 0) other = {survey.face[f].part, 0, f};
   }
+}
+
+// Of the faces that a face touches the one that has most of its points, first among those that touch its part too:
+// points near its outline may touch a face beside.
+int most_touched(const CwSurvey &survey, const CwContact *contact, int face, const std::map<int, int> &others) {
+  std::pair<bool, int> most;
+  int best = -1;
+  for (const auto &[other, points] : others) {
+    const std::pair<bool, int> weight(contact[other].part == survey.face[face].part, points);
+    if (weight > most) most = weight, best = other;
+  }
+  return best;
 }
 
 TopoDS_Shape unified(const std::vector<TopoDS_Shape> &faces) {
@@ -143,6 +158,7 @@ CwStatus cut_part(const std::vector<TopoDS_Shape> &tools, double tolerance, CwCa
 
 CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
                          double tolerance, CwContact *contact) {
+  std::vector<std::map<int, int>> others(survey->face_count);
   for (int f = 0; f < survey->face_count; f++) {
     contact[f] = {-1, 0, -1};
     for (int p = 0; p < (int)parts->part.size(); p++) {
@@ -161,15 +177,20 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
                        1e3 * tolerance);
       }
       if (!seen.touching) continue;
-      if (contact[f].part >= 0 && contact[f].share + (double)seen.touching / seen.looked > 1)
+      const double share = (double)seen.touching / seen.looked;
+      if (std::min(contact[f].share, share) > MOST)
         return CW_FAIL(CW_ERR_GEOMETRY,
                        "cad.domains: face %d of %s touches both %s and %s; allowed: one neighbour at any "
                        "place, domains must not overlap",
                        survey->face[f].face + 1, cad->domain[own].name, cad->domain[contact[f].part].name,
                        cad->domain[p].name);
-      contact[f] = {p, (double)seen.touching / seen.looked, seen.other};
+      if (share <= contact[f].share) continue; // points near the outline may touch a part beside
+      contact[f] = {p, share, -1};
+      others[f] = seen.others;
     }
   }
+  for (int f = 0; f < survey->face_count; f++)
+    if (contact[f].part >= 0) contact[f].other = most_touched(*survey, contact, f, others[f]);
   touch_back(*survey, contact);
   return CW_OK;
 }

@@ -40,10 +40,20 @@ static int is_opening(const CwSurvey *survey, const CwContact *contact, int face
   return 1;
 }
 
-// An opening about the axis is the inlet; others are where the water leaves.
-static CwFaceRole opening_role(const CwSurveyFace *face, int rotating) {
+// Greatest radius of what rotates.
+static double wheel_radius(const CwSurvey *survey, const int *rotating) {
+  double radius = 0;
+  for (int f = 0; f < survey->face_count; f++)
+    if (rotating[survey->face[f].part]) radius = fmax(radius, survey->face[f].radius[1]);
+  return radius;
+}
+
+// An opening about the axis is the inlet, and begins within the wheel; others are where the water leaves. A ring that
+// goes round the wheel is a side wall.
+static CwFaceRole opening_role(const CwSurveyFace *face, int rotating, double wheel) {
   const double off = hypot(face->centre[0], face->centre[1]);
   const int about = face->turned && off < 0.01 * face->radius[1];
+  if (!rotating && about && face->radius[0] >= wheel) return CW_ROLE_WALL;
   return rotating || about ? CW_ROLE_INLET : CW_ROLE_OUTLET;
 }
 
@@ -154,10 +164,11 @@ CwStatus cw_proposal_make(const CwSurvey *survey, const CwContact *contact, cons
                           int *blade_count) {
   CwStatus status = CW_OK;
   int *fold = NULL;
+  const double wheel = wheel_radius(survey, rotating);
   CW_NEW(fold, survey->face_count);
   for (int f = 0; f < survey->face_count; f++) {
     role[f] = contact[f].part >= 0 ? CW_ROLE_CONTACT : CW_ROLE_WALL;
-    if (is_opening(survey, contact, f)) role[f] = opening_role(&survey->face[f], rotating[survey->face[f].part]);
+    if (is_opening(survey, contact, f)) role[f] = opening_role(&survey->face[f], rotating[survey->face[f].part], wheel);
   }
   for (int f = 0; f < survey->face_count; f++) {
     const CwSurveyFace *face = &survey->face[f];

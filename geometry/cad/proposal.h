@@ -6,7 +6,7 @@
 //   one of z like faces, a z-th of a turn apart, in what rotates:                            blade
 //   what runs straight away from an inlet or outlet, round an axis of its own:               pipe
 //
-// All others are walls. A proposal is told as one.
+// All others are walls, and so are rings of a casing that go round the wheel. A proposal is told as one.
 #ifndef CUTWATER_GEOMETRY_CAD_PROPOSAL_H
 #define CUTWATER_GEOMETRY_CAD_PROPOSAL_H
 

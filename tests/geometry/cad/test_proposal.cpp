@@ -68,9 +68,25 @@ static void pipes_have_two_ends(void **) {
   assert_int_equal(made.count[CW_ROLE_OUTLET], 2);
 }
 
+static TopoDS_Shape ring(double z, double within, double radius) {
+  return BRepAlgoAPI_Cut(small_cylinder(z, radius, 10), small_cylinder(z - 1, within, 12)).Shape();
+}
+
+// Rings about the axis: the ends of one that begins within the wheel are inlets, those of one round it side walls.
+static void a_casing_round_the_wheel_has_side_walls(void **) {
+  SmallParts small({{"rotor", small_rotor()}, {"suction", ring(200, 20, 40)}});
+  const int inlets = propose(small).count[CW_ROLE_INLET];
+  SmallParts round({{"rotor", small_rotor()}, {"casing", ring(0, 60, 80)}});
+  const Proposed made = propose(round);
+  assert_int_equal(made.count[CW_ROLE_INLET], inlets - 2);
+  assert_int_equal(made.count[CW_ROLE_OUTLET], 0);
+  assert_int_equal(made.count[CW_ROLE_PIPE], 0);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_wheel_has_hub_shroud_and_blades),
                                      cmocka_unit_test(a_disc_has_no_passages),
-                                     cmocka_unit_test(a_missing_blade_is_seen), cmocka_unit_test(pipes_have_two_ends)};
+                                     cmocka_unit_test(a_missing_blade_is_seen), cmocka_unit_test(pipes_have_two_ends),
+                                     cmocka_unit_test(a_casing_round_the_wheel_has_side_walls)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

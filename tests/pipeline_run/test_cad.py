@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""The pumps of tests/cad, drawn with the OpenCASCADE kernel of gmsh as a designer would draw them: each from its STEP
+file through all stages to the start of a flow. CUTWATER_DRAWINGS names them, CUTWATER_DRAWING_CELLS the size."""
+import importlib.util
+import json
+import os
+import re
+import sys
+import unittest
+
+from cutwater import SOURCE, done, execute, fresh, record
+
+DRAWINGS = os.environ["CUTWATER_DRAWINGS"].split()
+CELLS = int(os.environ["CUTWATER_DRAWING_CELLS"])
+ITERATIONS = 20
+# Of a drawing: rotating and standing domains, and pairs that touch.
+ROTATING = {"rotor"}
+DOMAINS = {"diffuser": ["rotor", "diffuser", "casing"]}
+PAIRS = {"diffuser": 2}
+# What checkMesh may say of sound cells: thin prisms; layers in wedges; layers in gaps narrower than the cells.
+ALLOWED = "small determinant|Max skewness|small interpolation weight|small volume ratio"
+MOST_SKEW = 10
+
+
+class Drawn(unittest.TestCase):
+    def through(self, name):
+        run = fresh(f"cad-{name}")
+        drawn = execute([sys.executable, SOURCE / "tests/cad" / f"{name}.py", run])
+        self.assertEqual(drawn.returncode, 0, drawn.stdout)
+        for stage in ("geometry", "mesh", "export", "report"):
+            done(self, stage, run, case=run / "case.yaml", cells=CELLS, ranks=2)
+        return run
+
+    def meshed(self, name, run):
+        model = json.loads((run / "geometry/model.json").read_text())
+        self.assertEqual([domain["name"] for domain in model["domains"]], DOMAINS.get(name, ["rotor", "stator"]))
+        self.assertEqual({domain["name"] for domain in model["domains"] if domain["rotating"]}, ROTATING)
+        kinds = [patch["kind"] for domain in model["domains"] for patch in domain["patches"]]
+        self.assertEqual((kinds.count("inlet"), kinds.count("outlet")), (1, 1))
+        domains = record(run, "mesh")["results"]["domains"]
+        cells = sum(domain["tetrahedra"] + domain["prisms"] for domain in domains)
+        self.assertLess(abs(cells / CELLS - 1), 0.02)
+        for domain in domains:
+            self.assertGreater(domain["prism_least_scaled_jacobian"], 0)
+            self.assertGreater(domain["least_dihedral_deg"], 0)
+            for wall in domain["layer_coverage"]:
+                self.assertGreater(wall["wall_faces"], 0, wall["patch"])
+        pairs = record(run, "export")["results"]["interfaces"]
+        self.assertEqual(len(pairs), PAIRS.get(name, 1))
+        for pair in pairs:
+            self.assertAlmostEqual(pair["areas_m2"][0] / pair["areas_m2"][1], 1, delta=0.01, msg=pair)
+
+    def checked(self, case):
+        told = execute(["checkMesh", "-allGeometry", "-allTopology"], case).stdout
+        for line in re.findall(r"^ \*\*\*(.*)$", told, re.M):
+            self.assertRegex(line, ALLOWED)
+        self.assertLess(float(re.search(r"Max skewness = ([\d.]+)", told)[1]), MOST_SKEW)
+        for side, least, most in re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", told):
+            self.assertGreater(float(least), 0.98, side)
+            self.assertLess(float(most), 1.02, side)
+
+    def solved(self, case):
+        execute(["foamDictionary", "-entry", "endTime", "-set", ITERATIONS, "system/controlDict"], case)
+        result = execute(["simpleFoam"], case, timeout=3000)
+        self.assertEqual(result.returncode, 0, result.stdout[-3000:])
+        self.assertNotRegex(result.stdout, r"\bnan\b|FOAM FATAL|sigFpe::sigHandler")
+        for field in ("Ux", "Uy", "Uz", "p", "k", "epsilon"):
+            values = [float(v) for v in re.findall(rf"Solving for {field}, Initial residual = (\S+),", result.stdout)]
+            self.assertLess(values[-1], 0.3 * max(values), field)
+        error = re.findall(r"continuity errors : sum local = (\S+),", result.stdout)
+        self.assertEqual(len(error), ITERATIONS)
+        self.assertLess(float(error[-1]), float(error[0]))
+
+    def test_each_is_meshed_and_its_flow_begins(self):
+        for name in DRAWINGS:
+            with self.subTest(name):
+                run = self.through(name)
+                self.meshed(name, run)
+                self.checked(run / "export/openfoam")
+                self.solved(run / "export/openfoam")
+
+
+if __name__ == "__main__":
+    if importlib.util.find_spec("gmsh") is None:
+        print("gmsh's module for Python is not there")
+        sys.exit(77)
+    unittest.main()
