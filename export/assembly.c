@@ -225,11 +225,11 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
   CwStatus status = CW_OK;
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     const CwMeshDomain *domain = &a->mesh->domains[d];
-    int count = (int)(3 * domain->shared_points);
-    MPI_Allreduce(MPI_IN_PLACE, c->least[d], count, MPI_DOUBLE, MPI_MIN, ranks->comm);
-    MPI_Allreduce(MPI_IN_PLACE, c->most[d], count, MPI_DOUBLE, MPI_MAX, ranks->comm);
+    int64_t count = 3 * domain->shared_points;
+    cw_ranks_reduce(ranks, c->least[d], count, MPI_DOUBLE, MPI_MIN);
+    cw_ranks_reduce(ranks, c->most[d], count, MPI_DOUBLE, MPI_MAX);
     double greatest = 0;
-    for (int i = 0; i < count; ++i) greatest = fmax(greatest, fmax(fabs(c->least[d][i]), fabs(c->most[d][i])));
+    for (int64_t i = 0; i < count; ++i) greatest = fmax(greatest, fmax(fabs(c->least[d][i]), fabs(c->most[d][i])));
     for (int64_t i = 0; i < count; ++i) {
       const double *x = c->least[d] + i / 3 * 3;
       CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT, "domain %s: shared point %lld is in no region", domain->name,

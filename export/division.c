@@ -446,9 +446,9 @@ CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
   for (int r = 0; r < a->mesh->region_count && status == CW_OK; ++r)
     if (cw_ranks_own(ranks, r)) status = count_region(v, r, &found);
   CW_TRY(cw_ranks_agree(ranks, status));
-  MPI_Allreduce(MPI_IN_PLACE, v->open_cell, (int)a->open_count, MPI_INT64_T, MPI_SUM, ranks->comm);
-  MPI_Allreduce(MPI_IN_PLACE, v->open_part, (int)a->open_count, MPI_INT32_T, MPI_SUM, ranks->comm);
-  MPI_Allreduce(MPI_IN_PLACE, found.open_sides, (int)a->open_count, MPI_INT8_T, MPI_SUM, ranks->comm);
+  cw_ranks_reduce(ranks, v->open_cell, a->open_count, MPI_INT64_T, MPI_SUM);
+  cw_ranks_reduce(ranks, v->open_part, a->open_count, MPI_INT32_T, MPI_SUM);
+  cw_ranks_reduce(ranks, found.open_sides, a->open_count, MPI_INT8_T, MPI_SUM);
   CW_TRY(spread_pieces(v, ranks));
   CW_TRY(spread_shared(v, ranks, &found));
   CW_TRY(spread_links(v, ranks, &found));

@@ -33,4 +33,7 @@ CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count,
 // Rank 0 sends `count` items of `size` bytes to all. Collective.
 void cw_ranks_broadcast(const CwRanks *ranks, void *items, int64_t count, size_t size);
 
+// All ranks get the sum, least or greatest (MPI's operation) of each of `count` values. Collective.
+void cw_ranks_reduce(const CwRanks *ranks, void *values, int64_t count, MPI_Datatype type, MPI_Op operation);
+
 #endif

@@ -176,7 +176,7 @@ static CwStatus digest_together(const char *path, const CwRanks *ranks, char dig
   else
     status = cw_file_digest_blocks(path, size, ranks->rank, ranks->size, blocks);
   CW_TRY(cw_ranks_agree(ranks, status));
-  MPI_Allreduce(MPI_IN_PLACE, blocks, 2 * (int)count, MPI_UINT64_T, MPI_SUM, ranks->comm); // the others' are 0
+  cw_ranks_reduce(ranks, blocks, 2 * count, MPI_UINT64_T, MPI_SUM); // the others' are 0
   cw_file_digest_join(blocks, size, digest);
 done:
   free(blocks);
