@@ -120,7 +120,7 @@ static void read_remedy(char key[64], double *value) {
 
 // A wheel far too small for its head: put into the case, the value that the refusal names works.
 static void what_a_refusal_names_works(void **state) {
-  Given given[] = {{"outlet_width_mm", 14}, {"outlet_diameter_mm", 150}, {NULL, 0}};
+  Given given[] = {{"outlet_blade_angle_deg", 15}, {"outlet_diameter_mm", 150}, {"outlet_width_mm", 10}, {NULL, 0}};
   char path[64], key[64];
   snprintf(path, sizeof path, "%s/given.yaml", folder);
   write_case(path, given);
