@@ -363,8 +363,8 @@ done:
 }
 
 // Given dimensions go before the head, unless the priority is the head: a wheel is built where it reaches this share of
-// the asked head, and no more than its inverse. What is further off contradicts the duty point, as feet taken for metres
-// do (3.28).
+// the asked head, and no more than its inverse. What is further off contradicts the duty point, as feet taken for
+// metres do (3.28).
 static const double LEAST_HEAD_SHARE = 1 / 3.0;
 
 static CwStatus check_head(const CwCase *table, const CwDesign *design) {
