@@ -14,12 +14,24 @@
 // triangles. Corners below 0 are inserted points: -1 - k.
 enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 
-int32_t cw_interface_owner(const CwInterfaces *interfaces, const int32_t *number, int32_t outline) {
-  const CwInterfaceOutline *interface = &interfaces->outline[outline];
+int32_t cw_interface_owner(const CwRegionInput *from, const int32_t *number, int32_t outline) {
+  const CwInterfaces *interfaces = from->interfaces;
+  const CwPeriodicImages *images = from->in->images;
   const int32_t(*regions)[2] =
       (const int32_t(*)[2])(interfaces->planned.region ? interfaces->planned.region : interfaces->refined.region);
-  const int32_t *region = regions[interface->triangle_start];
-  return number[region[0]] < number[region[1]] ? region[0] : region[1];
+  const int32_t *region = regions[interfaces->outline[outline].triangle_start];
+  int32_t first[2];
+  for (int k = 0; k < 2; k++) first[k] = cw_image_region_first(images, from->in->plan, region[k]);
+  return number[first[1]] < number[first[0]] ? region[1] : region[0];
+}
+
+int32_t cw_interface_refiner(const CwRegionInput *from, const int32_t *number, int32_t outline) {
+  const CwPeriodicImages *images = from->in->images;
+  int32_t owner = cw_interface_owner(from, number, outline);
+  int own_image = cw_image_region(images, from->in->plan, owner, 1) == owner; // owns all images of the outline
+  int turned = own_image ? cw_image_turns(images, &from->interfaces->outline_images, outline) > 0
+                         : cw_image_region_first(images, from->in->plan, owner) != owner;
+  return turned ? -1 : owner;
 }
 
 // Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of layer top and
@@ -150,7 +162,7 @@ CwStatus cw_interface_rule(const CwRegionInput *from, const int32_t *number, int
   CW_NEW(outline, from->interfaces->outline_count);
   CW_NEW(slab, from->interfaces->outline_count);
   for (int32_t i = 0; i < from->interfaces->outline_count; i++) {
-    if (cw_interface_owner(from->interfaces, number, i) != region) continue;
+    if (cw_interface_refiner(from, number, i) != region) continue;
     slab[owned] = beside_interface(from, &from->interfaces->outline[i]);
     outline[owned++] = i;
   }
@@ -169,11 +181,42 @@ done:
   return status;
 }
 
-CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void *const *bytes,
-                                 CwInterfaceRuleCounts *counts) {
+// Takes up one packed interface, turned: its new points as nodes, its triangles behind those that are there.
+static CwStatus take_up(const CwPeriodicImages *images, CwInterfaces *interfaces, int32_t index, int32_t turns,
+                        int32_t copies, const char *block) {
+  CwStatus status = CW_OK;
+  CwInterfaceOutline *interface = &interfaces->outline[index];
+  int32_t header[HEADER], first = interfaces->nodes.count, node;
+  memcpy(header, block, sizeof header);
+  const char *at = block + sizeof header;
+  for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
+    double x[3], turned[3];
+    memcpy(x, at, sizeof x);
+    cw_image_point(images, turns, x, turned);
+    CW_TRY(cw_node_table_add(&interfaces->nodes, turned, 1, &node));
+    if (turns > 0) CW_TRY(cw_image_link(&interfaces->images, node - header[INSERTED], node, turns));
+    if (turns > 0 && turns == copies - 1)
+      CW_TRY(cw_image_link(&interfaces->images, node, node - turns * header[INSERTED], 0));
+  }
+  interface->refined_start = interfaces->refined.count;
+  interface->refined_count = header[TRIANGLES];
+  for (int32_t t = 0; t < header[TRIANGLES]; t++, at += sizeof(int32_t[3])) {
+    int32_t *corner = interfaces->refined.triangle[interfaces->refined.count];
+    memcpy(corner, at, sizeof(int32_t[3]));
+    for (int k = 0; k < 3; k++)
+      corner[k] = corner[k] < 0 ? first + (-1 - corner[k]) : cw_image_node(&interfaces->images, corner[k], turns);
+    memcpy(interfaces->refined.region[interfaces->refined.count++],
+           interfaces->planned.region[interface->triangle_start], sizeof(int32_t[2]));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_interface_rule_merge(const CwPeriodicImages *images, CwInterfaces *interfaces, int32_t regions,
+                                 void *const *bytes, CwInterfaceRuleCounts *counts) {
   CwStatus status = CW_OK;
   const char **block = NULL;
-  int32_t header[HEADER], total = 0;
+  int32_t header[HEADER];
   *counts = (CwInterfaceRuleCounts){.planned = interfaces->refined.count};
   CW_NEW(block, interfaces->outline_count);
   for (int32_t r = 0; r < regions; r++) {
@@ -187,38 +230,26 @@ CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void
       block[header[OUTLINE]] = at;
       at +=
           sizeof header + (size_t)header[INSERTED] * sizeof(double[3]) + (size_t)header[TRIANGLES] * sizeof(int32_t[3]);
-      counts->inserted += header[INSERTED];
-      counts->refined += header[TRIANGLES];
-      counts->encroached += header[ENCROACHED];
-      counts->left += header[LEFT];
-      total += header[TRIANGLES];
+      int64_t copies = cw_image_copies(images, &interfaces->outline_images, header[OUTLINE]);
+      counts->inserted += copies * header[INSERTED];
+      counts->refined += copies * header[TRIANGLES];
+      counts->encroached += copies * header[ENCROACHED];
+      counts->left += copies * header[LEFT];
     }
   }
   interfaces->planned = interfaces->refined;
   interfaces->refined = (CwInterfaceTriangles){0};
-  CW_NEW(interfaces->refined.triangle, total);
-  CW_NEW(interfaces->refined.region, total);
+  CW_NEW(interfaces->refined.triangle, counts->refined);
+  CW_NEW(interfaces->refined.region, counts->refined);
   for (int32_t i = 0; i < interfaces->outline_count; i++) {
-    CwInterfaceOutline *interface = &interfaces->outline[i];
-    CW_REQUIRE(block[i], CW_ERR_MESH, "interface %d has no owner", i);
-    memcpy(header, block[i], sizeof header);
-    const char *at = block[i] + sizeof header;
-    int32_t first = interfaces->nodes.count, node;
-    for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
-      double x[3];
-      memcpy(x, at, sizeof x);
-      CW_TRY(cw_node_table_add(&interfaces->nodes, x, 1, &node));
-    }
-    interface->refined_start = interfaces->refined.count;
-    interface->refined_count = header[TRIANGLES];
-    for (int32_t t = 0; t < header[TRIANGLES]; t++, at += sizeof(int32_t[3])) {
-      int32_t *corner = interfaces->refined.triangle[interfaces->refined.count];
-      memcpy(corner, at, sizeof(int32_t[3]));
-      for (int k = 0; k < 3; k++) corner[k] = corner[k] < 0 ? first + (-1 - corner[k]) : corner[k];
-      memcpy(interfaces->refined.region[interfaces->refined.count++],
-             interfaces->planned.region[interface->triangle_start], sizeof(int32_t[2]));
+    int32_t copies = cw_image_copies(images, &interfaces->outline_images, i);
+    for (int32_t turns = 0, copy = i; block[i] && turns < copies; turns++) {
+      CW_TRY(take_up(images, interfaces, copy, turns, copies, block[i]));
+      if (copies > 1) copy = interfaces->outline_images.next[copy];
     }
   }
+  for (int32_t i = 0; i < interfaces->outline_count; i++)
+    CW_REQUIRE(interfaces->outline[i].refined_count > 0, CW_ERR_MESH, "interface %d has no owner", i);
 done:
   free(block);
   return status;

@@ -13,10 +13,16 @@
 #include "mesher/region/region_input.h"
 #include "mesher/fill/lattice_core.h"
 
-// Region (0-based) of the smaller number beside interface `outline`.
-int32_t cw_interface_owner(const CwInterfaces *interfaces, const int32_t *number, int32_t outline);
+// Region (0-based) of the smaller number beside interface `outline`. In a z-fold symmetric domain the numbers are those
+// of the first regions of the image sets, so that turns take owners to owners; between two images of one region it is
+// the one behind the plane.
+int32_t cw_interface_owner(const CwRegionInput *from, const int32_t *number, int32_t outline);
 
-// Refines all interfaces that `region` owns; packed for cw_interface_rule_merge. A task; the inner surfaces are merged.
+// The region that refines `outline`: its owner; -1 where the outline is a periodic image of one that is refined.
+int32_t cw_interface_refiner(const CwRegionInput *from, const int32_t *number, int32_t outline);
+
+// Refines all interfaces of which `region` is the refiner; packed for cw_interface_rule_merge. A task; the inner
+// surfaces are merged.
 CwStatus cw_interface_rule(const CwRegionInput *from, const int32_t *number, int32_t region, const char *name,
                            void **bytes, int64_t *size);
 
@@ -28,9 +34,10 @@ typedef struct {
   int64_t left;       // still encroached: no centre can be had; both sides drop the candidates
 } CwInterfaceRuleCounts;
 
-// Takes up the results of all regions (NULL: owns nothing): new nodes, new interface triangles.
-CwStatus cw_interface_rule_merge(CwInterfaces *interfaces, int32_t regions, void *const *bytes,
-                                 CwInterfaceRuleCounts *counts);
+// Takes up the results of all regions (NULL: refines nothing) and their periodic images: new nodes, new interface
+// triangles. Adds to interfaces->images and to the counts, which are of all images.
+CwStatus cw_interface_rule_merge(const CwPeriodicImages *images, CwInterfaces *interfaces, int32_t regions,
+                                 void *const *bytes, CwInterfaceRuleCounts *counts);
 
 // The inner points of a region: its candidates outside of all spheres of its interfaces, and their places in the
 // lattice. Caller frees *x and *site.

@@ -75,12 +75,12 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   CW_NEW(task, all);
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
+    const CwRegionInput from = cw_domain_region_input(domain);
     for (int32_t r = 0; r < regions[d]; r++) {
-      int owns = 0;
-      for (int32_t i = 0; i < domain->interfaces.outline_count && !domain->symmetry; i++) {
-        owns |= cw_interface_owner(&domain->interfaces, domain->number, i) == r;
-      }
-      if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
+      int refines = 0;
+      for (int32_t i = 0; i < domain->interfaces.outline_count; i++)
+        refines |= cw_interface_refiner(&from, domain->number, i) == r;
+      if (refines) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
     }
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
@@ -88,8 +88,8 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   cw_profiler_part("interfaces merged");
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
-    if (domain->symmetry) continue;
-    CW_TRY(cw_interface_rule_merge(&domain->interfaces, domain->plan.region_count, results.bytes[d], &domain->rule));
+    CW_TRY(cw_interface_rule_merge(&domain->images, &domain->interfaces, domain->plan.region_count, results.bytes[d],
+                                   &domain->rule));
     CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
     if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "

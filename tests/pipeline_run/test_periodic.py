@@ -33,6 +33,13 @@ class Periodic(unittest.TestCase):
             for kind in ("tetrahedra", "prisms"):
                 self.assertEqual(copy[kind], regions[copy["copy_of"]][kind])
 
+    def test_the_rule_of_region_numbers_divides_all_passages_alike(self):
+        rule = rotor(RUN)["region_rule"]
+        self.assertGreater(rule["planned_triangles"], 0)
+        for key, count in rule.items():
+            self.assertEqual(count % PASSAGES, 0, key)
+        self.assertEqual(rule["final_triangles"], rule["planned_triangles"] + 2 * rule["inserted_centres"])
+
     def test_lost_files_come_back_as_they_were(self):
         regions = rotor(RUN)["region_list"]
         copies = [region["region"] for region in regions if region["copy_of"] != region["region"]]

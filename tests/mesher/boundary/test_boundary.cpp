@@ -142,12 +142,12 @@ static void refine_interfaces(DomainSurfaces &boundary, const int32_t *number) {
   boundary.input.size_at = finer_size;
   for (int i = 0; i < boundary.interfaces.outline_count; i++) {
     const int32_t *region = boundary.interfaces.refined.region[boundary.interfaces.outline[i].triangle_start];
-    int owner = cw_interface_owner(&boundary.interfaces, number, i), other = owner == region[0] ? region[1] : region[0];
+    int owner = cw_interface_owner(&from, number, i), other = owner == region[0] ? region[1] : region[0];
     assert_true(owner == region[0] || owner == region[1]);
     assert_true(number[owner] < number[other]);
   }
   for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&from, number, r, "box", &refined[r], &size));
-  Box::check(cw_interface_rule_merge(&boundary.interfaces, 4, refined.data(), &counts));
+  Box::check(cw_interface_rule_merge(boundary.input.images, &boundary.interfaces, 4, refined.data(), &counts));
   assert_true(counts.encroached > 20);
   assert_true(counts.inserted > 20);
   assert_int_equal(boundary.interfaces.nodes.count, nodes + counts.inserted);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A tank filled by the regions of one pitch and their periodic images.
+// A tank filled by the regions of one pitch and their periodic images, with the rule of region numbers (interface_rule)
+// and without.
 extern "C" {
 #include "mesher/network/periodic_images.h"
 #include "mesher/region/audit.h"
+#include "mesher/region/interface_rule.h"
 #include "mesher/region/region_copy.h"
 #include "mesher/region/region_number.h"
 }
@@ -63,9 +65,49 @@ static void make_surfaces(Tank &tank, bool divided) {
   for (void *bytes : interfaces) free(bytes);
 }
 
+// Walls and interfaces are meshed for a size of which this is the half.
+static double half_size(const void *context, const double x[3]) {
+  return even_size(context, x) / 2;
+}
+
+// The rule of region numbers on the interfaces of the first regions: turns take what it makes to what the others have.
+static void refine(Tank &tank, const int32_t *number) {
+  DomainSurfaces &boundary = tank.boundary;
+  CwInterfaces &interfaces = boundary.interfaces;
+  const CwRegionInput from = boundary.regions();
+  const int regions = tank.plan.region_count, nodes = interfaces.nodes.count;
+  std::vector<void *> refined(regions, nullptr);
+  CwInterfaceRuleCounts counts;
+  int64_t size;
+  boundary.input.size_at = half_size;
+  for (int i = 0; i < interfaces.outline_count; i++) {
+    const int next = interfaces.outline_images.next[i];
+    const int owner = cw_interface_owner(&from, number, i);
+    assert_int_equal(cw_image_region(&boundary.images, &tank.plan, owner, 1), cw_interface_owner(&from, number, next));
+  }
+  for (int r = 0; r < regions; r++) {
+    if (cw_image_region_first(&boundary.images, &tank.plan, r) != r) continue;
+    check(cw_interface_rule(&from, number, r, "tank", &refined[r], &size));
+  }
+  check(cw_interface_rule_merge(&boundary.images, &interfaces, regions, refined.data(), &counts));
+  check(cw_interfaces_audit(&interfaces, regions));
+  assert_true(counts.inserted > 20);
+  assert_int_equal(counts.inserted % 5, 0);
+  assert_int_equal(interfaces.nodes.count, nodes + counts.inserted);
+  assert_int_equal(counts.refined, counts.planned + 2 * counts.inserted); // Euler: outlines stay as they are
+  for (int v = nodes; v < interfaces.nodes.count; v++) {
+    double turned[3];
+    cw_symmetry_turn(5, 1, interfaces.nodes.x[v], turned);
+    const int next = cw_image_node(&interfaces.images, v, 1);
+    for (int k = 0; k < 3; k++) assert_near(turned[k], interfaces.nodes.x[next][k], 1e-15);
+    assert_int_equal(cw_image_node(&interfaces.images, v, 5), v);
+  }
+  for (void *bytes : refined) free(bytes);
+}
+
 // All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last
 // bit.
-static void fill_the_tank(bool divided) {
+static void fill_the_tank(bool divided, bool rule) {
   Tank tank(5, 1, divided);
   make_surfaces(tank, divided);
   DomainSurfaces &boundary = tank.boundary;
@@ -77,6 +119,7 @@ static void fill_the_tank(bool divided) {
   check(cw_interfaces_adjacency(&boundary.interfaces, regions, &pair_count, &pair));
   assert_int_equal(pair_count, divided ? 30 : 10);
   check(cw_region_numbers(regions, pair_count, pair, number.data(), nullptr, &colours));
+  if (rule) refine(tank, number.data());
   CwRegionContext context = {};
   context.from = boundary.regions();
   context.domain = "tank";
@@ -119,8 +162,9 @@ static void fill_the_tank(bool divided) {
 }
 
 static void copies_fill_the_tank(void **) {
-  fill_the_tank(false);
-  fill_the_tank(true);
+  for (bool divided : {false, true}) {
+    for (bool rule : {false, true}) fill_the_tank(divided, rule);
+  }
 }
 
 int main() {
