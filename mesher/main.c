@@ -36,15 +36,20 @@ int main(int argc, char **argv) {
   CwStageArgs args = {0};
   CwCase table;
   CwMeshRun run = {0};
+  CwTeam *team = NULL;
   char *record_path = NULL;
   H5dont_atexit(); // HDF5 stumbles there over files that could not be closed
-  CW_TRY(cw_mpi_start(&argc, &argv, &run.rank, &run.ranks));
-  CW_TRY(cw_mpi_agree(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table)));
+  CW_TRY(cw_mpi_start(&argc, &argv, &team));
+  run.rank = cw_team_rank(team);
+  run.ranks = cw_team_ranks(team);
+  run.context.team = team;
+  CW_TRY(cw_profiler_make(&run.context.profiler));
+  CW_TRY(cw_team_agree(team, cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table)));
   if (args.finished) goto done;
-  CW_TRY(cw_mpi_agree(cw_policy_start()));
+  CW_TRY(cw_team_agree(team, cw_policy_start()));
   // Of each of these all ranks know the end before they go on: else the run folder might be that of another mesher,
   // which has the file of cw_stop_claim, or that file might be late.
-  CW_TRY(cw_mpi_agree(cw_stop_watch(args.run_path, "mesh", run.rank == 0)));
+  CW_TRY(cw_team_agree(team, cw_stop_watch(args.run_path, "mesh", run.rank == 0)));
   run.table = &table;
   run.run_path = args.run_path;
   if (args.options[STOP_AFTER]) CW_TRY(cw_stage_of(args.options[STOP_AFTER], &run.stop_after));
@@ -53,7 +58,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_record_made_from(run.record, args.run_path, USAGE.reads));
   CW_TRY(cw_mesh_run(&run));
   json_t *account = NULL, *sides = NULL;
-  CW_TRY(cw_profiler_json(&account, &sides));
+  CW_TRY(cw_profiler_json(&run.context, &account, &sides));
   CW_TRY(cw_record_json(run.record, "together", account));
   CW_TRY(cw_record_json(run.record, "side_by_side", sides));
   long long mine = cw_peak_memory_bytes(), all = 0;
@@ -67,11 +72,11 @@ int main(int argc, char **argv) {
 done:
   if (status != CW_OK) return cw_mpi_fail(status);
   cw_mesh_run_free(&run);
-  cw_profiler_free();
+  cw_profiler_free(&run.context.profiler);
   cw_record_free(run.record);
   free(record_path);
   cw_log_close();
   cw_stop_end();
-  cw_mpi_end();
+  cw_mpi_end(&team);
   return 0;
 }

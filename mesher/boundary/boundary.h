@@ -18,6 +18,7 @@
 #include "mesher/layers/layers.h"
 #include "mesher/network/network.h"
 #include "mesher/network/periodic_images.h"
+#include "mesher/parallel/context.h"
 #include "mesher/surface/patch_mesh.h"
 
 // What the surfaces of a domain follow from: finished products, which outlive them.
@@ -49,23 +50,24 @@ void cw_open_edges_free(CwOpenEdges *edges);
 // (periodic_images.h): tasks are only the first of each image set, and the results of the others are NULL.
 
 // Divides all wall curves. Collective.
-CwStatus cw_wall_curves_make(const CwBoundaryInput *in, const CwOpenEdges *edges, CwWallCurves *curves);
+CwStatus cw_wall_curves_make(const CwContext *context, const CwBoundaryInput *in, const CwOpenEdges *edges,
+                             CwWallCurves *curves);
 
 // Meshes the wall face `face` (any rank); the result is a byte buffer for cw_surface_mesh_make. Triangles larger than
 // with edges of `largest` (m; 0: none) are halved.
 CwStatus cw_surface_mesh_face(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face, double largest,
                               void **bytes, int64_t *size);
 // Joins the meshes of all wall faces (bytes[face]; NULL for open patches). Collective.
-CwStatus cw_surface_mesh_make(const CwBoundaryInput *in, const CwWallCurves *curves, void *const *bytes,
-                              CwSurfaceMesh *surface);
+CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *in, const CwWallCurves *curves,
+                              void *const *bytes, CwSurfaceMesh *surface);
 
 // Grows the layer envelope to `target` thicknesses (m, per wall vertex) and sets the layer top; for its shape columns
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
 // Collective: all ranks work on it and have the same result. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
 // top is found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
-CwStatus cw_boundary_grow(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwBackground *background,
-                          const double *target, const double *least, const CwLayerDivision *division, CwLayers *layers,
-                          CwOutcome *outcome);
+CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                          const CwBackground *background, const double *target, const double *least,
+                          const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 // Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in free_curves->tight;

@@ -123,16 +123,16 @@ done:
   return status;
 }
 
-static CwStatus unfold_wall(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const int64_t *group,
-                            CwFlipMesh *mesh) {
+static CwStatus unfold_wall(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                            const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips, folded;
-  CW_TRY(cw_flip_neighbours(surface->vertex_count, surface->triangle_count, group, mesh));
-  CW_TRY(cw_wall_unfold(surface->vertex_count, (const double(*)[3])surface->x, surface->triangle_count, mesh, group,
-                        &flips, &folded));
+  CW_TRY(cw_flip_neighbours(context, surface->vertex_count, surface->triangle_count, group, mesh));
+  CW_TRY(cw_wall_unfold(context, surface->vertex_count, (const double(*)[3])surface->x, surface->triangle_count, mesh,
+                        group, &flips, &folded));
   cw_image_copy_triangles(in->images, surface, mesh->triangle);
   if (flips && in->images->symmetry) { // copies have followed
-    CW_TRY(cw_flip_neighbours(surface->vertex_count, surface->triangle_count, group, mesh));
+    CW_TRY(cw_flip_neighbours(context, surface->vertex_count, surface->triangle_count, group, mesh));
   }
   if (flips || folded)
     cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
@@ -140,11 +140,11 @@ done:
   return status;
 }
 
-static CwStatus flip_top(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const double (*top)[3],
-                         const int64_t *group, CwFlipMesh *mesh) {
+static CwStatus flip_top(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                         const double (*top)[3], const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips;
-  CW_TRY(cw_layer_top_flip((const double(*)[3])surface->x, top, surface->triangle_count, mesh, group, &flips));
+  CW_TRY(cw_layer_top_flip(context, (const double(*)[3])surface->x, top, surface->triangle_count, mesh, group, &flips));
   cw_image_copy_triangles(in->images, surface, mesh->triangle);
   cw_log_debug("%d edges of wall and layer top flipped", flips);
 done:
@@ -187,9 +187,9 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_grow(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwBackground *background,
-                          const double *target, const double *least, const CwLayerDivision *division, CwLayers *layers,
-                          CwOutcome *outcome) {
+CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                          const CwBackground *background, const double *target, const double *least,
+                          const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int32_t n = surface->vertex_count, triangles = surface->triangle_count, open_patches = 0, opened;
   int32_t *constraint_count = NULL, (*open_patch_triangle)[3] = NULL;
@@ -199,23 +199,24 @@ CwStatus cw_boundary_grow(const CwBoundaryInput *in, const CwSurfaceMesh *surfac
   CwFlipMesh mesh = {0};
   int64_t *group = NULL;
   *layers = (CwLayers){0};
-  cw_profiler_part("layers: wall unfolded");
+  cw_profiler_part(context, "layers: wall unfolded");
   CW_NEW_UNSET(mesh.triangle, triangles);
   memcpy(mesh.triangle, surface->triangle, (size_t)triangles * sizeof *mesh.triangle);
   CW_TRY(make_groups(in, surface, &group));
-  CW_TRY(unfold_wall(in, surface, group, &mesh));
+  CW_TRY(unfold_wall(context, in, surface, group, &mesh));
   CW_NEW(constraint_count, n);
   CW_NEW(constraint_normal, n);
   CW_NEW(constraint_stays, n);
   CW_NEW(snapping.uv, n);
-  cw_profiler_part("layers: constraints");
+  cw_profiler_part(context, "layers: constraints");
   CW_TRY(make_constraints(in, surface, background, constraint_count, constraint_normal, constraint_stays, snapping.uv));
   CW_NEW(open_patch_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     if (cw_cad_face_is_wall(in->cad, background->face[t])) continue;
     memcpy(open_patch_triangle[open_patches++], background->triangle[t], sizeof open_patch_triangle[0]);
   }
-  CwLayerInput input = {.point_count = n,
+  CwLayerInput input = {.context = context,
+                        .point_count = n,
                         .x = (const double(*)[3])surface->x,
                         .triangle_count = triangles,
                         .triangle = (const int32_t(*)[3])mesh.triangle,
@@ -234,9 +235,9 @@ CwStatus cw_boundary_grow(const CwBoundaryInput *in, const CwSurfaceMesh *surfac
   CW_TRY_STAGE(in->images->symmetry ? cw_image_layers(in->images, surface, &input, layers, outcome)
                                     : cw_layers_make(&input, layers, outcome),
                outcome);
-  cw_profiler_part("layers: layer top flipped");
-  CW_TRY(flip_top(in, surface, (const double(*)[3])layers->top, group, &mesh));
-  cw_profiler_part("layers: narrow concave edges");
+  cw_profiler_part(context, "layers: layer top flipped");
+  CW_TRY(flip_top(context, in, surface, (const double(*)[3])layers->top, group, &mesh));
+  cw_profiler_part(context, "layers: narrow concave edges");
   CW_TRY(cw_open_concave_edges(in->images, surface, &input, layers, &opened));
   layers->triangle_count = triangles;
   layers->triangle = mesh.triangle;

@@ -104,11 +104,11 @@ done:
   return status;
 }
 
-static CwStatus check_regions(Made *made) {
+static CwStatus check_regions(const CwContext *context, Made *made) {
   CwStatus status = CW_OK;
   uint8_t *checked = NULL;
   CW_NEW(checked, made->surface->triangle_count);
-  CW_TRY(cw_parallel_for("walls checked", made->surface->triangle_count, 1, check_triangle, made, checked));
+  CW_TRY(cw_parallel_for(context, "walls checked", made->surface->triangle_count, 1, check_triangle, made, checked));
 done:
   free(checked);
   return status;
@@ -196,8 +196,8 @@ done:
   return status;
 }
 
-CwStatus cw_surface_mesh_make(const CwBoundaryInput *in, const CwWallCurves *curves, void *const *bytes,
-                              CwSurfaceMesh *surface) {
+CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *in, const CwWallCurves *curves,
+                              void *const *bytes, CwSurfaceMesh *surface) {
   CwStatus status = CW_OK;
   int32_t faces = cw_cad_face_count(in->cad), total = 0, vertices = curves->vertex_count;
   CwPatchBlock block;
@@ -215,7 +215,7 @@ CwStatus cw_surface_mesh_make(const CwBoundaryInput *in, const CwWallCurves *cur
     cw_patch_block(bytes[f], &block);
     CW_TRY(merge_wall(in, f, &block, surface));
   }
-  CW_TRY(check_regions(&(Made){in, surface}));
+  CW_TRY(check_regions(context, &(Made){in, surface}));
   CW_TRY(list_regions(surface, in->plan->region_count));
 done:
   return status;

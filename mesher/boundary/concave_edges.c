@@ -257,7 +257,8 @@ CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMe
   *opened = 0;
   CW_TRY(cw_incident_make(surface->vertex_count, count, wall->triangle, &concave.around));
   CW_NEW(narrow, count);
-  CW_TRY(cw_parallel_for("layers: narrow concave edges", count, sizeof *narrow, find_narrow, &concave, narrow));
+  CW_TRY(cw_parallel_for(wall->context, "layers: narrow concave edges", count, sizeof *narrow, find_narrow, &concave,
+                         narrow));
   for (int32_t t = 0; t < count; t++) found += narrow[t];
   if (!found) goto done;
   CW_NEW(concave.is_first, n);

@@ -183,7 +183,7 @@ done:
   return status;
 }
 
-CwStatus cw_curve_divisions_refine(const CwBoundaryInput *in, CwCurveDivision *division) {
+CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInput *in, CwCurveDivision *division) {
   CwStatus status = CW_OK;
   Faces faces = {.in = in, .division = division};
   void **bytes = NULL;
@@ -200,7 +200,7 @@ CwStatus cw_curve_divisions_refine(const CwBoundaryInput *in, CwCurveDivision *d
     CW_NEW(size, count);
     CwSchedule schedule = {
         .step = "curves of the walls", .count = count, .run = judge_face, .context = &faces, .gather = 1};
-    CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+    CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
     CW_TRY(halve_found(&faces, bytes, size, division, &halved));
     total += halved;
     for (int32_t i = 0; i < count; i++) free(bytes[i]);

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_BOUNDARY_CURVE_DIVISION_H
 
 #include "mesher/boundary/boundary.h"
+#include "mesher/parallel/context.h"
 
 typedef struct {
   double place; // length along the curve's fine polyline, m
@@ -20,6 +21,6 @@ typedef struct {
 
 // Halves edges of the divisions (of each curve of the network; count 0: none) until on every wall face the edges lie as
 // the curves do. Collective.
-CwStatus cw_curve_divisions_refine(const CwBoundaryInput *in, CwCurveDivision *division);
+CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInput *in, CwCurveDivision *division);
 
 #endif

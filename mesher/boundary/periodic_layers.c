@@ -101,9 +101,9 @@ static CwStatus mark_near(const CwSurfaceMesh *surface, const CwLayerInput *whol
     cw_box_add_point(&within, whole->x[v]);
     vertex[firsts++] = v;
   }
-  CW_TRY(cw_box_tree_make(firsts, &within, box_of, &(Firsts){whole->x, vertex}, &tree));
+  CW_TRY(cw_box_tree_make(whole->context, firsts, &within, box_of, &(Firsts){whole->x, vertex}, &tree));
   Reach reach = {&tree, {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest}, is_first};
-  CW_TRY(cw_parallel_for("layers: reach", whole->point_count, sizeof *near, find_near, &reach, near));
+  CW_TRY(cw_parallel_for(whole->context, "layers: reach", whole->point_count, sizeof *near, find_near, &reach, near));
 done:
   cw_box_tree_free(&tree);
   free(vertex);
@@ -294,7 +294,8 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
     spread.off[i] = cw_distance(spread.top[i], made->top[i]);
     spread.moved[i] = spread.off[i] >= SAME;
   }
-  CW_TRY(cw_parallel_for("layers: copies", in->triangle_count, sizeof *checked, check_triangle, &spread, checked));
+  CW_TRY(cw_parallel_for(in->context, "layers: copies", in->triangle_count, sizeof *checked, check_triangle, &spread,
+                         checked));
   for (int32_t f = 0; f < in->triangle_count; f++) {
     if (checked[f].off > most) most = checked[f].off;
     if (!checked[f].bad) continue;
@@ -383,10 +384,10 @@ CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *su
   CW_NEW(layers->thickness, input->point_count);
   CW_NEW(layers->reason, input->point_count);
   CW_NEW(bad, input->point_count);
-  cw_profiler_part("layers: copies");
+  cw_profiler_part(input->context, "layers: copies");
   CW_TRY(part_make(images, surface, input, &part));
   CW_TRY_STAGE(cw_layers_make(&part.wall.in, &made, outcome), outcome);
-  cw_profiler_part("layers: copies");
+  cw_profiler_part(input->context, "layers: copies");
   CW_TRY(spread(&part, &made, layers));
   CW_TRY(choose(&part, &made, layers));
   layers->repair_rounds = made.repair_rounds;

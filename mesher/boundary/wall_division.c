@@ -137,7 +137,8 @@ done:
 }
 
 // Divides the first of each image set of wall curves; caller frees the points.
-static CwStatus divide_curves(const CwBoundaryInput *in, const CwOpenEdges *edges, CwCurveDivision *division) {
+static CwStatus divide_curves(const CwContext *context, const CwBoundaryInput *in, const CwOpenEdges *edges,
+                              CwCurveDivision *division) {
   CwStatus status = CW_OK;
   const CwNetwork *network = in->network;
   Curves curves = {.in = in, .edges = edges};
@@ -152,7 +153,7 @@ static CwStatus divide_curves(const CwBoundaryInput *in, const CwOpenEdges *edge
   CW_NEW(size, curves.count);
   CwSchedule schedule = {
       .step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
   for (int32_t i = 0; i < curves.count; i++) {
     CwCurveDivision *of = &division[curves.curve[i]];
     of->count = (int32_t)((size_t)size[i] / sizeof *of->point);
@@ -160,7 +161,7 @@ static CwStatus divide_curves(const CwBoundaryInput *in, const CwOpenEdges *edge
     of->point = bytes[i];
     bytes[i] = NULL;
   }
-  CW_TRY(cw_curve_divisions_refine(in, division));
+  CW_TRY(cw_curve_divisions_refine(context, in, division));
 done:
   for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
   free(bytes);
@@ -197,7 +198,8 @@ done:
   return status;
 }
 
-CwStatus cw_wall_curves_make(const CwBoundaryInput *in, const CwOpenEdges *edges, CwWallCurves *curves) {
+CwStatus cw_wall_curves_make(const CwContext *context, const CwBoundaryInput *in, const CwOpenEdges *edges,
+                             CwWallCurves *curves) {
   CwStatus status = CW_OK;
   const CwNetwork *network = in->network;
   const CwPeriodicImages *images = in->images;
@@ -219,7 +221,7 @@ CwStatus cw_wall_curves_make(const CwBoundaryInput *in, const CwOpenEdges *edges
                          images->corner.turns[next]));
   }
   CW_NEW(division, network->curve_count);
-  CW_TRY(divide_curves(in, edges, division));
+  CW_TRY(divide_curves(context, in, edges, division));
   for (int32_t i = 0; i < network->curve_count; i++) {
     if (division[i].count) CW_TRY(add_curve_vertices(in, i, &division[i], curves));
   }

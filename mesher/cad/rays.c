@@ -23,7 +23,7 @@ CwStatus cw_rays_make(const CwBackground *background, CwRays **rays) {
   CwBox within = cw_box_of_points(background->point_count, (const double(*)[3])background->x);
   CW_NEW(made, 1);
   made->background = background;
-  CW_TRY(cw_box_tree_make_alone(background->triangle_count, &within, box_of, background, &made->triangles));
+  CW_TRY(cw_box_tree_make(NULL, background->triangle_count, &within, box_of, background, &made->triangles));
   *rays = made;
   made = NULL;
 done:

@@ -49,29 +49,20 @@ static void join_nodes(CwBoxTree *tree) {
   }
 }
 
-// As cw_parallel_for, which bears its signature, by this rank alone.
-static CwStatus do_all(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out) {
+CwStatus cw_box_tree_fit(const CwContext *context, CwBoxTree *tree, CwBoxOf box_of, const void *given) {
   CwStatus status = CW_OK;
-  for (int32_t i = 0; i < count; i++) CW_TRY(body(context, i, (char *)out + (size_t)i * width));
-done:
-  return status;
-}
-
-typedef CwStatus (*Share)(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out);
-
-static CwStatus fit(CwBoxTree *tree, CwBoxOf box_of, const void *context, Share share) {
-  CwStatus status = CW_OK;
-  Boxes boxes = {.box_of = box_of, .context = context, .tree = tree};
+  Boxes boxes = {.box_of = box_of, .context = given, .tree = tree};
   int32_t used = (tree->count + LEAF - 1) / LEAF;
   for (int32_t k = tree->leaves + used; k < 2 * tree->leaves; k++) tree->node[k] = cw_box_empty();
-  CW_TRY(share("boxes of leaves", used, sizeof *tree->node, find_leaf, &boxes, tree->node + tree->leaves));
+  CW_TRY(cw_parallel_for(context, "boxes of leaves", used, sizeof *tree->node, find_leaf, &boxes,
+                         tree->node + tree->leaves));
   join_nodes(tree);
 done:
   return status;
 }
 
-static CwStatus make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, Share share,
-                     CwBoxTree *tree) {
+CwStatus cw_box_tree_make(const CwContext *context, int32_t count, const CwBox *within, CwBoxOf box_of,
+                          const void *given, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   uint64_t *key = NULL;
   CwRadix *place = NULL;
@@ -85,30 +76,17 @@ static CwStatus make(int32_t count, const CwBox *within, CwBoxOf box_of, const v
   CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
   double side = 0;
   for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
-  Boxes boxes = {box_of, context, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
-  CW_TRY(share("places of boxes", count, sizeof *key, find_key, &boxes, key));
+  Boxes boxes = {box_of, given, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
+  CW_TRY(cw_parallel_for(context, "places of boxes", count, sizeof *key, find_key, &boxes, key));
   for (int32_t i = 0; i < count; i++) place[i] = (CwRadix){key[i], i, 0};
   CW_TRY(cw_radix_sort(count, place));
   for (int32_t i = 0; i < count; i++) tree->item[i] = place[i].item;
-  CW_TRY(fit(tree, box_of, context, share));
+  CW_TRY(cw_box_tree_fit(context, tree, box_of, given));
 done:
   free(key);
   free(place);
   if (status != CW_OK) cw_box_tree_free(tree);
   return status;
-}
-
-CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree) {
-  return make(count, within, box_of, context, cw_parallel_for, tree);
-}
-
-CwStatus cw_box_tree_make_alone(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context,
-                                CwBoxTree *tree) {
-  return make(count, within, box_of, context, do_all, tree);
-}
-
-CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context) {
-  return fit(tree, box_of, context, cw_parallel_for);
 }
 
 void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,

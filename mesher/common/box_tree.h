@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "mesher/common/box.h"
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -26,13 +27,11 @@ typedef int (*CwBoxVisit)(void *context, int32_t item);
 // The box of an item.
 typedef CwBox (*CwBoxOf)(const void *context, int32_t item);
 
-// Orders the items by the middles of their boxes, all of which lie in `within`. Deterministic. Collective.
-CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree);
-// The same tree, by this rank alone: within tasks.
-CwStatus cw_box_tree_make_alone(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context,
-                                CwBoxTree *tree);
-// Takes up new boxes of the same items. Collective.
-CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context);
+// Orders the items by the middles of their boxes, all of which lie in `within`. Deterministic. given: to box_of.
+CwStatus cw_box_tree_make(const CwContext *context, int32_t count, const CwBox *within, CwBoxOf box_of,
+                          const void *given, CwBoxTree *tree);
+// Takes up new boxes of the same items.
+CwStatus cw_box_tree_fit(const CwContext *context, CwBoxTree *tree, CwBoxOf box_of, const void *given);
 // The same where only some of the first `moved_count` items, those with moved[item], have new ones.
 void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,
                         const void *context);

@@ -130,7 +130,7 @@ CwStatus cw_smooth_directions(CwLayerWork *work) {
                          .run = cw_smoothing_solve_block,
                          .context = smoothing,
                          .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(work->in->context, &schedule, bytes, size, NULL));
   for (int32_t v = 0; v < work->n; v++) smoothing->lean_t[v] = smoothing->reach[v].source >= 0 ? work->t[v] : -1;
   for (int32_t i = 0; i < smoothing->count; i++) {
     const CwLean *lean = (const CwLean *)bytes[i / CW_SMOOTHING_BLOCK] + i % CW_SMOOTHING_BLOCK;

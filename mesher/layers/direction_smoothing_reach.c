@@ -124,7 +124,7 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   for (int32_t v = 0; v < n; v++) blocks.reach[v] = (CwSmoothingReach){INFINITY, -1};
   CwSchedule schedule = {
       .step = "layers: reach of smoothing", .count = count, .run = find_block, .context = &blocks, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(smoothing->work->in->context, &schedule, bytes, size, NULL));
   for (int32_t b = 0; b < count; b++) {
     const CwSmoothingReach *made = bytes[b];
     int32_t first = b * BLOCK, last = n - first < BLOCK ? n : first + BLOCK;

@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
+
 typedef enum {
   CW_LAYER_FULL,      // thickness as asked
   CW_LAYER_GAP,       // limited by a narrow gap or a concave place
@@ -21,8 +23,9 @@ typedef struct {
   const void *context;
 } CwLayerDivision;
 
-// The fields are four groups: the wall, the asked thickness, what holds columns, what they must not reach.
+// The fields are five groups: who works, the wall, the asked thickness, what holds columns, what they must not reach.
 typedef struct {
+  const CwContext *context; // the ranks that make the layers
   int32_t point_count;
   const double (*x)[3]; // wall vertices, m
   int32_t triangle_count;

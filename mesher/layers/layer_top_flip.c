@@ -115,15 +115,15 @@ static CwStatus judge_triangle(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_layer_top_flip(const double (*wall)[3], const double (*top)[3], int32_t triangle_count, CwFlipMesh *mesh,
-                           const int64_t *group, int32_t *flips) {
+CwStatus cw_layer_top_flip(const CwContext *context, const double (*wall)[3], const double (*top)[3],
+                           int32_t triangle_count, CwFlipMesh *mesh, const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
   int32_t(*const triangle)[3] = mesh->triangle;
   uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
   CW_NEW(fresh, triangle_count);
   Top given = {wall, top, mesh, group};
-  CW_TRY(cw_parallel_for("layers: flips", triangle_count, sizeof *fresh, judge_triangle, &given, fresh));
+  CW_TRY(cw_parallel_for(context, "layers: flips", triangle_count, sizeof *fresh, judge_triangle, &given, fresh));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     for (int32_t t = 0; t < triangle_count; t++) {

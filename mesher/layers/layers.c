@@ -37,29 +37,29 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
   CwLayerWork work = {0};
   CwBoxTree tree = {0};
   memset(layers, 0, sizeof *layers);
-  cw_profiler_part("layers: neighbours");
+  cw_profiler_part(input->context, "layers: neighbours");
   CW_TRY(cw_layers_topology(input, &work));
   layers->column_count = work.n;
   CW_NEW(layers->top, work.n);
   CW_NEW(layers->thickness, work.n);
   CW_NEW(layers->reason, work.n);
-  cw_profiler_part("layers: directions taken");
+  cw_profiler_part(input->context, "layers: directions taken");
   CW_TRY_STAGE(cw_layers_normals(&work, outcome), outcome);
-  cw_profiler_part("layers: tree");
+  cw_profiler_part(input->context, "layers: tree");
   CW_TRY(cw_gap_tree_make(&work, &tree));
   CW_TRY(cw_layers_limit_by_concavity(&work));
   memcpy(work.t, work.most, work.n * sizeof *work.t);
   // The smoothing needs thicknesses and the gap needs directions: twice is enough for both to settle.
   for (int pass = 0; pass < 2; pass++) {
-    cw_profiler_part("layers: smoothing set up");
+    cw_profiler_part(input->context, "layers: smoothing set up");
     CW_TRY(cw_smooth_directions(&work));
-    cw_profiler_part("layers: grading");
+    cw_profiler_part(input->context, "layers: grading");
     CW_TRY(cw_layers_limit_by_gap(&work, &tree));
     CW_TRY(cw_layers_grade(&work, NULL));
   }
-  cw_profiler_part("layers: repair");
+  cw_profiler_part(input->context, "layers: repair");
   CW_TRY(cw_layers_repair(&work, &tree, layers->top, &layers->repair_rounds));
-  CW_TRY(cw_parallel_for("layers: thicknesses", work.n, sizeof *layers->thickness, find_thickness,
+  CW_TRY(cw_parallel_for(input->context, "layers: thicknesses", work.n, sizeof *layers->thickness, find_thickness,
                          &(Columns){&work, layers}, layers->thickness));
   for (int32_t v = 0; v < work.n; v++) {
     layers->reason[v] = work.reason[v];

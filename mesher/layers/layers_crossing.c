@@ -253,14 +253,15 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   if (crossing->searched) {
     cw_box_tree_follow(&crossing->tree, crossing->active, in->triangle_count, box_of_item, crossing);
   } else if (crossing->tree.count) {
-    CW_TRY(cw_box_tree_fit(&crossing->tree, box_of_item, crossing));
+    CW_TRY(cw_box_tree_fit(crossing->work->in->context, &crossing->tree, box_of_item, crossing));
   } else {
     CwBox within = cw_box_empty();
     for (int32_t i = 0; i < 2 * work->n; i++) cw_box_add_point(&within, crossing->x[i]);
     for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
       for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
     }
-    CW_TRY(cw_box_tree_make(crossing->item_count, &within, box_of_item, crossing, &crossing->tree));
+    CW_TRY(cw_box_tree_make(crossing->work->in->context, crossing->item_count, &within, box_of_item, crossing,
+                            &crossing->tree));
   }
   drop_active(crossing);
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
@@ -268,7 +269,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   CW_NEW(size, blocks);
   CwSchedule schedule = {
       .step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(crossing->work->in->context, &schedule, bytes, size, NULL));
   size_t total = (size_t)crossing->pair_count;
   for (int32_t i = 0; i < blocks; i++) total += (size_t)size[i] / sizeof *crossing->pair;
   CwLayerPair *pair = realloc(crossing->pair, (total + 1) * sizeof *pair);

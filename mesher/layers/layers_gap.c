@@ -40,7 +40,7 @@ CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
     for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
   }
-  CW_TRY(cw_box_tree_make(total, &within, box_of, in, tree));
+  CW_TRY(cw_box_tree_make(work->in->context, total, &within, box_of, in, tree));
   int32_t count = 0;
   for (int32_t i = 0; i < total; i++) {
     for (int k = 0; tree->item[i] < in->triangle_count && k < 3; k++) {
@@ -209,7 +209,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
     gaps.vertex[gaps.count++] = v;
   }
   CW_NEW_UNSET(most, gaps.count);
-  CW_TRY(cw_parallel_for("layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
+  CW_TRY(cw_parallel_for(work->in->context, "layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
   for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], work->gap[v]);
@@ -250,7 +250,8 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
 }
 
 CwStatus cw_layers_limit_by_concavity(CwLayerWork *work) {
-  return cw_parallel_for("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
+  return cw_parallel_for(work->in->context, "layers: hollows", work->n, sizeof *work->most, find_most, work,
+                         work->most);
 }
 
 // Thickness of w at most, beside v: by the distance of their columns on the wall or at the thickness of the lower one,
@@ -276,7 +277,8 @@ CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
                                            .triangle = work->face,
                                            .corner = work->in->triangle,
                                            .most = most_beside,
-                                           .context = work,
+                                           .context = work->in->context,
+                                           .given = work,
                                            .thickness = work->t,
                                            .graded = graded},
                             lowered));

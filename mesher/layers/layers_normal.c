@@ -239,7 +239,7 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
   Held *held = NULL;
   CW_NEW_UNSET(made, work->n);
   CW_NEW_UNSET(special.vertex, work->n);
-  CW_TRY(cw_parallel_for("layers: directions", work->n, sizeof *made, find_direction, work, made));
+  CW_TRY(cw_parallel_for(work->in->context, "layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
@@ -248,7 +248,8 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
     if (made[v].crease != CW_CREASE_NONE || constraints_at(work, v) > 0) special.vertex[special.count++] = v;
   }
   CW_NEW_UNSET(held, special.count);
-  CW_TRY(cw_parallel_for("layers: directions", special.count, sizeof *held, find_held, &special, held));
+  CW_TRY(
+      cw_parallel_for(work->in->context, "layers: directions", special.count, sizeof *held, find_held, &special, held));
   for (int32_t i = 0; i < special.count; i++) {
     int32_t v = special.vertex[i];
     CW_TRY_STAGE(judge_column(work, v, held[i].base_cos, outcome), outcome);

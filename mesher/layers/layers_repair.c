@@ -93,7 +93,8 @@ static CwStatus find_bad(Repair *repair) {
   }
   if (stale > MANY) {
     CW_NEW_UNSET(many, stale);
-    CW_TRY(cw_parallel_for("layers: prisms", stale, sizeof *many, judge_stale, repair, many));
+    CW_TRY(
+        cw_parallel_for(repair->work->in->context, "layers: prisms", stale, sizeof *many, judge_stale, repair, many));
   }
   for (int32_t i = 0; i < stale; i++) {
     int32_t f = repair->stale[i];
@@ -281,7 +282,7 @@ static CwStatus turn_marked(Repair *repair) {
   for (int32_t g = 0; g < groups.count; g++) cost[g] = groups.start[g + 1] - groups.start[g];
   CwSchedule schedule = {
       .step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group, .context = &groups, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(repair->work->in->context, &schedule, bytes, size, NULL));
   for (int32_t g = 0; g < groups.count; g++) {
     const Turned *made = bytes[g];
     for (int32_t i = groups.start[g]; i < groups.start[g + 1]; i++, made++) {
@@ -363,10 +364,12 @@ static CwStatus start(Repair *repair, CwBoxTree *tree) {
   CW_TRY(cw_layers_crossing_make(work, &repair->crossing));
   repair->crossing.tree = *tree; // the prisms stand where the walls do
   memset(tree, 0, sizeof *tree);
-  CW_TRY(cw_parallel_for("layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
+  CW_TRY(
+      cw_parallel_for(repair->work->in->context, "layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
   memcpy(repair->thickness, work->t, (size_t)n * sizeof *repair->thickness);
   for (int32_t f = 0; f < triangles; f++) repair->stale[f] = f;
-  CW_TRY(cw_parallel_for("layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair, repair->quality));
+  CW_TRY(cw_parallel_for(repair->work->in->context, "layers: prisms", triangles, sizeof *repair->quality, judge_stale,
+                         repair, repair->quality));
   for (int32_t f = 0; f < triangles; f++) {
     if (repair->quality[f] < cw_policy.prism_good) repair->bad[repair->bad_count++] = f;
   }

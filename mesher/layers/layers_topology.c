@@ -97,7 +97,8 @@ static CwStatus lists(CwLayerWork *work) {
   CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count);
   CW_NEW_UNSET(start, work->n + 1);
   for (int32_t v = 0; v <= work->n; v++) start[v] = 2 * work->face_start[v];
-  CW_TRY(cw_parallel_for_lists("layers: neighbours", work->n, start, sizeof *work->near, list_near, work, work->near));
+  CW_TRY(cw_parallel_for_lists(work->in->context, "layers: neighbours", work->n, start, sizeof *work->near, list_near,
+                               work, work->near));
   for (int32_t v = 0; v < work->n; v++) {
     work->near_start[v] = count;
     for (int32_t k = start[v]; k < start[v + 1] && work->near[k] >= 0; k++) work->near[count++] = work->near[k];
@@ -174,8 +175,8 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
   CW_TRY(check_triangles(input));
   CW_TRY(lists(work));
   CW_NEW_UNSET(work->face_normal, input->triangle_count);
-  CW_TRY(cw_parallel_for("layers: normals", input->triangle_count, sizeof *work->face_normal, find_normal, work,
-                         work->face_normal));
+  CW_TRY(cw_parallel_for(work->in->context, "layers: normals", input->triangle_count, sizeof *work->face_normal,
+                         find_normal, work, work->face_normal));
   CW_NEW_UNSET(work->normal, work->n);
   CW_NEW_UNSET(work->normal_cos, work->n);
   CW_NEW_UNSET(work->base, work->n);

@@ -13,7 +13,7 @@ static CwStatus find_steep(void *context, int32_t v, void *out) {
   for (int32_t i = of->start[v]; i < of->start[v + 1] && !*steep; i++) {
     for (int k = 0; k < 3; k++) {
       int32_t w = of->corner[of->triangle[i]][k];
-      *steep |= of->thickness[w] > of->thickness[v] && of->thickness[w] > of->most(of->context, v, w);
+      *steep |= of->thickness[w] > of->thickness[v] && of->thickness[w] > of->most(of->given, v, w);
     }
   }
   return CW_OK;
@@ -26,7 +26,7 @@ static CwStatus settle(const CwGradation *of, int32_t v, CwHeap *heap) {
     for (int k = 0; k < 3; k++) {
       int32_t w = of->corner[of->triangle[i]][k];
       if (of->thickness[w] <= of->thickness[v]) continue;
-      double most = of->most(of->context, v, w);
+      double most = of->most(of->given, v, w);
       if (of->thickness[w] <= most) continue;
       of->thickness[w] = most;
       if (of->graded) of->graded[w] = 1;
@@ -47,7 +47,8 @@ CwStatus cw_grade_thickness(const CwGradation *gradation, const uint8_t *lowered
       if (lowered[v]) find_steep((void *)gradation, v, &steep[v]);
     }
   } else {
-    CW_TRY(cw_parallel_for(gradation->step, gradation->count, sizeof *steep, find_steep, (void *)gradation, steep));
+    CW_TRY(cw_parallel_for(gradation->context, gradation->step, gradation->count, sizeof *steep, find_steep,
+                           (void *)gradation, steep));
   }
   for (int32_t v = 0; v < gradation->count; v++) {
     if (steep[v]) CW_TRY(cw_heap_push(&heap, gradation->thickness[v], v));

@@ -6,17 +6,19 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #define CW_OPEN_SHARE 0.6 // of the way to an open patch, which has no layers
 
 typedef struct {
-  const char *step;                                          // in the profiler
-  int32_t count;                                             // vertices
-  const int32_t *start, *triangle;                           // triangles around each vertex, as CwIncident has them
-  const int32_t (*corner)[3];                                // of each triangle
-  double (*most)(const void *context, int32_t v, int32_t w); // thickness of w at most, beside the lower v
-  const void *context;
+  const CwContext *context;
+  const char *step;                                        // in the profiler
+  int32_t count;                                           // vertices
+  const int32_t *start, *triangle;                         // triangles around each vertex, as CwIncident has them
+  const int32_t (*corner)[3];                              // of each triangle
+  double (*most)(const void *given, int32_t v, int32_t w); // thickness of w at most, beside the lower v
+  const void *given;
   double *thickness; // [in, out] of each vertex
   uint8_t *graded;   // [out] set to 1 where the thickness was lowered; may be NULL
 } CwGradation;

@@ -123,8 +123,8 @@ static int try_side(Wall *wall, const int64_t *group, int32_t t, int k) {
   return 0;
 }
 
-CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t triangle_count, CwFlipMesh *mesh,
-                        const int64_t *group, int32_t *flips, int32_t *folded) {
+CwStatus cw_wall_unfold(const CwContext *context, int32_t point_count, const double (*x)[3], int32_t triangle_count,
+                        CwFlipMesh *mesh, const int64_t *group, int32_t *flips, int32_t *folded) {
   CwStatus status = CW_OK;
   Wall wall = {.x = x, .mesh = *mesh};
   *flips = *folded = 0;
@@ -134,7 +134,7 @@ CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t trian
   for (int32_t v = 0; v < point_count; v++) wall.around[v] = -1;
   for (int32_t t = 0; t < triangle_count; t++)
     for (int k = 0; group[t] >= 0 && k < 3; k++) wall.around[mesh->triangle[t][k]] = t;
-  CW_TRY(cw_parallel_for("layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
+  CW_TRY(cw_parallel_for(context, "layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     *folded = 0;

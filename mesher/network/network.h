@@ -60,8 +60,8 @@ typedef struct {
 
 // Builds corners and curves. Collective. Outcome: CW_OUTCOME_REPLAN where a plane touches a face
 // or an edge in a way that cannot be resolved.
-CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
-                         CwNetwork *network, CwOutcome *outcome);
+CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                         const CwInside *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome);
 void cw_network_free(CwNetwork *network);
 
 CwStatus cw_curve_nodes_make(int32_t count, CwCurveNodes *nodes);
@@ -94,6 +94,7 @@ CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve);
 // Steps of cw_network_make: traces the plane of `node` on every CAD face and adds the pieces within its cell; and the
 // same for all planes, which the ranks share.
 CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node, CwOutcome *outcome);
-CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background, CwOutcome *outcome);
+CwStatus cw_network_trace_all(const CwContext *context, CwNetwork *network, const CwBackground *background,
+                              CwOutcome *outcome);
 
 #endif

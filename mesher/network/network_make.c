@@ -119,8 +119,8 @@ done:
   return status;
 }
 
-CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
-                         CwNetwork *network, CwOutcome *outcome) {
+CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                         const CwInside *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Place *place = NULL;
   int32_t *below = NULL;
@@ -132,7 +132,7 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
     cw_cad_vertex_point(cad, v, corner.x);
     CW_REQUIRE(cw_network_corner(network, &corner, 0) == v, CW_ERR_MEMORY, "out of memory: %d corners", v);
   }
-  CW_TRY_STAGE(cw_network_trace_all(network, background, outcome), outcome);
+  CW_TRY_STAGE(cw_network_trace_all(context, network, background, outcome), outcome);
 
   // Three planes meet only where one is above the two others: cells side by side touch on a plane above both alone.
   CW_NEW(below, plan->node_count);

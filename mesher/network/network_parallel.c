@@ -110,7 +110,8 @@ done:
   return status;
 }
 
-CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background, CwOutcome *outcome) {
+CwStatus cw_network_trace_all(const CwContext *context, CwNetwork *network, const CwBackground *background,
+                              CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int32_t nodes = network->plan->node_count;
   Traces traces = {network, background};
@@ -120,7 +121,7 @@ CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background
   CW_NEW(size, nodes);
   CwSchedule schedule = {
       .step = "traces of the planes", .count = nodes, .run = trace_plane, .context = &traces, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
   for (int32_t node = 0; node < nodes; node++) CW_TRY_STAGE(join(network, bytes[node], outcome), outcome);
 done:
   for (int32_t node = 0; bytes && node < nodes; node++) free(bytes[node]);

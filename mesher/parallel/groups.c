@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "mesher/parallel/profiler.h"
-#include "mesher/parallel/ranks.h"
+#include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 
 enum { LEAST_RANKS = 2 };
@@ -62,36 +62,37 @@ int cw_groups_divide(int32_t count, const double *cost, double own, int ranks, i
 }
 
 void cw_group_give(const CwGroupHand *hand, void *data, int64_t size) {
-  cw_mpi_broadcast(data, size, hand->from);
+  cw_team_broadcast(hand->team, data, size, hand->from);
 }
 
 // Account and results of an item to the ranks that were on others.
-static CwStatus hand_over(const CwGroupWork *work, const CwGroupHand *hand, const CwOutcome *outcome) {
+static CwStatus hand_over(const CwContext *context, const CwGroupWork *work, const CwGroupHand *hand,
+                          const CwOutcome *outcome) {
   CwStatus status = CW_OK;
   char *account = NULL; // that of the rank that gives, also on others of its group
   int64_t size = 0;
-  int gives = cw_mpi_rank() == hand->from;
-  if (gives) CW_TRY(cw_profiler_pack(hand->item, &account, &size));
+  int gives = cw_team_rank(hand->team) == hand->from;
+  if (gives) CW_TRY(cw_profiler_pack(context, hand->item, &account, &size));
   cw_group_give(hand, &size, sizeof size);
   if (!gives) CW_NEW_UNSET(account, size);
   cw_group_give(hand, account, size);
-  if (!hand->mine) CW_TRY(cw_profiler_take(hand->item, account, size));
-  if (outcome->kind == CW_OUTCOME_DONE) CW_TRY(work->hand(work->context, hand));
+  if (!hand->mine) CW_TRY(cw_profiler_take(context, hand->item, account, size));
+  if (outcome->kind == CW_OUTCOME_DONE) CW_TRY(work->hand(work->given, hand));
 done:
   free(account);
   return status;
 }
 
 // Rank 0 prints the lines that the first rank of a group has kept.
-static CwStatus print_kept(int from) {
+static CwStatus print_kept(const CwTeam *team, int from) {
   CwStatus status = CW_OK;
   int64_t size = (int64_t)strlen(cw_log_kept()) + 1;
   char *lines = NULL;
-  cw_mpi_broadcast(&size, sizeof size, from);
+  cw_team_broadcast(team, &size, sizeof size, from);
   CW_NEW_UNSET(lines, size);
-  if (cw_mpi_rank() == from) memcpy(lines, cw_log_kept(), (size_t)size);
-  if (size > 1) cw_mpi_broadcast(lines, size, from);
-  for (char *line = lines, *end; cw_mpi_rank() == 0 && size > 1 && (end = strchr(line, '\n')); line = end + 1) {
+  if (cw_team_rank(team) == from) memcpy(lines, cw_log_kept(), (size_t)size);
+  if (size > 1) cw_team_broadcast(team, lines, size, from);
+  for (char *line = lines, *end; cw_team_rank(team) == 0 && size > 1 && (end = strchr(line, '\n')); line = end + 1) {
     cw_log_debug("%.*s", (int)(end - line), line);
   }
 done:
@@ -99,38 +100,42 @@ done:
   return status;
 }
 
-CwStatus cw_groups_run(const CwGroupWork *work, CwOutcome *outcome) {
+CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  const CwTeam *all = cw_team_of(context);
+  CwTeam *own = NULL;
   int group_of[CW_GROUPS_MOST], ranks_of[CW_GROUPS_MOST], first[CW_GROUPS_MOST] = {0}, owner[CW_GROUPS_MOST], mine = 0;
   CW_REQUIRE(work->count <= CW_GROUPS_MOST, CW_ERR_INPUT, "%d items; at most %d are allowed", work->count,
              CW_GROUPS_MOST);
   memset(outcome, 0, (size_t)work->count * sizeof *outcome);
-  CW_TRY(cw_profiler_groups(work->step, work->count, work->cost, work->own));
-  int groups = cw_groups_divide(work->count, work->cost, work->own, cw_mpi_ranks(), group_of, ranks_of);
+  CW_TRY(cw_profiler_groups(context, work->step, work->count, work->cost, work->own));
+  int groups = cw_groups_divide(work->count, work->cost, work->own, all->ranks, group_of, ranks_of);
   for (int g = 1; g < groups; g++) {
     first[g] = first[g - 1] + ranks_of[g - 1];
-    if (cw_mpi_rank() >= first[g]) mine = g;
+    if (all->rank >= first[g]) mine = g;
   }
-  if (groups > 1) cw_mpi_split(mine);
-  cw_log_keep(cw_mpi_rank() == first[mine]);
+  if (groups > 1) CW_TRY(cw_team_split(all, mine, &own));
+  CwContext group = context ? *context : (CwContext){0};
+  group.team = own ? own : all;
+  cw_log_keep(all->rank == first[mine]);
   for (int32_t s = 0; s < work->count; s++) {
     owner[s] = first[group_of[s]];
     if (group_of[s] != mine) continue;
-    cw_profiler_item(s);
-    CW_TRY(work->run(work->context, s, &outcome[s]));
-    cw_profiler_item(-1);
+    cw_profiler_item(context, s);
+    CW_TRY(work->run(work->given, &group, s, &outcome[s]));
+    cw_profiler_item(context, -1);
   }
   cw_log_keep(0);
-  if (groups > 1) cw_mpi_join();
-  const char *part = cw_profiler_part("exchange");
-  if (groups > 1) cw_outcomes_agree(work->count, outcome, owner);
+  if (own) cw_team_join(all, &own);
+  const char *part = cw_profiler_part(context, "exchange");
+  if (groups > 1) cw_outcomes_agree(all, work->count, outcome, owner);
   for (int32_t s = 0; s < work->count && groups > 1; s++) {
-    CwGroupHand hand = {.item = s, .mine = group_of[s] == mine, .from = owner[s]};
-    CW_TRY(hand_over(work, &hand, &outcome[s]));
+    CwGroupHand hand = {.team = all, .item = s, .mine = group_of[s] == mine, .from = owner[s]};
+    CW_TRY(hand_over(context, work, &hand, &outcome[s]));
   }
-  for (int g = 1; g < groups; g++) CW_TRY(print_kept(first[g]));
+  for (int g = 1; g < groups; g++) CW_TRY(print_kept(all, first[g]));
   cw_log_drop_kept();
-  cw_profiler_part(part);
+  cw_profiler_part(context, part);
 done:
   return status;
 }

@@ -18,6 +18,7 @@ enum { CW_GROUPS_MOST = 16 };
 
 // An item while its results are handed over.
 typedef struct {
+  const CwTeam *team; // all ranks
   int32_t item;
   int mine; // this rank has them; else it gets them
   int from; // rank that gives them
@@ -28,16 +29,17 @@ typedef struct {
   int32_t count;      // items
   const double *cost; // predicted, of each
   double own;         // the share of the cost that every rank of a group does for itself
-  // Works on an item: collective over the ranks of the group, with the same result and outcome on all of them.
-  CwStatus (*run)(void *context, int32_t item, CwOutcome *outcome);
+  // Works on an item: collective over the ranks of the group, with the same result and outcome on all of them. given:
+  // as below; context: that of the group.
+  CwStatus (*run)(void *given, const CwContext *context, int32_t item, CwOutcome *outcome);
   // Gives the results of an item to the ranks that have not run it, by cw_group_give. Collective over all ranks.
-  CwStatus (*hand)(void *context, const CwGroupHand *hand);
-  void *context;
+  CwStatus (*hand)(void *given, const CwGroupHand *hand);
+  void *given;
 } CwGroupWork;
 
-// Runs all items; collective. outcome[item], the same on all ranks: that of `run`; an item that is not done is not
+// Runs all items. outcome[item], the same on all ranks: that of `run`; an item that is not done is not
 // handed over. Failures end all ranks, or are returned where there is one.
-CwStatus cw_groups_run(const CwGroupWork *work, CwOutcome *outcome);
+CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutcome *outcome);
 
 // Hands over `size` bytes, as many on all ranks. Straight from array to array.
 void cw_group_give(const CwGroupHand *hand, void *data, int64_t size);

@@ -28,8 +28,8 @@ const char *cw_outcome_text(const CwOutcome *outcome, double millimetres, char t
   return text;
 }
 
-void cw_outcomes_agree(int32_t count, CwOutcome *outcome, const int *owner) {
-  for (int32_t i = 0; i < count; i++) cw_mpi_broadcast(&outcome[i], sizeof outcome[i], owner[i]);
+void cw_outcomes_agree(const CwTeam *team, int32_t count, CwOutcome *outcome, const int *owner) {
+  for (int32_t i = 0; i < count; i++) cw_team_broadcast(team, &outcome[i], sizeof outcome[i], owner[i]);
 }
 
 CwOutcome cw_outcomes_first(int32_t count, const CwOutcome *outcome) {

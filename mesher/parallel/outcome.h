@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -39,8 +40,8 @@ void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3
 enum { CW_OUTCOME_TEXT_SIZE = CW_REASON_SIZE + 80 };
 const char *cw_outcome_text(const CwOutcome *outcome, double millimetres, char text[CW_OUTCOME_TEXT_SIZE]);
 
-// The ranks agree on `count` outcomes, each known to the rank `owner[i]`. Collective over all ranks.
-void cw_outcomes_agree(int32_t count, CwOutcome *outcome, const int *owner);
+// The ranks agree on `count` outcomes, each known to the rank `owner[i]`. Collective over the team.
+void cw_outcomes_agree(const CwTeam *team, int32_t count, CwOutcome *outcome, const int *owner);
 
 // The first of `count` outcomes that is not done, with its number as domain; done where all are.
 CwOutcome cw_outcomes_first(int32_t count, const CwOutcome *outcome);

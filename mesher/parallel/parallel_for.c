@@ -11,7 +11,7 @@ enum { BLOCKS = 256, LEAST_BLOCK = 64, MOST_BLOCK = 4096 };
 
 typedef struct {
   CwParallelBody body;
-  void *context;
+  void *given;
   int32_t count;
   const int32_t *start; // of each item's list; NULL: one each
   size_t width;
@@ -37,7 +37,7 @@ static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *s
   char *result = NULL;
   CW_NEW(result, length);
   for (int32_t i = first; i < last; i++)
-    CW_TRY(share->body(share->context, i, result + place_of(share, i) - place_of(share, first)));
+    CW_TRY(share->body(share->given, i, result + place_of(share, i) - place_of(share, first)));
   *bytes = result;
   *size = (int64_t)length;
   result = NULL;
@@ -46,21 +46,22 @@ done:
   return status;
 }
 
-CwStatus cw_parallel_for(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out) {
-  return cw_parallel_for_lists(step, count, NULL, width, body, context, out);
+CwStatus cw_parallel_for(const CwContext *context, const char *step, int32_t count, size_t width, CwParallelBody body,
+                         void *given, void *out) {
+  return cw_parallel_for_lists(context, step, count, NULL, width, body, given, out);
 }
 
-CwStatus cw_parallel_for_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwParallelBody body,
-                               void *context, void *out) {
+CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32_t count, const int32_t *start,
+                               size_t width, CwParallelBody body, void *given, void *out) {
   CwStatus status = CW_OK;
-  Share share = {body, context, count, start, width, block_of(count)};
+  Share share = {body, given, count, start, width, block_of(count)};
   int32_t blocks = (count + share.block - 1) / share.block;
   void **bytes = NULL;
   int64_t *size = NULL;
   CW_NEW(bytes, blocks);
   CW_NEW(size, blocks);
   CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .alike = 1, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
   for (int32_t i = 0; i < blocks; i++) {
     if (size[i] > 0) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
   }

@@ -7,21 +7,23 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// Fills the `width` zeroed bytes of one item.
-typedef CwStatus (*CwParallelBody)(void *context, int32_t item, void *out);
+// Fills the `width` zeroed bytes of one item. given: as cw_parallel_for was.
+typedef CwStatus (*CwParallelBody)(void *given, int32_t item, void *out);
 
-// Calls body for the items 0 .. count-1; all ranks get all of `out`. step: in the profiler. Collective.
-CwStatus cw_parallel_for(const char *step, int32_t count, size_t width, CwParallelBody body, void *context, void *out);
+// Calls body for the items 0 .. count-1; all ranks get all of `out`. step: in the profiler.
+CwStatus cw_parallel_for(const CwContext *context, const char *step, int32_t count, size_t width, CwParallelBody body,
+                         void *given, void *out);
 
 // The same where item i has a list: entries start[i] .. start[i + 1] - 1 of `out`, of `width` bytes each.
-CwStatus cw_parallel_for_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwParallelBody body,
-                               void *context, void *out);
+CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32_t count, const int32_t *start,
+                               size_t width, CwParallelBody body, void *given, void *out);
 
 #ifdef __cplusplus
 }

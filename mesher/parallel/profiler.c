@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/parallel/ranks.h"
+#include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
@@ -39,28 +39,43 @@ typedef struct {
   Account *item;
 } Sides;
 
-static struct {
+struct CwProfiler {
   Account all, *present; // present: NULL is `all`
   double since;          // when the present part went on
   int32_t step_count;
   Sides *step;
-} profiler = {.all = {.part_count = 1, .name = {"start"}}};
+};
 
-static Account *present_account(void) {
-  return profiler.present ? profiler.present : &profiler.all;
+CwStatus cw_profiler_make(CwProfiler **made) {
+  CwStatus status = CW_OK;
+  CW_NEW(*made, 1);
+  (*made)->all = (Account){.part_count = 1, .name = {"start"}};
+  (*made)->since = cw_processor_seconds();
+done:
+  return status;
 }
 
-static void close_part(void) {
-  Account *account = present_account();
+static CwProfiler *profiler_of(const CwContext *context) {
+  return context ? context->profiler : NULL;
+}
+
+static Account *present_account(CwProfiler *profiler) {
+  return profiler->present ? profiler->present : &profiler->all;
+}
+
+static void close_part(CwProfiler *profiler) {
+  Account *account = present_account(profiler);
   double now = cw_processor_seconds();
-  account->spent[account->part] += now - profiler.since;
-  profiler.since = now;
+  account->spent[account->part] += now - profiler->since;
+  profiler->since = now;
 }
 
-const char *cw_profiler_part(const char *part) {
-  Account *account = present_account();
+const char *cw_profiler_part(const CwContext *context, const char *part) {
+  CwProfiler *profiler = profiler_of(context);
+  if (!profiler) return "";
+  Account *account = present_account(profiler);
   const char *before = account->name[account->part];
-  close_part();
+  close_part(profiler);
   int at = 0;
   while (at < account->part_count && strcmp(account->name[at], part)) at++;
   if (at == PARTS_MOST) at = 0;
@@ -78,12 +93,14 @@ done:
   return status;
 }
 
-CwStatus cw_profiler_tasks(const char *step, int32_t count, const double *cost, const int32_t *after,
-                           const double *seconds, double own, int64_t bytes) {
+CwStatus cw_profiler_tasks(const CwContext *context, const char *step, int32_t count, const double *cost,
+                           const int32_t *after, const double *seconds, double own, int64_t bytes) {
   CwStatus status = CW_OK;
+  CwProfiler *profiler = profiler_of(context);
   Entry *entry = NULL;
-  profiler.since += own;
-  CW_TRY(new_entry(present_account(), &entry));
+  if (!profiler) goto done;
+  profiler->since += own;
+  CW_TRY(new_entry(present_account(profiler), &entry));
   *entry = (Entry){.step = step, .own = own, .bytes = bytes};
   CW_NEW(entry->seconds, count);
   memcpy(entry->seconds, seconds, (size_t)count * sizeof *seconds);
@@ -100,12 +117,14 @@ done:
   return status;
 }
 
-CwStatus cw_profiler_groups(const char *step, int32_t count, const double *cost, double own) {
+CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t count, const double *cost, double own) {
   CwStatus status = CW_OK;
-  Sides *larger = realloc(profiler.step, (size_t)(profiler.step_count + 1) * sizeof *larger);
-  CW_REQUIRE(larger, CW_ERR_MEMORY, "out of memory: %d steps side by side", profiler.step_count + 1);
-  profiler.step = larger;
-  Sides *made = &profiler.step[profiler.step_count++];
+  CwProfiler *profiler = profiler_of(context);
+  if (!profiler) goto done;
+  Sides *larger = realloc(profiler->step, (size_t)(profiler->step_count + 1) * sizeof *larger);
+  CW_REQUIRE(larger, CW_ERR_MEMORY, "out of memory: %d steps side by side", profiler->step_count + 1);
+  profiler->step = larger;
+  Sides *made = &profiler->step[profiler->step_count++];
   *made = (Sides){.step = step, .own = own};
   CW_NEW(made->item, count);
   made->count = count;
@@ -114,13 +133,15 @@ done:
   return status;
 }
 
-static Account *account_of(int32_t item) {
-  return &profiler.step[profiler.step_count - 1].item[item];
+static Account *account_of(CwProfiler *profiler, int32_t item) {
+  return &profiler->step[profiler->step_count - 1].item[item];
 }
 
-void cw_profiler_item(int32_t item) {
-  close_part();
-  profiler.present = item < 0 ? NULL : account_of(item);
+void cw_profiler_item(const CwContext *context, int32_t item) {
+  CwProfiler *profiler = profiler_of(context);
+  if (!profiler) return;
+  close_part(profiler);
+  profiler->present = item < 0 ? NULL : account_of(profiler, item);
 }
 
 static json_t *rounded(double seconds) {
@@ -164,10 +185,13 @@ done:
   return status;
 }
 
-CwStatus cw_profiler_pack(int32_t item, char **bytes, int64_t *size) {
+CwStatus cw_profiler_pack(const CwContext *context, int32_t item, char **bytes, int64_t *size) {
   CwStatus status = CW_OK;
+  CwProfiler *profiler = profiler_of(context);
   json_t *account = NULL;
-  CW_TRY(account_json(account_of(item), NULL, &account));
+  *size = 0;
+  if (!profiler) goto done;
+  CW_TRY(account_json(account_of(profiler, item), NULL, &account));
   *bytes = json_dumps(account, JSON_COMPACT);
   CW_REQUIRE(*bytes, CW_ERR_MEMORY, "out of memory: account of an item");
   *size = (int64_t)strlen(*bytes);
@@ -186,11 +210,13 @@ done:
   return status;
 }
 
-CwStatus cw_profiler_take(int32_t item, const char *bytes, int64_t size) {
+CwStatus cw_profiler_take(const CwContext *context, int32_t item, const char *bytes, int64_t size) {
   CwStatus status = CW_OK;
-  Account *account = account_of(item);
+  CwProfiler *profiler = profiler_of(context);
   size_t i;
   json_t *part;
+  if (!profiler) goto done;
+  Account *account = account_of(profiler, item);
   account->taken = json_loadb(bytes, (size_t)size, 0, NULL);
   CW_REQUIRE(account->taken, CW_ERR_MEMORY, "out of memory: account of a part");
   account->part_count = 0;
@@ -213,32 +239,33 @@ done:
 }
 
 // With the greatest seconds of all ranks. Collective.
-static CwStatus account_of_all(const Account *account, json_t **made) {
+static CwStatus account_of_all(const CwContext *context, const Account *account, json_t **made) {
   CwStatus status = CW_OK;
   double *most = NULL;
   int32_t count = account->part_count + account->entry_count;
   CW_NEW(most, count);
   memcpy(most, account->spent, (size_t)account->part_count * sizeof *most);
   for (int32_t i = 0; i < account->entry_count; i++) most[account->part_count + i] = account->entry[i].own;
-  cw_mpi_most(count, most);
+  cw_team_most(cw_team_of(context), count, most);
   CW_TRY(account_json(account, most, made));
 done:
   free(most);
   return status;
 }
 
-CwStatus cw_profiler_json(json_t **account, json_t **groups) {
+CwStatus cw_profiler_json(const CwContext *context, json_t **account, json_t **groups) {
   CwStatus status = CW_OK;
-  close_part();
+  CwProfiler *profiler = profiler_of(context);
+  close_part(profiler);
   *account = NULL;
   *groups = json_array();
-  CW_TRY(account_of_all(&profiler.all, account));
-  for (int32_t i = 0; i < profiler.step_count; i++) {
-    const Sides *step = &profiler.step[i];
+  CW_TRY(account_of_all(context, &profiler->all, account));
+  for (int32_t i = 0; i < profiler->step_count; i++) {
+    const Sides *step = &profiler->step[i];
     json_t *array = json_array(), *made = NULL;
     json_array_append_new(*groups, json_pack("{s:s, s:f, s:o}", "step", step->step, "own", step->own, "side", array));
     for (int32_t s = 0; s < step->count; s++) {
-      CW_TRY(account_of_all(&step->item[s], &made));
+      CW_TRY(account_of_all(context, &step->item[s], &made));
       json_object_set_new(made, "cost", cw_json_number(step->item[s].cost));
       json_array_append_new(array, made);
     }
@@ -259,19 +286,17 @@ static void free_account(Account *account) {
   }
   free(account->entry);
   json_decref(account->taken);
-  account->entry = NULL;
-  account->taken = NULL;
-  account->entry_count = account->entry_capacity = 0;
 }
 
-void cw_profiler_free(void) {
-  for (int32_t i = 0; i < profiler.step_count; i++) {
-    for (int32_t s = 0; s < profiler.step[i].count; s++) free_account(&profiler.step[i].item[s]);
-    free(profiler.step[i].item);
+void cw_profiler_free(CwProfiler **made) {
+  CwProfiler *profiler = *made;
+  if (!profiler) return;
+  for (int32_t i = 0; i < profiler->step_count; i++) {
+    for (int32_t s = 0; s < profiler->step[i].count; s++) free_account(&profiler->step[i].item[s]);
+    free(profiler->step[i].item);
   }
-  free_account(&profiler.all);
-  free(profiler.step);
-  profiler.step = NULL;
-  profiler.present = NULL;
-  profiler.step_count = 0;
+  free_account(&profiler->all);
+  free(profiler->step);
+  free(profiler);
+  *made = NULL;
 }

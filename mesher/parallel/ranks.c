@@ -4,7 +4,6 @@
 #include <limits.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -22,20 +21,10 @@ const double CW_TEAM_PAUSE = 2e-5;                         // s
 static const double MOST_PAUSE = 2e-3, PAUSE_GROWTH = 1.5; // s
 static const double END_SECONDS = 5; // that a rank which has failed leaves to the one that says why
 
-// As MPI itself, once per process.
-static struct { int rank, ranks; } world = {.rank = 0, .ranks = 1};
+static const CwTeam ALONE = {.rank = 0, .ranks = 1};
 
-// The ranks that work together now.
-static CwTeam team = {.rank = 0, .ranks = 1};
-
-const CwTeam *cw_team(void) {
-  return &team;
-}
-
-static void join_all(void) {
-  team.rank = world.rank;
-  team.ranks = world.ranks;
-  team.comm = MPI_COMM_WORLD;
+const CwTeam *cw_team_of(const CwContext *context) {
+  return context && context->team ? context->team : &ALONE;
 }
 
 void cw_team_sleep(double seconds) {
@@ -57,13 +46,25 @@ void cw_team_wait(MPI_Request *request) {
   }
 }
 
-void cw_team_barrier(void) {
+void cw_team_barrier(const CwTeam *team) {
   MPI_Request request;
-  MPI_Ibarrier(team.comm, &request);
+  if (team->ranks == 1) return;
+  MPI_Ibarrier(team->comm, &request);
   cw_team_wait(&request);
 }
 
-CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
+static CwStatus make_team(MPI_Comm comm, int threads, CwTeam **made) {
+  CwStatus status = CW_OK;
+  CW_NEW(*made, 1);
+  (*made)->threads = threads;
+  (*made)->comm = comm;
+  MPI_Comm_rank(comm, &(*made)->rank);
+  MPI_Comm_size(comm, &(*made)->ranks);
+done:
+  return status;
+}
+
+CwStatus cw_mpi_start(int *argc, char ***argv, CwTeam **all) {
   CwStatus status = CW_OK;
   int given, started = 0;
   cw_mpi_settings();
@@ -74,32 +75,32 @@ CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
   CW_REQUIRE(started || MPI_Init_thread(argc, argv, MPI_THREAD_MULTIPLE, &given) == MPI_SUCCESS, CW_ERR_LIBRARY,
              "MPI cannot be started");
   MPI_Query_thread(&given);
-  team.threads = given >= MPI_THREAD_MULTIPLE;
-  MPI_Comm_rank(MPI_COMM_WORLD, &world.rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &world.ranks);
-  join_all();
+  CW_TRY(make_team(MPI_COMM_WORLD, given >= MPI_THREAD_MULTIPLE, all));
 done:
-  *rank = world.rank;
-  *ranks = world.ranks;
   return status;
 }
 
-void cw_mpi_end(void) {
-  int started = 0;
-  MPI_Initialized(&started);
-  if (!started) return;
-  if (world.ranks > 1) cw_team_barrier();
+void cw_mpi_end(CwTeam **all) {
+  if (!*all) return;
+  cw_team_barrier(*all);
   MPI_Finalize();
-  world.rank = 0;
-  world.ranks = 1;
-  join_all();
+  free(*all);
+  *all = NULL;
 }
 
-CwStatus cw_mpi_agree(CwStatus status) {
-  int mine = status == CW_OK ? INT_MAX : world.rank, first = mine;
-  if (world.ranks > 1) {
+int cw_team_rank(const CwTeam *team) {
+  return team->rank;
+}
+
+int cw_team_ranks(const CwTeam *team) {
+  return team->ranks;
+}
+
+CwStatus cw_team_agree(const CwTeam *team, CwStatus status) {
+  int mine = status == CW_OK ? INT_MAX : team->rank, first = mine;
+  if (team->ranks > 1) {
     MPI_Request request;
-    MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
+    MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, team->comm, &request);
     cw_team_wait(&request);
   }
   if (first == mine) return status;
@@ -107,55 +108,49 @@ CwStatus cw_mpi_agree(CwStatus status) {
   return CW_FAIL(CW_ERR_RANK, "rank %d failed", first);
 }
 
+int cw_mpi_ranks(void) {
+  int started = 0, ended = 0, ranks = 1;
+  MPI_Initialized(&started);
+  MPI_Finalized(&ended);
+  if (started && !ended) MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
 int cw_mpi_fail(CwStatus status) {
   int first = cw_stop_claim(); // the others, stopped for this, are to say nothing
-  if (world.ranks == 1) return cw_log_error(status);
+  if (cw_mpi_ranks() == 1) return cw_log_error(status);
   if (!first) cw_team_sleep(END_SECONDS);
   int code = cw_log_error(status);
   MPI_Abort(MPI_COMM_WORLD, code);
   _exit(code);
 }
 
-void cw_team_most(int32_t count, double *value) {
+void cw_team_most(const CwTeam *team, int32_t count, double *value) {
   MPI_Request request;
-  MPI_Iallreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, team.comm, &request);
+  if (team->ranks == 1) return;
+  MPI_Iallreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, team->comm, &request);
   cw_team_wait(&request);
 }
 
-void cw_mpi_most(int32_t count, double *value) {
-  if (world.ranks > 1) cw_team_most(count, value);
-}
-
-void cw_team_broadcast(void *bytes, int64_t size, int owner) {
-  for (int64_t at = 0; at < size; at += CHUNK) {
+void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from) {
+  for (int64_t at = 0; at < size && team->ranks > 1; at += CHUNK) {
     int64_t left = size - at;
     MPI_Request request;
-    MPI_Ibcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, owner, team.comm, &request);
+    MPI_Ibcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, from, team->comm, &request);
     cw_team_wait(&request);
   }
 }
 
-void cw_mpi_split(int number) {
-  cw_team_barrier();
-  MPI_Comm_split(MPI_COMM_WORLD, number, world.rank, &team.comm);
-  MPI_Comm_rank(team.comm, &team.rank);
-  MPI_Comm_size(team.comm, &team.ranks);
+CwStatus cw_team_split(const CwTeam *team, int number, CwTeam **part) {
+  MPI_Comm comm;
+  cw_team_barrier(team);
+  MPI_Comm_split(team->comm, number, team->rank, &comm);
+  return make_team(comm, team->threads, part);
 }
 
-void cw_mpi_join(void) {
-  MPI_Comm_free(&team.comm);
-  join_all();
-  cw_team_barrier();
-}
-
-int cw_mpi_rank(void) {
-  return world.rank;
-}
-
-int cw_mpi_ranks(void) {
-  return world.ranks;
-}
-
-void cw_mpi_broadcast(void *bytes, int64_t size, int from) {
-  if (world.ranks > 1) cw_team_broadcast(bytes, size, from);
+void cw_team_join(const CwTeam *team, CwTeam **part) {
+  MPI_Comm_free(&(*part)->comm);
+  free(*part);
+  *part = NULL;
+  cw_team_barrier(team);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The ranks of MPI: start, end, failure, and what all do together.
+// The ranks of MPI: start, end, failure, and what those of a team do together. MPI itself is one a process, and a
+// failure ends all of it: cw_mpi_fail and cw_mpi_ranks ask MPI. All else is handed its team.
 #ifndef CUTWATER_MESHER_PARALLEL_RANKS_H
 #define CUTWATER_MESHER_PARALLEL_RANKS_H
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -19,32 +21,37 @@ extern "C" {
 // that of the failure (cw_log_error); 137 where a rank was killed by signal 9, and the others end within two
 // seconds.
 
-// Starts MPI (once per process); gives rank and number of ranks. Collective.
-CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks);
-// Ends MPI. Collective: after a failure on one rank only, call cw_mpi_fail instead.
-void cw_mpi_end(void);
-// Ends all ranks at once after a failure of this one: prints the one error line and aborts. Where several ranks fail,
-// the first to call cw_stop_claim (pipeline/stop_line.h) prints; without cw_stop_watch each does that gets to it before
-// it is ended. Does not return where there is more than one rank; else returns the exit status for main().
+// Starts MPI, once in a process. [out] all: the team of all ranks, freed by cw_mpi_end. Collective.
+CwStatus cw_mpi_start(int *argc, char ***argv, CwTeam **all);
+// Ends MPI; nothing where *all is NULL. Collective: after a failure on one rank only, call cw_mpi_fail instead.
+void cw_mpi_end(CwTeam **all);
+// Ends all ranks of the process's MPI at once after a failure of this one: prints the one error line and aborts. Where
+// several ranks fail, the first to call cw_stop_claim (pipeline/stop_line.h) prints; without cw_stop_watch each does
+// that gets to it before it is ended. Does not return where there is more than one rank; else returns the exit status
+// for main().
 int cw_mpi_fail(CwStatus status);
-// What all ranks do before they have a folder to watch, and where any of them may fail: returns `status` on all, or on
-// the first that failed, which is to end all; the others wait for that. Collective.
-CwStatus cw_mpi_agree(CwStatus status);
-
-// This rank and how many there are, 0 of 1 without cw_mpi_start.
-int cw_mpi_rank(void);
+// How many ranks MPI has; 1 where it has not started.
 int cw_mpi_ranks(void);
 
-// Splits the ranks into teams: until they join again schedules run over the ranks that gave the same number, which get
-// results from one another alone. Collective over all ranks, as is cw_mpi_join; a rank that waits there sleeps.
-void cw_mpi_split(int number);
-void cw_mpi_join(void);
+// This rank of the team, from 0, and how many there are.
+int cw_team_rank(const CwTeam *team);
+int cw_team_ranks(const CwTeam *team);
 
-// `size` bytes of the rank `from` to the others. Collective over all ranks.
-void cw_mpi_broadcast(void *bytes, int64_t size, int from);
+// All that follows is collective over the team.
 
-// The greatest of all ranks, for each of `count` values. Collective over all ranks.
-void cw_mpi_most(int32_t count, double *value);
+// What all do before they have a folder to watch, and where any of them may fail: returns `status` on all, or on the
+// first that failed, which is to end all; the others wait for that.
+CwStatus cw_team_agree(const CwTeam *team, CwStatus status);
+
+// [out] part: the ranks that gave the same number, until cw_team_join frees it; a rank that waits there sleeps.
+CwStatus cw_team_split(const CwTeam *team, int number, CwTeam **part);
+void cw_team_join(const CwTeam *team, CwTeam **part);
+
+// `size` bytes of the rank `from` to the others. [in,out] bytes.
+void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from);
+
+// The greatest of all ranks, for each of `count` values. [in,out] value.
+void cw_team_most(const CwTeam *team, int32_t count, double *value);
 
 #ifdef __cplusplus
 }

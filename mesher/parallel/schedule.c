@@ -28,24 +28,24 @@ typedef struct {
 
 // Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few
 // broadcasts.
-static CwStatus gather_results(int32_t count, const TaskEnd *end, void **bytes) {
+static CwStatus gather_results(const CwTeam *team, int32_t count, const TaskEnd *end, void **bytes) {
   CwStatus status = CW_OK;
   char *pack = NULL;
-  for (int rank = 0; rank < cw_team()->ranks && cw_team()->ranks > 1; rank++) {
+  for (int rank = 0; rank < team->ranks && team->ranks > 1; rank++) {
     int64_t total = 0, at = 0;
     for (int32_t task = 0; task < count; task++) {
       if (end[task].owner == rank) total += (int64_t)end[task].size;
     }
     if (total == 0) continue;
     CW_NEW_UNSET(pack, total);
-    for (int32_t task = 0; rank == cw_team()->rank && task < count; task++) {
+    for (int32_t task = 0; rank == team->rank && task < count; task++) {
       if (end[task].owner != rank || end[task].size == 0) continue;
       memcpy(pack + at, bytes[task], (size_t)end[task].size);
       at += (int64_t)end[task].size;
     }
-    cw_team_broadcast(pack, total, rank);
+    cw_team_broadcast(team, pack, total, rank);
     at = 0;
-    for (int32_t task = 0; rank != cw_team()->rank && task < count; task++) {
+    for (int32_t task = 0; rank != team->rank && task < count; task++) {
       if (end[task].owner != rank || end[task].size == 0) continue;
       bytes[task] = malloc((size_t)end[task].size);
       CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %.0f bytes", end[task].size);
@@ -103,6 +103,7 @@ done:
 }
 
 typedef struct {
+  const CwTeam *team;
   const CwSchedule *schedule;
   void **bytes;
   TaskEnd *end;   // by task
@@ -117,7 +118,7 @@ static CwStatus run_task(Work *work, int32_t task) {
   CW_TRY(work->schedule->run(work->schedule->context, task, &result, &size));
   double seconds = cw_processor_seconds() - start;
   work->seconds += seconds;
-  work->end[task] = (TaskEnd){cw_team()->rank, (double)size, seconds};
+  work->end[task] = (TaskEnd){work->team->rank, (double)size, seconds};
   if (work->bytes)
     work->bytes[task] = result;
   else
@@ -131,7 +132,7 @@ static CwStatus take_tasks(Work *work, const Order *order) {
   CwStatus status = CW_OK;
   CwTaskServer *server = NULL;
   CwTaskOrder list = {work->schedule->count, order->left, order->before};
-  CW_TRY(cw_task_server_start(&list, &server));
+  CW_TRY(cw_task_server_start(work->team, &list, &server));
   for (;;) {
     CwPlaces places = cw_task_server_next(server, work->schedule->unit ? cw_progress : NULL);
     if (places.count == 0) break;
@@ -148,41 +149,43 @@ static CwStatus deal_tasks(Work *work, const Order *order) {
   for (int32_t place = 0, ended = 0; place < work->schedule->count; place++) {
     int32_t first = place;
     while (order->before && order->before[first] >= 0) first = order->before[first];
-    if (first % cw_team()->ranks != cw_team()->rank) continue;
+    if (first % work->team->ranks != work->team->rank) continue;
     CW_TRY(run_task(work, order->task[place]));
-    if (work->schedule->unit) cw_progress(++ended * cw_team()->ranks);
+    if (work->schedule->unit) cw_progress(++ended * work->team->ranks);
   }
-  if (cw_team()->ranks > 1) cw_team_barrier();
+  cw_team_barrier(work->team);
 done:
   return status;
 }
 
-CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
+CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, void **bytes, int64_t *size,
+                         double *seconds) {
   CwStatus status = CW_OK;
   Order order = {0};
-  Work work = {.schedule = schedule, .bytes = bytes};
+  Work work = {.team = cw_team_of(context), .schedule = schedule, .bytes = bytes};
   int32_t count = schedule->count;
   int64_t gathered = 0;
   double *time = NULL;
-  const char *part = cw_profiler_part("exchange");
+  const char *part = cw_profiler_part(context, "exchange");
   CW_NEW(work.end, count);
   CW_NEW(time, count);
   for (int32_t task = 0; task < count; task++) work.end[task] = (TaskEnd){-1, -1, -1};
   CW_TRY(put_in_order(schedule, &order));
   if (schedule->unit) cw_progress_start(schedule->step, count, schedule->unit);
-  int served = cw_team()->ranks > 1 && cw_team()->threads && count > 0 && !schedule->alike;
+  int served = work.team->ranks > 1 && work.team->threads && count > 0 && !schedule->alike;
   CW_TRY(served ? take_tasks(&work, &order) : deal_tasks(&work, &order));
-  if (cw_team()->ranks > 1) cw_team_most(3 * count, &work.end->owner);
+  cw_team_most(work.team, 3 * count, &work.end->owner);
   for (int32_t task = 0; task < count; task++) {
     time[task] = work.end[task].seconds;
     if (size) size[task] = (int64_t)work.end[task].size;
     if (schedule->gather) gathered += size[task];
   }
-  if (schedule->gather) CW_TRY(gather_results(count, work.end, bytes));
-  CW_TRY(cw_profiler_tasks(schedule->step, count, schedule->cost, schedule->after, time, work.seconds, gathered));
+  if (schedule->gather) CW_TRY(gather_results(work.team, count, work.end, bytes));
+  CW_TRY(
+      cw_profiler_tasks(context, schedule->step, count, schedule->cost, schedule->after, time, work.seconds, gathered));
   if (seconds) memcpy(seconds, time, (size_t)count * sizeof *time);
   if (schedule->unit) cw_progress_end();
-  cw_profiler_part(part);
+  cw_profiler_part(context, part);
 done:
   free(time);
   free(work.end);

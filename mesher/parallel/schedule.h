@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -31,14 +32,15 @@ typedef struct {
   int gather; // 1: every rank gets every result in bytes[task]
 } CwSchedule;
 
-// Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start (ranks.h) there is one rank.
+// Runs all tasks over the ranks of the context's team; all give the same schedule.
 // `bytes` and `size` (arrays of count, zeroed, may be NULL where nothing is gathered) receive results and their sizes;
 // the caller frees bytes[i]. Without `gather` a result stays on the rank that ran the task. `seconds` (count, may be
 // NULL) receives the processor time of each task on all ranks: what else runs on the machine does not count.
 // A rank that waits sleeps, so that more ranks than cores cost nothing. The next task comes from a server that answers
 // while tasks run (task_server.h); where MPI allows no threads they are dealt in turn, as those that are alike.
 // A failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
-CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds);
+CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, void **bytes, int64_t *size,
+                         double *seconds);
 
 #ifdef __cplusplus
 }

@@ -13,6 +13,7 @@ static const double SHOW_PAUSE = 0.25; // s
 typedef enum { OPEN, GIVEN, ENDED } PlaceState;
 
 struct CwTaskServer {
+  const CwTeam *team;
   CwTaskOrder order;
   // On the first rank alone, and under the lock.
   pthread_t thread;
@@ -34,8 +35,8 @@ static struct timespec after(double seconds) {
 }
 
 // So many places from `first` on that all ranks end at about the same time.
-static int32_t part_of(const CwTaskOrder *order, int32_t first) {
-  double part = 1.0 / (PARTS * cw_team()->ranks), cost = part * order->left[first];
+static int32_t part_of(const CwTaskOrder *order, int ranks, int32_t first) {
+  double part = 1.0 / (PARTS * ranks), cost = part * order->left[first];
   int32_t most = (int32_t)(part * (order->count - first)), count = 1;
   while (count < most && order->left[first] - order->left[first + count + 1] <= cost) count++;
   return count;
@@ -48,7 +49,7 @@ static CwPlaces choose(CwTaskServer *server) {
   for (int32_t place = server->first; place < order->count; place++) {
     int32_t before = order->before ? order->before[place] : -1;
     if (server->state[place] != OPEN || (before >= 0 && server->state[before] != ENDED)) continue;
-    CwPlaces places = {place, order->before ? 1 : part_of(order, place)};
+    CwPlaces places = {place, order->before ? 1 : part_of(order, server->team->ranks, place)};
     for (int32_t i = 0; i < places.count; i++) server->state[place + i] = GIVEN;
     return places;
   }
@@ -62,29 +63,29 @@ static void take_up(CwTaskServer *server, int asking) {
   server->ended += held[asking].count;
   held[asking].count = 0;
   server->asks[asking] = 1;
-  for (int rank = 0; rank < cw_team()->ranks; rank++) {
+  for (int rank = 0; rank < server->team->ranks; rank++) {
     if (!server->asks[rank]) continue;
     held[rank] = choose(server);
     if (held[rank].count == 0 && server->ended < server->order.count) break; // until others end
     server->asks[rank] = 0;
     server->gone += held[rank].count == 0;
     if (rank > 0)
-      MPI_Send(&held[rank], 2, MPI_INT32_T, rank, GIVE_TAG, cw_team()->comm);
+      MPI_Send(&held[rank], 2, MPI_INT32_T, rank, GIVE_TAG, server->team->comm);
     else
       pthread_cond_signal(&server->answered);
   }
-  if (server->gone == cw_team()->ranks) pthread_cond_signal(&server->look);
+  if (server->gone == server->team->ranks) pthread_cond_signal(&server->look);
 }
 
 static void *serve(void *context) {
   CwTaskServer *server = context;
   pthread_mutex_lock(&server->lock);
-  for (double pause = CW_TEAM_PAUSE; server->gone < cw_team()->ranks;) {
+  for (double pause = CW_TEAM_PAUSE; server->gone < server->team->ranks;) {
     int there;
     MPI_Status message;
-    MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, cw_team()->comm, &there, &message);
+    MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, server->team->comm, &there, &message);
     if (there) {
-      MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, cw_team()->comm, MPI_STATUS_IGNORE);
+      MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, server->team->comm, MPI_STATUS_IGNORE);
       take_up(server, message.MPI_SOURCE);
       pause = CW_TEAM_PAUSE;
       continue;
@@ -101,8 +102,8 @@ static CwStatus start_thread(CwTaskServer *server) {
   CwStatus status = CW_OK;
   pthread_condattr_t clock;
   CW_NEW(server->state, server->order.count);
-  CW_NEW(server->held, cw_team()->ranks);
-  CW_NEW(server->asks, cw_team()->ranks);
+  CW_NEW(server->held, server->team->ranks);
+  CW_NEW(server->asks, server->team->ranks);
   pthread_mutex_init(&server->lock, NULL);
   pthread_condattr_init(&clock);
   pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
@@ -115,21 +116,22 @@ done:
   return status;
 }
 
-CwStatus cw_task_server_start(const CwTaskOrder *order, CwTaskServer **made) {
+CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTaskServer **made) {
   CwStatus status = CW_OK;
   CW_NEW(*made, 1);
+  (*made)->team = team;
   (*made)->order = *order;
-  if (cw_team()->rank == 0) CW_TRY(start_thread(*made));
+  if (team->rank == 0) CW_TRY(start_thread(*made));
 done:
   return status;
 }
 
 CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(int64_t ended)) {
   CwPlaces places;
-  if (cw_team()->rank > 0) {
+  if (server->team->rank > 0) {
     MPI_Request request;
-    MPI_Irecv(&places, 2, MPI_INT32_T, 0, GIVE_TAG, cw_team()->comm, &request);
-    MPI_Send(NULL, 0, MPI_BYTE, 0, ASK_TAG, cw_team()->comm);
+    MPI_Irecv(&places, 2, MPI_INT32_T, 0, GIVE_TAG, server->team->comm, &request);
+    MPI_Send(NULL, 0, MPI_BYTE, 0, ASK_TAG, server->team->comm);
     cw_team_wait(&request);
     return places;
   }

@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 // Tasks by place, in the order in which they are given.
@@ -23,9 +24,9 @@ typedef struct {
 
 typedef struct CwTaskServer CwTaskServer;
 
-// Collective over the team; all ranks give the same order, which lasts until the server stops. CW_ERR_MEMORY,
+// Collective over the team; all ranks give the same order; team and order last until the server stops. CW_ERR_MEMORY,
 // CW_ERR_LIBRARY where there is no thread.
-CwStatus cw_task_server_start(const CwTaskOrder *order, CwTaskServer **server);
+CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTaskServer **server);
 
 // The places that this rank had last have ended; returns the next. They are so many that their cost is a quarter of a
 // rank's part of what is left at most, one at least (guided self-scheduling: Polychronopoulos and Kuck 1987), and one

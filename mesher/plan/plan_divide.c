@@ -138,7 +138,7 @@ static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
   CW_NEW(size, look->count);
   CwSchedule schedule = {
       .step = "decomposition", .count = look->count, .run = look_along, .context = look, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(look->model->context, &schedule, bytes, size, NULL));
   for (int32_t i = 0; i < look->count; i++) {
     if (size[i] > 0) memcpy(candidate + *count, bytes[i], (size_t)size[i]);
     *count += (int32_t)(size[i] / (int64_t)sizeof *candidate);

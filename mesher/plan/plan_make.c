@@ -6,8 +6,8 @@
 
 #include "mesher/plan/plan_divide.h"
 
-CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                      const CwPlanOptions *options, CwPlan *plan) {
+CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                      const CwInside *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
@@ -15,7 +15,7 @@ CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const Cw
   CW_NEW(plan->node, options->region_count);
   CW_NEW(plan->worst_angle, options->region_count);
   CW_NEW(plan->predicted_cells, options->region_count);
-  CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
+  CW_TRY(cw_plan_model_make(context, cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
   model.mean_work = whole.work / options->region_count;
   plan->region_count = 0;

@@ -5,6 +5,7 @@
 #ifndef CUTWATER_MESHER_PLAN_PLAN_MAKE_H
 #define CUTWATER_MESHER_PLAN_PLAN_MAKE_H
 
+#include "mesher/parallel/context.h"
 #include "mesher/plan/plan_model.h"
 
 #ifdef __cplusplus
@@ -12,8 +13,8 @@ extern "C" {
 #endif
 
 // Collective: the ranks look along some of the directions each, and have the same plan. Caller frees it.
-CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                      const CwPlanOptions *options, CwPlan *plan);
+CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                      const CwInside *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan);
 
 #ifdef __cplusplus
 }

@@ -149,7 +149,7 @@ static CwStatus sample_walls(CwPlanModel *model) {
   int32_t triangles = model->background->triangle_count, *count = NULL, *start = NULL;
   CW_NEW_UNSET(count, triangles);
   CW_NEW_UNSET(start, triangles + 1);
-  CW_TRY(cw_parallel_for("decomposition", triangles, sizeof *count, count_points, model, count));
+  CW_TRY(cw_parallel_for(model->context, "decomposition", triangles, sizeof *count, count_points, model, count));
   start[0] = 0;
   for (int32_t t = 0; t < triangles; t++) {
     start[t + 1] = start[t] + count[t];
@@ -161,8 +161,8 @@ static CwStatus sample_walls(CwPlanModel *model) {
   for (int32_t t = 0; t < triangles; t++) {
     for (int32_t i = start[t]; i < start[t + 1]; i++) model->wall_triangle[i] = t;
   }
-  CW_TRY(cw_parallel_for_lists("decomposition", triangles, start, sizeof *model->wall_x, find_points, model,
-                               model->wall_x));
+  CW_TRY(cw_parallel_for_lists(model->context, "decomposition", triangles, start, sizeof *model->wall_x, find_points,
+                               model, model->wall_x));
   CW_TRY(
       cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP * model->base_size, &model->walls));
 done:
@@ -266,7 +266,7 @@ static CwStatus sort_triangles(CwPlanModel *model) {
   for (int32_t t = 0; t < background->triangle_count; t++) {
     for (int k = 0; k < 3; k++) cw_box_add_point(&within, background->x[background->triangle[t][k]]);
   }
-  return cw_box_tree_make(background->triangle_count, &within, box_of, background, &model->triangles);
+  return cw_box_tree_make(model->context, background->triangle_count, &within, box_of, background, &model->triangles);
 }
 
 // Of a background triangle.
@@ -325,7 +325,7 @@ static CwStatus limit_layers(CwPlanModel *model) {
   int32_t count = model->background->triangle_count;
   double *limited = NULL;
   CW_NEW_UNSET(limited, count);
-  CW_TRY(cw_parallel_for("decomposition", count, sizeof *limited, limit_by_gap, model, limited));
+  CW_TRY(cw_parallel_for(model->context, "decomposition", count, sizeof *limited, limit_by_gap, model, limited));
   memcpy(model->thickness, limited, (size_t)count * sizeof *limited);
 done:
   free(limited);
@@ -344,7 +344,7 @@ static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, Cw
   for (int32_t t = 0; t < background->triangle_count; t++) {
     model->wall[t] = cw_cad_face_is_wall(cad, background->face[t]);
   }
-  CW_TRY(cw_parallel_for("decomposition", background->triangle_count, sizeof *made, measure,
+  CW_TRY(cw_parallel_for(model->context, "decomposition", background->triangle_count, sizeof *made, measure,
                          &(Walls){cad, options, model}, made));
   for (int32_t t = 0; t < background->triangle_count; t++) {
     cw_copy(made[t].normal, model->normal[t]);
@@ -423,7 +423,8 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   double even = 0, *outside = NULL;
   CW_TRY(cw_size_samples(model->size, &places.count, &places.x, &places.volume));
   CW_NEW(places.work, places.count);
-  CW_TRY(cw_parallel_for("decomposition", places.count, sizeof *places.work, find_work, &places, places.work));
+  CW_TRY(cw_parallel_for(model->context, "decomposition", places.count, sizeof *places.work, find_work, &places,
+                         places.work));
   for (int32_t i = 0; i < places.count; i++) even += places.work[i] / SAMPLES_OF_REGION / options->region_count;
   visit_samples(&places, even, model);
   CW_NEW(model->sample_volume, model->sample_count);
@@ -435,8 +436,8 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
     if (model->sample_volume[i] > model->sample_spacing) model->sample_spacing = model->sample_volume[i];
   }
   model->sample_spacing = cbrt(model->sample_spacing);
-  CW_TRY(
-      cw_parallel_for("decomposition", model->sample_count, sizeof *outside, find_work_outside_layers, model, outside));
+  CW_TRY(cw_parallel_for(model->context, "decomposition", model->sample_count, sizeof *outside,
+                         find_work_outside_layers, model, outside));
   memcpy(model->sample_work, outside, (size_t)model->sample_count * sizeof *outside);
 done:
   free(places.x);
@@ -446,10 +447,12 @@ done:
   return status;
 }
 
-CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
-                            const CwSize *size, const CwPlanOptions *options, CwPlanModel *model) {
+CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                            const CwInside *inside, const CwSize *size, const CwPlanOptions *options,
+                            CwPlanModel *model) {
   CwStatus status = CW_OK;
   memset(model, 0, sizeof *model);
+  model->context = context;
   model->background = background;
   model->inside = inside;
   model->size = size;

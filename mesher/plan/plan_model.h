@@ -9,6 +9,7 @@
 #include "mesher/cad/inside.h"
 #include "mesher/common/box_tree.h"
 #include "mesher/common/cubes.h"
+#include "mesher/parallel/context.h"
 #include "mesher/plan/plan.h"
 #include "mesher/size/size.h"
 
@@ -29,6 +30,7 @@ typedef struct {
 // What cuts are judged by. The fields are points with their attributes: samples of the volume, background triangles,
 // CAD edges and walls.
 typedef struct {
+  const CwContext *context; // the ranks that plan
   const CwInside *inside;
   const CwBackground *background;
   const CwSize *size;
@@ -76,8 +78,9 @@ typedef struct {
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge);
 
 // Collective: what takes long is shared among the ranks.
-CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
-                            const CwSize *size, const CwPlanOptions *options, CwPlanModel *model);
+CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                            const CwInside *inside, const CwSize *size, const CwPlanOptions *options,
+                            CwPlanModel *model);
 void cw_plan_model_free(CwPlanModel *model);
 
 // The whole domain, and the part of `whole` on the negative side of a plane (other: the positive one).

@@ -232,7 +232,7 @@ static CwStatus judge_half_planes(Sectors *sectors, const CwPlanPart *part) {
   void *bytes[ANGLES] = {0};
   int64_t size[ANGLES] = {0};
   CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(sectors->model->context, &schedule, bytes, size, NULL));
   for (int i = 0; i < ANGLES; i++) memcpy(&sectors->judged[i], bytes[i], sizeof sectors->judged[i]);
   sectors->is_judged = 1;
 done:
@@ -455,9 +455,9 @@ done:
   return status;
 }
 
-CwStatus cw_sector_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
-                             const CwSize *size, const CwPlanOptions *options, int32_t count, CwPlan *plan,
-                             CwOutcome *outcome) {
+CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
+                             const CwInside *inside, const CwSize *size, const CwPlanOptions *options, int32_t count,
+                             CwPlan *plan, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
@@ -469,7 +469,7 @@ CwStatus cw_sector_plan_make(const CwCad *cad, const CwBackground *background, c
   int32_t slices, numbers = 0;
   CW_TRY(new_plan(room, plan));
   CW_TRY(new_plan(room, &tried));
-  CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
+  CW_TRY(cw_plan_model_make(context, cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
   find_axis(&sectors, outcome);
   if (outcome->kind != CW_OUTCOME_DONE) goto done;

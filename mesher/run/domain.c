@@ -145,7 +145,8 @@ int cw_domain_least_regions(const CwCase *table, double cells) {
                    fmax(cw_policy.regions_free, floor(cells / cw_policy.region_cells_fewest)));
 }
 
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome) {
+CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase *table, double cells,
+                        double prism_factor, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = fmax(ceil(cells / cells_per_region(table)), cw_domain_least_regions(table, cells));
@@ -165,9 +166,9 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .base_size = domain->base_size,
                            .prism_factor = prism_factor};
   status = domain->symmetry
-               ? cw_sector_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
+               ? cw_sector_plan_make(context, domain->cad, &domain->background, domain->inside, domain->size, &options,
                                      domain->symmetry->count, &plan, outcome)
-               : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
+               : cw_plan_make(context, domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
   CW_TRY_STAGE(status, outcome);
   CW_END_UNLESS(!domain->symmetry || fixed_faces_fit(domain, &plan), outcome, CW_OUTCOME_ASYMMETRIC, NULL,
                 "a face round the axis lies on the side of the passages");
@@ -181,7 +182,7 @@ done:
   return status;
 }
 
-CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome) {
+CwStatus cw_domain_start(const CwContext *context, CwDomain *domain, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   cw_domain_clear(domain);
   domain->images.symmetry = domain->symmetry;
@@ -191,15 +192,15 @@ CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome) {
                                     .images = &domain->images,
                                     .size_at = cw_size_at,
                                     .size = domain->size};
-  CW_TRY_STAGE(
-      cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &domain->network, outcome),
-      outcome);
+  CW_TRY_STAGE(cw_network_make(context, domain->cad, &domain->background, domain->inside, &domain->plan,
+                               &domain->network, outcome),
+               outcome);
   if (domain->symmetry) CW_TRY(cw_periodic_images_make(&domain->network, &domain->images, outcome));
 done:
   return status;
 }
 
-CwStatus cw_domain_targets(CwDomain *domain) {
+CwStatus cw_domain_targets(const CwContext *context, CwDomain *domain) {
   CwStatus status = CW_OK;
   CwLayerTarget *layers = NULL; // of each face
   CwIncident around = {0};
@@ -208,9 +209,9 @@ CwStatus cw_domain_targets(CwDomain *domain) {
   for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
   CW_TRY(cw_incident_make(domain->surface.vertex_count, domain->surface.triangle_count,
                           (const int32_t(*)[3])domain->surface.triangle, &around));
-  CW_TRY(
-      cw_column_targets_make(&domain->input, &domain->surface, &around, layers, domain->layer_count, &domain->targets));
-  CW_TRY(cw_column_targets_share(&domain->targets, &domain->input, &domain->surface, &around, layers,
+  CW_TRY(cw_column_targets_make(context, &domain->input, &domain->surface, &around, layers, domain->layer_count,
+                                &domain->targets));
+  CW_TRY(cw_column_targets_share(context, &domain->targets, &domain->input, &domain->surface, &around, layers,
                                  &domain->layer_share));
 done:
   cw_incident_free(&around);

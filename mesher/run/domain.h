@@ -5,6 +5,7 @@
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/symmetry.h"
+#include "mesher/parallel/context.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_build.h"
 #include "mesher/size/size.h"
@@ -90,15 +91,16 @@ int cw_domain_least_regions(const CwCase *table, double cells);
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
 // the ranks look along some of the directions each, and have the same plan. With a symmetry it is a sector
 // decomposition; outcome: CW_OUTCOME_ASYMMETRIC where none can be had.
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome);
+CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase *table, double cells,
+                        double prism_factor, CwOutcome *outcome);
 
 // Starts the surfaces anew at the present scale of the size field: curve network. Then cw_couple_open_edges and
 // cw_wall_curves_make. Outcome: that of cw_network_make and cw_periodic_images_make.
-CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome);
+CwStatus cw_domain_start(const CwContext *context, CwDomain *domain, CwOutcome *outcome);
 
 // First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
 // Collective.
-CwStatus cw_domain_targets(CwDomain *domain);
+CwStatus cw_domain_targets(const CwContext *context, CwDomain *domain);
 
 // Region numbers, once the inner surfaces are merged.
 CwStatus cw_domain_number(CwDomain *domain);

@@ -72,7 +72,7 @@ done:
 
 // What the count of cells follows from: integrals of the size field at a scale, for sizes over that, over walls and
 // volume. Collective.
-static CwStatus integrate(CwDomain *domain, double scale) {
+static CwStatus integrate(const CwContext *context, CwDomain *domain, double scale) {
   CwStatus status = CW_OK;
   WallPiece *piece = NULL;
   double *along = NULL;
@@ -86,11 +86,11 @@ static CwStatus integrate(CwDomain *domain, double scale) {
   cw_size_set_scale(domain->size, scale);
   CW_NEW(piece, domain->background.triangle_count);
   CW_NEW(along, lines);
-  CW_TRY(
-      cw_parallel_for("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
+  CW_TRY(cw_parallel_for(context, "size integrals", domain->background.triangle_count, sizeof *piece, find_piece,
+                         domain, piece));
   for (int32_t t = 0; t < domain->background.triangle_count; t++) piece[t].size /= scale;
   CW_TRY(sum_pieces(domain, piece));
-  CW_TRY(cw_parallel_for("size integrals", lines, sizeof *along, find_line, domain, along));
+  CW_TRY(cw_parallel_for(context, "size integrals", lines, sizeof *along, find_line, domain, along));
   for (int32_t i = 0; i < lines; i++) domain->volume_integral += along[i] * scale * scale * scale;
 done:
   free(piece);
@@ -197,7 +197,7 @@ done:
   return status;
 }
 
-CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
+CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain, void **bytes) {
   CwStatus status = CW_OK;
   CwSize *open_edges = NULL;
   cw_size_seeds_free(&domain->seeds);
@@ -207,19 +207,19 @@ CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
   domain->solid_volume = 0;
   for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
   CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
-  CW_TRY(integrate(domain, 1));
+  CW_TRY(integrate(context, domain, 1));
 done:
   cw_size_free(&open_edges);
   return status;
 }
 
-CwStatus cw_domain_take_field(CwDomain *domain, double scale, void **bytes) {
+CwStatus cw_domain_take_field(const CwContext *context, CwDomain *domain, double scale, void **bytes) {
   CwStatus status = CW_OK;
   CwSize *field = NULL;
   CW_TRY(cw_size_unpack(bytes, &field));
   cw_size_join(field, &domain->size);
   domain->size = field;
-  CW_TRY(integrate(domain, scale));
+  CW_TRY(integrate(context, domain, scale));
 done:
   return status;
 }

@@ -3,6 +3,7 @@
 #ifndef CUTWATER_MESHER_RUN_DOMAIN_SIZE_H
 #define CUTWATER_MESHER_RUN_DOMAIN_SIZE_H
 
+#include "mesher/parallel/context.h"
 #include "mesher/run/domain.h"
 
 // What one rank makes for all, packed, and how all take it up: a part of the seeds of the size field; then the field
@@ -16,9 +17,10 @@ void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part
 // their layers allow.
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
                              void *const *seeds, int part, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
+CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain,
+                             void **bytes); // takes them over (cw_size_unpack); collective
 // The same for part CW_SIZE_SEEDS made once more, for about this scale.
-CwStatus cw_domain_take_field(CwDomain *domain, double scale, void **bytes);
+CwStatus cw_domain_take_field(const CwContext *context, CwDomain *domain, double scale, void **bytes);
 // Adds up area / h^2 of the walls at a scale of the field, and what it would be with no edge longer than they allow.
 void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, double *asked);
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of

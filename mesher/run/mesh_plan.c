@@ -62,7 +62,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
   CwMeshTask *task = NULL;
   int32_t faces[CW_DOMAINS_MOST], count = 0, all = 0;
   double deflection = DEFLECTION * least_extent(run);
-  cw_profiler_part("edges of the background");
+  cw_profiler_part(&run->context, "edges of the background");
   cw_face_counts(run, faces);
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_start_background(&run->domain[d], deflection));
@@ -76,7 +76,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
     }
   }
   CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
-  cw_profiler_part("background joined");
+  cw_profiler_part(&run->context, "background joined");
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
     cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
@@ -93,7 +93,7 @@ done:
 static CwStatus find_symmetry(CwMeshRun *run) {
   CwStatus status = CW_OK;
   if (!run->table->mesh.periodic_impeller) goto done;
-  cw_profiler_part("symmetry");
+  cw_profiler_part(&run->context, "symmetry");
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
@@ -169,7 +169,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
                  run->gradation, run->wall_scale);
     CW_TRY(run_parts(run, "size field", cw_step_size, parts, field_cost, &results));
     for (int d = 0; d < run->model.domain_count; d++)
-      CW_TRY(cw_domain_take_field(&run->domain[d], made_for, results.bytes[d]));
+      CW_TRY(cw_domain_take_field(&run->context, &run->domain[d], made_for, results.bytes[d]));
     cw_results_free(&results);
   }
 done:
@@ -192,8 +192,9 @@ static CwStatus make_sizes(CwMeshRun *run) {
   run->gradation = run->table->mesh.gradation;
   run->wall_scale = 0;
   CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
-  cw_profiler_part("integrals of the size");
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
+  cw_profiler_part(&run->context, "integrals of the size");
+  for (int d = 0; d < run->model.domain_count; d++)
+    CW_TRY(cw_domain_take_size(&run->context, &run->domain[d], results.bytes[d]));
   CW_TRY(hold_gradation(run));
   for (int d = 0; d < run->model.domain_count; d++)
     CW_AUDIT(cw_size_audit(run->domain[d].size, &run->domain[d].background));
@@ -231,7 +232,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   char path[4096];
   double started = cw_seconds();
   run->headlines = json_array();
-  cw_profiler_part("geometry");
+  cw_profiler_part(&run->context, "geometry");
   snprintf(path, sizeof path, "%s/geometry/model.json", run->run_path);
   CW_TRY(cw_model_read(path, &run->model));
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
@@ -254,11 +255,12 @@ done:
 }
 
 // Collective. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
-static CwStatus plan_domain(CwMeshRun *run, int d, CwOutcome *outcome) {
+static CwStatus plan_domain(const CwContext *context, CwMeshRun *run, int d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  cw_profiler_part("planes weighed");
+  cw_profiler_part(context, "planes weighed");
   double prisms = cw_cell_law_at(&run->prisms, run->scale);
-  CW_TRY_STAGE(cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), prisms, outcome), outcome);
+  CW_TRY_STAGE(cw_domain_plan(context, &run->domain[d], run->table, cw_predicted_cells(run, d), prisms, outcome),
+               outcome);
   CW_AUDIT(cw_plan_audit(&run->domain[d].plan));
 done:
   return status;
@@ -275,7 +277,7 @@ static CwStatus plan_anew(CwMeshRun *run, int d) {
   run->prisms = run->planned_prisms;
   run->tets = run->planned_tets;
   cw_mesh_set_scale(run, run->planned_scale);
-  CW_TRY(plan_domain(run, d, &outcome));
+  CW_TRY(plan_domain(&run->context, run, d, &outcome));
   run->prisms = prisms;
   run->tets = tets;
   cw_mesh_set_scale(run, scale);
@@ -355,13 +357,13 @@ static void warn_of_few_cells(const CwMeshRun *run, int d) {
               run->domain[d].name, asked, least, cells);
 }
 
-static CwStatus plan_item(void *context, int32_t d, CwOutcome *outcome) {
-  return plan_domain(context, d, outcome);
+static CwStatus plan_item(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
+  return plan_domain(context, given, d, outcome);
 }
 
-static CwStatus hand_plan(void *context, const CwGroupHand *hand) {
+static CwStatus hand_plan(void *given, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
-  CwMeshRun *run = context;
+  CwMeshRun *run = given;
   CwPlan *plan = &run->domain[hand->item].plan;
   void *bytes = NULL;
   int64_t size = 0;
@@ -393,9 +395,9 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
                       .own = OWN_PLAN,
                       .run = plan_item,
                       .hand = hand_plan,
-                      .context = run};
+                      .given = run};
   cw_progress_start("decomposition", run->model.domain_count, "domains");
-  CW_TRY(cw_groups_run(&work, outcome));
+  CW_TRY(cw_groups_run(&run->context, &work, outcome));
   cw_progress(run->model.domain_count);
   cw_progress_end();
   for (int d = 0; d < run->model.domain_count; d++) {

@@ -121,7 +121,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     for (int d = 0; d < run->model.domain_count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     cw_mesh_solve_scale(run);
   }
-  cw_profiler_part("manifest");
+  cw_profiler_part(&run->context, "manifest");
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
 done:
   return status;

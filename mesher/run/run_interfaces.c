@@ -14,7 +14,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   CwResults results = {0}; // of each domain first those of its faces
   CwMeshTask *open_patch = NULL, *task = NULL;
   int32_t open_patches, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
-  cw_profiler_part("free curves");
+  cw_profiler_part(&run->context, "free curves");
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     CwOutcome of_domain = {.domain = d};
@@ -49,7 +49,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
     }
   }
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
-  cw_profiler_part("inner surfaces merged");
+  cw_profiler_part(&run->context, "inner surfaces merged");
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_interfaces_make(&run->domain[d].input, &run->domain[d].free_curves, results.bytes[d],
                               results.bytes[d] + faces[d], &run->domain[d].interfaces));
@@ -85,7 +85,7 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
   CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
-  cw_profiler_part("interfaces merged");
+  cw_profiler_part(&run->context, "interfaces merged");
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     CW_TRY(cw_interface_rule_merge(&domain->images, &domain->interfaces, domain->plan.region_count, results.bytes[d],

@@ -24,14 +24,14 @@ static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DO
   return all;
 }
 
-static CwStatus find_thickness(void *context, int32_t d, CwOutcome *outcome) {
-  CwMeshRun *run = context;
-  return cw_domain_targets(&run->domain[d]);
+static CwStatus find_thickness(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
+  CwMeshRun *run = given;
+  return cw_domain_targets(context, &run->domain[d]);
 }
 
-static CwStatus hand_thickness(void *context, const CwGroupHand *hand) {
+static CwStatus hand_thickness(void *given, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
-  CwMeshRun *run = context;
+  CwMeshRun *run = given;
   CwDomain *domain = &run->domain[hand->item];
   CwColumnTargets *targets = &domain->targets;
   int32_t n = domain->surface.vertex_count;
@@ -55,8 +55,8 @@ CwStatus cw_run_thickness(CwMeshRun *run) {
                       .own = OWN_THICKNESS,
                       .run = find_thickness,
                       .hand = hand_thickness,
-                      .context = run};
-  return cw_groups_run(&work, outcome);
+                      .given = run};
+  return cw_groups_run(&run->context, &work, outcome);
 }
 
 // Share of the column over a vertex that its last layer takes where it is so high.
@@ -67,24 +67,24 @@ static double last_layer(const void *context, int32_t vertex, double thickness) 
   return 1 - fraction[targets->layer_count - 1];
 }
 
-static CwStatus grow(void *context, int32_t d, CwOutcome *outcome) {
+static CwStatus grow(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwMeshRun *run = context;
+  CwMeshRun *run = given;
   CwDomain *domain = &run->domain[d];
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->targets};
-  CW_TRY_STAGE(cw_boundary_grow(&domain->input, &domain->surface, &domain->background, domain->targets.target,
+  CW_TRY_STAGE(cw_boundary_grow(context, &domain->input, &domain->surface, &domain->background, domain->targets.target,
                                 domain->targets.least, &division, &domain->layers, outcome),
                outcome);
   CW_AUDIT(cw_layers_audit(&domain->layers, (const double(*)[3])domain->surface.x));
-  cw_profiler_part("layers: small prisms");
-  CW_TRY(cw_column_targets_even(&domain->targets, &domain->surface, &domain->layers));
+  cw_profiler_part(context, "layers: small prisms");
+  CW_TRY(cw_column_targets_even(context, &domain->targets, &domain->surface, &domain->layers));
 done:
   return status;
 }
 
-static CwStatus hand_layers(void *context, const CwGroupHand *hand) {
+static CwStatus hand_layers(void *given, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
-  CwMeshRun *run = context;
+  CwMeshRun *run = given;
   CwDomain *domain = &run->domain[hand->item];
   CwLayers *layers = &domain->layers;
   int32_t n = layers->column_count = domain->surface.vertex_count;
@@ -109,9 +109,9 @@ CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
                       .own = OWN_LAYERS,
                       .run = grow,
                       .hand = hand_layers,
-                      .context = run};
+                      .given = run};
   cw_progress_start("layers", faces, "wall faces");
-  CW_TRY(cw_groups_run(&work, of_domain));
+  CW_TRY(cw_groups_run(&run->context, &work, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   if (outcome->kind == CW_OUTCOME_DONE) cw_progress(faces);
   cw_progress_end();

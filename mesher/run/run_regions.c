@@ -28,7 +28,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   CwMeshTask *task = NULL;
   uint64_t open_faces[CW_DOMAINS_MOST] = {0};
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
-  cw_profiler_part("points that regions share");
+  cw_profiler_part(&run->context, "points that regions share");
   for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
   for (int d = 0; d < run->model.domain_count; d++) {
     regions[d] = run->domain[d].plan.region_count;
@@ -59,7 +59,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
   CW_TRY(
       cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes, run->region_seconds));
-  cw_profiler_part("results");
+  cw_profiler_part(&run->context, "results");
   run->cells = 0;
   for (int32_t i = 0; i < count; i++) {
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];

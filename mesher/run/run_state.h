@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 
+#include "mesher/parallel/context.h"
 #include "mesher/region/audit.h"
 #include "mesher/region/layer_ratio.h"
 #include "mesher/region/region_failure.h"
@@ -49,6 +50,7 @@ typedef enum {
 
 // The fields are what a run is asked, its domains, and what its passes have learnt.
 typedef struct {
+  CwContext context;
   const CwCase *table;
   const char *run_path;
   int rank, ranks;

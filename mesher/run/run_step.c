@@ -37,7 +37,7 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
                          .run = run_one,
                          .context = &context,
                          .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, result, size, time));
+  CW_TRY(cw_schedule_run(&run->context, &schedule, result, size, time));
   for (int32_t i = 0; i < count; i++) {
     bytes[task[i].domain][task[i].index] = result[i];
     result[i] = NULL;

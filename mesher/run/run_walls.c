@@ -23,7 +23,7 @@ static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->model.domain_count; d++) {
     outcome->domain = d;
-    CW_TRY_STAGE(cw_domain_start(&run->domain[d], outcome), outcome);
+    CW_TRY_STAGE(cw_domain_start(&run->context, &run->domain[d], outcome), outcome);
     CW_AUDIT(cw_network_audit(&run->domain[d].network));
   }
   for (int i = 0; i < run->model.interface_count; i++) {
@@ -34,7 +34,7 @@ static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   }
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
-    CW_TRY(cw_wall_curves_make(&domain->input, &domain->open_edges, &domain->wall_curves));
+    CW_TRY(cw_wall_curves_make(&run->context, &domain->input, &domain->open_edges, &domain->wall_curves));
     CW_AUDIT(cw_wall_curves_audit(&domain->wall_curves, &domain->network));
   }
 done:
@@ -52,15 +52,15 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   cw_face_counts(run, faces);
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
-    cw_profiler_part("curves of the walls");
+    cw_profiler_part(&run->context, "curves of the walls");
     CW_TRY_STAGE(start_walls(run, outcome), outcome);
     CW_TRY(cw_stage_view(run, CW_STAGE_CURVES));
     if (run->stopped) break;
     CW_TRY(cw_results_make(&results, run->model.domain_count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
-    cw_profiler_part("walls merged");
+    cw_profiler_part(&run->context, "walls merged");
     for (int d = 0; d < run->model.domain_count; d++) {
-      CW_TRY(cw_surface_mesh_make(&run->domain[d].input, &run->domain[d].wall_curves, results.bytes[d],
+      CW_TRY(cw_surface_mesh_make(&run->context, &run->domain[d].input, &run->domain[d].wall_curves, results.bytes[d],
                                   &run->domain[d].surface));
       CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].surface, run->domain[d].plan.region_count));
     }

@@ -45,7 +45,8 @@ static CwStatus find_near(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const int64_t *group, CwFlipMesh *mesh) {
+CwStatus cw_flip_neighbours(const CwContext *context, int32_t point_count, int32_t triangle_count, const int64_t *group,
+                            CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   CwIncident around = {0};
   uint8_t *wanted = NULL;
@@ -56,7 +57,8 @@ CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const i
   }
   CW_TRY(cw_incident_make(point_count, triangle_count, (const int32_t(*)[3])mesh->triangle, &around));
   Edges edges = {mesh, &around, wanted};
-  CW_TRY(cw_parallel_for("triangles across edges", triangle_count, sizeof *mesh->near, find_near, &edges, mesh->near));
+  CW_TRY(cw_parallel_for(context, "triangles across edges", triangle_count, sizeof *mesh->near, find_near, &edges,
+                         mesh->near));
 done:
   cw_incident_free(&around);
   free(wanted);

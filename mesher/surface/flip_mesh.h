@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 // near[t][k] lies across the side from corner k to the next, or is -1.
@@ -15,7 +16,8 @@ typedef struct {
 // Makes `near`, or brings a given one up to date (the caller frees it). Sides that run the same way twice, or that
 // three triangles share, have none; nor have those with no vertex of a triangle whose group is not below 0. group: may
 // be NULL. Collective.
-CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const int64_t *group, CwFlipMesh *mesh);
+CwStatus cw_flip_neighbours(const CwContext *context, int32_t point_count, int32_t triangle_count, const int64_t *group,
+                            CwFlipMesh *mesh);
 // Place of a vertex in triangle t, or -1.
 int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex);
 // Whether c, a corner of t, and d share an edge: looks at all triangles around c, from t both ways.

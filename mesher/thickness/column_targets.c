@@ -124,14 +124,16 @@ static double most_beside(const void *context, int32_t v, int32_t w) {
 }
 
 // Thicknesses rise by no more than `slope` per distance along any edge of the wall. Collective.
-static CwStatus grade(const CwSurfaceMesh *surface, const CwIncident *around, double slope, double *thickness) {
-  return cw_grade_thickness(&(CwGradation){.step = "thicknesses: steep",
+static CwStatus grade(const CwContext *context, const CwSurfaceMesh *surface, const CwIncident *around, double slope,
+                      double *thickness) {
+  return cw_grade_thickness(&(CwGradation){.context = context,
+                                           .step = "thicknesses: steep",
                                            .count = surface->vertex_count,
                                            .start = around->start,
                                            .triangle = around->triangle,
                                            .corner = (const int32_t(*)[3])surface->triangle,
                                            .most = most_beside,
-                                           .context = &(Slope){surface, thickness, slope},
+                                           .given = &(Slope){surface, thickness, slope},
                                            .thickness = thickness},
                             NULL);
 }
@@ -161,16 +163,18 @@ done:
 
 // What the walls ask of each vertex. Away from where patches meet the first height grows no faster than columns whose
 // layers grow a little can.
-static CwStatus take_asked(const CwSurfaceMesh *surface, const CwIncident *around, const CwLayerTarget *layers,
-                           CwColumnTargets *targets, CwLayerTarget *asked) {
+static CwStatus take_asked(const CwContext *context, const CwSurfaceMesh *surface, const CwIncident *around,
+                           const CwLayerTarget *layers, CwColumnTargets *targets, CwLayerTarget *asked) {
   CwStatus status = CW_OK;
   Columns columns = {.surface = surface, .around = around, .layers = layers};
-  CW_TRY(cw_parallel_for("thicknesses: asked", surface->vertex_count, sizeof *asked, find_asked, &columns, asked));
+  CW_TRY(cw_parallel_for(context, "thicknesses: asked", surface->vertex_count, sizeof *asked, find_asked, &columns,
+                         asked));
   for (int32_t v = 0; v < surface->vertex_count; v++) {
     targets->first_height[v] = asked[v].first_height;
     targets->growth[v] = asked[v].growth;
   }
-  CW_TRY(grade(surface, around, cw_policy.thickness_slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
+  CW_TRY(grade(context, surface, around,
+               cw_policy.thickness_slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
                targets->first_height));
 done:
   return status;
@@ -187,8 +191,9 @@ static void turn_copies(const CwNodeImages *nodes, int32_t count, CwColumnTarget
   }
 }
 
-CwStatus cw_column_targets_make(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwIncident *around,
-                                const CwLayerTarget *layers, int layer_count, CwColumnTargets *targets) {
+CwStatus cw_column_targets_make(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                                const CwIncident *around, const CwLayerTarget *layers, int layer_count,
+                                CwColumnTargets *targets) {
   CwStatus status = CW_OK;
   CwLayerTarget *asked = NULL;
   *targets = (CwColumnTargets){.layer_count = layer_count};
@@ -197,10 +202,10 @@ CwStatus cw_column_targets_make(const CwBoundaryInput *in, const CwSurfaceMesh *
   CW_NEW_UNSET(targets->target, surface->vertex_count);
   CW_NEW_UNSET(targets->least, surface->vertex_count);
   CW_NEW_UNSET(asked, surface->vertex_count);
-  CW_TRY(take_asked(surface, around, layers, targets, asked));
+  CW_TRY(take_asked(context, surface, around, layers, targets, asked));
   Columns columns = {.in = in, .surface = surface, .around = around, .targets = targets, .asked = asked};
-  CW_TRY(cw_parallel_for("thicknesses: fair ones", surface->vertex_count, sizeof *targets->target, find_fair, &columns,
-                         targets->target));
+  CW_TRY(cw_parallel_for(context, "thicknesses: fair ones", surface->vertex_count, sizeof *targets->target, find_fair,
+                         &columns, targets->target));
   turn_copies(&surface->images, surface->vertex_count, targets);
   double lowest = cw_layer_thickness(1, layer_count, cw_policy.kept_growth);
   for (int32_t v = 0; v < surface->vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
@@ -235,7 +240,7 @@ static CwStatus find_taken(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundaryInput *in,
+CwStatus cw_column_targets_share(const CwContext *context, const CwColumnTargets *targets, const CwBoundaryInput *in,
                                  const CwSurfaceMesh *surface, const CwIncident *around, const CwLayerTarget *layers,
                                  double *share) {
   CwStatus status = CW_OK;
@@ -244,9 +249,10 @@ CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundar
   CW_NEW_UNSET(graded, surface->vertex_count);
   CW_NEW_UNSET(of, surface->triangle_count);
   memcpy(graded, targets->target, (size_t)surface->vertex_count * sizeof *graded);
-  CW_TRY(grade(surface, around, cw_policy.thickness_slope, graded));
+  CW_TRY(grade(context, surface, around, cw_policy.thickness_slope, graded));
   Columns columns = {.in = in, .surface = surface, .targets = targets, .layers = layers, .graded = graded};
-  CW_TRY(cw_parallel_for("thicknesses: volume", surface->triangle_count, sizeof *of, find_taken, &columns, of));
+  CW_TRY(
+      cw_parallel_for(context, "thicknesses: volume", surface->triangle_count, sizeof *of, find_taken, &columns, of));
   for (int32_t t = 0; t < surface->triangle_count; t++) {
     sum.taken += of[t].taken;
     sum.flat += of[t].flat;

@@ -10,6 +10,7 @@
 
 #include "mesher/boundary/boundary.h"
 #include "mesher/common/incident.h"
+#include "mesher/parallel/context.h"
 #include "mesher/thickness/wall_targets.h"
 
 // Of each wall vertex.
@@ -31,12 +32,13 @@ double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, do
 // Sets first heights, growths, targets and least thicknesses of all wall vertices; layers: of each CAD face; around:
 // the wall's triangles. Periodic images get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has
 // no triangle.
-CwStatus cw_column_targets_make(const CwBoundaryInput *in, const CwSurfaceMesh *surface, const CwIncident *around,
-                                const CwLayerTarget *layers, int layer_count, CwColumnTargets *targets);
+CwStatus cw_column_targets_make(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
+                                const CwIncident *around, const CwLayerTarget *layers, int layer_count,
+                                CwColumnTargets *targets);
 
 // Of the volume (counted in cells) that flat walls would give the layers, the share that columns take once their
 // thicknesses are graded. Collective.
-CwStatus cw_column_targets_share(const CwColumnTargets *targets, const CwBoundaryInput *in,
+CwStatus cw_column_targets_share(const CwContext *context, const CwColumnTargets *targets, const CwBoundaryInput *in,
                                  const CwSurfaceMesh *surface, const CwIncident *around, const CwLayerTarget *layers,
                                  double *share);
 

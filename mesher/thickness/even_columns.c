@@ -122,7 +122,8 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
   return changed;
 }
 
-CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers) {
+CwStatus cw_column_targets_even(const CwContext *context, CwColumnTargets *targets, const CwSurfaceMesh *surface,
+                                const CwLayers *layers) {
   CwStatus status = CW_OK;
   Columns columns = {surface, layers, targets, NULL};
   int32_t *list = NULL, count = surface->triangle_count, kept = 0, changed;
@@ -132,7 +133,7 @@ CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwSurfaceMesh *s
   CW_NEW(judgement, count);
   CW_NEW(mark, surface->vertex_count);
   CW_NEW_UNSET(list, count);
-  CW_TRY(cw_parallel_for("thicknesses: small prisms", count, sizeof *judgement, judge, &columns, judgement));
+  CW_TRY(cw_parallel_for(context, "thicknesses: small prisms", count, sizeof *judgement, judge, &columns, judgement));
   for (int32_t t = 0; t < count; t++) {
     if (judgement[t] == FIXED) continue;
     judgement[kept] = judgement[t];
@@ -146,7 +147,8 @@ CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwSurfaceMesh *s
     }
     changed = even_marked(&columns, mark, targets->first_made);
     if (changed)
-      CW_TRY(cw_parallel_for("thicknesses: small prisms", kept, sizeof *judgement, judge, &columns, judgement));
+      CW_TRY(
+          cw_parallel_for(context, "thicknesses: small prisms", kept, sizeof *judgement, judge, &columns, judgement));
   } while (changed);
 done:
   free(list);

@@ -6,6 +6,7 @@
 #ifndef CUTWATER_MESHER_THICKNESS_EVEN_COLUMNS_H
 #define CUTWATER_MESHER_THICKNESS_EVEN_COLUMNS_H
 
+#include "mesher/parallel/context.h"
 #include "mesher/thickness/column_targets.h"
 
 // checkMesh's determinants of the prisms over a wall triangle, from the wall on, whose columns are divided by these
@@ -16,6 +17,7 @@ void cw_column_determinants(const CwColumnTargets *targets, const CwSurfaceMesh 
 // Sets first_made of all columns, once they stand: the first height or, around prisms of small determinants that more
 // even layers cure, less in short columns and up to 1.09 times as much in others, in steps of a twentieth until they
 // do. Periodic images get that of their first. Collective.
-CwStatus cw_column_targets_even(CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers);
+CwStatus cw_column_targets_even(const CwContext *context, CwColumnTargets *targets, const CwSurfaceMesh *surface,
+                                const CwLayers *layers);
 
 #endif

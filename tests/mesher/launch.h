@@ -19,14 +19,15 @@ static inline int launched(int argc) {
 }
 
 // What such a rank begins with: MPI, and the file by which one of those that fail says so.
-static inline CwStatus begin_as_rank(int *argc, char ***argv, int *rank, int *ranks) {
-  CwStatus status = cw_mpi_start(argc, argv, rank, ranks);
-  return status == CW_OK ? cw_mpi_agree(cw_stop_watch(getenv("CUTWATER_LAUNCHED"), "test", *rank == 0)) : status;
+static inline CwStatus begin_as_rank(int *argc, char ***argv, CwTeam **all) {
+  CwStatus status = cw_mpi_start(argc, argv, all);
+  if (status != CW_OK) return status;
+  return cw_team_agree(*all, cw_stop_watch(getenv("CUTWATER_LAUNCHED"), "test", cw_team_rank(*all) == 0));
 }
 
-static inline int end_as_rank(int code) {
+static inline int end_as_rank(CwTeam *all, int code) {
   cw_stop_end();
-  cw_mpi_end();
+  cw_mpi_end(&all);
   return code;
 }
 

@@ -44,7 +44,7 @@ struct PlannedSolid {
     check(cw_size_unpack(&block, &size));
     for (void *one : seed) free(one);
     CwPlanOptions options = {3, &thickness, nullptr, 0, 2e-3, 12};
-    check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
+    check(cw_plan_model_make(NULL, cad, &background, inside, size, &options, &model));
     check(cw_plan_part_whole(&model, &whole));
     model.mean_work = whole.work / 3;
   }

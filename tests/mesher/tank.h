@@ -122,7 +122,7 @@ struct Tank {
     boundary.input.cad = cad;
     boundary.input.plan = &plan;
     boundary.input.size_at = even_size;
-    check(cw_network_make(cad, &background, inside, &plan, &boundary.network, &outcome));
+    check(cw_network_make(NULL, cad, &background, inside, &plan, &boundary.network, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     boundary.images.symmetry = symmetry;
   }

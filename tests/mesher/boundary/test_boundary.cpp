@@ -71,7 +71,7 @@ struct Box {
     boundary.input.cad = cad;
     boundary.input.plan = &plan;
     boundary.input.size_at = even_size;
-    check(cw_network_make(cad, &background, inside, &plan, &boundary.network, &outcome));
+    check(cw_network_make(NULL, cad, &background, inside, &plan, &boundary.network, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
   }
   ~Box() {
@@ -205,13 +205,13 @@ static void make_walls(Box &box) {
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr);
   int64_t size;
-  Box::check(cw_wall_curves_make(&boundary.input, &boundary.open_edges, &boundary.wall_curves));
+  Box::check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
   Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (cw_cad_face_is_wall(box.cad, f))
       Box::check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  Box::check(cw_surface_mesh_make(&boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
+  Box::check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   for (void *bytes : walls) free(bytes);
 }
@@ -221,8 +221,8 @@ static void make_layers(Box &box) {
   DomainSurfaces &boundary = box.boundary;
   make_walls(box);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  Box::check(cw_boundary_grow(&boundary.input, &boundary.surface, &box.background, target.data(), nullptr, nullptr,
-                              &boundary.layers, &box.outcome));
+  Box::check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &box.background, target.data(), nullptr,
+                              nullptr, &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
 }

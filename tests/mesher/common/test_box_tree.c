@@ -51,10 +51,10 @@ static void finds_all_that_meet(void **state) {
   CwBox *box = calloc(COUNT, sizeof *box);
   CwBoxTree tree;
   random_boxes(1, box);
-  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
   check_overlaps(&tree, box);
   random_boxes(2, box);
-  assert_int_equal(cw_box_tree_fit(&tree, box_of, box), CW_OK);
+  assert_int_equal(cw_box_tree_fit(NULL, &tree, box_of, box), CW_OK);
   check_overlaps(&tree, box);
   cw_box_tree_free(&tree);
   free(box);
@@ -65,14 +65,14 @@ static void follows_those_that_move(void **state) {
   CwBoxTree tree, whole;
   uint8_t moved[COUNT - 1] = {0};
   random_boxes(6, box);
-  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
-  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &whole), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &whole), CW_OK);
   for (int i = 0; i < COUNT - 1; i += 10) {
     moved[i] = 1;
     for (int k = 0; k < 3; k++) box[i].low[k] += 1, box[i].high[k] += 2;
   }
   cw_box_tree_follow(&tree, moved, COUNT - 1, box_of, box);
-  assert_int_equal(cw_box_tree_fit(&whole, box_of, box), CW_OK);
+  assert_int_equal(cw_box_tree_fit(NULL, &whole, box_of, box), CW_OK);
   assert_memory_equal(tree.node + 1, whole.node + 1, (2 * (size_t)tree.leaves - 1) * sizeof *tree.node);
   cw_box_tree_free(&tree);
   cw_box_tree_free(&whole);
@@ -83,7 +83,7 @@ static void passes_by_most(void **state) {
   CwBox *box = calloc(COUNT, sizeof *box);
   CwBoxTree tree;
   random_boxes(3, box);
-  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
   uint8_t seen[COUNT] = {0};
   int visited = 0;
   cw_box_tree_overlaps(&tree, &box[5], mark, seen);
@@ -98,7 +98,7 @@ static void rays_meet_what_lies_on_them(void **state) {
   CwBox *box = calloc(COUNT, sizeof *box);
   CwBoxTree tree;
   random_boxes(4, box);
-  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
   for (int i = 0; i < COUNT; i += 11) {
     const double x[3] = {-1, 0.5 * (box[i].low[1] + box[i].high[1]), 0.5 * (box[i].low[2] + box[i].high[2])};
     const double g[3] = {1, 0, 0};
@@ -123,12 +123,12 @@ static void empty_and_stopped(void **state) {
   CwBoxTree tree;
   CwBox all = {{-1, -1, -1}, {2, 2, 2}}, *box = calloc(COUNT, sizeof *box);
   int visits = 0;
-  assert_int_equal(cw_box_tree_make(0, &WITHIN, box_of, NULL, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, 0, &WITHIN, box_of, NULL, &tree), CW_OK);
   cw_box_tree_overlaps(&tree, &all, stop, &visits);
   assert_int_equal(visits, 0);
   cw_box_tree_free(&tree);
   random_boxes(5, box);
-  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
   cw_box_tree_overlaps(&tree, &all, stop, &visits);
   assert_int_equal(visits, 3);
   cw_box_tree_free(&tree);

@@ -21,8 +21,8 @@ static void start(int32_t triangle[2][3]) {
 
 static CwStatus flip(const double top[4][3], int32_t triangle[2][3], const int64_t *group, int32_t *flips) {
   CwFlipMesh mesh = {.triangle = triangle};
-  assert_int_equal(cw_flip_neighbours(4, 2, group, &mesh), CW_OK);
-  CwStatus status = cw_layer_top_flip(WALL, top, 2, &mesh, group, flips);
+  assert_int_equal(cw_flip_neighbours(NULL, 4, 2, group, &mesh), CW_OK);
+  CwStatus status = cw_layer_top_flip(NULL, WALL, top, 2, &mesh, group, flips);
   free(mesh.near);
   return status;
 }

@@ -56,7 +56,7 @@ static void grade(Square *square, uint8_t *graded, const uint8_t *lowered) {
                            .triangle = square->around.triangle,
                            .corner = (const int32_t(*)[3])square->triangle,
                            .most = most,
-                           .context = square,
+                           .given = square,
                            .thickness = square->thickness,
                            .graded = graded};
   assert_int_equal(cw_grade_thickness(&gradation, lowered), CW_OK);

@@ -25,8 +25,8 @@ static void copy_smoothing(int32_t (*triangle)[3]) {
 
 static CwStatus unfold(int32_t triangle[5][3], const int64_t *group, int32_t *flips, int32_t *folded) {
   CwFlipMesh mesh = {.triangle = triangle};
-  assert_int_equal(cw_flip_neighbours(6, 5, group, &mesh), CW_OK);
-  CwStatus status = cw_wall_unfold(6, X, 5, &mesh, group, flips, folded);
+  assert_int_equal(cw_flip_neighbours(NULL, 6, 5, group, &mesh), CW_OK);
+  CwStatus status = cw_wall_unfold(NULL, 6, X, 5, &mesh, group, flips, folded);
   free(mesh.near);
   return status;
 }

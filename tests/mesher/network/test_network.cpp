@@ -37,7 +37,7 @@ struct Half {
     node = {plane, -1, {-1, -2}};
     CwPlan plan = {1, 2, &node, none, none, 0, 0, 0, 0};
     outcome = {};
-    assert_int_equal(cw_network_make(cad, &background, inside, &plan, &network, &outcome), CW_OK);
+    assert_int_equal(cw_network_make(NULL, cad, &background, inside, &plan, &network, &outcome), CW_OK);
     if (outcome.kind == CW_OUTCOME_DONE) cw_network_free(&network);
     return outcome.kind;
   }

@@ -36,7 +36,8 @@ static void uneven_plans_are_told(void **) {
   cw_network_free(&tank.boundary.network);
   const double angle = 0.33 * 2 * M_PI / 6;
   tank.node[1].plane = {{-std::sin(angle), std::cos(angle), 0}, 0};
-  check(cw_network_make(tank.cad, &tank.background, tank.inside, &tank.plan, &tank.boundary.network, &tank.outcome));
+  check(cw_network_make(NULL, tank.cad, &tank.background, tank.inside, &tank.plan, &tank.boundary.network,
+                        &tank.outcome));
   check(cw_periodic_images_make(&tank.boundary.network, &tank.boundary.images, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_ASYMMETRIC);
 }

@@ -34,14 +34,14 @@ static CwStatus fill(void *context, int32_t item, void *out) {
   return CW_OK;
 }
 
-static CwStatus work_on(void *context, int32_t domain, CwOutcome *outcome) {
+static CwStatus work_on(void *given, const CwContext *context, int32_t domain, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  Work *work = context;
+  Work *work = given;
   int failing = domain == 1;
   work->ran[domain]++;
   cw_log_debug("work on domain %d", domain);
-  cw_profiler_part(domain == 1 ? "of the second" : "of the others");
-  CW_TRY(cw_parallel_for("items", count_of(domain), sizeof(int64_t), fill, &domain, work->made[domain]));
+  cw_profiler_part(context, domain == 1 ? "of the second" : "of the others");
+  CW_TRY(cw_parallel_for(context, "items", count_of(domain), sizeof(int64_t), fill, &domain, work->made[domain]));
   const double place[3] = {0.001, 0.002, domain};
   CW_END_UNLESS(!failing || strcmp(work->mode, "retry"), outcome, CW_OUTCOME_REPLAN, place, "no column on domain %d",
                 domain);
@@ -64,9 +64,9 @@ static int items_wrong(const Work *work, int32_t domain) {
 }
 
 // The profiler of all ranks knows all domains: their parts and lists of tasks.
-static int profiler_wrong(int steps) {
+static int profiler_wrong(const CwContext *context, int steps) {
   json_t *account = NULL, *domains = NULL;
-  int wrong = cw_profiler_json(&account, &domains) != CW_OK || (int)json_array_size(domains) != steps;
+  int wrong = cw_profiler_json(context, &account, &domains) != CW_OK || (int)json_array_size(domains) != steps;
   for (size_t i = 0; i < json_array_size(domains); i++) {
     const json_t *domain = json_object_get(json_array_get(domains, i), "side");
     wrong += json_array_size(domain) != DOMAINS;
@@ -83,29 +83,27 @@ static int profiler_wrong(int steps) {
   }
   json_decref(account);
   json_decref(domains);
-  cw_profiler_free();
   return wrong;
 }
 
 static int be_a_rank(int argc, char **argv) {
   static Work work;
   const double cost[DOMAINS] = {3, 2, 1};
-  int rank, ranks, wrong = 0, retry = !strcmp(argv[1], "retry"), ran = 0;
-  begin_as_rank(&argc, &argv, &rank, &ranks);
+  int wrong = 0, retry = !strcmp(argv[1], "retry"), ran = 0;
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  CwContext context = {.team = all};
+  int rank = cw_team_rank(all);
+  wrong += cw_profiler_make(&context.profiler) != CW_OK;
   cw_log_open("test", NULL, rank == 0, !strcmp(argv[1], "work"));
-  CwGroupWork domains = {.step = "domains",
-                         .count = DOMAINS,
-                         .cost = cost,
-                         .own = 0.5,
-                         .run = work_on,
-                         .hand = hand_over,
-                         .context = &work};
+  CwGroupWork domains = {
+      .step = "domains", .count = DOMAINS, .cost = cost, .own = 0.5, .run = work_on, .hand = hand_over, .given = &work};
   for (int repeat = 0; repeat < 2; repeat++) {
     CwOutcome outcome[DOMAINS];
     CwStatus status;
     memset(&work, 0, sizeof work);
     work.mode = argv[1];
-    status = cw_groups_run(&domains, outcome);
+    status = cw_groups_run(&context, &domains, outcome);
     if (status != CW_OK) return cw_mpi_fail(status);
     for (int32_t s = 0; s < DOMAINS; s++) {
       wrong += outcome[s].kind != (retry && s == 1 ? CW_OUTCOME_REPLAN : CW_OUTCOME_DONE);
@@ -117,13 +115,14 @@ static int be_a_rank(int argc, char **argv) {
     wrong += retry && !(first.domain == 1 && first.has_place && first.place[2] == 1);
     // The ranks are together again.
     int32_t domain = 0;
-    wrong += cw_parallel_for("after", count_of(0), sizeof(int64_t), fill, &domain, work.made[1]) != CW_OK;
+    wrong += cw_parallel_for(&context, "after", count_of(0), sizeof(int64_t), fill, &domain, work.made[1]) != CW_OK;
     for (int32_t i = 0; i < count_of(0); i++) wrong += work.made[1][i] != value_of(0, i);
   }
-  wrong += profiler_wrong(2);
+  wrong += profiler_wrong(&context, 2);
+  cw_profiler_free(&context.profiler);
   printf("RANK %d RAN %d WRONG %d\n", rank, ran, wrong);
   cw_log_close();
-  return end_as_rank(wrong != 0);
+  return end_as_rank(all, wrong != 0);
 }
 
 static char output[100000];

@@ -24,14 +24,16 @@ static CwOutcome found_by(int of, int32_t i) {
 // Each rank knows the outcomes of its own items alone, and something wrong of the others.
 static int be_a_rank(int argc, char **argv) {
   CwOutcome outcome[COUNT];
-  int owner[COUNT], rank, ranks, wrong = 0;
-  begin_as_rank(&argc, &argv, &rank, &ranks);
+  int owner[COUNT], wrong = 0;
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   cw_log_open("test", NULL, rank == 0, 0);
   for (int32_t i = 0; i < COUNT; i++) {
     owner[i] = (3 * i + 1) % ranks;
     outcome[i] = found_by(owner[i] == rank ? rank : rank + 100, i + (owner[i] != rank));
   }
-  cw_outcomes_agree(COUNT, outcome, owner);
+  cw_outcomes_agree(all, COUNT, outcome, owner);
   for (int32_t i = 0; i < COUNT; i++) {
     CwOutcome wanted = found_by(owner[i], i);
     wrong += outcome[i].kind != wanted.kind || strcmp(outcome[i].reason, wanted.reason) != 0;
@@ -39,7 +41,7 @@ static int be_a_rank(int argc, char **argv) {
   }
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close();
-  return end_as_rank(wrong != 0);
+  return end_as_rank(all, wrong != 0);
 }
 
 static void ranks_agree(void **state) {

@@ -28,9 +28,9 @@ static void every_item_has_its_place(void **state) {
   int64_t shift = 7;
   (void)state;
   for (int32_t i = 0; i < COUNT; i++) out[i] = -1;
-  assert_int_equal(cw_parallel_for("squares", COUNT, sizeof *out, square, &shift, out), CW_OK);
+  assert_int_equal(cw_parallel_for(NULL, "squares", COUNT, sizeof *out, square, &shift, out), CW_OK);
   for (int32_t i = 0; i < COUNT; i++) assert_int_equal(out[i], i % 3 ? (int64_t)i * i + 7 : 0);
-  assert_int_equal(cw_parallel_for("nothing", 0, sizeof *out, square, &shift, out), CW_OK);
+  assert_int_equal(cw_parallel_for(NULL, "nothing", 0, sizeof *out, square, &shift, out), CW_OK);
 }
 
 // Item i has i % 4 entries, numbered.
@@ -46,7 +46,7 @@ static void lists_stand_one_after_the_other(void **state) {
   static int64_t out[2 * COUNT];
   (void)state;
   for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + i % 4;
-  assert_int_equal(cw_parallel_for_lists("lists", COUNT, start, sizeof *out, number, NULL, out), CW_OK);
+  assert_int_equal(cw_parallel_for_lists(NULL, "lists", COUNT, start, sizeof *out, number, NULL, out), CW_OK);
   for (int32_t i = 0; i < COUNT; i++) {
     for (int32_t k = start[i]; k < start[i + 1]; k++) assert_int_equal(out[k], 10 * (int64_t)i + k - start[i]);
   }
@@ -62,16 +62,19 @@ static CwStatus mark(void *context, int32_t item, void *out) {
 static int be_a_rank(int argc, char **argv) {
   static int32_t start[COUNT + 1];
   int64_t out[100] = {0};
-  int rank, ranks, wrong = 0;
-  begin_as_rank(&argc, &argv, &rank, &ranks);
+  int wrong = 0;
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  const CwContext context = {.team = all};
+  int rank = cw_team_rank(all);
   cw_log_open("test", NULL, rank == 0, 0);
   for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + (i >= COUNT - 100);
-  CwStatus status = cw_parallel_for_lists("lists", COUNT, start, sizeof *out, mark, NULL, out);
+  CwStatus status = cw_parallel_for_lists(&context, "lists", COUNT, start, sizeof *out, mark, NULL, out);
   if (status != CW_OK) return cw_mpi_fail(status);
   for (int k = 0; k < 100; k++) wrong += out[k] != COUNT - 100 + k;
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close();
-  return end_as_rank(wrong != 0);
+  return end_as_rank(all, wrong != 0);
 }
 
 static void blocks_may_be_empty(void **state) {
@@ -86,7 +89,7 @@ static void blocks_may_be_empty(void **state) {
 static void a_failure_is_given_back(void **state) {
   static int64_t out[COUNT];
   (void)state;
-  assert_int_equal(cw_parallel_for("failing", COUNT, sizeof *out, fail_late, NULL, out), CW_ERR_MESH);
+  assert_int_equal(cw_parallel_for(NULL, "failing", COUNT, sizeof *out, fail_late, NULL, out), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "item 9000");
 }
 

@@ -22,6 +22,16 @@ static CwStatus task(void *context, int32_t index, void **bytes, int64_t *size) 
   return CW_OK;
 }
 
+static CwProfiler *profiler;
+
+// Each test has a profiler of its own; the context lasts.
+static const CwContext *new_context(void) {
+  static CwContext context;
+  assert_int_equal(cw_profiler_make(&profiler), CW_OK);
+  context.profiler = profiler;
+  return &context;
+}
+
 static double number(const json_t *object, const char *key) {
   return json_number_value(json_object_get(object, key));
 }
@@ -38,16 +48,17 @@ static const json_t *find(const json_t *array, const char *key, const char *name
 // What a task spends is the task's; what is spent before and after it is the part's that was called.
 static void time_goes_to_tasks_and_parts(void **state) {
   (void)state;
+  const CwContext *context = new_context();
   double begun = cw_processor_seconds(), sum = 0;
   json_t *account, *group_work, *part;
-  cw_profiler_part("before");
+  cw_profiler_part(context, "before");
   const double cost[3] = {1, 3, 2};
   CwSchedule schedule = {.step = "step", .count = 3, .cost = cost, .run = task};
-  assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_OK);
+  assert_int_equal(cw_schedule_run(context, &schedule, NULL, NULL, NULL), CW_OK);
   work(0.03); // schedules leave the part as it was
-  assert_string_equal(cw_profiler_part("after"), "before");
+  assert_string_equal(cw_profiler_part(context, "after"), "before");
   work(0.01);
-  assert_int_equal(cw_profiler_json(&account, &group_work), CW_OK);
+  assert_int_equal(cw_profiler_json(context, &account, &group_work), CW_OK);
   const json_t *parts = json_object_get(account, "every_rank"), *tasks = json_object_get(account, "tasks");
   assert_int_equal(json_array_size(group_work), 0);
   double all = cw_processor_seconds() - begun;
@@ -66,7 +77,7 @@ static void time_goes_to_tasks_and_parts(void **state) {
   assert_true(sum + number(step, "most") <= all + 1e-4); // nothing counts twice
   json_decref(account);
   json_decref(group_work);
-  cw_profiler_free();
+  cw_profiler_free(&profiler);
 }
 
 static const double COST[2] = {5, 7};
@@ -75,24 +86,25 @@ static const double COST[2] = {5, 7};
 // another.
 static void items_have_their_own_accounts(void **state) {
   (void)state;
+  const CwContext *context = new_context();
   json_t *account, *group_work;
   char *bytes;
   int64_t size;
   const double cost[2] = {7, 5};
   const int32_t after[2] = {-1, 0};
   CwSchedule schedule = {.step = "step", .count = 2, .cost = cost, .after = after, .run = task};
-  cw_profiler_part("together");
-  assert_int_equal(cw_profiler_groups("items", 2, COST, 0.25), CW_OK);
-  cw_profiler_item(1);
-  cw_profiler_part("alone");
+  cw_profiler_part(context, "together");
+  assert_int_equal(cw_profiler_groups(context, "items", 2, COST, 0.25), CW_OK);
+  cw_profiler_item(context, 1);
+  cw_profiler_part(context, "alone");
   work(0.03);
-  assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_OK);
-  cw_profiler_item(-1);
-  assert_int_equal(cw_profiler_pack(1, &bytes, &size), CW_OK);
-  assert_int_equal(cw_profiler_take(0, bytes, size), CW_OK);
+  assert_int_equal(cw_schedule_run(context, &schedule, NULL, NULL, NULL), CW_OK);
+  cw_profiler_item(context, -1);
+  assert_int_equal(cw_profiler_pack(context, 1, &bytes, &size), CW_OK);
+  assert_int_equal(cw_profiler_take(context, 0, bytes, size), CW_OK);
   free(bytes);
-  assert_string_equal(cw_profiler_part("after"), "together");
-  assert_int_equal(cw_profiler_json(&account, &group_work), CW_OK);
+  assert_string_equal(cw_profiler_part(context, "after"), "together");
+  assert_int_equal(cw_profiler_json(context, &account, &group_work), CW_OK);
   assert_null(find(json_object_get(account, "every_rank"), "part", "alone"));
   assert_int_equal(json_array_size(json_object_get(account, "tasks")), 0);
   const json_t *step = find(group_work, "step", "items"), *item = json_object_get(step, "side");
@@ -112,11 +124,22 @@ static void items_have_their_own_accounts(void **state) {
   }
   json_decref(account);
   json_decref(group_work);
-  cw_profiler_free();
+  cw_profiler_free(&profiler);
+}
+
+// Where nothing is measured schedules run all the same.
+static void a_context_may_have_none(void **state) {
+  (void)state;
+  const double cost[1] = {1};
+  CwSchedule schedule = {.step = "step", .count = 1, .cost = cost, .run = task};
+  assert_string_equal(cw_profiler_part(NULL, "part"), "");
+  assert_int_equal(cw_schedule_run(&(CwContext){0}, &schedule, NULL, NULL, NULL), CW_OK);
+  assert_int_equal(cw_schedule_run(NULL, &schedule, NULL, NULL, NULL), CW_OK);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(time_goes_to_tasks_and_parts),
-                                     cmocka_unit_test(items_have_their_own_accounts)};
+                                     cmocka_unit_test(items_have_their_own_accounts),
+                                     cmocka_unit_test(a_context_may_have_none)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

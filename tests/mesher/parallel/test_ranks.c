@@ -19,40 +19,41 @@ done:
   return status;
 }
 
-static int spread_wrong(int rank, int ranks) {
-  int wrong = 0;
+static int spread_wrong(const CwTeam *all) {
+  int wrong = 0, rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   unsigned char *bytes = malloc(SIZE);
   for (int64_t i = 0; i < SIZE; i += 997) bytes[i] = rank == ranks - 1 ? (unsigned char)(i / 997) : 0;
-  cw_mpi_broadcast(bytes, SIZE, ranks - 1);
+  cw_team_broadcast(all, bytes, SIZE, ranks - 1);
   for (int64_t i = 0; i < SIZE; i += 997) wrong += bytes[i] != (unsigned char)(i / 997);
   free(bytes);
   double value[2] = {rank, -rank};
-  cw_mpi_most(2, value);
+  cw_team_most(all, 2, value);
   return wrong + (value[0] != ranks - 1) + (value[1] != 0);
 }
 
 // The even ranks and the odd ones apart.
-static int split_wrong(int rank, int ranks) {
-  cw_mpi_split(rank % 2);
-  int wrong = cw_team()->rank != rank / 2 || cw_team()->ranks != (ranks + 1 - rank % 2) / 2;
+static int split_wrong(const CwTeam *all) {
+  CwTeam *part;
+  int rank = cw_team_rank(all), ranks = cw_team_ranks(all), wrong = cw_team_split(all, rank % 2, &part) != CW_OK;
+  wrong += cw_team_rank(part) != rank / 2 || cw_team_ranks(part) != (ranks + 1 - rank % 2) / 2;
   double value = rank;
-  cw_team_most(1, &value);
+  cw_team_most(part, 1, &value);
   wrong += value != (ranks - 1) - ((ranks - 1) % 2 != rank % 2);
-  cw_mpi_join();
-  return wrong + (cw_team()->ranks != ranks) + (cw_team()->rank != rank);
+  cw_team_join(all, &part);
+  return wrong + (part != NULL);
 }
 
 static int be_a_rank(int argc, char **argv) {
-  int rank, ranks;
-  cw_mpi_start(&argc, &argv, &rank, &ranks); // without a watch: all ranks agree first
+  CwTeam *all;
+  cw_mpi_start(&argc, &argv, &all); // without a watch: all ranks agree first
+  int rank = cw_team_rank(all);
   cw_log_open("test", NULL, rank == 0, 0);
-  CwStatus status = cw_mpi_agree(fail_where(argv[1], rank));
+  CwStatus status = cw_team_agree(all, fail_where(argv[1], rank));
   if (status != CW_OK) return cw_mpi_fail(status);
-  int wrong = spread_wrong(rank, ranks) + (ranks > 1 ? split_wrong(rank, ranks) : 0);
-  wrong += cw_mpi_rank() != rank || cw_mpi_ranks() != ranks;
+  int wrong = spread_wrong(all) + split_wrong(all) + (cw_mpi_ranks() != cw_team_ranks(all));
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close();
-  cw_mpi_end();
+  cw_mpi_end(&all);
   return wrong != 0;
 }
 

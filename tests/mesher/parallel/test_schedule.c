@@ -90,7 +90,7 @@ done:
 }
 
 // Of four tasks three wait for the first. How many began before it had ended, or -1 where the schedule failed.
-static int began_too_early(char *mode) {
+static int began_too_early(const CwContext *context, char *mode) {
   int early = 0;
   double cost[TASKS];
   int32_t after[TASKS];
@@ -108,7 +108,7 @@ static int began_too_early(char *mode) {
                          .run = run_timed,
                          .context = mode,
                          .gather = 1};
-  if (cw_schedule_run(&schedule, bytes, size, NULL) != CW_OK) early = -1;
+  if (cw_schedule_run(context, &schedule, bytes, size, NULL) != CW_OK) early = -1;
   for (int k = 0; k < TASKS && early >= 0; k++) {
     early += after[k] >= 0 && ((double *)bytes[k])[0] < ((double *)bytes[after[k]])[1];
   }
@@ -130,14 +130,17 @@ static int results_wrong(const Work *work, void **bytes, const int64_t *size) {
 }
 
 static int be_a_rank(int argc, char **argv) {
-  int rank, ranks, wrong = 0;
+  int wrong = 0;
   if (!strncmp(argv[1], "dealt", 5)) MPI_Init(&argc, &argv); // one thread: no server
-  begin_as_rank(&argc, &argv, &rank, &ranks);
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  const CwContext context = {.team = all};
+  int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   cw_log_open("test", NULL, rank == 0, 0);
   if (strstr(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
-    printf("RANK %d EARLY %d\n", rank, began_too_early(argv[1]));
+    printf("RANK %d EARLY %d\n", rank, began_too_early(&context, argv[1]));
     cw_log_close();
-    return end_as_rank(0);
+    return end_as_rank(all, 0);
   }
   for (int repeat = 0; repeat < (strcmp(argv[1], "large") ? 3 : 1); repeat++) {
     Work work = {.mode = argv[1], .slow = rank == 0};
@@ -146,7 +149,7 @@ static int be_a_rank(int argc, char **argv) {
     int64_t size[TASKS] = {0};
     for (int k = 0; k < TASKS; k++) cost[k] = k % 7;
     CwSchedule schedule = schedule_of(&work, cost);
-    if (cw_schedule_run(&schedule, bytes, size, seconds) != CW_OK) return 99; // fails inside with many ranks
+    if (cw_schedule_run(&context, &schedule, bytes, size, seconds) != CW_OK) return 99; // fails inside with many ranks
     wrong += results_wrong(&work, bytes, size);
     wrong += !strcmp(argv[1], "slow") && rank == 0 && work.count > TASKS / (4 * ranks);
     for (int k = 0; k < TASKS; k++) wrong += !(seconds[k] > 0 && seconds[k] < 0.1) && !strcmp(argv[1], "work");
@@ -156,7 +159,7 @@ static int be_a_rank(int argc, char **argv) {
     if (!strcmp(argv[1], "idle")) break;
   }
   cw_log_close();
-  return end_as_rank(wrong != 0);
+  return end_as_rank(all, wrong != 0);
 }
 
 static char output[100000];
@@ -219,7 +222,7 @@ static void many_failing_tasks_print_one_line(void **state) {
 
 static void tasks_wait_for_those_they_come_after(void **state) {
   (void)state;
-  assert_int_equal(began_too_early("after"), 0);
+  assert_int_equal(began_too_early(NULL, "after"), 0);
   for (int i = 2; i <= 11; i++) {
     int lines, ranks = i / 2, code = launch(ranks, i % 2 ? "after" : "dealt-after", output, sizeof output);
     if (code) fail_msg("exit status %d: %s", code, output);
@@ -232,7 +235,7 @@ static void tasks_wait_for_those_they_come_after(void **state) {
 static void failing_task_ends_those_that_wait(void **state) {
   (void)state;
   double start = now();
-  assert_int_equal(began_too_early("first-fails"), -1);
+  assert_int_equal(began_too_early(NULL, "first-fails"), -1);
   assert_int_equal(launch(3, "first-fails", output, sizeof output), CW_ERR_MESH);
   assert_int_equal(count_lines_with(output, "error: the first task fails"), 1);
   assert_true(now() - start < 10.0);
@@ -245,7 +248,7 @@ static void tasks_wait_for_none_that_is_taken_later(void **state) {
   const int32_t after[2] = {-1, 0};
   CwSchedule schedule = {
       .step = "tasks", .count = 2, .cost = cost, .after = after, .run = run_timed, .context = "after"};
-  assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_ERR_INPUT);
+  assert_int_equal(cw_schedule_run(NULL, &schedule, NULL, NULL, NULL), CW_ERR_INPUT);
 }
 
 static void killed_rank_ends_the_run(void **state) {
@@ -275,7 +278,7 @@ static void one_rank_runs_largest_first(void **state) {
   int64_t size[TASKS] = {0};
   for (int k = 0; k < TASKS; k++) cost[k] = k % 3;
   CwSchedule schedule = schedule_of(&work, cost);
-  assert_int_equal(cw_schedule_run(&schedule, bytes, size, seconds), CW_OK);
+  assert_int_equal(cw_schedule_run(NULL, &schedule, bytes, size, seconds), CW_OK);
   assert_int_equal(work.count, TASKS);
   for (int k = 0; k < TASKS; k++) assert_int_equal(work.ran[k], 1);
   assert_int_equal(work.order[0], 2); // cost 2: 2, 5, 8, ...; then 1, 4, 7, ...
@@ -289,7 +292,7 @@ static void one_rank_gives_the_failure_back(void **state) {
   void *bytes[TASKS] = {0};
   int64_t size[TASKS] = {0};
   CwSchedule schedule = schedule_of(&work, NULL);
-  assert_int_equal(cw_schedule_run(&schedule, bytes, size, NULL), CW_ERR_MESH);
+  assert_int_equal(cw_schedule_run(NULL, &schedule, bytes, size, NULL), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "region 17 is too thin at (1, 2, 3) mm");
   for (int k = 0; k < TASKS; k++) free(bytes[k]);
 }

@@ -23,10 +23,10 @@ static void show(int64_t ended) {
 
 // Places of cost 1. Each is given once; all ranks learn of the end; what is given at a time is a quarter of a rank's
 // part of what is left. `chain`: each place but the first waits for the one before it.
-static int serve_places(int rank, int ranks, int chain, int *most) {
+static int serve_places(const CwTeam *all, int chain, int *most) {
   static double left[PLACES + 1];
   static int32_t before[PLACES], given[PLACES];
-  int wrong = 0;
+  int wrong = 0, rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   for (int32_t i = 0; i < PLACES; i++) {
     left[i] = PLACES - i;
     before[i] = i - 1;
@@ -34,7 +34,7 @@ static int serve_places(int rank, int ranks, int chain, int *most) {
   }
   CwTaskOrder order = {PLACES, left, chain ? before : NULL};
   CwTaskServer *server = NULL;
-  if (cw_task_server_start(&order, &server) != CW_OK) return 1;
+  if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
   *most = 0;
   for (;;) {
     CwPlaces places = cw_task_server_next(server, show);
@@ -51,13 +51,13 @@ static int serve_places(int rank, int ranks, int chain, int *most) {
 }
 
 // The first rank takes a place and works for long; meanwhile the others are given all that is left.
-static int serve_while_at_work(int rank, int ranks) {
+static int serve_while_at_work(const CwTeam *all) {
   static const double left[] = {4, 3, 2, 1, 0};
   CwTaskOrder order = {4, left, NULL};
   CwTaskServer *server = NULL;
-  int taken = 0, sum = 0, others;
+  int taken = 0, sum = 0, others, rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   double longest = 0;
-  if (cw_task_server_start(&order, &server) != CW_OK) return 1;
+  if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
   for (;;) {
     double asked = MPI_Wtime();
     CwPlaces places = cw_task_server_next(server, NULL);
@@ -73,18 +73,20 @@ static int serve_while_at_work(int rank, int ranks) {
 }
 
 static int be_a_rank(int argc, char **argv) {
-  int rank, ranks, most = 0, wrong = 0;
-  begin_as_rank(&argc, &argv, &rank, &ranks);
+  int most = 0, wrong = 0;
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   cw_log_open("test", NULL, rank == 0, 0);
   for (int repeat = 0; repeat < 3; repeat++) {
-    wrong += serve_places(rank, ranks, 0, &most);
+    wrong += serve_places(all, 0, &most);
     wrong += ranks == 1 && most != PLACES / 4;
-    wrong += serve_places(rank, ranks, 1, &most) + (most > 1);
+    wrong += serve_places(all, 1, &most) + (most > 1);
   }
-  if (ranks > 1) wrong += serve_while_at_work(rank, ranks);
+  if (ranks > 1) wrong += serve_while_at_work(all);
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close();
-  return end_as_rank(wrong != 0);
+  return end_as_rank(all, wrong != 0);
 }
 
 static char output[10000];

@@ -60,7 +60,7 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
   assert_non_null(field);
   for (int i = 0; i < parts; i++)
     check(cw_domain_make_size(made, &table, table.mesh.gradation, 0, seed, i, &field[i], &size));
-  check(cw_domain_take_size(made, field));
+  check(cw_domain_take_size(NULL, made, field));
   for (int i = 0; i < seeds; i++) free(seed[i]);
   free(seed);
   for (int i = 0; i < parts; i++) free(field[i]);
@@ -106,7 +106,7 @@ static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *pla
   cw_size_set_scale(of->size, scale);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
   CwOutcome outcome = {0};
-  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, &outcome));
+  check(cw_domain_plan(NULL, of, &table, cells_at(of, scale), prism_factor, &outcome));
   assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
   *plan = of->plan;
   of->plan = (CwPlan){0};
@@ -351,7 +351,7 @@ static int room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
   CwNetwork network;
   CwOutcome outcome = {0};
   Room room = {0};
-  check(cw_network_make(of->cad, &of->background, of->inside, plan, &network, &outcome));
+  check(cw_network_make(NULL, of->cad, &of->background, of->inside, plan, &network, &outcome));
   if (outcome.kind != CW_OUTCOME_DONE) return 0;
   for (int32_t i = 0; i < network.curve_count; i++) {
     const CwCurve *curve = &network.curve[i];

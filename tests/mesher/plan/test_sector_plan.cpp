@@ -57,7 +57,7 @@ struct PlannedTank : PlannedSolid {
   PlannedTank(const TopoDS_Shape &shape, int turns, int regions) : PlannedSolid(shape) {
     const double thickness = 1e-3;
     const CwPlanOptions options = {regions, &thickness, nullptr, 0, 2e-3, 12};
-    status = cw_sector_plan_make(cad, &background, inside, size, &options, turns, &plan, &outcome);
+    status = cw_sector_plan_make(NULL, cad, &background, inside, size, &options, turns, &plan, &outcome);
   }
   ~PlannedTank() {
     cw_plan_free(&plan);

@@ -21,17 +21,17 @@ static void make_surfaces(Tank &tank, bool divided) {
   std::vector<void *> walls(faces, nullptr), open_patches(faces, nullptr), interfaces;
   int64_t size;
   check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
-  check(cw_wall_curves_make(&boundary.input, &boundary.open_edges, &boundary.wall_curves));
+  check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
   check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (images.symmetry->face.first[f] != f) continue;
     if (cw_cad_face_is_wall(tank.cad, f))
       check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  check(cw_surface_mesh_make(&boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
+  check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  check(cw_boundary_grow(&boundary.input, &boundary.surface, &tank.background, target.data(), nullptr, nullptr,
+  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &tank.background, target.data(), nullptr, nullptr,
                          &boundary.layers, &tank.outcome));
   check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
                             &boundary.free_curves, &tank.outcome));

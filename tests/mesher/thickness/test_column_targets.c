@@ -96,7 +96,7 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   Wall wall;
   CwColumnTargets targets = {0};
   make_wall(&wall, 100, 8, x, 6, triangle, face);
-  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
+  assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
   // Three layers that grow by 1.1 are 3.31 times the first, and thicknesses rise by 0.3.
   for (int v = 0; v < 4; v++) NEAR(targets.first_height[v], 0.1);
   for (int v = 4; v < 8; v++) NEAR(targets.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1));
@@ -119,7 +119,7 @@ static double roof_height(double size, int fluid_above, double lift) {
     triangle[t][1] = triangle[t][2], triangle[t][2] = swap;
   }
   make_wall(&wall, size, 5, x, 4, triangle, face);
-  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, &DOUBLING, 3, &targets), CW_OK);
+  assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, &DOUBLING, 3, &targets), CW_OK);
   double thickness = targets.target[0];
   free_wall(&wall, &targets);
   return thickness;
@@ -139,7 +139,8 @@ static void a_vertex_without_triangle_is_an_error(void **state) {
   Wall wall;
   CwColumnTargets targets = {0};
   make_wall(&wall, 100, 4, x, 1, square, square_face);
-  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, &DOUBLING, 3, &targets), CW_ERR_MESH);
+  assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, &DOUBLING, 3, &targets),
+                   CW_ERR_MESH);
   free_wall(&wall, &targets);
 }
 
@@ -149,11 +150,13 @@ static void the_share_of_graded_columns(void **state) {
   CwColumnTargets targets = {0};
   double share = 0;
   make_wall(&wall, 100, 4, square_x, 2, square, square_face);
-  assert_int_equal(cw_column_targets_make(&wall.in, &wall.surface, &wall.around, &layers, 2, &targets), CW_OK);
-  assert_int_equal(cw_column_targets_share(&targets, &wall.in, &wall.surface, &wall.around, &layers, &share), CW_OK);
+  assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, &layers, 2, &targets), CW_OK);
+  assert_int_equal(cw_column_targets_share(NULL, &targets, &wall.in, &wall.surface, &wall.around, &layers, &share),
+                   CW_OK);
   NEAR(share, 1);
   targets.target[0] = 1; // its neighbours come down to 1.3, the corner over the diagonal to 1 + 0.3 sqrt(2)
-  assert_int_equal(cw_column_targets_share(&targets, &wall.in, &wall.surface, &wall.around, &layers, &share), CW_OK);
+  assert_int_equal(cw_column_targets_share(NULL, &targets, &wall.in, &wall.surface, &wall.around, &layers, &share),
+                   CW_OK);
   NEAR(share, (1 + 1.3 + 1 + 0.3 * sqrt(2)) / 3 / 2);
   free_wall(&wall, &targets);
 }

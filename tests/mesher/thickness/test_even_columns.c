@@ -26,7 +26,7 @@ static void make(int layers, double asked, const double thickness[4], double mad
   memcpy(own, thickness, sizeof own);
   memcpy(top, x, sizeof top);
   for (int v = 0; v < 4; v++) top[v][2] = thickness[v];
-  assert_int_equal(cw_column_targets_even(&targets, &surface, &columns), CW_OK);
+  assert_int_equal(cw_column_targets_even(NULL, &targets, &surface, &columns), CW_OK);
   memcpy(made, targets.first_made, sizeof own);
   targets.first_height = targets.growth = NULL;
   cw_column_targets_free(&targets);
