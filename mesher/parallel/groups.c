@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/parallel/profiler.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 

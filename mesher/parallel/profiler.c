@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"

@@ -6,7 +6,7 @@
 #include <mpi.h>
 #include <stdint.h>
 
-#include "mesher/parallel/ranks.h"
+#include "mesher/parallel/context.h"
 
 struct CwTeam {
   int rank, ranks;
