@@ -11,71 +11,14 @@
 #include "pipeline/report/page_pictures.h"
 #include "pipeline/report/page_run.h"
 #include "pipeline/report/page_solve.h"
-
-static const char style[] =
-    ":root{--ink:#1f2933;--soft:#5f6c7b;--line:#dde3e9;--blue:#0b5c8a;--ground:#f6f8fa}\n"
-    "*{box-sizing:border-box}\n"
-    "html{scroll-behavior:smooth}\n"
-    "body{margin:0;color:var(--ink);background:#fff;font:15px/1.5 'Helvetica "
-    "Neue',Helvetica,Arial,'Liberation Sans',"
-    "sans-serif;font-variant-numeric:tabular-nums}\n"
-    "nav{position:fixed;top:0;left:0;bottom:0;width:214px;padding:34px 20px;background:var(--ground);"
-    "border-right:1px solid var(--line);overflow:auto;font-size:14px}\n"
-    "nav b{display:block;margin-bottom:14px;letter-spacing:.02em}\n"
-    "nav a{display:block;padding:4px 0;color:var(--soft);text-decoration:none}\n"
-    "nav a:hover{color:var(--blue)}\n"
-    "main{margin-left:214px;padding:40px 52px 90px;max-width:1334px}\n"
-    "h1{font-size:34px;font-weight:600;line-height:1.2;margin:0 0 6px}\n"
-    "h2{font-size:22px;font-weight:600;margin:62px 0 10px;padding-top:14px;border-top:2px solid var(--ink)}\n"
-    "h3{font-size:16px;font-weight:600;margin:30px 0 8px}\n"
-    "p{max-width:78ch;margin:8px 0 14px}\n"
-    ".lead{color:var(--soft);font-size:17px;margin:0 0 26px}\n"
-    ".tiles{display:grid;grid-template-columns:repeat(4,1fr);border-top:1px solid var(--line);"
-    "border-left:1px solid var(--line);margin:0 0 30px}\n"
-    ".tiles div{padding:14px 16px 12px;border-right:1px solid var(--line);border-bottom:1px solid "
-    "var(--line)}\n"
-    ".tiles b{display:block;font-size:25px;font-weight:600;line-height:1.25}\n"
-    ".tiles span{color:var(--soft);font-size:13px;line-height:1.35;display:block}\n"
-    "table{border-collapse:collapse;margin:10px 0 20px;font-size:14px}\n"
-    "th{text-align:left;font-weight:600;color:var(--soft);font-size:13px;border-bottom:1px solid var(--ink);"
-    "padding:4px 18px 5px 0;vertical-align:bottom}\n"
-    "td{padding:3px 18px 3px 0;border-bottom:1px solid var(--line);vertical-align:top}\n"
-    "th.n,td.n{text-align:right;white-space:nowrap}\n"
-    "td.n span{display:inline-block;min-width:3.1em;text-align:left}\n"
-    "th.p{padding-right:calc(18px + 3.1em)}\n"
-    "table.plain td.n span{min-width:0}\n"
-    "tr.s td{font-weight:600;padding-top:16px;border-bottom:1px solid var(--soft)}\n"
-    "tr.t td{font-weight:600;border-top:1px solid var(--ink)}\n"
-    "td.q{color:var(--soft)}\n"
-    "td.o{white-space:nowrap}\n"
-    ".columns{columns:2;column-gap:52px}.columns table{width:100%;break-inside:avoid;margin-top:0}\n"
-    ".grid{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:30px 34px;margin:18px 0}\n"
-    ".wide{grid-column:1/-1}\n"
-    "sub,sup{line-height:0;font-size:75%}a{color:var(--blue)}\n"
-    "figure{margin:0}figure img{display:block;width:100%;height:auto;border:1px solid var(--line)}\n"
-    "figure svg{max-width:100%;height:auto}\n"
-    ".drawing{margin:18px 0 30px}.drawing svg{display:block;border:1px solid var(--line)}\n"
-    "figcaption{margin-top:8px;font-size:14px;color:var(--soft);max-width:88ch}figcaption "
-    "b{color:var(--ink)}\n"
-    ".key{margin:5px 0 0;font-size:13px;color:var(--soft);display:flex;flex-wrap:wrap;gap:2px 16px}\n"
-    ".key i{display:inline-block;width:11px;height:11px;margin-right:6px;border:1px solid rgba(0,0,0,.25);"
-    "vertical-align:-1px}\n"
-    ".lacking{border:1px dashed var(--line);padding:40px 20px;color:var(--soft)}\n"
-    ".warn{border-left:3px solid #c77700;background:#fdf6ea;padding:8px 14px;margin:8px 0;max-width:100ch}\n"
-    ".fine{border-left:3px solid #3d8b5a;background:#eff7f2;padding:8px 14px;margin:8px 0;max-width:100ch}\n"
-    "svg.plot{display:block;margin:6px 0 4px;font-family:inherit;overflow:visible}\n"
-    ".plot .g{stroke:#e3e8ed}.plot .a{stroke:#7b8794}.plot .m{stroke:#b3261e;stroke-dasharray:4 3}\n"
-    ".plot .t,.plot .x{font-size:12px;fill:#5f6c7b}.plot "
-    ".v{font-size:10.5px;fill:#3e4c59;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}"
-    "\n"
-    ".plot .c,.plot .k{font-size:12.5px;fill:#1f2933}\n"
-    "@media(max-width:1000px){nav{position:static;width:auto;border:0}main{margin:0;padding:20px}"
-    ".tiles{grid-template-columns:1fr "
-    "1fr}.grid,.columns{display:block;columns:1}.grid>*{margin-bottom:26px}}\n"
-    "@media print{nav{display:none}main{margin:0;padding:0;max-width:none}h2{break-after:avoid}"
-    "figure,table{break-inside:avoid}}\n";
+#include "pipeline/report/page_texts.h"
+#include "pipeline/report/page_view.h"
 
 typedef CwStatus (*Part)(FILE *page, const CwReportData *data);
+
+static CwStatus turning_picture(FILE *page, const CwReportData *data) {
+  return cw_page_view(page, &data->mesh, &data->view);
+}
 
 static CwStatus geometry_pictures(FILE *page, const CwReportData *data) {
   fputs("<p>Drawn from the boundary faces of the finished mesh, coloured by patch.</p>\n", page);
@@ -103,6 +46,7 @@ static const struct {
   Part part;
   int of_design; // 1: left out where no generator made the pump
 } parts[] = {
+    {"turn", "The pump in three dimensions", turning_picture, 0},
     {"input", "Design table", cw_page_input, 1},
     {"design", "Derived dimensions", cw_page_design, 1},
     {"drawings", "Design drawings", cw_page_design_pictures, 1},
@@ -206,7 +150,7 @@ CwStatus cw_page_write(FILE *page, const CwReportData *data) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Cutwater: ",
         page);
   cw_html_text(page, data->table->name);
-  fprintf(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<nav><b>Cutwater report</b>\n", style);
+  fprintf(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<nav><b>Cutwater report</b>\n", cw_page_style);
   fputs("<a href=\"#top\">Overview</a>\n", page);
   for (int k = 0; k < PARTS; k++)
     if (data->design || !parts[k].of_design)

@@ -353,12 +353,13 @@ done:
   return status;
 }
 
-static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *survey) {
+static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *survey, CwView *view) {
   CwStatus status = CW_OK;
   CwRegionData cells = {0};
   for (int r = 0; r < mesh->region_count; r++) {
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_SURFACE, &cells));
     cw_survey_add(survey, mesh, &cells);
+    CW_TRY(cw_view_add(view, mesh, &cells));
     for (int k = 0; k < cw_picture_list_count; k++) {
       if (drawings[k].spec->sees & drawings[k].part[cells.domain]) reach_faces(&drawings[k], cells.domain, &cells);
     }
@@ -391,7 +392,8 @@ done:
   return status;
 }
 
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures) {
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures,
+                                 CwView *view) {
   CwStatus status = CW_OK;
   Drawing *drawings = NULL;
   CwSurvey *survey = NULL;
@@ -407,7 +409,9 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     aim(survey, &drawings[k]); // the directions of views of all; the places are not known yet
     drawings[k].reach = (CwCameraReach){0};
   }
-  CW_TRY(survey_all(mesh, drawings, survey));
+  CW_TRY(cw_view_start(mesh, sizes->outlet_radius, view));
+  CW_TRY(survey_all(mesh, drawings, survey, view));
+  CW_TRY(cw_view_finish(view, mesh));
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwPictureSpec *spec = drawings[k].spec;
     drawings[k].lacking = NULL;

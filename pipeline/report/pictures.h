@@ -7,6 +7,7 @@
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/render.h"
 #include "pipeline/report/survey.h"
+#include "pipeline/report/view.h"
 
 typedef struct {
   char label[40];
@@ -30,8 +31,10 @@ typedef struct {
   int count;
 } CwReportPictures;
 
-// Reads every region twice and draws. Free with cw_report_pictures_free, also after a failure.
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures);
+// Reads every region twice and draws; *view, zeroed, gets the picture that turns. Free with cw_report_pictures_free and
+// cw_view_free, also after a failure.
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures,
+                                 CwView *view);
 void cw_report_pictures_free(CwReportPictures *pictures);
 
 #endif

@@ -80,6 +80,7 @@ void cw_report_data_free(CwReportData *data) {
   json_decref(data->solve);
   cw_mesh_free(&data->mesh);
   cw_report_pictures_free(&data->pictures);
+  cw_view_free(&data->view);
   *data = (CwReportData){0};
 }
 

@@ -19,6 +19,7 @@ typedef struct {
   json_t *solve;             // solve/record.json, or NULL
   CwMesh mesh;
   CwReportPictures pictures;
+  CwView view;
 } CwReportData;
 
 extern const char *const cw_report_stage[CW_STAGES]; // names of the folders

@@ -2,7 +2,7 @@
 // cutwater-report on a run of two boxes: one page, whole or not at all, and one line where something is
 // wrong.
 // Modules without a test of their own that it runs: page_curve, page_design, page_mesh, page_pictures, page_run,
-// page_solve, picture_list, pictures, quantity.
+// page_solve, page_view, picture_list, pictures, quantity.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -240,7 +240,11 @@ static void page_tells_all_and_stands_alone(void **state) {
   every(page, "src=\"", "src=\"data:image/png;base64,iVBORw0KGgo");
   every(page, "href=\"", "href=\"#");
   every(page, "http", "http://www.w3.org/2000/svg");
-  assert_null(strstr(page, "<script"));
+  // Two scripts, the page's own: the data of the picture that turns, and its viewer.
+  assert_null(strstr(page, "<script src"));
+  holds(page, "<figure id=\"view\"");
+  holds(page, "id=\"view-data\">{\"step\":");
+  holds(page, "getContext(\"webgl\"");
   assert_null(strstr(page, "nan"));
   // The same bytes each time.
   assert_int_equal(report(said), 0);

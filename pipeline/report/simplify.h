@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A surface of bounded size from any number of triangles, taken one by one: vertex clustering with quadrics (Lindstrom,
+// Out-of-core simplification of large polygonal models, SIGGRAPH 2000). Corners in one cube of a lattice become one
+// point, where the squared distances from the planes of their triangles are least. The lattice coarsens as the
+// triangles come, so that neither their number nor their size need be known.
+#ifndef CUTWATER_PIPELINE_REPORT_SIMPLIFY_H
+#define CUTWATER_PIPELINE_REPORT_SIMPLIFY_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+typedef struct CwSimplifier CwSimplifier;
+
+// `most`: triangles of the result; `cell`: edge of the first cubes, m: what is finer is lost. The order of the
+// triangles counts: the same order gives the same result. Free with cw_simplify_free. CW_ERR_MEMORY.
+CwStatus cw_simplify_start(int64_t most, double cell, CwSimplifier **simplifier);
+void cw_simplify_free(CwSimplifier *simplifier);
+
+// Takes a triangle with its corners, and a mark that it keeps. CW_ERR_MEMORY.
+CwStatus cw_simplify_add(CwSimplifier *simplifier, const double *const corner[3], int mark);
+
+// Whether the lattice has coarsened so far.
+int cw_simplify_coarsened(const CwSimplifier *simplifier);
+
+typedef struct {
+  int32_t point_count, triangle_count;
+  double (*points)[3];
+  int32_t (*triangles)[3], *mark; // corners as they came
+} CwSimpleSurface;
+
+// The result of all triangles so far; no triangle stands twice. Zeroed `surface` on entry; free it with
+// cw_simple_surface_free, also after a failure. CW_ERR_MEMORY.
+CwStatus cw_simplify_finish(CwSimplifier *simplifier, CwSimpleSurface *surface);
+void cw_simple_surface_free(CwSimpleSurface *surface);
+
+#endif

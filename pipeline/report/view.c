@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/view.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/report/picture_list.h"
+
+// Triangles of all turning zones together, of the others, and cubes of the first lattice along the pump's size.
+enum { TURNING_MOST = 80000, STANDING_MOST = 60000, FINEST = 8192 };
+
+CwStatus cw_view_start(const CwMesh *mesh, double size, CwView *view) {
+  CwStatus status = CW_OK;
+  int turning = 0;
+  for (int d = 0; d < mesh->domain_count; d++) turning += mesh->domains[d].rotating != 0;
+  for (int d = 0; d < mesh->domain_count; d++) {
+    int64_t most =
+        mesh->domains[d].rotating ? TURNING_MOST / turning : STANDING_MOST / (mesh->domain_count - turning);
+    CW_TRY(cw_simplify_start(most, size / FINEST, &view->simplifier[d]));
+  }
+done:
+  return status;
+}
+
+// Interfaces are no part, but without them the rims of the walls at them would recede.
+static int taken(const CwMesh *mesh, int patch) {
+  return mesh->patches[patch].kind != CW_PATCH_INTERFACE;
+}
+
+CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells) {
+  CwStatus status = CW_OK;
+  CwSimplifier *simplifier = view->simplifier[cells->domain];
+  int first = mesh->domains[cells->domain].first_patch;
+  for (int32_t t = 0; t < cells->triangle_count; t++) {
+    const double *corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = cells->points[cells->triangles[t][k]];
+    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->triangle_patch[t]));
+  }
+  for (int32_t q = 0; q < cells->quad_count; q++) {
+    const double *corner[4];
+    for (int k = 0; k < 4; k++) corner[k] = cells->points[cells->quads[q][k]];
+    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->quad_patch[q]));
+    CW_TRY(cw_simplify_add(simplifier, (const double *const[3]){corner[0], corner[2], corner[3]},
+                           first + cells->quad_patch[q]));
+  }
+done:
+  return status;
+}
+
+int cw_view_shown(const CwMesh *mesh, const CwViewPart *part) {
+  char name[CW_MESH_NAME_SIZE + 2];
+  if (part->patch < 0) return 0;
+  const CwModelPatch *patch = &mesh->patches[part->patch];
+  snprintf(name, sizeof name, "|%s|", patch->name);
+  return patch->kind == CW_PATCH_WALL && !strstr(cw_picture_list[0].hidden, name);
+}
+
+// The triangles of `patch` with points of their own. `own`: room for a number of each point of the surface.
+static CwStatus make_part(const CwSimpleSurface *surface, int patch, int32_t *own, CwViewPart *part) {
+  CwStatus status = CW_OK;
+  part->patch = patch;
+  memset(own, -1, (size_t)surface->point_count * sizeof *own);
+  for (int32_t t = 0; t < surface->triangle_count; t++) part->triangle_count += surface->mark[t] == patch;
+  CW_NEW(part->corners, part->triangle_count);
+  CW_NEW(part->points, 3 * part->triangle_count);
+  for (int32_t t = 0, made = 0; t < surface->triangle_count; t++) {
+    if (surface->mark[t] != patch) continue;
+    for (int k = 0; k < 3; k++) {
+      int32_t point = surface->triangles[t][k];
+      if (own[point] < 0) {
+        own[point] = part->point_count++;
+        memcpy(part->points[own[point]], surface->points[point], sizeof part->points[0]);
+      }
+      part->corners[made][k] = own[point];
+    }
+    made++;
+  }
+done:
+  return status;
+}
+
+CwStatus cw_view_finish(CwView *view, const CwMesh *mesh) {
+  CwStatus status = CW_OK;
+  CwSimpleSurface surface = {0};
+  int32_t *own = NULL;
+  CW_NEW(view->part, mesh->patch_count + 1); // and lines
+  for (int d = 0; d < mesh->domain_count; d++) {
+    CW_TRY(cw_simplify_finish(view->simplifier[d], &surface));
+    view->decimated |= cw_simplify_coarsened(view->simplifier[d]);
+    CW_NEW_UNSET(own, surface.point_count);
+    for (int p = 0; p < mesh->domains[d].patch_count; p++) {
+      CwViewPart *part = &view->part[view->part_count];
+      if (!taken(mesh, mesh->domains[d].first_patch + p)) continue;
+      view->part_count++;
+      CW_TRY(make_part(&surface, mesh->domains[d].first_patch + p, own, part));
+    }
+    free(own);
+    own = NULL;
+    cw_simple_surface_free(&surface);
+    cw_simplify_free(view->simplifier[d]);
+    view->simplifier[d] = NULL;
+  }
+done:
+  free(own);
+  cw_simple_surface_free(&surface);
+  return status;
+}
+
+void cw_view_free(CwView *view) {
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) cw_simplify_free(view->simplifier[d]);
+  for (int k = 0; k < view->part_count; k++) {
+    free(view->part[k].points);
+    free(view->part[k].corners);
+    for (int q = 0; q < CW_VIEW_QUANTITIES; q++) free(view->part[k].values[q]);
+  }
+  free(view->part);
+  *view = (CwView){0};
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The picture that turns in the browser (viewer.js): the boundary of the mesh but its interfaces, by patch, decimated
+// to a size that does not depend on that of the mesh.
+#ifndef CUTWATER_PIPELINE_REPORT_VIEW_H
+#define CUTWATER_PIPELINE_REPORT_VIEW_H
+
+#include "pipeline/mesh/region_read.h"
+#include "pipeline/report/colour_scale.h"
+#include "pipeline/report/simplify.h"
+
+enum { CW_VIEW_QUANTITIES = 2 };
+
+// One patch, or lines, with its own points.
+typedef struct {
+  int patch;    // of the mesh; -1: lines
+  int32_t point_count, triangle_count; // of lines: segments
+  double (*points)[3];
+  int32_t (*corners)[3];                      // of triangles; of lines two are used
+  unsigned char *values[CW_VIEW_QUANTITIES]; // shares of the colour scale, 0 to 255; NULL: none
+} CwViewPart;
+
+typedef struct {
+  char name[80], label[80]; // label: HTML with unit
+  CwColourSpan span;
+} CwViewQuantity;
+
+typedef struct {
+  CwSimplifier *simplifier[CW_DOMAINS_MOST]; // while the faces come
+  CwViewPart *part;
+  int part_count;
+  CwViewQuantity quantity[CW_VIEW_QUANTITIES];
+  int quantity_count;
+  int decimated; // whether the parts have fewer triangles than the mesh
+} CwView;
+
+// `size`: a length of the pump, such as its outlet radius, m. Zeroed `view` on entry; free it with cw_view_free, also
+// after a failure. CW_ERR_MEMORY.
+CwStatus cw_view_start(const CwMesh *mesh, double size, CwView *view);
+// Takes the boundary faces of a region; regions in the order of the manifest. CW_ERR_MEMORY.
+CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells);
+// Makes the parts. CW_ERR_MEMORY.
+CwStatus cw_view_finish(CwView *view, const CwMesh *mesh);
+void cw_view_free(CwView *view);
+
+// Whether a part is to be seen at first: of the rotor what the page's first picture shows, and no inlets and outlets.
+int cw_view_shown(const CwMesh *mesh, const CwViewPart *part);
+
+#endif
