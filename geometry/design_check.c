@@ -60,6 +60,14 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
       q, 3600 * CW_GUELICH_LEAST_FLOW, 100 * d->efficiency, 100 * d->hydraulic_efficiency);
   remark(remarks, d->specific_speed_nq > 100, "nq is %.0f; the correlations are those of radial wheels, nq up to 100",
          d->specific_speed_nq);
+  remark(remarks, d->correlations == CW_CORRELATIONS_GUAN && (d->specific_speed_ns < 30 || d->specific_speed_ns > 300),
+         "ns is %.0f; Guan's formulas are those of centrifugal pumps of ns 30 to 300", d->specific_speed_ns);
+  remark(remarks,
+         d->volute.input.area_law == CW_AREA_LAW_VELOCITY && strcmp(d->source[CW_DESIGN_section_speed], "case: K3") &&
+             (d->specific_speed_nq < 10 || d->specific_speed_nq > 40),
+         "nq is %.0f; Stepanoff's velocity factor was read off for nq 10 to 40: compare area_law angular_momentum, or "
+         "give velocity_factor",
+         d->specific_speed_nq);
   remark(
       remarks, d->hub_diameter < 1.1 * d->shaft_diameter,
       "the hub of %.4g mm has no room for the shaft of %.4g mm that the torque at %.0f rpm asks for: a stronger shaft, "

@@ -222,9 +222,10 @@ static CwStatus pump_of_any_base(const CwCase *table, CwDesign *design) {
   return CW_OK;
 }
 
-// A given wrap with which no pump can be had gives way, unless the priority is the wrap: to the nearest, in steps.
+// A given wrap with which no pump can be had gives way, unless the priority is the wrap: to the nearest, in steps, of
+// a quarter of it to four times.
 static CwStatus pump_of_nearest_wrap(const CwCase *table, CwDesign *design) {
-  enum { STEPS = 8 };
+  enum { STEPS = 12 };
   const double step = 1.12, given = table->impeller.wrap_angle;
   const CwDesign before = *design;
   CwCase trial = *table;
@@ -236,7 +237,7 @@ static CwStatus pump_of_nearest_wrap(const CwCase *table, CwDesign *design) {
     cw_fail_clear();
     *design = before;
     trial.impeller.wrap_angle = given * pow(step, (i % 2 ? 1 : -1) * (i / 2));
-    status = pump(&trial, design);
+    status = pump_of_any_base(&trial, design);
   }
   if (status != CW_OK) return CW_FAIL(status, "%s", refused);
   GIVE_WAY(wrap_angle, trial.impeller.wrap_angle, given, "wrap_angle_deg gives way to the nearest that can be built");

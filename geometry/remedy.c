@@ -11,6 +11,8 @@
 
 enum { KEYS_MOST = 100, TRIALS_MOST = 60, PATH_SIZE = CW_KEY_PATH_SIZE };
 
+static const double SAME = 1e-3; // a value of the case and the design's, which went through other units
+
 typedef struct {
   CwRemedyTrial trial;
   int trials;
@@ -93,7 +95,8 @@ static int nearest_value(Search *search, const CwCase *table, const CwCaseKey *k
     if (*found == before) continue;
     before = *found;
     cw_case_key_set(key, *found, &changed);
-    if (works(search, &changed, &design)) return 1;
+    if (works(search, &changed, &design) && !(fabs(computed_value(key, &design) - *found) > SAME * fabs(*found)))
+      return 1; // and not one that gives way to another
   }
   return 0;
 }

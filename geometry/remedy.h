@@ -3,8 +3,8 @@
 //
 // A pump given by its duty alone can be built, so leaving keys out of the case leads to one that works. First each key
 // alone is left out, those that the refusal names before others; of a number the value nearest to the given one is then
-// looked for between it and the computed one. Where no key alone helps, keys are left out one after another until the
-// pump can be built, and those that were not needed are put back.
+// looked for between it and the computed one; taken as it is, not giving way to another. Where no key alone
+// helps, keys are left out one after another until the pump can be built, and those that were not needed are put back.
 #ifndef CUTWATER_GEOMETRY_REMEDY_H
 #define CUTWATER_GEOMETRY_REMEDY_H
 

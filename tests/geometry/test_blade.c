@@ -124,10 +124,37 @@ static void clearance(void **state) {
   assert_true(found < 0);
 }
 
+// From the thickest place on, the sides of a thick blade turn into a rounded trailing edge one way: along each of them
+// the angle to the mean line keeps its sign.
+static void thick_rounded_sides_do_not_swing(void **state) {
+  CwDesign thick = design;
+  CwBladeSection rounded;
+  thick.trailing_edge = CW_EDGE_ROUNDED;
+  thick.blade_thickness = 0.04 * design.outlet_diameter;
+  thick.trailing_edge_thickness = 0.02 * design.outlet_diameter;
+  assert_int_equal(cw_blade_section(&thick, &meridian, 0.5, &rounded), CW_OK);
+  assert_true(rounded.end < 0.98);
+  for (int side = CW_BLADE_PRESSURE; side <= CW_BLADE_SUCTION; side++)
+    for (int i = 1; i < 50; i++) {
+      const double p = rounded.thickest_at + i / 50.0 * (rounded.end - rounded.thickest_at), step = 1e-4;
+      const CwBladePoint a = cw_blade_side(&rounded, side, p - step), b = cw_blade_side(&rounded, side, p + step);
+      double x[2], dx[2];
+      cw_meridian_blade_point(&meridian, 0.5, 0.5 * (a.q + b.q), x, dx);
+      const double angle = atan2(hypot(dx[0], dx[1]) * (b.q - a.q), x[0] * (a.theta - b.theta));
+      const double from_mean = (angle - cw_blade_beta(&rounded, p)) / degree;
+      assert_true(side == CW_BLADE_PRESSURE ? from_mean < -0.3 : from_mean > 0.3);
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(spiral), cmocka_unit_test(wrap_closes), cmocka_unit_test(thickness),
-      cmocka_unit_test(nose),   cmocka_unit_test(bevel),       cmocka_unit_test(clearance),
+      cmocka_unit_test(thick_rounded_sides_do_not_swing),
+      cmocka_unit_test(spiral),
+      cmocka_unit_test(wrap_closes),
+      cmocka_unit_test(thickness),
+      cmocka_unit_test(nose),
+      cmocka_unit_test(bevel),
+      cmocka_unit_test(clearance),
   };
   return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -79,6 +79,16 @@ static void ends_and_reach_are_remarked(void **state) {
   assert_true(remarked(&design, "B = 55"));
   design.shaft_diameter = 2 * design.hub_diameter;
   assert_true(remarked(&design, "has no room for the shaft"));
+  design.specific_speed_ns = 25;
+  assert_false(remarked(&design, "Guan's formulas"));
+  design.correlations = CW_CORRELATIONS_GUAN;
+  assert_true(remarked(&design, "Guan's formulas are those of centrifugal pumps of ns 30 to 300"));
+  design.specific_speed_nq = 50;
+  assert_false(remarked(&design, "Stepanoff"));
+  design.volute.input.area_law = CW_AREA_LAW_VELOCITY;
+  assert_true(remarked(&design, "Stepanoff's velocity factor was read off for nq 10 to 40"));
+  design.source[CW_DESIGN_section_speed] = "case: K3";
+  assert_false(remarked(&design, "Stepanoff"));
 }
 
 int main(void) {
