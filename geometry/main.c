@@ -75,9 +75,10 @@ static void show_rotor(const CwDesign *design, const CwMeasuredRotor *rotor) {
            rotor->shroud_crease.angle / degree);
   cw_log("measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
   if (least < 66)
-    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: lower "
-                "lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm",
-                least);
+    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: %s", least,
+                design->blade_form == CW_BLADE_CYLINDRICAL
+                    ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
+                    : "lower lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
   if (360 - rotor->trailing_edge.angle / degree < 75)
     cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: take "
                 "trailing_edge bevelled, or raise trailing_edge_bevel_mm",

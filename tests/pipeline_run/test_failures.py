@@ -71,7 +71,7 @@ class BadInput(unittest.TestCase):
 
     def test_a_pipe_as_case_file(self):
         # Without a writer it would hold whoever opens it.
-        for name in ("geometry", "mesh"):
+        for name in ("geometry", "mesh", "export", "report"):
             folder = fresh(f"bad-pipe-{name}")
             os.mkfifo(folder / "case.yaml")
             result = stage(name, folder / "run", case=folder / "case.yaml", ranks=2)
