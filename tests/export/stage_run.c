@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tests/export/stage_run.h"
 
+#include <setjmp.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <cmocka.h>
 
 int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
   char run[STAGE_PATH_SIZE + 10];
@@ -61,7 +64,7 @@ int stage_export_with(const char *run, int ranks, const char *more, char *output
                      CUTWATER_SOURCE_DIR, more, run, ranks, CUTWATER_BIN_DIR, run, run);
 }
 
-int stage_has_program(const char *name) {
+void stage_need_program(const char *name) {
   char output[STAGE_OUTPUT_SIZE];
-  return stage_shell(output, "command -v %s", name) == 0;
+  if (stage_shell(output, "command -v %s", name)) fail_msg("no %s here: pipeline/packages.sh check", name);
 }

@@ -22,7 +22,7 @@ int stage_export(const char *run, int ranks, char *output);
 // The same on the paper's case with `more` behind it, keys of sections that the paper's does not have.
 int stage_export_with(const char *run, int ranks, const char *more, char *output);
 
-// Whether a program can be called.
-int stage_has_program(const char *name);
+// Fails the test where a program cannot be called: what it would have judged has not been judged.
+void stage_need_program(const char *name);
 
 #endif

@@ -31,7 +31,7 @@ static int remove_run(void **state) {
 
 static void openfoam_reads_the_same_mesh(void **state) {
   (void)state;
-  if (!stage_has_program("fluent3DMeshToFoam")) skip();
+  stage_need_program("fluent3DMeshToFoam");
   if (stage_shell(output,
                   "cd '%s' && mkdir -p read && cp -r export/openfoam/system read && cd read && fluent3DMeshToFoam "
                   "../export/fluent/pump.msh && "

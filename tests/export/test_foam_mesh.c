@@ -95,7 +95,7 @@ static void decompose(void) {
 
 static void parts_are_those_of_decomposepar(void **state) {
   (void)state;
-  if (!stage_has_program("decomposePar")) skip();
+  stage_need_program("decomposePar");
   static const char *const names[] = {
       "points", "faces", "owner", "neighbour", "cellProcAddressing", "faceProcAddressing", "pointProcAddressing"};
   decompose();
@@ -133,7 +133,7 @@ static void parts_are_those_of_decomposepar(void **state) {
 
 static void the_parts_are_balanced_and_sound(void **state) {
   (void)state;
-  if (!stage_has_program("checkMesh")) skip();
+  stage_need_program("checkMesh");
   stage_shell(output, "cd '%s/parts' && mpirun -n %d checkMesh -parallel -allTopology -allGeometry", folder, PARTS);
   if (!strstr(output, "Mesh OK") || strstr(output, "***")) fail_msg("%s", output);
   stage_shell(other, "cd '%s/whole' && checkMesh", folder);
@@ -164,7 +164,8 @@ static void residuals_are_those_of_the_decomposed_case(void **state) {
               {"whole", "simpleFoam"}};
   double residual[3][SOLVED] = {{0}};
   int count[3] = {0};
-  if (!stage_has_program("simpleFoam") || !stage_has_program("decomposePar")) skip();
+  stage_need_program("simpleFoam");
+  stage_need_program("decomposePar");
   for (int k = 0; k < 3; ++k) {
     if (stage_shell(output, "cd '%s/%s' && sed -i 's/endTime  .*/endTime 2;/' system/controlDict && %s", folder,
                     runs[k].folder, runs[k].launch))
@@ -184,7 +185,7 @@ static void residuals_are_those_of_the_decomposed_case(void **state) {
 // As many ranks as parts run the case's own scripts; another number is told.
 static void the_scripts_know_the_parts(void **state) {
   (void)state;
-  if (!stage_has_program("simpleFoam")) skip();
+  stage_need_program("simpleFoam");
   assert_int_equal(stage_shell(output, "cd '%s/parts' && ./Allrun 3", folder), 1);
   assert_string_equal(output, "Allrun: RANKS is '3'; allowed: 4, for which the mesh is divided\n");
   assert_int_equal(

@@ -30,7 +30,7 @@ static int remove_export(void **state) {
 
 static void cgnscheck_has_nothing_to_say(void **state) {
   (void)state;
-  if (!stage_has_program("cgnscheck")) skip();
+  stage_need_program("cgnscheck");
   assert_int_equal(stage_shell(output, "cgnscheck '%s/run/export/pump.cgns'", folder), 0);
   // It ends with 0 whatever it finds.
   if (strstr(output, "ERROR") || strstr(output, "WARNING")) fail_msg("%s", output);
@@ -49,7 +49,7 @@ static double number_after(const char *words) {
 
 static void checkmesh_finds_a_sound_mesh(void **state) {
   (void)state;
-  if (!stage_has_program("checkMesh")) skip();
+  stage_need_program("checkMesh");
   stage_shell(output,
               "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
               folder, folder, folder);
@@ -62,7 +62,7 @@ static void checkmesh_takes_pyramids(void **state) {
   (void)state;
   char run[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
-  if (!stage_has_program("checkMesh")) skip();
+  stage_need_program("checkMesh");
   snprintf(run, sizeof run, "%s/pyramids", folder);
   pump.pyramids = 1;
   assert_int_equal(synthetic_run_write(run, &pump), 0);
@@ -75,7 +75,7 @@ static void checkmesh_takes_pyramids(void **state) {
 // Weights are the area of the other side over each face, by its own area.
 static void interface_weights_are_about_one(void **state) {
   (void)state;
-  if (!stage_has_program("checkMesh")) skip();
+  stage_need_program("checkMesh");
   stage_shell(output, "cd '%s/run/export/openfoam' && checkMesh -allGeometry | grep weights", folder);
   for (int side = 0; side < 2; ++side) {
     char words[60];
@@ -88,7 +88,7 @@ static void interface_weights_are_about_one(void **state) {
 
 static void steady_run_starts_and_reports(void **state) {
   (void)state;
-  if (!stage_has_program("simpleFoam")) skip();
+  stage_need_program("simpleFoam");
   int code = stage_shell(output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run",
                          folder, folder, folder);
   if (code || strstr(output, "FOAM FATAL")) fail_msg("%s", output);
@@ -111,7 +111,7 @@ static void steady_run_starts_and_reports(void **state) {
 
 static void transient_run_starts_from_the_steady_one(void **state) {
   (void)state;
-  if (!stage_has_program("pimpleFoam")) skip();
+  stage_need_program("pimpleFoam");
   int code = stage_shell(output,
                          "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
                          "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' "

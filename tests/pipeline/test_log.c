@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/ioctl.h>
 #include <termios.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -240,8 +241,10 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
   capture_start(terminal);
   cw_log_open("mesh", copy_path, 1, 0);
   cw_progress_start("fill", 10, "regions");
+  double start = cw_seconds();
   cw_progress(1);
-  cw_progress(2); // too soon for another line
+  cw_progress(2);
+  int too_soon = cw_seconds() - start < 0.1; // for another line; a busy machine may stand still here
   cw_log("event");
   usleep(120 * 1000);
   struct winsize window = {.ws_row = 24, .ws_col = 37};
@@ -258,7 +261,7 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
   close(master);
   const char *begin = "\r\033[Kcutwater-mesh: fill: 1 of 10 regions in ";
   assert_int_equal(strncmp(seen, begin, strlen(begin)), 0);
-  assert_null(strstr(seen, "fill: 2 of 10"));
+  if (too_soon) assert_null(strstr(seen, "fill: 2 of 10"));
   assert_non_null(strstr(seen, " left\r\033[Kcutwater-mesh: event\n\r\033[Kcutwater-mesh: fill: 5 of 10 "
                                "regions\r\033[Kcutwater-mesh: fill: 5 of 10"));
   assert_int_equal(count(seen, "\n"), 2); // the event and the last line
@@ -269,10 +272,13 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
 }
 
 static void clock_and_memory_are_true(void **state) {
+  struct timespec from, to;
+  clock_gettime(CLOCK_MONOTONIC, &from);
   double start = cw_seconds();
   usleep(20000);
   double spent = cw_seconds() - start;
-  assert_true(spent >= 0.02 && spent < 5);
+  clock_gettime(CLOCK_MONOTONIC, &to);
+  assert_true(spent >= 0.02 && spent <= (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
   int64_t before = cw_peak_memory_bytes();
   size_t size = 64 << 20;
   volatile char *block = malloc(size);
