@@ -11,12 +11,19 @@
 #include "export/foam_case.h"
 #include "export/foam_mesh.h"
 #include "export/foam_region.h"
+#include "export/saturne_case.h"
 #include "pipeline/atomic_file.h"
 
 const char *const cw_output_names[CW_FORMATS] = {[CW_FORMAT_CGNS] = "pump.cgns",
                                                  [CW_FORMAT_OPENFOAM] = "openfoam",
                                                  [CW_FORMAT_CFX] = "cfx",
-                                                 [CW_FORMAT_FLUENT] = "fluent"};
+                                                 [CW_FORMAT_FLUENT] = "fluent",
+                                                 [CW_FORMAT_SATURNE] = "code_saturne"};
+
+// Those that are a few files beside pump.cgns.
+typedef CwStatus (*CaseWriter)(const char *folder, const CwCase *table, const CwAssembly *assembly);
+static const CaseWriter beside_cgns[CW_FORMATS] = {[CW_FORMAT_CFX] = cw_cfx_case_write,
+                                                   [CW_FORMAT_SATURNE] = cw_saturne_case_write};
 
 int cw_output_has(const CwOutput *output, CwFormat format) {
   return output->formats >> format & 1;
@@ -51,7 +58,9 @@ static CwStatus plan_one(CwOutput *o, CwFormat format) {
 
 CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const char *folder, CwOutput *o) {
   CwStatus status = CW_OK;
-  const int on_cgns = 1 << CW_FORMAT_CFX;
+  int on_cgns = 0;
+  for (int f = 0; f < CW_FORMATS; ++f)
+    if (beside_cgns[f]) on_cgns |= 1 << f;
   o->table = table;
   o->assembly = assembly;
   CW_REQUIRE((o->folder = strdup(folder)), CW_ERR_MEMORY, "out of memory");
@@ -84,10 +93,13 @@ CwStatus cw_output_begin(CwOutput *o, const CwInterface *interfaces) {
     CW_TRY(cw_make_directory(o->foam_folder));
     CW_TRY(cw_foam_case_write(o->foam_folder, o->table, o->assembly));
   }
-  if (cw_output_has(o, CW_FORMAT_CFX)) {
-    CW_TRY(join(o->folder, cw_output_names[CW_FORMAT_CFX], &path));
+  for (int f = 0; f < CW_FORMATS; ++f) {
+    if (!beside_cgns[f] || !cw_output_has(o, (CwFormat)f)) continue;
+    free(path);
+    path = NULL;
+    CW_TRY(join(o->folder, cw_output_names[f], &path));
     CW_TRY(cw_make_directory(path));
-    CW_TRY(cw_cfx_case_write(path, o->table, o->assembly));
+    CW_TRY(beside_cgns[f](path, o->table, o->assembly));
   }
   if (cw_output_has(o, CW_FORMAT_FLUENT)) {
     CW_TRY(cw_make_directory(o->fluent_folder));

@@ -20,7 +20,7 @@ static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
 static const char *const truths[] = {"false", "true", NULL};
 static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const sweeps[] = {"layers_stay", "similar", NULL};
-static const char *const formats[] = {"cgns", "openfoam", "cfx", "fluent", NULL};
+static const char *const formats[] = {"cgns", "openfoam", "cfx", "fluent", "code_saturne", NULL};
 static const char *const foam_releases[] = {"v1912", "v2406", NULL};
 static const char *const integers[] = {"auto", "32", "64", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
@@ -247,7 +247,7 @@ const CwCaseKey cw_case_keys[] = {
                  "the same on the interface between rotor and stator"),
 
     CHOICES("export", "formats", formats, 1 << CW_FORMAT_CGNS | 1 << CW_FORMAT_OPENFOAM | 1 << CW_FORMAT_CFX,
-            output.formats, "what the mesh is written for; cfx reads pump.cgns and brings it with it"),
+            output.formats, "what the mesh is written for; cfx and code_saturne read pump.cgns and bring it with them"),
     CHOICE("cgns", "integers", integers, CW_INTEGERS_AUTO, output.cgns_integers,
            "bits of the integers of pump.cgns; auto: 64 where a zone has 2^31 points or elements or more, else 32"),
     {"openfoam", "processors", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 100000, 1, NULL, AT(output.foam_processors),

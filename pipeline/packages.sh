@@ -10,7 +10,7 @@ build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmoc
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libocct-data-exchange-dev"
 other_mpi="libmpich-dev mpich libhdf5-mpich-dev iproute2"
-judges="cgns-convert gmsh python3-gmsh openfoam tetgen valgrind"
+judges="cgns-convert code-saturne gmsh python3-gmsh openfoam tetgen valgrind"
 
 case "${1:-}" in
 build) wanted=$build ;;

@@ -37,6 +37,7 @@ def files(run):
             ("export/openfoam", "the OpenFOAM case: ./Allrun"),
             ("export/cfx", "the CFX set-up on pump.cgns"),
             ("export/fluent", "the mesh for Fluent"),
+            ("export/code_saturne", "the code_saturne case on pump.cgns: ./run"),
             ("solve", "the solved flow: steady/ is the OpenFOAM case"),
             ("solve/curve.csv", "head, power and efficiency over the flow rate"),
             ("report/index.html", "the report")]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Every module has a test: tests/ROOM/test_MODULE, another test of its stage that calls one of its functions, or one
-whose comment at the top names the module (the file name without its ending). With --list: each module and its tests."""
+whose comment at the top names the module (the file name without its ending). With --list: each module and its tests.
+Templates are sources of others' programs, and no modules."""
 import os
 import pathlib
 import re
@@ -36,7 +37,7 @@ faults, seen = [], 0
 for stage in STAGES:
     tests = tests_of(stage)
     for path in sorted((source / stage).rglob("*")):
-        if path.suffix not in (".c", ".cpp") or path.stem in PROGRAMS:
+        if path.suffix not in (".c", ".cpp") or path.stem in PROGRAMS or "templates" in path.parts:
             continue
         name, functions = path.relative_to(source), functions_of(path.read_text())
         own = [test for test, _ in tests if test.stem == f"test_{path.stem}"]

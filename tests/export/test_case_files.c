@@ -54,6 +54,24 @@ static void the_paper_in_cfx(void **state) {
   expect("cfx/transient.ccl", "Timesteps = 0.000114942529 [s]"); // 60/1450/360
 }
 
+static void the_paper_in_code_saturne(void **state) {
+  (void)state;
+  const char *const numbers = "code_saturne/SRC/pump.h";
+  export_with("$ a export: {formats: code_saturne}");
+  expect(numbers, "#define PUMP_TURBULENCE CS_TURB_K_EPSILON\n");
+  expect(numbers, "#define PUMP_SPEED 151.843645 ");
+  expect(numbers, "#define PUMP_FLOW 0.00694444444\n"); // 25/3600
+  expect(numbers, "#define PUMP_ROUGHNESS 0 ");
+  expect(numbers, "#define PUMP_ROTOR \"ROTOR\"\n");
+  expect(numbers, "#define PUMP_STANDING_WALLS \"suction_pipe\" ");
+  expect(numbers, "#define PUMP_SHAFTS \"no_group[]\" ");
+  expect(numbers, " = {{\"outlet\", 1}};");
+  expect(numbers, " = {\"rotor_interface or stator_interface\"};");
+  assert_int_equal(stage_shell(output, "test -x '%s/run/export/code_saturne/run'", folder), 0);
+  export_with("s/treatment: smooth/treatment: rough/; $ a export: {formats: code_saturne}");
+  expect(numbers, "#define PUMP_ROUGHNESS 1.2755102e-06 "); // 25e-6 * 0.5/9.8
+}
+
 static void log_layer_meshes_take_k_epsilon(void **state) {
   (void)state;
   export_with("");
@@ -231,6 +249,7 @@ static void a_wrong_number_of_ranks_is_told(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_paper_in_cfx),
+      cmocka_unit_test(the_paper_in_code_saturne),
       cmocka_unit_test(log_layer_meshes_take_k_epsilon),
       cmocka_unit_test(eddies_are_sampled_by_phase),
       cmocka_unit_test(each_point_of_the_curve_has_its_flow),

@@ -35,6 +35,7 @@ static void each_format_alone(void **state) {
                                            {"openfoam", "openfoam\nrecord.json\n"},
                                            {"cfx", "cfx\npump.cgns\nrecord.json\n"},
                                            {"fluent", "fluent\nrecord.json\n"},
+                                           {"code_saturne", "code_saturne\npump.cgns\nrecord.json\n"},
                                            {"[fluent, openfoam]", "fluent\nopenfoam\nrecord.json\n"}};
   for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
     char more[100];

@@ -2,7 +2,7 @@
 // The whole stage through its executable: the same bytes for any number of ranks, and what bad input does.
 // Modules without a test of their own that it runs: assembly, blocks, cgns_fill, cgns_sections, cgns_tree, division,
 // fluent_case, foam_boundary, foam_files, foam_layout, foam_processors, foam_region, foam_zones, folder,
-// interface_near, manifest.
+// interface_near, manifest, saturne_case.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

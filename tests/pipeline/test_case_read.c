@@ -255,10 +255,10 @@ static void formats_are_chosen_in_a_list(void **state) {
   assert_int_equal(table.output.formats, 1 << CW_FORMAT_OPENFOAM);
   write_changed(20, "  cells: 1M\nexport: {formats: [cgns, star]}");
   assert_true(is_refused("21:26: export.formats: star is not one of the choices; allowed: a list of one or more of "
-                         "cgns, openfoam, cfx or fluent"));
+                         "cgns, openfoam, cfx, fluent or code_saturne"));
   write_changed(20, "  cells: 1M\nexport: {formats: []}");
   assert_true(is_refused("21:20: export.formats: the list has no value; allowed: a list of one or more of cgns, "
-                         "openfoam, cfx or fluent"));
+                         "openfoam, cfx, fluent or code_saturne"));
 }
 
 static void forms_that_yaml_allows(void **state) {

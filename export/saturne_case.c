@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/saturne_case.h"
+
+#include "export/blocks.h"
+#include "export/foam_case.h"
+#include "export/patch_role.h"
+
+// Selects nothing: every face has a group.
+static const char none[] = "no_group[]";
+
+static int is_inlet(const CwMesh *mesh, const CwModelPatch *patch) {
+  (void)mesh;
+  return patch->kind == CW_PATCH_INLET;
+}
+
+static int is_outlet(const CwMesh *mesh, const CwModelPatch *patch) {
+  (void)mesh;
+  return patch->kind == CW_PATCH_OUTLET;
+}
+
+static int is_symmetry(const CwMesh *mesh, const CwModelPatch *patch) {
+  (void)mesh;
+  return patch->kind == CW_PATCH_SYMMETRY;
+}
+
+static int stands_in_rotor(const CwMesh *mesh, const CwModelPatch *patch) {
+  return patch->kind == CW_PATCH_WALL && mesh->domains[patch->domain].rotating && !cw_patch_turns(mesh, patch);
+}
+
+static CwStatus set_groups(const CwAssembly *a, const char *key, CwPatchChoice wanted, CwValues *values) {
+  int count = 0;
+  for (int p = 0; p < a->mesh->patch_count; ++p)
+    count += cw_patch_is_there(a, p) && wanted(a->mesh, &a->mesh->patches[p]);
+  return count ? cw_patch_names_set(a, wanted, " or ", key, values) : cw_values_set(values, key, "%s", none);
+}
+
+static CwStatus set_zones(const CwMesh *mesh, CwValues *values) {
+  CwStatus status = CW_OK;
+  CwBlocks zones = {0};
+  int count = 0;
+  CW_TRY(cw_blocks_open(&zones));
+  for (int d = 0; d < mesh->domain_count; ++d)
+    if (mesh->domains[d].rotating) fprintf(zones.out, "%s%s", count++ ? " or " : "", mesh->domains[d].zone);
+  if (!count) fputs(none, zones.out);
+  CW_TRY(cw_blocks_close(&zones, "rotor_zones", values));
+done:
+  cw_blocks_close(&zones, NULL, values);
+  return status;
+}
+
+static CwStatus set_ends(const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  CwBlocks list = {0};
+  const CwMesh *mesh = a->mesh;
+  double area = 0;
+  int count = 0;
+  CW_TRY(cw_blocks_open(&list));
+  for (int p = 0; p < mesh->patch_count; ++p)
+    if (mesh->patches[p].kind == CW_PATCH_OUTLET && cw_patch_is_there(a, p))
+      fprintf(list.out, "%s{\"%s\", %.9g}", count++ ? ", " : "", mesh->patches[p].name, mesh->patches[p].flow_share);
+  CW_TRY(cw_blocks_close(&list, "outlet_shares", values));
+  CW_TRY(cw_blocks_open(&list));
+  for (int i = 0; i < mesh->interface_count; ++i) {
+    const int *patch = mesh->interfaces[i].patch;
+    fprintf(list.out, "%s\"%s or %s\"", i ? ", " : "", mesh->patches[patch[0]].name, mesh->patches[patch[1]].name);
+    area += a->patches[patch[0]].area + a->patches[patch[1]].area;
+  }
+  CW_TRY(cw_blocks_close(&list, "interfaces", values));
+  CW_TRY(cw_values_set(values, "interface_area", "%.9g", area));
+done:
+  cw_blocks_close(&list, NULL, values);
+  return status;
+}
+
+// The roughness length whose law has the velocity that OpenFOAM's rough wall function has: E / Cs = 9.8 / 0.5 in it.
+static double roughness_length(const CwWalls *walls) {
+  return walls->treatment == CW_WALL_FUNCTION_ROUGH ? walls->roughness * 0.5 / 9.8 : 0;
+}
+
+static CwStatus set_numbers(const CwCase *table, const CwMesh *mesh, CwValues *values) {
+  CwStatus status = CW_OK;
+  const CwModelFlow *flow = &mesh->flow;
+  const CwTurbulence inlet = cw_turbulence(flow->inlet_speed, 0.05, 0.07 * flow->inlet_diameter);
+  CW_TRY(cw_values_set(values, "case", "%s", table->name));
+  CW_TRY(cw_values_set(values, "turbulence", "%s",
+                       cw_walls_resolved(mesh) ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
+  CW_TRY(cw_values_set(values, "speed", "%.9g", table->operating_point.speed));
+  CW_TRY(cw_values_set(values, "flow_rate", "%.9g", table->operating_point.flow_rate));
+  CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
+  CW_TRY(cw_values_set(values, "viscosity", "%.9g", table->fluid.kinematic_viscosity));
+  CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", table->operating_point.inlet_pressure));
+  CW_TRY(cw_values_set(values, "roughness_length", "%.9g", roughness_length(&table->walls)));
+  CW_TRY(cw_values_set(values, "passage_speed", "%.9g", flow->passage_speed));
+  CW_TRY(cw_values_set(values, "passage_width", "%.9g", flow->passage_width));
+  CW_TRY(cw_values_set(values, "inlet_k", "%.9g", inlet.k));
+  CW_TRY(cw_values_set(values, "inlet_epsilon", "%.9g", inlet.epsilon));
+done:
+  return status;
+}
+
+CwStatus cw_saturne_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
+  CwStatus status = CW_OK;
+  CwValues values = {0};
+  CW_TRY(set_numbers(table, a->mesh, &values));
+  CW_TRY(set_zones(a->mesh, &values));
+  CW_TRY(set_groups(a, "turning_walls", cw_patch_turns, &values));
+  CW_TRY(set_groups(a, "standing_walls", stands_in_rotor, &values));
+  CW_TRY(set_groups(a, "shafts", cw_patch_is_shaft, &values));
+  CW_TRY(set_groups(a, "symmetries", is_symmetry, &values));
+  CW_TRY(set_groups(a, "inlets", is_inlet, &values));
+  CW_TRY(set_groups(a, "outlets", is_outlet, &values));
+  CW_TRY(set_ends(a, &values));
+  CW_TRY(cw_templates_write("code_saturne/", folder, &values));
+done:
+  cw_values_free(&values);
+  return status;
+}
