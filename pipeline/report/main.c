@@ -41,7 +41,7 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *r
   CW_TRY(cw_report_data_read(args->run_path, table, &data));
   CW_TRY(cw_report_sizes(&data, &sizes));
   CW_TRY(require_content(&data));
-  CW_TRY(cw_report_pictures_draw(&data.mesh, &sizes, &data.pictures, &data.view));
+  CW_TRY(cw_report_pictures_draw(&data.mesh, &sizes, &data.flow, &data.pictures, &data.view));
   drawn = cw_seconds();
   CW_TRY(cw_stage_path(args, "report/index.html", &path));
   CW_TRY(cw_stage_path(args, "report/record.json", &record_path));

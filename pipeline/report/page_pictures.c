@@ -21,6 +21,7 @@ static void write_picture(FILE *page, const CwReportPicture *picture) {
   fputs(".</b> ", page);
   cw_html_text(page, picture->caption);
   fputs("</figcaption>", page);
+  if (picture->scale_label && !picture->lacking) cw_colour_bar(page, &picture->scale, picture->scale_label);
   if (picture->legend_count) {
     fputs("<div class=\"key\">", page);
     for (int k = 0; k < picture->legend_count; k++) {

@@ -8,6 +8,7 @@
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
 #include "pipeline/report/page_curve.h"
+#include "pipeline/report/page_pictures.h"
 #include "pipeline/report/plot.h"
 
 typedef struct {
@@ -136,7 +137,7 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
   snprintf(where, sizeof where, "%s/solve/record.json", data->run);
   CW_TRY(cw_json_object(data->solve, where, "results", &results));
   CW_TRY(cw_json_count(results, where, "iterations", &iterations));
-  if (!json_equal(json_object_get(data->solve, "made_from"), json_object_get(data->record[2], "files"))) {
+  if (!cw_report_is_solved(data)) {
     fputs("<p>The flow was solved on another export: solve it again (<code>make solve</code>).</p>\n", page);
     goto done;
   }
@@ -148,6 +149,10 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
   if (history.count > 1) history_plots(page, &history, data->table->operating_point.head);
   CW_TRY(cw_json_array(results, where, "curve", &curve));
   CW_TRY(cw_page_curve(page, data, where, curve));
+  if (data->flow.present) {
+    fputs("<h3>Fields</h3>\n", page);
+    cw_page_picture_list(page, data, CW_SECTION_FLOW);
+  }
   y_plus_table(page, json_object_get(results, "y_plus"));
 done:
   history_free(&history);

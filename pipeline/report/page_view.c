@@ -69,7 +69,7 @@ static CwStatus write_part(FILE *page, const CwMesh *mesh, const CwView *view, i
   CwStatus status = CW_OK;
   const CwViewPart *part = &view->part[index];
   const CwModelPatch *patch = part->patch >= 0 ? &mesh->patches[part->patch] : NULL;
-  int wide = part->point_count > LATTICE + 1, separate = 0;
+  int wide = part->point_count > LATTICE + 1;
   unsigned colour = LINE_COLOUR;
   if (patch) colour = cw_patch_colour(patch->name, part->patch - mesh->domains[patch->domain].first_patch);
   fprintf(page, "%s{\"lines\":%d,\"shown\":%d,\"colour\":%u,\"wide\":%d,\n\"points\":\"", index ? "," : "", !patch,
@@ -79,9 +79,8 @@ static CwStatus write_part(FILE *page, const CwMesh *mesh, const CwView *view, i
   CW_TRY(write_corners(page, part, wide ? 4 : 2));
   fputs("\",\n\"values\":[", page);
   for (int q = 0; q < CW_VIEW_QUANTITIES; q++) {
-    if (!part->values[q]) continue;
-    fputs(separate++ ? ",\"" : "\"", page);
-    cw_html_base64(page, part->values[q], (size_t)part->point_count);
+    fputs(q ? ",\"" : "\"", page);
+    if (part->values[q]) cw_html_base64(page, part->values[q], (size_t)part->point_count);
     fputs("\"", page);
   }
   fputs("]}\n", page);

@@ -13,11 +13,20 @@ typedef enum {
   CW_SECTION_SURFACE,
   CW_SECTION_DECOMPOSITION,
   CW_SECTION_CUT,
+  CW_SECTION_FLOW,
 } CwPictureSection;
 
 enum { CW_SEES_ROTOR = 1, CW_SEES_STATOR = 2, CW_SEES_PIPES = 4, CW_SEES_ALL = 7 };
 
-typedef enum { CW_COLOUR_PATCH, CW_COLOUR_REGION, CW_COLOUR_CUT } CwPictureColour;
+// From CW_COLOUR_PRESSURE on: of the solved flow, in the order of CwFlowQuantity.
+typedef enum {
+  CW_COLOUR_PATCH,
+  CW_COLOUR_REGION,
+  CW_COLOUR_CUT,
+  CW_COLOUR_PRESSURE,
+  CW_COLOUR_Y_PLUS,
+  CW_COLOUR_SPEED,
+} CwPictureColour;
 typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0 } CwPicturePlane;
 
 typedef enum {

@@ -11,7 +11,7 @@
 #include "pipeline/report/cut.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-static const uint32_t pyramid_colour = 0xb98fc0;
+static const uint32_t pyramid_colour = 0xb98fc0, bare_colour = 0xd5dade;
 enum { PATCHES = CW_PATCHES_MOST, FIT_MARGIN = 28, METAL = 65000 };
 
 // A picture while it is drawn.
@@ -183,7 +183,20 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   return 0.5 + 0.56 * fmax(cosine, 0);
 }
 
-static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells) {
+static int is_of_flow(const CwPictureSpec *spec) {
+  return spec->colour >= CW_COLOUR_PRESSURE;
+}
+
+// share: of pressure and y+ by face, for pictures of the flow.
+static uint32_t face_colour(const Drawing *drawing, const CwModelPatch *patch, int region, const Face *face,
+                            double share) {
+  if (drawing->spec->colour == CW_COLOUR_REGION) return cw_region_colour(region);
+  if (!is_of_flow(drawing->spec)) return cw_patch_colour(patch->name, face->patch);
+  return isfinite(share) ? cw_colour_scale(share) : bare_colour;
+}
+
+static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells,
+                       double *const share[2]) {
   const CwPictureSpec *spec = drawing->spec;
   int d = cells->domain;
   const CwModelPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
@@ -198,8 +211,8 @@ static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const C
     else
       for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
     for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
-    uint32_t colour = spec->colour == CW_COLOUR_REGION ? cw_region_colour(region)
-                                                       : cw_patch_colour(patch[face.patch].name, face.patch);
+    const double *own = is_of_flow(spec) ? share[spec->colour - CW_COLOUR_PRESSURE] : NULL;
+    uint32_t colour = face_colour(drawing, &patch[face.patch], region, &face, own ? own[f] : NAN);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
     if (spec->hollow_white && outside && drawing->part[d] == CW_SEES_ROTOR) group = METAL;
     CwPaint paint = {.colour = cw_render_shade(colour, light),
@@ -211,17 +224,20 @@ static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const C
   }
 }
 
+static int is_cut(const double *distance, int count, const int32_t *corner) {
+  int above = 0;
+  for (int k = 0; k < count; k++) above += distance[corner[k]] >= 0;
+  return above > 0 && above < count;
+}
+
 static void draw_cut_cell(Drawing *drawing, const CwRegionData *cells, const double *distance, int count,
                           const int32_t *corner, uint32_t colour, int group) {
   const double *x[6];
   double s[6], polygon[CW_CUT_CORNERS][2], p[CW_CUT_CORNERS][3];
-  int above = 0;
   for (int k = 0; k < count; k++) {
     s[k] = distance[corner[k]];
-    above += s[k] >= 0;
+    x[k] = cells->points[corner[k]];
   }
-  if (above == 0 || above == count) return;
-  for (int k = 0; k < count; k++) x[k] = cells->points[corner[k]];
   int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
   const CwCamera *camera = &drawing->camera;
   double centre[2] = {0, 0}, area = 0;
@@ -245,21 +261,35 @@ static void draw_cut_cell(Drawing *drawing, const CwRegionData *cells, const dou
                    .group = (uint16_t)group,
                    .edge_colour = ink,
                    .edge_width = size > 12 ? 0.9 : 0.6,
-                   .edge_strength = strength};
+                   .edge_strength = is_of_flow(drawing->spec) ? 0 : strength};
   cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
 }
 
-static CwStatus draw_cut(Drawing *drawing, int d, const CwRegionData *cells) {
+static CwStatus draw_cut(Drawing *drawing, const CwMesh *mesh, int region, const CwFlow *flow,
+                         const CwRegionData *cells) {
   CwStatus status = CW_OK;
+  int d = cells->domain, solved = is_of_flow(drawing->spec);
+  int32_t before = 0;
   double *distance = NULL;
   CW_NEW(distance, cells->point_count);
   for (int32_t i = 0; i < cells->point_count; i++) distance[i] = cw_cut_distance(&drawing->plane, cells->points[i]);
-  for (int32_t c = 0; c < cells->tetrahedron_count; c++)
-    draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedra[c], cw_domain_colour(d, 2), d + 1);
-  for (int32_t c = 0; c < cells->pyramid_count; c++)
-    draw_cut_cell(drawing, cells, distance, 5, cells->pyramids[c], pyramid_colour, d + 1);
-  for (int32_t c = 0; c < cells->prism_count; c++)
-    draw_cut_cell(drawing, cells, distance, 6, cells->prisms[c], cw_domain_colour(d, 1), d + 1);
+  const struct {
+    int32_t count;
+    int corners;
+    const int32_t *corner;
+    uint32_t colour;
+  } kind[] = {{cells->tetrahedron_count, 4, (const int32_t *)cells->tetrahedra, cw_domain_colour(d, 2)},
+              {cells->pyramid_count, 5, (const int32_t *)cells->pyramids, pyramid_colour},
+              {cells->prism_count, 6, (const int32_t *)cells->prisms, cw_domain_colour(d, 1)}};
+  for (int k = 0; k < 3; before += kind[k++].count) {
+    for (int32_t c = 0; c < kind[k].count; c++) {
+      const int32_t *corner = kind[k].corner + (size_t)kind[k].corners * (size_t)c;
+      if (!is_cut(distance, kind[k].corners, corner)) continue;
+      uint32_t colour = kind[k].colour;
+      if (solved) colour = cw_colour_scale(cw_flow_cell_speed(flow, mesh, region, cells, before + c));
+      draw_cut_cell(drawing, cells, distance, kind[k].corners, corner, colour, d + 1);
+    }
+  }
 done:
   free(distance);
   return status;
@@ -289,7 +319,7 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
 static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
   static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
-  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0) return;
+  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0 || is_of_flow(drawing->spec)) return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
       if (!(drawing->spec->sees & drawing->part[d])) continue;
@@ -353,13 +383,12 @@ done:
   return status;
 }
 
-static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *survey, CwView *view) {
+static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *survey) {
   CwStatus status = CW_OK;
   CwRegionData cells = {0};
   for (int r = 0; r < mesh->region_count; r++) {
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_SURFACE, &cells));
     cw_survey_add(survey, mesh, &cells);
-    CW_TRY(cw_view_add(view, mesh, &cells));
     for (int k = 0; k < cw_picture_list_count; k++) {
       if (drawings[k].spec->sees & drawings[k].part[cells.domain]) reach_faces(&drawings[k], cells.domain, &cells);
     }
@@ -370,30 +399,38 @@ done:
   return status;
 }
 
-static CwStatus draw_all(const CwMesh *mesh, Drawing *drawings) {
+static CwStatus draw_all(const CwMesh *mesh, CwFlow *flow, Drawing *drawings, CwView *view) {
   CwStatus status = CW_OK;
+  double *share[2] = {NULL, NULL};
   CwRegionData cells = {0};
   cw_progress_start("pictures", mesh->region_count, "regions");
   for (int r = 0; r < mesh->region_count; r++) {
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &cells));
+    if (flow->present) CW_TRY(cw_flow_faces(flow, mesh, r, &cells, share));
+    CW_TRY(cw_view_add(view, mesh, &cells, share));
     for (int k = 0; k < cw_picture_list_count; k++) {
       if (!(drawings[k].spec->sees & drawings[k].part[cells.domain]) || drawings[k].lacking) continue;
       if (drawings[k].spec->plane == CW_PLANE_NONE)
-        draw_faces(&drawings[k], mesh, r, &cells);
+        draw_faces(&drawings[k], mesh, r, &cells, share);
       else
-        CW_TRY(draw_cut(&drawings[k], cells.domain, &cells));
+        CW_TRY(draw_cut(&drawings[k], mesh, r, flow, &cells));
     }
     cw_mesh_region_free(&cells);
+    for (int q = 0; q < 2; q++) {
+      free(share[q]);
+      share[q] = NULL;
+    }
     cw_progress(r + 1);
   }
   cw_progress_end();
 done:
   cw_mesh_region_free(&cells);
+  for (int q = 0; q < 2; q++) free(share[q]);
   return status;
 }
 
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures,
-                                 CwView *view) {
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
+                                 CwReportPictures *pictures, CwView *view) {
   CwStatus status = CW_OK;
   Drawing *drawings = NULL;
   CwSurvey *survey = NULL;
@@ -410,11 +447,11 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     drawings[k].reach = (CwCameraReach){0};
   }
   CW_TRY(cw_view_start(mesh, sizes->outlet_radius, view));
-  CW_TRY(survey_all(mesh, drawings, survey, view));
-  CW_TRY(cw_view_finish(view, mesh));
+  CW_TRY(survey_all(mesh, drawings, survey));
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwPictureSpec *spec = drawings[k].spec;
-    drawings[k].lacking = NULL;
+    drawings[k].lacking = is_of_flow(spec) && !flow->present ? "the run has no solved fields" : NULL;
+    if (drawings[k].lacking) continue;
     aim(survey, &drawings[k]);
     if (spec->target == CW_TARGET_ALL && !drawings[k].lacking) {
       if (drawings[k].reach.started)
@@ -425,7 +462,11 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     if (!drawings[k].lacking)
       CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
   }
-  CW_TRY(draw_all(mesh, drawings));
+  CW_TRY(draw_all(mesh, flow, drawings, view));
+  CW_TRY(cw_view_finish(view, mesh));
+  for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
+    view->quantity[view->quantity_count++] =
+        (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwPictureSpec *spec = drawings[k].spec;
     CwReportPicture *picture = &pictures->picture[k];
@@ -435,7 +476,11 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     picture->wide = spec->wide;
     picture->width = spec->width;
     picture->height = spec->height;
-    picture->absent = spec->needs_pipes && mesh->domain_count <= 2;
+    picture->absent = (spec->needs_pipes && mesh->domain_count <= 2) || (is_of_flow(spec) && !flow->present);
+    if (is_of_flow(spec)) {
+      picture->scale_label = cw_flow_label[spec->colour - CW_COLOUR_PRESSURE];
+      picture->scale = flow->span[spec->colour - CW_COLOUR_PRESSURE];
+    }
     CW_TRY(finish(mesh, drawings, k, picture));
   }
 done:

@@ -4,6 +4,7 @@
 #define CUTWATER_PIPELINE_REPORT_PICTURES_H
 
 #include "pipeline/mesh/region_read.h"
+#include "pipeline/report/flow.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/render.h"
 #include "pipeline/report/survey.h"
@@ -24,6 +25,8 @@ typedef struct {
   int absent;          // shows zones that this pump does not have: left out
   CwLegendItem legend[2 * CW_PATCHES_MOST];
   int legend_count;
+  const char *scale_label; // of a picture of the flow; NULL: no scale
+  CwColourSpan scale;
 } CwReportPicture;
 
 typedef struct {
@@ -31,10 +34,10 @@ typedef struct {
   int count;
 } CwReportPictures;
 
-// Reads every region twice and draws; *view, zeroed, gets the picture that turns. Free with cw_report_pictures_free and
-// cw_view_free, also after a failure.
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures,
-                                 CwView *view);
+// Reads every region twice and draws, also the flow, where there is one; *view, zeroed, gets the picture that turns.
+// Free with cw_report_pictures_free and cw_view_free, also after a failure.
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
+                                 CwReportPictures *pictures, CwView *view);
 void cw_report_pictures_free(CwReportPictures *pictures);
 
 #endif

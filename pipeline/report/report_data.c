@@ -58,6 +58,11 @@ done:
   return status;
 }
 
+int cw_report_is_solved(const CwReportData *data) {
+  return data->solve && data->record[2] &&
+         json_equal(json_object_get(data->solve, "made_from"), json_object_get(data->record[2], "files"));
+}
+
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data) {
   CwStatus status = CW_OK;
   char path[4096];
@@ -69,6 +74,7 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, table, s, &data->record[s]));
   CW_TRY(read_solve(run, &data->solve));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
+  if (cw_report_is_solved(data)) CW_TRY(cw_flow_open(run, &data->mesh, table, &data->flow));
 done:
   return status;
 }
@@ -81,6 +87,7 @@ void cw_report_data_free(CwReportData *data) {
   cw_mesh_free(&data->mesh);
   cw_report_pictures_free(&data->pictures);
   cw_view_free(&data->view);
+  cw_flow_close(&data->flow);
   *data = (CwReportData){0};
 }
 

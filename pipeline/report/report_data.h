@@ -20,6 +20,7 @@ typedef struct {
   CwMesh mesh;
   CwReportPictures pictures;
   CwView view;
+  CwFlow flow;
 } CwReportData;
 
 extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
@@ -28,6 +29,9 @@ extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
 // CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data);
 void cw_report_data_free(CwReportData *data);
+
+// Whether the flow was solved, on the files of this export.
+int cw_report_is_solved(const CwReportData *data);
 
 // What the pictures need of case and design. CW_ERR_INPUT.
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);

@@ -13,6 +13,7 @@ static const double pull = 1e-3;
 // The corners in one cube: their weights (areas) and sum, and the quadric of their planes about the origin.
 typedef struct {
   double weight, sum[3], a[6], b[3]; // a: xx, yy, zz, xy, yz, zx
+  double value_weight[CW_SIMPLIFY_VALUES], value_sum[CW_SIMPLIFY_VALUES];
 } Cluster;
 
 typedef struct {
@@ -143,6 +144,10 @@ static CwStatus coarsen(CwSimplifier *s, double cell) {
       to->b[i] += from->b[i];
     }
     for (int i = 0; i < 6; i++) to->a[i] += from->a[i];
+    for (int i = 0; i < CW_SIMPLIFY_VALUES; i++) {
+      to->value_weight[i] += from->value_weight[i];
+      to->value_sum[i] += from->value_sum[i];
+    }
   }
   next->triangle = s->triangle;
   next->triangle_space = s->triangle_space;
@@ -165,7 +170,7 @@ done:
   return status;
 }
 
-CwStatus cw_simplify_add(CwSimplifier *s, const double *const corner[3], int mark) {
+CwStatus cw_simplify_add(CwSimplifier *s, const double *const corner[3], int mark, const double *value) {
   CwStatus status = CW_OK;
   double u[3], v[3], n[3], area = 0, distance = 0;
   Triangle triangle = {.mark = mark};
@@ -189,6 +194,11 @@ CwStatus cw_simplify_add(CwSimplifier *s, const double *const corner[3], int mar
       c->a[i] += n[i] * n[i] / area;
       c->a[3 + i] += n[i] * n[(i + 1) % 3] / area;
       c->b[i] += n[i] * distance;
+    }
+    for (int i = 0; value && i < CW_SIMPLIFY_VALUES; i++) {
+      if (!isfinite(value[i])) continue;
+      c->value_weight[i] += area;
+      c->value_sum[i] += area * value[i];
     }
   }
   if (triangle.corner[0] == triangle.corner[1] || triangle.corner[1] == triangle.corner[2] ||
@@ -248,11 +258,17 @@ CwStatus cw_simplify_finish(CwSimplifier *s, CwSimpleSurface *surface) {
     drop_twins(s);
   }
   CW_NEW_UNSET(surface->points, s->cluster_count);
+  CW_NEW_UNSET(surface->values, s->cluster_count);
   CW_NEW_UNSET(surface->triangles, s->triangle_count);
   CW_NEW_UNSET(surface->mark, s->triangle_count);
   surface->point_count = (int32_t)s->cluster_count;
   surface->triangle_count = (int32_t)s->triangle_count;
-  for (int64_t k = 0; k < s->cluster_count; k++) point_of(s, &s->cluster[k], surface->points[k]);
+  for (int64_t k = 0; k < s->cluster_count; k++) {
+    const Cluster *c = &s->cluster[k];
+    point_of(s, c, surface->points[k]);
+    for (int i = 0; i < CW_SIMPLIFY_VALUES; i++)
+      surface->values[k][i] = c->value_weight[i] > 0 ? c->value_sum[i] / c->value_weight[i] : NAN;
+  }
   for (int64_t t = 0; t < s->triangle_count; t++) {
     memcpy(surface->triangles[t], s->triangle[t].corner, sizeof surface->triangles[t]);
     surface->mark[t] = s->triangle[t].mark;
@@ -263,6 +279,7 @@ done:
 
 void cw_simple_surface_free(CwSimpleSurface *surface) {
   free(surface->points);
+  free(surface->values);
   free(surface->triangles);
   free(surface->mark);
   *surface = (CwSimpleSurface){0};

@@ -17,15 +17,18 @@ typedef struct CwSimplifier CwSimplifier;
 CwStatus cw_simplify_start(int64_t most, double cell, CwSimplifier **simplifier);
 void cw_simplify_free(CwSimplifier *simplifier);
 
-// Takes a triangle with its corners, and a mark that it keeps. CW_ERR_MEMORY.
-CwStatus cw_simplify_add(CwSimplifier *simplifier, const double *const corner[3], int mark);
+enum { CW_SIMPLIFY_VALUES = 2 };
+
+// Takes a triangle with its corners, a mark that it keeps, and values (NAN: none; NULL: none at all), of which points
+// get the means by area. CW_ERR_MEMORY.
+CwStatus cw_simplify_add(CwSimplifier *simplifier, const double *const corner[3], int mark, const double *value);
 
 // Whether the lattice has coarsened so far.
 int cw_simplify_coarsened(const CwSimplifier *simplifier);
 
 typedef struct {
   int32_t point_count, triangle_count;
-  double (*points)[3];
+  double (*points)[3], (*values)[CW_SIMPLIFY_VALUES];
   int32_t (*triangles)[3], *mark; // corners as they came
 } CwSimpleSurface;
 

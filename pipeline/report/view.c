@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/report/view.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,21 +29,25 @@ static int taken(const CwMesh *mesh, int patch) {
   return mesh->patches[patch].kind != CW_PATCH_INTERFACE;
 }
 
-CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells) {
+CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells,
+                     double *const share[CW_VIEW_QUANTITIES]) {
   CwStatus status = CW_OK;
+  double value[CW_VIEW_QUANTITIES];
   CwSimplifier *simplifier = view->simplifier[cells->domain];
   int first = mesh->domains[cells->domain].first_patch;
   for (int32_t t = 0; t < cells->triangle_count; t++) {
     const double *corner[3];
     for (int k = 0; k < 3; k++) corner[k] = cells->points[cells->triangles[t][k]];
-    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->triangle_patch[t]));
+    for (int k = 0; k < CW_VIEW_QUANTITIES; k++) value[k] = share[k] ? share[k][t] : NAN;
+    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->triangle_patch[t], value));
   }
   for (int32_t q = 0; q < cells->quad_count; q++) {
     const double *corner[4];
     for (int k = 0; k < 4; k++) corner[k] = cells->points[cells->quads[q][k]];
-    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->quad_patch[q]));
+    for (int k = 0; k < CW_VIEW_QUANTITIES; k++) value[k] = share[k] ? share[k][cells->triangle_count + q] : NAN;
+    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->quad_patch[q], value));
     CW_TRY(cw_simplify_add(simplifier, (const double *const[3]){corner[0], corner[2], corner[3]},
-                           first + cells->quad_patch[q]));
+                           first + cells->quad_patch[q], value));
   }
 done:
   return status;
@@ -54,6 +59,24 @@ int cw_view_shown(const CwMesh *mesh, const CwViewPart *part) {
   const CwModelPatch *patch = &mesh->patches[part->patch];
   snprintf(name, sizeof name, "|%s|", patch->name);
   return patch->kind == CW_PATCH_WALL && !strstr(cw_picture_list[0].hidden, name);
+}
+
+// The shares of a quantity at the points of a part, where it has them all.
+static CwStatus make_values(const CwSimpleSurface *surface, const int32_t *own, int quantity, CwViewPart *part) {
+  CwStatus status = CW_OK;
+  CW_NEW(part->values[quantity], part->point_count);
+  for (int32_t point = 0; point < surface->point_count; point++) {
+    double share = surface->values[point][quantity];
+    if (own[point] < 0) continue;
+    if (!isfinite(share)) {
+      free(part->values[quantity]);
+      part->values[quantity] = NULL;
+      break;
+    }
+    part->values[quantity][own[point]] = (unsigned char)(255 * fmin(fmax(share, 0), 1) + 0.5);
+  }
+done:
+  return status;
 }
 
 // The triangles of `patch` with points of their own. `own`: room for a number of each point of the surface.
@@ -76,6 +99,7 @@ static CwStatus make_part(const CwSimpleSurface *surface, int patch, int32_t *ow
     }
     made++;
   }
+  for (int q = 0; q < CW_VIEW_QUANTITIES && part->point_count; q++) CW_TRY(make_values(surface, own, q, part));
 done:
   return status;
 }

@@ -8,7 +8,7 @@
 #include "pipeline/report/colour_scale.h"
 #include "pipeline/report/simplify.h"
 
-enum { CW_VIEW_QUANTITIES = 2 };
+enum { CW_VIEW_QUANTITIES = CW_SIMPLIFY_VALUES };
 
 // One patch, or lines, with its own points.
 typedef struct {
@@ -20,7 +20,7 @@ typedef struct {
 } CwViewPart;
 
 typedef struct {
-  char name[80], label[80]; // label: HTML with unit
+  const char *name, *label; // HTML; label: with unit
   CwColourSpan span;
 } CwViewQuantity;
 
@@ -36,8 +36,10 @@ typedef struct {
 // `size`: a length of the pump, such as its outlet radius, m. Zeroed `view` on entry; free it with cw_view_free, also
 // after a failure. CW_ERR_MEMORY.
 CwStatus cw_view_start(const CwMesh *mesh, double size, CwView *view);
-// Takes the boundary faces of a region; regions in the order of the manifest. CW_ERR_MEMORY.
-CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells);
+// Takes the boundary faces of a region, with shares of the colour scale of each quantity by face, triangles before
+// quadrilaterals (NULL: none); regions in the order of the manifest. CW_ERR_MEMORY.
+CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells,
+                     double *const share[CW_VIEW_QUANTITIES]);
 // Makes the parts. CW_ERR_MEMORY.
 CwStatus cw_view_finish(CwView *view, const CwMesh *mesh);
 void cw_view_free(CwView *view);

@@ -114,7 +114,8 @@
     part.box = [least, most];
     part.places = buffer(places);
     part.normals = part.lines ? null : buffer(cornersOf(points, index));
-    part.amounts = (part.values || []).map((text) => {
+    part.amounts = part.values.map((text) => {
+      if (!text) return null;
       const value = bytes(text), amounts = new Uint8Array(index.length);
       index.forEach((point, corner) => { amounts[corner] = value[point]; });
       return buffer(amounts);

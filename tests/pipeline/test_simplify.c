@@ -18,7 +18,7 @@ static void add_cube(CwSimplifier *simplifier, int side) {
   for (int face = 0; face < 6; face++) {
     for (int k = 0; k < side * side * 2; k++) {
       double x[3][3];
-      const double *corner[3] = {x[0], x[1], x[2]};
+      const double *corner[3] = {x[0], x[1], x[2]}, value[CW_SIMPLIFY_VALUES] = {face, NAN};
       static const int step[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
       for (int c = 0; c < 3; c++) {
         int square = k / 2;
@@ -26,7 +26,7 @@ static void add_cube(CwSimplifier *simplifier, int side) {
         x[c][(face + 1) % 3] = (square % side + step[k % 2][c][0]) / (double)side;
         x[c][(face + 2) % 3] = (square / side + step[k % 2][c][1]) / (double)side;
       }
-      assert_int_equal(cw_simplify_add(simplifier, corner, face), CW_OK);
+      assert_int_equal(cw_simplify_add(simplifier, corner, face, value), CW_OK);
     }
   }
 }
@@ -89,6 +89,10 @@ static void large_surfaces_are_bounded_and_keep_their_edges(void **state) {
   }
   assert_int_equal(corners, 8);
   assert_true(fabs(area_of(s) / 6 - 1) < 0.01);
+  for (int32_t p = 0; p < s->point_count; p++) { // means of what was given, and of nothing
+    assert_true(s->values[p][0] >= 0 && s->values[p][0] <= 5 + 1e-9);
+    assert_true(isnan(s->values[p][1]));
+  }
   for (int32_t t = 0; t < s->triangle_count; t++) sides[s->mark[t]]++;
   for (int face = 0; face < 6; face++) assert_in_range(sides[face], 50, 400);
   for (int again = 0; again < 2; again++) cw_simple_surface_free(&surface[again]);
@@ -116,8 +120,9 @@ static void a_view_has_a_part_for_each_patch_but_interfaces(void **state) {
                         .quads = quad,
                         .quad_patch = quad_patch};
   CwView view = {0};
+  double *const share[CW_VIEW_QUANTITIES] = {(double[]){0, 1, 1, 1}, NULL};
   assert_int_equal(cw_view_start(&mesh, 1, &view), CW_OK);
-  assert_int_equal(cw_view_add(&view, &mesh, &cells), CW_OK);
+  assert_int_equal(cw_view_add(&view, &mesh, &cells, share), CW_OK);
   assert_int_equal(cw_view_finish(&view, &mesh), CW_OK);
   assert_int_equal(view.part_count, 3);
   static const int patch[] = {0, 1, 3}, triangles[] = {2, 2, 0}, points[] = {4, 4, 0}, shown[] = {1, 0, 0};
@@ -128,6 +133,10 @@ static void a_view_has_a_part_for_each_patch_but_interfaces(void **state) {
     assert_int_equal(cw_view_shown(&mesh, &view.part[k]), shown[k]);
   }
   assert_false(view.decimated);
+  // Means over the faces at each point, the interface's too; all of the same area.
+  static const unsigned char means[] = {204, 128, 128, 255};
+  assert_memory_equal(view.part[0].values[0], means, sizeof means);
+  assert_null(view.part[0].values[1]);
   cw_view_free(&view);
 }
 
