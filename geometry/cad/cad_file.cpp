@@ -115,6 +115,7 @@ public:
   }
   void add(const std::string &file, const std::string &instance, const TopLoc_Location &place, CwCadBodies &bodies) {
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) {
+      if (cw_cad_faces(at.Current()).IsEmpty()) continue;
       CwCadBody body = {file, name, instance, at.Current().Moved(place), {}};
       for (const auto &[solid, its_name] : solids)
         if (solid.IsSame(at.Current())) body.name = its_name;
@@ -271,9 +272,10 @@ CwStatus read_brep(const char *path, double unit, double tolerance, CwCadBodies 
                    path);
   if (unit > 0) shape = scaled(shape, unit / millimetre);
   const size_t before = bodies.body.size();
-  for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next())
-    bodies.body.push_back(
-        {path, "", "", at.Current(), std::vector<CwCadFaceOrigin>(cw_cad_faces(at.Current()).Extent())});
+  for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) {
+    const int faces = cw_cad_faces(at.Current()).Extent();
+    if (faces) bodies.body.push_back({path, "", "", at.Current(), std::vector<CwCadFaceOrigin>(faces)});
+  }
   return bodies.body.size() > before ? CW_OK : sew(path, {shape}, tolerance, bodies);
 }
 

@@ -70,6 +70,7 @@ CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, int triangle
                    double tolerance, Seen &seen) {
   double distance;
   int other;
+  if (std::isnan(at[0])) return CW_OK;
   const CwStatus status = cw_survey_nearest(&parts, &survey, part, at, NEAR * survey.size, &other, &distance, nullptr);
   if (status != CW_OK) return status;
   seen.looked++;

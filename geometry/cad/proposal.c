@@ -8,6 +8,9 @@
 static const double ALIKE = 1e-3;             // of area, radius and height: faces that are turned copies
 static const double ACROSS = 10 * M_PI / 180; // rad off a right angle
 static const double END = 1e-6;               // of the size: how far the part may reach past a plane at its end
+// Of the hydraulic diameter: what is shorter behind a plane is no pipe. Side chambers of wheels have 0.03 to 0.06
+// (J. F. Guelich, Centrifugal Pumps, section 9.1).
+static const double STUB = 0.1;
 enum { BLADES_MOST = 64 };
 
 static double dot(const double a[3], const double b[3]) {
@@ -28,16 +31,30 @@ static int at_end(const CwSurvey *survey, int face) {
   return 1;
 }
 
-// Whether all neighbours stand across the face, convex as seen from outside, and none of them is a contact.
+// How far a face reaches behind a plane.
+static double depth_behind(const CwSurvey *survey, const double normal[3], double level, int face) {
+  const CwSurveyFace *of = &survey->face[face];
+  double depth = 0;
+  for (int t = of->first_triangle; t < of->first_triangle + of->triangle_count; t++)
+    for (int k = 0; k < 3; k++) depth = fmax(depth, level - dot(normal, survey->point[survey->triangle[t][k]]));
+  return depth;
+}
+
+// Whether all neighbours stand across the face, convex as seen from outside, none of them is a contact, and the water
+// behind it is more than a flat chamber.
 static int is_opening(const CwSurvey *survey, const CwContact *contact, int face) {
   if (survey->face[face].form != CW_FORM_PLANE || contact[face].part >= 0 || !at_end(survey, face)) return 0;
+  const CwSurveyFace *of = &survey->face[face];
+  double outline = 0, depth = 0;
   for (int e = 0; e < survey->edge_count; e++) {
     const CwSurveyEdge *edge = &survey->edge[e];
     if (edge->face[0] != face && edge->face[1] != face) continue;
     const int other = edge->face[edge->face[0] == face];
     if (contact[other].part >= 0 || fabs(edge->angle - M_PI / 2) > ACROSS) return 0;
+    outline += edge->length;
+    depth = fmax(depth, depth_behind(survey, of->normal, dot(of->normal, of->at), other));
   }
-  return 1;
+  return depth * outline >= STUB * 4 * of->area;
 }
 
 // Greatest radius of what rotates.
@@ -117,8 +134,8 @@ static CwFaceRole wheel_role(const CwSurvey *survey, const CwSurveyFace *face, d
     double u[3], v[3];
     for (int i = 0; i < 3; i++) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
     const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const double *at = survey->middle[t], r = hypot(at[0], at[1]);
-    outward += (r > 0 ? (n[0] * at[0] + n[1] * at[1]) / r : 0) + suction * n[2];
+    const double x = a[0] + b[0] + c[0], y = a[1] + b[1] + c[1], r = hypot(x, y);
+    outward += (r > 0 ? (n[0] * x + n[1] * y) / r : 0) + suction * n[2];
   }
   return outward > 0 ? CW_ROLE_SHROUD : CW_ROLE_HUB;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What each face is by its form and place alone, for faces that nobody has named. The rules:
 //
-//   a plane at the end of a part, all of its neighbours across it, none of them a contact:  inlet or outlet
+//   a plane at the end of a part, all of its neighbours across it, none of them a contact,
+//   the water behind it no flat chamber:                                                     inlet or outlet
 //   a surface of revolution about the axis in what rotates:                                  hub or shroud
 //   one of z like faces, a z-th of a turn apart, in what rotates:                            blade
 //   what runs straight away from an inlet or outlet, round an axis of its own:               pipe

@@ -16,10 +16,12 @@
 #include <BRepLProp_SLProps.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <gp_Vec.hxx>
@@ -29,6 +31,7 @@
 namespace {
 
 const double DEFLECTION = 1e-3;  // of the size, chord to surface
+const double AREA = 1e-5;       // relative error of areas
 const double ANGLE = 0.35;       // rad, between neighbouring chords
 const double CORNER = 0.95;      // of the way from the middle of a triangle to its corners
 const double SAME_NORMAL = 1e-5; // sine of the angle within which normals are alike
@@ -91,7 +94,7 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
   made.face = index;
   made.first_triangle = (int)lists.triangle.size();
   GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties);
+  BRepGProp::SurfaceProperties(face, properties, AREA);
   made.area = std::fabs(properties.Mass()) * unit * unit;
   const std::array<double, 3> centre = metres(properties.CentreOfMass(), unit);
   std::memcpy(made.centre, centre.data(), sizeof made.centre);
@@ -101,6 +104,11 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
   if (mesh.IsNull()) throw Standard_Failure(("face " + std::to_string(index + 1) + " has no triangulation").c_str());
   const BRepAdaptor_Surface surface(face, Standard_False);
+  BRepTopAdaptor_FClass2d outline(face, Precision::PConfusion());
+  const auto on_face = [&](const gp_XY &uv) {
+    if (outline.Perform(gp_Pnt2d(uv)) == TopAbs_OUT) return std::array<double, 3>{NAN, NAN, NAN};
+    return metres(surface.Value(uv.X(), uv.Y()), unit);
+  };
   const bool reversed = face.Orientation() == TopAbs_REVERSED;
   const int first_point = (int)lists.point.size();
   for (int i = 1; i <= mesh->NbNodes(); i++) {
@@ -123,11 +131,11 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
     gp_Pnt p[3];
     for (int k = 0; k < 3; k++) uv += mesh->UVNode(n[k]).XY() / 3, p[k] = mesh->Node(n[k]);
     const gp_Pnt at = surface.Value(uv.X(), uv.Y());
-    const std::array<double, 3> middle = metres(at, unit);
+    const std::array<double, 3> middle = on_face(uv);
     lists.middle.push_back(middle);
     for (int k = 0; k < 3; k++) {
       const gp_XY near = uv * (1 - CORNER) + mesh->UVNode(n[k]).XY() * CORNER;
-      lists.corner.push_back(metres(surface.Value(near.X(), near.Y()), unit));
+      lists.corner.push_back(on_face(near));
     }
     gp_Vec normal;
     if (normal_at(surface, reversed, gp_Pnt2d(uv), normal))

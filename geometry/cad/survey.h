@@ -38,8 +38,8 @@ typedef struct {
   CwSurveyEdge *edge;
   int (*triangle)[3];
   double (*point)[3];
-  double (*middle)[3];    // of each triangle, on the exact face
-  double (*corner)[3][3]; // of each triangle, on the exact face, a little inside of its corners
+  double (*middle)[3];    // of each triangle, on the exact face; NAN where its chords leave the face there
+  double (*corner)[3][3]; // the same a little inside of its corners
   double (*box)[2][3];    // of each face
   double size;            // greatest extent of all
 } CwSurvey;

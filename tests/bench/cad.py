@@ -3,13 +3,13 @@
 """Solids of any CAD files through the mesher: each closed solid as a domain of its own, all its faces walls with five
 layers, beside gmsh's HXT without layers on the same faces.
 
-    tests/bench/cad.py FOLDER... [--cells N] [--only WORD] [--most N] [--jobs 2] [--out DIR]
+    tests/bench/cad.py FOLDER... [--cells N] [--limit S] [--only WORD] [--most N] [--jobs 2] [--no-hxt] [--out DIR]
 
-FOLDER holds STEP (.step, .stp, .step.gz) and B-rep files (.brep, .rle), at any depth: OpenCASCADE's samples are in
-/usr/share/opencascade/data of Debian's occt-misc, gmsh's demos in its gmsh-doc, parts of circuits in its
-kicad-packages3d. Solids of as many faces and the same volume count once. Healing is ShapeFix and the division of closed
-faces (tests/measure/cad_solids.cpp); solids that it leaves invalid, or with degenerate edges, are listed but not
-meshed.
+FOLDER holds STEP (.step, .stp), IGES (.iges, .igs), B-rep (.brep, .rle) and FreeCAD's files (.FCStd, which hold
+B-reps), also gzipped, at any depth. Debian has them in occt-misc (/usr/share/opencascade/data), gmsh-doc, netgen-doc
+(/usr/share/doc), freecad-common (/usr/share/freecad/examples) and kicad-packages3d (/usr/share/kicad/3dmodels).
+Solids of as many faces and the same volume count once. They are read, healed and divided as those of a case
+(tests/measure/cad_solids.cpp).
 
 DIR/rows.json holds what is done: a call with the same DIR goes on. Times are those of the processor."""
 import argparse
@@ -26,10 +26,11 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("CUTWATER_BIN", SOURCE / "build/bin"))
-MOST_SECONDS = 150
+LIMIT = 60  # s of the processor
 LEAST_DIHEDRAL, LEAST_SHARE = 10, 0.6  # degrees, or of what the boundary allows
 
 CASE = """name: solid
@@ -85,23 +86,23 @@ def run(line, seconds):
 
 
 def files(folder):
-    endings = re.compile(r"\.(step|stp|brep|rle)(\.gz)?$", re.I)
+    endings = re.compile(r"\.(step|stp|iges|igs|brep|rle|fcstd)(\.gz)?$", re.I)
     return sorted(path for path in pathlib.Path(folder).rglob("*") if endings.search(path.name))
 
 
-def gmsh_row(solid, cells):
-    code, said, _ = run(["/usr/bin/python3", "-c", GMSH, solid, cells], MOST_SECONDS)
+def gmsh_row(solid, cells, limit):
+    code, said, _ = run(["/usr/bin/python3", "-c", GMSH, solid, cells], limit)
     words = said.split()
     if code != 0 or len(words) < 2:
         return "timeout" if code == "timeout" else "failed"
     return [int(words[-2]), float(words[-1])]
 
 
-def mesh(folder, case, cells):
+def mesh(folder, case, cells, limit):
     """What becomes of one solid: its cause, and what is measured or said."""
-    code, said, seconds = run([BIN / "cutwater-mesh", "--case", case, "--run", folder, "--cells", cells], MOST_SECONDS)
+    code, said, seconds = run([BIN / "cutwater-mesh", "--case", case, "--run", folder, "--cells", cells], limit)
     if code == "timeout":
-        return {"cause": "timeout", "shown": f"over {MOST_SECONDS} s"}
+        return {"cause": "timeout", "shown": f"over {limit} s"}
     if code != 0:
         error = re.findall(r"cutwater-mesh: error: (.*)", said)
         return {"cause": "refused" if error else "crashed", "shown": (error[-1] if error else f"exit {code}")[:150]}
@@ -118,16 +119,14 @@ def mesh(folder, case, cells):
     return row
 
 
-def one(task):
+def one(task, options):
     """The row of one solid."""
-    folder, case, cells, valid, degenerate = task
-    solid = folder / "geometry/part.brep"
-    if valid != "1":
-        return {"cause": "not healed", "shown": "invalid"}
-    if degenerate != "0":
-        return {"cause": "poles", "shown": f"{degenerate} degenerate edges"}
-    row = mesh(folder, case, cells)
-    row["hxt"] = gmsh_row(solid, cells)
+    folder, case, refused = task
+    if refused:
+        return {"cause": "not healed", "shown": refused[:150]}
+    row = mesh(folder, case, options.cells, options.limit)
+    if options.hxt:
+        row["hxt"] = gmsh_row(folder / "geometry/part.brep", options.cells, options.limit)
     shutil.rmtree(folder / "mesh", ignore_errors=True)
     return row
 
@@ -142,19 +141,45 @@ def shown(name, row):
     return text
 
 
-def solids_of(path, work, case):
-    """Name, number and sort of the solids of a file, made where they are not there."""
+def plain_files(path, work):
+    """A file unpacked: name and path of what OpenCASCADE reads."""
     name = re.sub(r"\.gz$", "", path.name)
-    folder = work / (name + ".d")
-    listed = folder / "solids.txt"
-    if not listed.exists():
+    if name.lower().endswith(".fcstd"):
+        with zipfile.ZipFile(path) as archive:
+            for part in sorted(archive.namelist()):
+                if part.endswith((".brp", ".brep")):
+                    plain = work / f"{name}.{pathlib.Path(part).stem}.brep"
+                    plain.write_bytes(archive.read(part))
+                    yield plain
+    else:
         plain = work / name
         plain.write_bytes(gzip.decompress(path.read_bytes()) if path.suffix == ".gz" else path.read_bytes())
-        folder.mkdir(exist_ok=True)
-        listed.write_text(run([BIN / "cad_solids", case, plain, folder], MOST_SECONDS)[1])
+        yield plain
+
+
+def solids_of(path, work, case, limit):
+    """Folder, number, faces, volume and (where there is one) reason of refusal of the solids of a file, made where
+    they are not there."""
+    found = []
+    for plain in plain_files(path, work):
+        folder = plain.with_name(plain.name + ".d")
+        listed = folder / "solids.txt"
+        if not listed.exists():
+            folder.mkdir(exist_ok=True)
+            code, said, _ = run([BIN / "cad_solids", case, plain, folder], limit)
+            listed.write_text(said + f"\nended {code}\n")
         plain.unlink()
-    found = re.findall(r"^solid (\d+) faces (\d+) valid (\d) degenerate (\d+) volume (\S+)", listed.read_text(), re.M)
-    return name, folder, found
+        for line in listed.read_text().splitlines():
+            made = re.match(r"solid (\d+) faces (\d+) volume (\S+)", line)
+            refused = re.match(r"solid (\d+) refused: (.*)", line)
+            ended = re.match(r"ended (timeout|-\d+)", line)
+            if made:
+                found.append((folder, made[1], int(made[2]), made[3], ""))
+            elif refused:
+                found.append((folder, refused[1], 0, refused[2], refused[2]))
+            elif ended:
+                found.append((folder, "0", 0, str(folder), f"reading ended with {ended[1]}"))
+    return found
 
 
 def summary(rows):
@@ -164,10 +189,11 @@ def summary(rows):
     others = [row["hxt"][1] for row in rows if isinstance(row.get("hxt"), list)]
     if made:
         fair = sum(row["dihedral"] >= min(LEAST_DIHEDRAL, LEAST_SHARE * row["allowed"]) for row in made)
-        layers = sum(row["full"] + row["bare"] >= 99 for row in made)
+        full = sum(row["full"] >= 95 for row in made)
+        layers = sum(row["bare"] <= 1 for row in made)
         middle, slowest = statistics.median(row["dihedral"] for row in made), max(row["seconds"] for row in made)
-        print(f"{len(made)} meshed: median of the least dihedral {middle:.1f}, fair in {fair}; full layers on 99 % in "
-              f"{layers}; slowest {slowest:.0f} s")
+        print(f"{len(made)} meshed: median of the least dihedral {middle:.1f}, fair in {fair}; layers on 99 % of the "
+              f"wall in {layers}, of full thickness on 95 % in {full}; slowest {slowest:.0f} s")
     if others:
         middle = statistics.median(others)
         print(f"{len(others)} meshed by HXT without layers: median of the least dihedral {middle:.1f}")
@@ -180,6 +206,8 @@ def main():
     parser.add_argument("--only", default="", help="files with this in their name")
     parser.add_argument("--most", type=int, default=8, help="solids of a file")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--limit", type=int, default=LIMIT, help="seconds of the processor for a solid")
+    parser.add_argument("--no-hxt", dest="hxt", action="store_false", help="without gmsh beside it")
     parser.add_argument("--out", help="folder that the table stays in, to go on from")
     options = parser.parse_args()
     work = pathlib.Path(options.out or tempfile.mkdtemp(prefix="cad-"))
@@ -192,20 +220,21 @@ def main():
     for path in [path for folder in options.folder for path in files(folder)]:
         if options.only not in path.name:
             continue
-        name, folder, solids = solids_of(path, work, case)
+        solids = solids_of(path, work, case, options.limit)
         if not solids:
-            rows[name] = {"cause": "no closed solid"}
+            rows[path.name] = {"cause": "no closed solid"}
         taken = 0
-        for number, faces, valid, degenerate, volume in solids:
+        for folder, number, faces, volume, refused in solids:
             if (faces, volume) in seen or taken == options.most:
                 continue
             seen.add((faces, volume))
             taken += 1
-            if f"{name} {number}" not in rows:
-                tasks[f"{name} {number}"] = (int(faces), (folder / number, case, options.cells, valid, degenerate))
+            name = f"{folder.name[:-2]} {number}"
+            if name not in rows:
+                tasks[name] = (faces, (folder / number, case, refused))
     print(f"{len(seen)} solids, {len(tasks)} to do", flush=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        futures = {pool.submit(one, task): (name, faces) for name, (faces, task) in tasks.items()}
+        futures = {pool.submit(one, task, options): (name, faces) for name, (faces, task) in tasks.items()}
         for future in concurrent.futures.as_completed(futures):
             name, faces = futures[future]
             rows[name] = {**future.result(), "faces": faces}

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cad_solids CASE FILE FOLDER: writes FOLDER/1/geometry, FOLDER/2/geometry, ... as the geometry stage does, each with
-// one solid of a STEP, IGES or B-rep file: healed, brought to 200 mm, closed faces divided, all faces walls. A line for
-// each: its number, its faces, whether it is valid, its degenerate edges, its volume.
+// one solid of a STEP, IGES or B-rep file: read, healed and divided as the solids of a case, brought to 200 mm, all
+// faces walls. A line for each: its number, its faces, its volume; or its number and why it is refused.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -13,71 +12,46 @@
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <STEPControl_Reader.hxx>
-#include <ShapeFix_Shape.hxx>
-#include <ShapeUpgrade_ShapeDivideAngle.hxx>
-#include <ShapeUpgrade_ShapeDivideClosed.hxx>
-#include <ShapeUpgrade_ShapeDivideClosedEdges.hxx>
-#include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Shape.hxx>
+#include <IGESControl_Reader.hxx>
 #include <gp_Trsf.hxx>
 
+#include "geometry/cad/cad_part.hpp"
+
 extern "C" {
+#include "geometry/cad/divide.h"
+#include "geometry/cad/heal.h"
 #include "pipeline/case_read.h"
 #include "pipeline/log.h"
 #include "pipeline/model.h"
 #include "pipeline/record.h"
 }
 
-static const double EXTENT = 200; // mm
+static const double EXTENT = 200, UNIT = 1e-3; // of the solids, units; m
+static const double TOLERANCE = 0.01;          // units, as the stage has it
+enum { PIECES = 3 };
+static const CwCadFrame FRAME = {{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1};
 
-static bool read(const std::string &path, TopoDS_Shape &shape) {
-  std::string ending = path.substr(path.rfind('.') + 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == "brep" || ending == "rle") {
-    BRep_Builder builder;
-    return BRepTools::Read(shape, path.c_str(), builder) && !shape.IsNull();
-  }
-  STEPControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return false;
+// IGES files go through a B-rep file: the stage reads none.
+static CwStatus read(const std::string &path, const std::string &folder, CwCadBodies **bodies) {
+  const std::string ending = path.substr(path.rfind('.') + 1), brep = folder + "/iges.brep";
+  if (ending != "iges" && ending != "igs") return cw_cad_file_read(path.c_str(), 0, 1e-5, bodies);
+  IGESControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return CW_FAIL(CW_ERR_INPUT, "%s: no IGES", path.c_str());
   reader.TransferRoots();
-  shape = reader.OneShape();
-  return !shape.IsNull();
-}
-
-// Throws Standard_Failure where OpenCASCADE does.
-static TopoDS_Shape heal(const TopoDS_Shape &solid) {
-  Handle(ShapeFix_Shape) fix = new ShapeFix_Shape(solid);
-  fix->Perform();
-  TopoDS_Shape shape = fix->Shape();
-  ShapeUpgrade_ShapeDivideAngle angle(M_PI / 2, shape);
-  if (angle.Perform()) shape = angle.Result();
-  ShapeUpgrade_ShapeDivideClosed closed(shape);
-  closed.SetNbSplitPoints(2);
-  if (closed.Perform()) shape = closed.Result();
-  ShapeUpgrade_ShapeDivideClosedEdges edges(shape);
-  if (edges.Perform()) shape = edges.Result();
-  TopExp_Explorer found(shape, TopAbs_SOLID);
-  return found.More() ? found.Current() : TopoDS_Shape();
+  BRepTools::Write(reader.OneShape(), brep.c_str());
+  return cw_cad_file_read(brep.c_str(), 0, 1e-5, bodies);
 }
 
 static TopoDS_Shape brought_to_size(const TopoDS_Shape &solid) {
   Bnd_Box box;
   double low[3], high[3];
-  BRepBndLib::Add(solid, box);
+  BRepBndLib::AddOptimal(solid, box, Standard_False, Standard_False);
   box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
-  double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   gp_Trsf move, scale;
   move.SetTranslation(gp_Vec(-(low[0] + high[0]) / 2, -(low[1] + high[1]) / 2, -(low[2] + high[2]) / 2));
   scale.SetScale(gp_Pnt(0, 0, 0), EXTENT / extent);
@@ -113,43 +87,40 @@ done:
   return status;
 }
 
-static CwStatus write_solid(const CwCase *table, const TopoDS_Shape &found, const std::string &folder, int number) {
-  TopoDS_Shape solid = heal(found);
-  if (solid.IsNull()) return CW_OK;
-  solid = brought_to_size(solid);
-  TopTools_IndexedMapOfShape faces, edges;
-  TopExp::MapShapes(solid, TopAbs_FACE, faces);
-  TopExp::MapShapes(solid, TopAbs_EDGE, edges);
-  int degenerate = 0;
-  for (int e = 1; e <= edges.Extent(); e++) degenerate += BRep_Tool::Degenerated(TopoDS::Edge(edges(e)));
-  bool valid = BRepCheck_Analyzer(solid).IsValid();
-  std::string run = folder + "/" + std::to_string(number);
+static CwStatus write_solid(const CwCase *table, const CwCadBody &body, const std::string &folder, int number) {
+  CwStatus status = CW_OK;
+  CwCadParts parts = {UNIT, {{"part", brought_to_size(body.solid), body.origin}}};
+  CwCadFault fault;
+  GProp_GProps properties;
+  const std::string run = folder + "/" + std::to_string(number);
+  const int pieces = PIECES;
+  CW_TRY(cw_cad_heal(TOLERANCE, &FRAME, &parts, &fault));
+  CW_TRY(cw_cad_divide(&pieces, &FRAME, &parts));
   mkdir(run.c_str(), 0777);
   mkdir((run + "/geometry").c_str(), 0777);
-  CwStatus status = write_geometry(table, solid, run + "/geometry", faces.Extent());
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(solid, properties);
-  std::printf("solid %d faces %d valid %d degenerate %d volume %.4g\n", number, faces.Extent(), valid, degenerate,
+  CW_TRY(write_geometry(table, parts.part[0].solid, run + "/geometry", cw_cad_faces(parts.part[0].solid).Extent()));
+  BRepGProp::VolumeProperties(parts.part[0].solid, properties);
+  std::printf("solid %d faces %d volume %.4g\n", number, cw_cad_faces(parts.part[0].solid).Extent(),
               std::abs(properties.Mass()));
+done:
   return status;
 }
 
 int main(int argc, char **argv) {
   if (argc != 4) return std::fprintf(stderr, "usage: cad_solids CASE FILE FOLDER\n"), CW_ERR_USAGE;
   CwCase table;
-  CwStatus status = cw_case_read(argv[1], &table);
+  CwCadBodies *bodies = nullptr;
   std::streambuf *said = std::cout.rdbuf(nullptr); // the readers have words of their own
-  TopoDS_Shape shape;
-  int number = 0;
-  if (status == CW_OK && !read(argv[2], shape)) status = CW_FAIL(CW_ERR_INPUT, "%s: cannot be read", argv[2]);
   mkdir(argv[3], 0777);
-  for (TopExp_Explorer it(shape, TopAbs_SOLID); status == CW_OK && it.More(); it.Next()) {
-    try {
-      status = write_solid(&table, it.Current(), argv[3], ++number);
-    } catch (const Standard_Failure &) {
-      std::printf("solid %d faces 0 valid 0 degenerate 0 volume 0\n", number);
-    }
+  CwStatus status = cw_case_read(argv[1], &table);
+  if (status == CW_OK) status = cw_cad_guard(argv[2], [&] { return read(argv[2], argv[3], &bodies); });
+  for (size_t i = 0; status == CW_OK && i < bodies->body.size(); i++) {
+    const CwStatus one =
+        cw_cad_guard("cad", [&] { return write_solid(&table, bodies->body[i], argv[3], (int)i + 1); });
+    if (one != CW_OK) std::printf("solid %d refused: %s\n", (int)i + 1, cw_fail_message());
+    std::fflush(stdout); // a crash in a later solid keeps those before
   }
   std::cout.rdbuf(said);
+  cw_cad_bodies_free(&bodies);
   return status == CW_OK ? 0 : cw_log_error(status);
 }

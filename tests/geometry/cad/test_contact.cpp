@@ -57,6 +57,20 @@ static void far_parts_do_not_touch(void **) {
   assert_int_equal(touching(small, 0, &share), 0);
 }
 
+// Rings that are thinner than their chords are deep: the points that are looked from lie on the faces all the same.
+static void thin_rings_touch_wholly(void **) {
+  double share;
+  const auto ring = [](double z) {
+    return BRepAlgoAPI_Cut(small_cylinder(z, 100.3, 50), small_cylinder(z, 100, 50)).Shape();
+  };
+  SmallParts small({{"a", ring(0)}, {"b", ring(50)}});
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  for (int part = 0; part < 2; part++) {
+    assert_int_equal(touching(small, part, &share), 1);
+    small_near(share, 1, 0);
+  }
+}
+
 // Side walls that only share an edge with the neighbour's do not touch it.
 static void edges_alone_do_not_touch(void **) {
   double share;
@@ -69,6 +83,7 @@ int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equal_faces_touch_wholly), cmocka_unit_test(faces_that_touch_in_part_are_cut),
       cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(far_parts_do_not_touch),
-      cmocka_unit_test(edges_alone_do_not_touch)};
+      cmocka_unit_test(edges_alone_do_not_touch),
+      cmocka_unit_test(thin_rings_touch_wholly)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -44,6 +44,16 @@ static void a_disc_has_no_passages(void **) {
   assert_int_equal(made.count[CW_ROLE_BLADE], 0);
 }
 
+// A disc of water behind the wheel has no opening, round though it is.
+static void side_chambers_have_no_opening(void **) {
+  SmallParts small({{"rotor", small_rotor()},
+                    {"stator", small_stator()},
+                    {"chamber", BRepAlgoAPI_Cut(small_cylinder(6, 48, 4), small_cylinder(6, 10, 4)).Shape()}});
+  const Proposed made = propose(small);
+  assert_int_equal(made.count[CW_ROLE_INLET], 1);
+  assert_int_equal(made.count[CW_ROLE_OUTLET], 1);
+}
+
 // Five of six blades: nothing comes to itself.
 static void a_missing_blade_is_seen(void **) {
   TopoDS_Shape water = small_cylinder(-5, 50, 10);
@@ -86,7 +96,8 @@ static void a_casing_round_the_wheel_has_side_walls(void **) {
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_wheel_has_hub_shroud_and_blades),
                                      cmocka_unit_test(a_disc_has_no_passages),
-                                     cmocka_unit_test(a_missing_blade_is_seen), cmocka_unit_test(pipes_have_two_ends),
+                                     cmocka_unit_test(a_missing_blade_is_seen),
+      cmocka_unit_test(side_chambers_have_no_opening), cmocka_unit_test(pipes_have_two_ends),
                                      cmocka_unit_test(a_casing_round_the_wheel_has_side_walls)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
