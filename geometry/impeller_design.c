@@ -402,22 +402,18 @@ static const double LEAST_STANDING = 50 * M_PI / 180;
 static const double FARTHEST_EDGE = 0.6;
 enum { EDGE_STEPS = 12 };
 
-CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+// Moves an open leading edge of cylindrical blades out until they stand, or as far as there is a wheel.
+static CwStatus stand_steeper(const CwCase *table, CwMeridian *meridian, CwDesign *design, double *angle) {
   CwStatus status = CW_OK;
-  double angle;
-  CW_TRY(solve_wheel(table, meridian, design));
-  if (design->blade_form != CW_BLADE_CYLINDRICAL || cw_case_given(table->impeller.leading_edge_radius_shroud))
-    goto done;
   CwCase trial = *table;
   const double first = design->leading_edge_radius_shroud;
-  for (int i = 1; i <= EDGE_STEPS; i++) {
-    CW_TRY(cw_blade_wall_angle(design, meridian, &angle));
-    if (angle >= LEAST_STANDING) break;
+  CW_TRY(cw_blade_wall_angle(design, meridian, angle));
+  for (int i = 1; *angle < LEAST_STANDING && i <= EDGE_STEPS; i++) {
     trial.impeller.leading_edge_radius_shroud =
         first + FARTHEST_EDGE * i / EDGE_STEPS * (design->outlet_diameter / 2 - first);
     const CwDesign before = *design;
     const CwMeridian walls = *meridian;
-    if (solve_wheel(&trial, meridian, design) != CW_OK) { // too short a blade for its wrap: as far as there is one
+    if (solve_wheel(&trial, meridian, design) != CW_OK) { // too short a blade for its wrap
       cw_fail_clear();
       *design = before;
       *meridian = walls;
@@ -425,7 +421,31 @@ CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign 
     }
     design->source[CW_DESIGN_leading_edge_radius_shroud] =
         "as far out as cylindrical blades stand at 50 deg on the walls";
+    CW_TRY(cw_blade_wall_angle(design, meridian, angle));
   }
+done:
+  return status;
+}
+
+CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  double angle;
+  CW_TRY(solve_wheel(table, meridian, design));
+  if (design->blade_form != CW_BLADE_CYLINDRICAL || cw_case_given(table->impeller.leading_edge_radius_shroud))
+    goto done;
+  CW_TRY(stand_steeper(table, meridian, design, &angle));
+  if (angle >= LEAST_STANDING) goto done;
+  const CwDesign flat = *design;
+  const CwMeridian walls = *meridian;
+  design->blade_form = CW_BLADE_TWISTED;
+  if (solve_wheel(table, meridian, design) == CW_OK) {
+    GIVE_WAY(leading_edge_radius_shroud, design->leading_edge_radius_shroud, flat.leading_edge_radius_shroud,
+             "blade_form cylindrical gives way to twisted, which stands at 50 deg or more on the walls");
+    goto done;
+  }
+  cw_fail_clear();
+  *design = flat;
+  *meridian = walls;
 done:
   return status;
 }

@@ -88,6 +88,16 @@ static void given_values_give_way(void **state) {
   table.impeller.root_fillet_radius = 0;
   assert_int_equal(design_of(&table).trailing_edge, CW_EDGE_SHARP);
 
+  table = duty_point(5.1582, 56.415, 48124); // nq 88, two short blades
+  table.impeller.blade_count = 2;
+  table.impeller.outlet_width = 3.068e-3;
+  const CwDesign twisted = design_of(&table);
+  table.impeller.blade_form = CW_BLADE_CYLINDRICAL;
+  const CwDesign flat = design_of(&table);
+  assert_int_equal(flat.blade_form, CW_BLADE_TWISTED);
+  assert_false(isnan(flat.asked[CW_DESIGN_leading_edge_radius_shroud]));
+  near_to(flat.leading_edge_radius_shroud, twisted.leading_edge_radius_shroud, 1e-12);
+
   table = duty_point(2287.1, 1369.9, 6803.2); // whose shaft asks for a thick hub
   table.impeller.inlet_diameter = 0.85 * design_of(&table).inlet_diameter;
   near_to(design_of(&table).hub_diameter, 0.65 * table.impeller.inlet_diameter, 1e-12);
