@@ -4,6 +4,7 @@
 #   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
 #   make solve [CELLS=..] [NP=2] [OUT=DIR]   the same, and its steady flow with OpenFOAM until head and torque settle
 #   make curve [CELLS=..] [NP=2] [OUT=DIR]   the same at several flow rates: head, power and efficiency over flow
+#   make report [OUT=runs]                   one page that sets the finished runs of a folder side by side
 #   make check                               the quick tests, with everything they need
 #   make check-long                          the long ones
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
@@ -19,7 +20,7 @@ include pipeline/build.mk
 include pipeline/run.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help solve curve check check-long check-sanitized measurements dist clean
+.PHONY: help solve curve report check check-long check-sanitized measurements dist clean
 
 help:
 	@sed -n '/^#   make/s/^#  //p; /^# \(CELLS\|HOSTS\)/s/^# //p' Makefile
@@ -28,6 +29,9 @@ OUT ?= runs/paper
 $(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))
 
 solve curve: %: paper-%
+
+report:
+	@python3 $(ROOT)/pipeline/compare.py $(call cutwater_folder,OUT,$(if $(filter file,$(origin OUT)),runs,$(OUT)))
 
 check check-long: everything
 check: CHOICE := -L '^quick$$'

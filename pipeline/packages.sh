@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # Installs what is missing from Debian: packages.sh build|solve|check|check-long. `build` is what the programs need,
 # `solve` also the flow solver, `check` also what the tests hold them against: programs of others, `check-long` another
-# MPI too.
+# MPI and a browser too.
 set -eu
 
 build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmocka-dev libcairo2-dev
@@ -10,13 +10,14 @@ build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmoc
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libocct-data-exchange-dev"
 other_mpi="libmpich-dev mpich libhdf5-mpich-dev iproute2"
+browser="chromium"
 judges="cgns-convert code-saturne gmsh python3-gmsh openfoam tetgen valgrind"
 
 case "${1:-}" in
 build) wanted=$build ;;
 solve) wanted="$build openfoam" ;;
 check) wanted="$build $judges" ;;
-check-long) wanted="$build $judges $other_mpi" ;;
+check-long) wanted="$build $judges $other_mpi $browser" ;;
 *) echo "packages: usage: packages.sh build|solve|check|check-long" >&2; exit 2 ;;
 esac
 

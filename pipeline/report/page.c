@@ -68,15 +68,26 @@ static void tile(FILE *page, const char *value, const char *unit, const char *la
   fprintf(page, "<div><b>%s%s%s</b><span>%s</span></div>\n", value, *unit ? "&#8239;" : "", unit, label);
 }
 
-// What the mesher tells before all else.
-static void headlines(FILE *page, json_t *results) {
+// What the stages tell before all else; the geometry, whose warnings are few, all of them in one box to be opened.
+static void headlines(FILE *page, const CwReportData *data) {
   size_t k;
-  json_t *text;
-  json_array_foreach(json_object_get(results, "headlines"), k, text) {
-    fputs("<div class=\"warn\">", page);
-    cw_html_text(page, json_string_value(text));
-    fputs("</div>\n", page);
+  json_t *text, *remarks = json_object_get(data->record[0], "warnings");
+  for (int s = 0; s < CW_STAGES; s++) {
+    json_array_foreach(json_object_get(json_object_get(data->record[s], "results"), "headlines"), k, text) {
+      fputs("<div class=\"warn\">", page);
+      cw_html_text(page, json_string_value(text));
+      fputs("</div>\n", page);
+    }
   }
+  if (json_array_size(remarks) == 0) return;
+  fprintf(page, "<details class=\"warn\"><summary>Geometry: %zu warning%s</summary><ul>\n", json_array_size(remarks),
+          json_array_size(remarks) == 1 ? "" : "s");
+  json_array_foreach(remarks, k, text) {
+    fputs("<li>", page);
+    cw_html_text(page, json_string_value(text));
+    fputs("</li>\n", page);
+  }
+  fputs("</ul></details>\n", page);
 }
 
 static CwStatus title(FILE *page, const CwReportData *data) {
@@ -138,7 +149,7 @@ static CwStatus title(FILE *page, const CwReportData *data) {
   tile(page, cw_format_si((double)cells / mesh_seconds, 3, text), "", label);
   tile(page, cw_format_bytes(memory, text), "", "peak memory, all ranks together");
   fputs("</div>\n", page);
-  headlines(page, results);
+  headlines(page, data);
   cw_page_picture_list(page, data, CW_SECTION_TITLE);
 done:
   return status;

@@ -231,6 +231,8 @@ static void page_tells_all_and_stands_alone(void **state) {
   const char *headline = strstr(page, "laminar &lt;flow&gt;");
   assert_non_null(headline);
   assert_true(headline < strstr(page, "<h2"));
+  const char *remarks = strstr(page, "<summary>Geometry: 1 warning</summary>");
+  assert_true(remarks && remarks < strstr(page, "<h2"));
   holds(page, "mesh: surface</text>");
   holds(page, "2.25 s, 9 faces, 2 passes"); // two passes added up
   holds(page, "geometry:</b> skewed &amp; sharp");
