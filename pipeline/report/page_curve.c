@@ -64,7 +64,8 @@ static void table(FILE *page, const Curve *curve, json_t *points) {
   char text[CW_FORMAT_SIZE];
   fputs("<table class=\"plain\"><tr><th class=\"n\">flow, m&sup3;/h</th><th class=\"n\">share</th>"
         "<th class=\"n\">head, m</th><th class=\"n\">&plusmn;</th><th class=\"n\">design, m</th>"
-        "<th class=\"n\">power, kW</th><th class=\"n\">efficiency, %</th><th></th></tr>\n",
+        "<th class=\"n\">power, kW</th><th class=\"n\">efficiency, %</th>"
+        "<th class=\"n\">NPSH at inception, m</th><th></th></tr>\n",
         page);
   enum { SCATTER = 3 }; // its column
   for (int k = 0; k < curve->count; k++) {
@@ -72,7 +73,7 @@ static void table(FILE *page, const Curve *curve, json_t *points) {
     const double values[] = {curve->flow[k],        cw_json_real(point, "flow_share"),
                              curve->head[k],        cw_json_real(point, "head_scatter_m"),
                              curve->design_head[k], curve->power[k],
-                             curve->efficiency[k]};
+                             curve->efficiency[k],  cw_json_real(point, "npsh_inception_m")};
     fputs("<tr>", page);
     for (size_t c = 0; c < sizeof values / sizeof *values; c++)
       fprintf(page, "<td class=\"n\">%s</td>",

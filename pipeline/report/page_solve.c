@@ -75,6 +75,8 @@ static void result_table(FILE *page, const CwReportData *data, json_t *results) 
   if (isfinite(efficiency))
     row(page, "Hydraulic efficiency", 100 * efficiency, NAN, 100 * cw_json_real(data->design, "hydraulic_efficiency"),
         "%");
+  if (isfinite(cw_json_real(results, "npsh_inception_m")))
+    row(page, "NPSH at inception", cw_json_real(results, "npsh_inception_m"), NAN, NAN, "m");
   fputs("</table>\n", page);
 }
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """What the function objects of an OpenFOAM case have reported so far (export/templates/openfoam/system/functions)."""
 
+GRAVITY = 9.80665  # m/s2, standard
+
 
 def lines(case, name, file):
     """(names of the columns, words) of each line of a function object's file, those of later starts after the others.
@@ -33,11 +35,15 @@ def residuals(names, words):
 
 
 def history(case):
-    """By iteration: head (m), torque (N m), and the initial residuals of p and of U (their greatest)."""
+    """By iteration: head (m), torque (N m), where they were reported the NPSH at which cavitation begins (m: total
+    pressure at the inlet, 0, less the least pressure), and the initial residuals of p and of U (their greatest)."""
     heads = column(case, "head", "fieldValueDelta.dat", lambda names, words: {"head_m": float(words[1])})
     torques = column(case, "torque", "moment.dat", lambda names, words: {"torque_n_m": -float(words[3])})
+    least = column(case, "leastPressure", "fieldMinMax.dat",
+                   lambda names, words: {"npsh_inception_m": -float(words[1]) / GRAVITY})
     solver = column(case, "solverInfo", "solverInfo.dat", residuals)
-    return {iteration: {**heads[iteration], **torques[iteration], **solver.get(iteration, {})}
+    return {iteration: {**heads[iteration], **torques[iteration], **least.get(iteration, {}),
+                        **solver.get(iteration, {})}
             for iteration in sorted(heads.keys() & torques.keys())}
 
 

@@ -25,6 +25,12 @@ def windows(table, key):
     return means, (max(part) - min(part)) / 2
 
 
+def last_mean(table, key):
+    """Mean over the last window of what its iterations have of table[iteration][key]; None where none has it."""
+    part = [row[key] for iteration, row in table.items() if iteration > max(table) - WINDOW and key in row]
+    return sum(part) / len(part) if part else None
+
+
 def left_of_way(means):
     """How far a quantity has still to go, from three means."""
     first, second = means[1] - means[0], means[2] - means[1]

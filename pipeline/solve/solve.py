@@ -39,11 +39,10 @@ from foam import Trouble, say
 COARSE_SHARE = 8       # the start has an eighth of the cells: half the resolution along each axis
 COARSE_LEAST = 30000   # cells; meshes of less start from rest
 FINE_WITHIN = 3        # a start need not have settled more closely than this times WITHIN
-GRAVITY = 9.80665      # m/s2, standard
 RESIDUAL_ASKED = 1e-4  # of p, as the paper has it
 HISTORY = ("iteration", "head_m", "torque_n_m", "residual_p", "residual_u")
 CURVE = ("point", "flow_m3_per_h", "flow_share", "head_m", "head_scatter_m", "torque_n_m", "shaft_power_w",
-         "hydraulic_efficiency", "settled", "iterations", "residual_p")
+         "hydraulic_efficiency", "npsh_inception_m", "settled", "iterations", "residual_p")
 
 
 def read_record(run, stage):
@@ -102,13 +101,14 @@ class Run:
         mean = {key: found[key][0][-1] if found[key] else last[key] for key in found}
         done, left = settling.settled(table, self.within)
         power = mean["torque_n_m"] * self.omega
-        useful = self.density * GRAVITY * flow_m3_per_h / 3600 * mean["head_m"]
+        useful = self.density * reports.GRAVITY * flow_m3_per_h / 3600 * mean["head_m"]
         return {"settled": done, "iterations": max(table), "window_iterations": settling.WINDOW,
                 "left_of_way": left if math.isfinite(left) else None, "within": self.within,
                 "head_m": mean["head_m"], "head_scatter_m": found["head_m"][1] if found["head_m"] else None,
                 "torque_n_m": mean["torque_n_m"],
                 "torque_scatter_n_m": found["torque_n_m"][1] if found["torque_n_m"] else None, "shaft_power_w": power,
                 "hydraulic_efficiency": useful / power if power > 0 else None,
+                "npsh_inception_m": settling.last_mean(table, "npsh_inception_m"),
                 "residual_p": last.get("residual_p"), "residual_u": last.get("residual_u")}
 
 

@@ -48,6 +48,15 @@ class Settled(unittest.TestCase):
         self.assertTrue(settling.settled(history(lambda i: 10, count=310), 0.003)[0])
 
 
+class LastMean(unittest.TestCase):
+    def test_the_last_window_counts_where_it_has_the_quantity(self):
+        table = history(lambda i: float(i), count=200)
+        table[150]["other"], table[200]["other"], table[100]["other"] = 1, 3, 1000
+        self.assertEqual(settling.last_mean(table, "other"), 2)
+        self.assertAlmostEqual(settling.last_mean(table, "head_m"), 155)
+        self.assertIsNone(settling.last_mean(table, "none"))
+
+
 class Reports(unittest.TestCase):
     def test_files_of_later_starts_go_before_and_unfinished_lines_do_not_count(self):
         case = fresh("solve_reports")
@@ -63,8 +72,9 @@ class Reports(unittest.TestCase):
         write("torque", "0", "moment.dat", moment)
         names = "# Solver info\n# Time\tU_solver\tUx_initial\tUy_initial\tUz_initial\tp_initial\n"
         write("solverInfo", "0", "solverInfo.dat", names + "10\tsmooth\t1e-3\t3e-3\t2e-3\t5e-2\n20\tsmooth\t1e-3\n")
+        write("leastPressure", "0", "fieldMinMax.dat", "# Field minima and maxima\n# Time\tmin(p)\n10\t-98.0665\t3\n")
         self.assertEqual(reports.history(case), {
-            10: {"head_m": 1.5, "torque_n_m": 7, "residual_p": 5e-2, "residual_u": 3e-3},
+            10: {"head_m": 1.5, "torque_n_m": 7, "npsh_inception_m": 10, "residual_p": 5e-2, "residual_u": 3e-3},
             20: {"head_m": 2.5, "torque_n_m": 8}, 30: {"head_m": 3.5, "torque_n_m": 9}})
         self.assertEqual(reports.history(case / "none"), {})
 
@@ -125,6 +135,9 @@ class Flow(unittest.TestCase):
         self.assertEqual(curve[1]["head_m"], found["head_m"])
         self.assertGreater(curve[0]["head_m"], curve[1]["head_m"])
         self.assertLess(curve[0]["shaft_power_w"], curve[1]["shaft_power_w"])
+        # Cavitation begins where the pressure is least, below the one at the inlet by more than the speed there makes.
+        self.assertGreater(curve[1]["npsh_inception_m"], 0.5)
+        self.assertLess(curve[1]["npsh_inception_m"], 100)
         with open(self.pump / "solve/curve.csv", encoding="utf-8") as file:
             for row, flow in zip(csv.DictReader(file), (17.5, 25), strict=True):
                 self.assertAlmostEqual(float(row["flow_m3_per_h"]), flow, places=9)

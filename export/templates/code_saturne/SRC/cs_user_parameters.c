@@ -27,6 +27,8 @@ static void set_scheme(cs_field_t *field, double second_order_share) {
   options.ischcv = 0; // upwind with the upwind cell's gradient
   options.isstpc = 0;
   options.blencv = second_order_share;
+  options.imligr = 1; // limited gradients: without them k runs away from skewed cells
+  options.climgr = 1;
   options.epsilo = 1e-3;
   cs_field_set_key_struct(field, key, &options);
 }
