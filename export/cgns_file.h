@@ -31,7 +31,7 @@ CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *assembly, int region
 CwStatus cw_cgns_close(hid_t file);
 
 // Whether a file could not be closed on this rank. HDF5 then ends in a segmentation fault within MPI_Finalize: the
-// process has to end without it.
+// process has to end without it. Kept once a process, as the state of HDF5 that it tells of.
 int cw_cgns_stuck(void);
 
 #endif

@@ -12,8 +12,6 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-static int held = -1; // the open file that carries the lock: a process loses it when it closes the file anywhere
-
 // What the holder wrote; it may be about to.
 static void read_holder(int file, char *text, size_t size) {
   ssize_t length = pread(file, text, size - 1, 0);
@@ -33,11 +31,11 @@ done:
   return status;
 }
 
-CwStatus cw_run_lock(const char *run, const char *stage) {
+CwStatus cw_run_lock(const char *run, const char *stage, CwRunLock *lock) {
   CwStatus status = CW_OK;
   char *folder = NULL, *path = NULL, holder[HOST_NAME_MAX + 100];
   int file = -1;
-  cw_run_unlock();
+  cw_run_unlock(lock);
   CW_REQUIRE(asprintf(&folder, "%s/log", run) >= 0 && asprintf(&path, "%s/run.lock", folder) >= 0, CW_ERR_MEMORY,
              "out of memory: the name %s/log/run.lock", run);
   CW_TRY(cw_make_directory(folder));
@@ -51,7 +49,7 @@ CwStatus cw_run_lock(const char *run, const char *stage) {
     cw_log_warn("%s: cannot be locked: %s; see to it that no other stage works in this folder", run, strerror(cause));
   }
   CW_TRY(write_holder(file, path, stage));
-  held = file;
+  *lock = (CwRunLock){.held = 1, .file = file};
   file = -1;
 done:
   if (file >= 0) close(file);
@@ -60,7 +58,7 @@ done:
   return status;
 }
 
-void cw_run_unlock(void) {
-  if (held >= 0) close(held);
-  held = -1;
+void cw_run_unlock(CwRunLock *lock) {
+  if (lock->held) close(lock->file);
+  *lock = (CwRunLock){0};
 }

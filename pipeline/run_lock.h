@@ -8,10 +8,23 @@
 
 #include "pipeline/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Zeroed: none is held. A process loses the lock when it closes the lock's file anywhere.
+typedef struct {
+  int held, file;
+} CwRunLock;
+
 // Takes the run folder for `stage` until this process ends or cw_run_unlock; RUN and RUN/log are made where they are
 // missing. Of a stage of several ranks one calls it. CW_ERR_IO, naming stage, host and process, where another one has
-// it.
-CwStatus cw_run_lock(const char *run, const char *stage);
-void cw_run_unlock(void);
+// it. [in,out] lock: one that it holds is given back first.
+CwStatus cw_run_lock(const char *run, const char *stage, CwRunLock *lock);
+void cw_run_unlock(CwRunLock *lock);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

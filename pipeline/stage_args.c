@@ -15,7 +15,6 @@
 #include "pipeline/case_sweep.h"
 #include "pipeline/case_value.h"
 #include "pipeline/log.h"
-#include "pipeline/run_lock.h"
 #include "pipeline/stage_files.h"
 
 // Codes past all characters, so that getopt's code of an unknown short option is never one of them.
@@ -160,7 +159,8 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
   CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0));
   CW_TRY(cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args));
   if (args->finished) goto done;
-  if (speaks) CW_TRY(cw_run_lock(args->run_path, usage->stage)); // before the log of the stage that may have it
+  if (speaks)
+    CW_TRY(cw_run_lock(args->run_path, usage->stage, &args->lock)); // before the log of the stage that may have it
   snprintf(name, sizeof name, "log/%s.log", usage->stage);
   CW_TRY(cw_stage_path(args, name, &log_path));
   CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));

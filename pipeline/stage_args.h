@@ -19,6 +19,7 @@
 #include <stdio.h>
 
 #include "pipeline/case.h"
+#include "pipeline/run_lock.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -50,7 +51,8 @@ typedef struct {
   const char *run_path;
   int64_t cells; // 0: not given, the case file's number holds
   int verbose;
-  int finished; // --help or --version was asked and answered: nothing is left to do
+  int finished;   // --help or --version was asked and answered: nothing is left to do
+  CwRunLock lock; // [out] of cw_stage_begin: that of the run folder, until the process ends
   // The value of each option of the stage, "" of a switch; NULL: not given.
   const char *options[CW_STAGE_OPTION_LIMIT];
 } CwStageArgs;

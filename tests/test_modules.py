@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Every module has a test: tests/ROOM/test_MODULE, another test of its stage that calls one of its functions, or one
 whose comment at the top names the module (the file name without its ending). With --list: each module and its tests.
-Templates are sources of others' programs, and no modules."""
+Templates are sources of others' programs, and no modules.
+The README of each room of the mesher names all its modules."""
 import os
 import pathlib
 import re
@@ -48,5 +49,9 @@ for stage in STAGES:
             print(name, *(test.relative_to(source) for test in own or others))
         if not own and not others:
             faults.append(f"{name}: no tests/{name.parent}/test_{path.stem}, and no test calls or names it")
+for readme in sorted((source / "mesher").glob("*/README.md")):
+    named = set(re.findall(r"\b\w+\b", readme.read_text()))
+    faults += [f"{readme.relative_to(source)}: does not name {module}" for module in sorted(
+        {path.stem for path in readme.parent.iterdir() if path.suffix in (".c", ".h", ".cpp")} - named)]
 print("\n".join(faults) or f"{seen} modules, each with a test")
 sys.exit(1 if faults or not seen else 0)

@@ -155,7 +155,7 @@ static int meet(void *context, int32_t f) {
 }
 
 // Where the ray of v begins. Beside an open patch it is the middle of its neighbours: on a bent patch the chords of the
-// rim opposite lie within it, and a ray along it would miss the wall behind them.
+// edge opposite lie within it, and a ray along it would miss the wall behind them.
 static void ray_start(const CwLayerWork *work, int32_t v, double x[3]) {
   const CwLayerInput *in = work->in;
   cw_copy(in->x[v], x);
@@ -250,7 +250,7 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
 }
 
 CwStatus cw_layers_limit_by_concavity(CwLayerWork *work) {
-  return cw_parallel_for(work->in->context, "layers: hollows", work->n, sizeof *work->most, find_most, work,
+  return cw_parallel_for(work->in->context, "layers: concave places", work->n, sizeof *work->most, find_most, work,
                          work->most);
 }
 

@@ -20,7 +20,7 @@ static const double LITTLE_GROWTH = 1.1;
 typedef struct {
   double normal[3]; // mean of the triangles, out of the domain
   double cosine;    // least, of their normals to it
-  double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
+  double rise;      // greatest, of the edges against it, over their lengths: above 0 in a concave place
 } Bend;
 
 double cw_column_thickness_least(double first, int layer_count) {
@@ -99,7 +99,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   if (cw_image_node_turns(&surface->images, v) > 0) return CW_OK;
   Bend bend = bend_at(surface, columns->around, v);
   double size = size_at(in, x), thickness = 0, last = columns->asked[v].last;
-  // In a hollow tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
+  // In a concave place tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
   if (bend.cosine < cw_policy.wall_flat_cosine && bend.rise > cw_policy.wall_concave_rise) last *= bend.cosine;
   for (int pass = 0; pass < 2; pass++) {
     double end[3];

@@ -161,6 +161,7 @@ static void stage_begins_with_log_and_case(void **state) {
   for (int run = 0; run < 2; ++run) {
     assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_OK);
     cw_log_close();
+    cw_run_unlock(&args.lock);
     snprintf(path, sizeof path, "%s/export/record.json", folder);
     assert_int_equal(access(path, F_OK), -1);
     FILE *record = fopen(path, "w");
@@ -180,7 +181,7 @@ static void stage_begins_with_log_and_case(void **state) {
   cw_log_close();
   assert_int_equal(strncmp(cw_fail_message(), "/nowhere.yaml: ", 15), 0);
   assert_int_equal(unlink(path), 0);
-  cw_run_unlock();
+  cw_run_unlock(&args.lock);
   snprintf(path, sizeof path, "%s/log/run.lock", folder);
   assert_int_equal(unlink(path), 0);
   snprintf(path, sizeof path, "%s/log", folder);
