@@ -74,7 +74,8 @@ class Reports(unittest.TestCase):
         write("solverInfo", "0", "solverInfo.dat", names + "10\tsmooth\t1e-3\t3e-3\t2e-3\t5e-2\n20\tsmooth\t1e-3\n")
         write("leastPressure", "0", "fieldMinMax.dat", "# Field minima and maxima\n# Time\tmin(p)\n10\t-98.0665\t3\n")
         self.assertEqual(reports.history(case), {
-            10: {"head_m": 1.5, "torque_n_m": 7, "npsh_inception_m": 10, "residual_p": 5e-2, "residual_u": 3e-3},
+            10: {"head_m": 1.5, "torque_n_m": 7, "npsh_inception_m": 98.0665 / 9.80665,
+                 "residual_p": 5e-2, "residual_u": 3e-3},
             20: {"head_m": 2.5, "torque_n_m": 8}, 30: {"head_m": 3.5, "torque_n_m": 9}})
         self.assertEqual(reports.history(case / "none"), {})
 

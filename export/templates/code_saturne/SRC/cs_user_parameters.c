@@ -54,7 +54,7 @@ static void set_time_steps(cs_time_step_t *steps) {
   cs_time_step_options_t *time = cs_get_glob_time_step_options();
   const double radian = 1.0 / PUMP_SPEED;
   time->idtvar = 2;
-  time->coumax = 10;
+  time->coumax = 3; // at 10 k runs away after 20 steps
   time->foumax = 1e6;
   time->varrdt = 0.5;
   time->dtmin = 1e-4 * radian;
