@@ -180,6 +180,12 @@ static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const C
 static CwStatus check(const CwCaseCad *cad, const CwOperatingPoint *point, const CwFacePatches *patches,
                       int interface_count, const Sizes *sizes) {
   CwStatus status = CW_OK;
+  int still = 0;
+  for (int d = 0; d < cad->domain_count; d++) still += !cad->domain[d].rotating;
+  CW_REQUIRE(still > 0, CW_ERR_INPUT,
+             "cad.domains: all rotate, %s too; allowed: rotating: true in the wheel's alone, and a domain that stands "
+             "still",
+             cad->domain[cad->domain_count - 1].name);
   for (int d = 0; d < cad->domain_count; d++) {
     int open = 0;
     for (int i = 0; i < patches->count; i++)

@@ -13,6 +13,7 @@
 #include <Precision.hxx>
 #include <ShapeExtend.hxx>
 #include <ShapeUpgrade_FaceDivide.hxx>
+#include <ShapeUpgrade_ShapeDivideAngle.hxx>
 #include <ShapeUpgrade_ShapeDivideClosed.hxx>
 #include <ShapeUpgrade_SplitSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -186,6 +187,11 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
   if (seams(part.solid, &edge, &face)) {
     ShapeUpgrade_ShapeDivideClosed divide(part.solid);
     divide.SetNbSplitPoints(std::max(pieces, 2) - 1);
+    divide.Perform();
+    replace(part, divide.Result());
+  }
+  if (seams(part.solid, &edge, &face)) { // a sphere of Ball.brep in occt-misc keeps one
+    ShapeUpgrade_ShapeDivideAngle divide(2 * M_PI / std::max(pieces, 2), part.solid);
     divide.Perform();
     replace(part, divide.Result());
   }

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <string>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+
 #include "geometry/cad/cad_pump.h"
 #include "pipeline/case_read.h"
 #include "cad/small_pump.hpp"
@@ -143,6 +145,17 @@ static void wrong_input_is_told(void **) {
        "cad.patches.lid: no face has its colour"},
       {"  files: apart.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n",
        "a gap or an overlap of 0.02"},
+      {"  files: line.brep\n  domains: {rotor: {solid: 1, rotating: true}}\n", "line.brep: holds no solid and no face"},
+      {"  files: shell.brep\n  domains: {rotor: {solid: 1, rotating: true}}\n",
+       "shell.brep: holds no solid, and its 4 faces do not close"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2, rotating: true}}\n",
+       "cad.domains: all rotate, stator too"},
+      {"  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n  patches: {back: "
+       "{near_mm: [0, 20, -60]}}\n",
+       "cad.patches.back.near_mm: (0, 20, -60) lies as near to another face"},
+      {"  files: pump.brep\n  cut: {radius_mm: 300}\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: "
+       "2}}\n",
+       "cad.cut: the surface parts no solid of"},
   };
   for (const auto &at : wrong) {
     CwCase table = {};
@@ -171,12 +184,25 @@ static int make_files(void **) {
   gp_Trsf wider;
   wider.SetScale(gp::Origin(), 50.02 / 50);
   small_write(folder + "/pump.brep", {rotor, stator});
+  small_write(folder + "/line.brep", {BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Shape()});
+  BRep_Builder builder;
+  TopoDS_Compound open;
+  builder.MakeCompound(open);
+  for (TopExp_Explorer at(BRepPrimAPI_MakeBox(10, 20, 30).Shape(), TopAbs_FACE); at.More(); at.Next())
+    builder.Add(open, at.Current());
+  TopExp_Explorer lid(open, TopAbs_FACE);
+  const TopoDS_Shape first = lid.Current();
+  lid.Next();
+  const TopoDS_Shape second = lid.Current();
+  builder.Remove(open, first);
+  builder.Remove(open, second);
+  small_write(folder + "/shell.brep", {open});
   small_write(folder + "/apart.brep", {rotor, BRepBuilderAPI_Transform(stator, wider, Standard_True).Shape()});
   return 0;
 }
 
 static int remove_files(void **) {
-  for (const char *name : {"/pump.brep", "/posts.brep", "/apart.brep", "/case.yaml", ""})
+  for (const char *name : {"/pump.brep", "/posts.brep", "/apart.brep", "/line.brep", "/shell.brep", "/case.yaml", ""})
     remove((folder + name).c_str());
   return 0;
 }
