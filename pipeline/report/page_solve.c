@@ -82,6 +82,7 @@ static void result_table(FILE *page, const CwReportData *data, json_t *results) 
 
 static void history_plots(FILE *page, const History *history, double asked) {
   const CwPlotSeries head = {"head, m", 0x0b5c8a, history->head};
+  const CwPlotSeries torque = {"shaft torque, N m", 0x0b5c8a, history->torque};
   const CwPlotSeries residual[] = {{"pressure", 0x0b5c8a, history->residual_p},
                                    {"velocity, greatest component", 0xd9a24e, history->residual_u}};
   fputs("<div class=\"grid\">\n<figure>", page);
@@ -95,6 +96,15 @@ static void history_plots(FILE *page, const History *history, double asked) {
                                     .width = 560});
   fputs("<figcaption><b>Head.</b> The broken line is the head that the case asks.</figcaption></figure>\n<figure>",
         page);
+  cw_plot_lines(page, &(CwLinePlot){.axis = "shaft torque, N m",
+                                    .x_axis = "iteration",
+                                    .x = history->iteration,
+                                    .count = history->count,
+                                    .series = &torque,
+                                    .series_count = 1,
+                                    .mark = NAN,
+                                    .width = 560});
+  fputs("<figcaption><b>Shaft torque.</b></figcaption></figure>\n<figure>", page);
   cw_plot_lines(page, &(CwLinePlot){.axis = "initial residual",
                                     .x_axis = "iteration",
                                     .x = history->iteration,

@@ -318,6 +318,16 @@ const CwPictureSpec cw_picture_list[] = {
      .sees = CW_SEES_ALL,
      .plane = CW_PLANE_Z0,
      .inset_of = -1},
+    {.section = CW_SECTION_FLOW,
+     .title = "Relative velocity from blade to blade",
+     .caption = "On the surface of revolution midway between hub and shroud, seen from the suction side.",
+     .wide = 1,
+     .colour = CW_COLOUR_SPEED,
+     .width = 1180,
+     .height = 900,
+     .sees = CW_SEES_ROTOR,
+     .plane = CW_PLANE_MID_SPAN,
+     .inset_of = -1},
 };
 const int cw_picture_list_count = sizeof cw_picture_list / sizeof *cw_picture_list;
 

@@ -27,7 +27,8 @@ typedef enum {
   CW_COLOUR_Y_PLUS,
   CW_COLOUR_SPEED,
 } CwPictureColour;
-typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0 } CwPicturePlane;
+// MID_SPAN: the surface of revolution midway between hub and shroud, seen along the axis.
+typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0, CW_PLANE_MID_SPAN } CwPicturePlane;
 
 typedef enum {
   CW_TARGET_ALL,    // all that is seen
@@ -58,6 +59,10 @@ typedef struct {
   int inset_of; // index of the picture in which this one is framed, or -1
   const char *inset_name;
 } CwPictureSpec;
+
+static inline int cw_picture_is_of_flow(const CwPictureSpec *spec) {
+  return spec->colour >= CW_COLOUR_PRESSURE;
+}
 
 extern const CwPictureSpec cw_picture_list[];
 extern const int cw_picture_list_count;

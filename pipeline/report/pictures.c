@@ -66,7 +66,7 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
   if (spec->plane == CW_PLANE_MERIDIONAL) {
     memcpy(towards, (double[3]){sin(azimuth), -cos(azimuth), 0}, sizeof towards);
     memcpy(up, (double[3]){0, 0, 1}, sizeof up);
-  } else if (spec->plane == CW_PLANE_Z0) {
+  } else if (spec->plane != CW_PLANE_NONE) {
     memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
     memcpy(up, (double[3]){1, 0, 0}, sizeof up);
   }
@@ -83,12 +83,14 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
     break;
   case CW_TARGET_SHROUD:
     radius = 0.43 * survey->sizes.outlet_radius;
-    if (!cw_survey_shroud(survey, radius, &z)) drawing->lacking = "the mesh has no shroud";
+    if (!cw_survey_wall(survey, CW_WALL_SHROUD, radius, &z)) drawing->lacking = "the mesh has no shroud";
     // fall through
   case CW_TARGET_NECK:
     memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
     break;
   }
+  if (spec->plane == CW_PLANE_MID_SPAN && !cw_survey_has_mid_span(survey))
+    drawing->lacking = "the mesh has no hub, or no shroud";
   cw_camera_turn(camera, towards, up);
   memcpy(camera->centre, middle, sizeof middle);
   camera->width = spec->width;
@@ -183,15 +185,11 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   return 0.5 + 0.56 * fmax(cosine, 0);
 }
 
-static int is_of_flow(const CwPictureSpec *spec) {
-  return spec->colour >= CW_COLOUR_PRESSURE;
-}
-
 // share: of pressure and y+ by face, for pictures of the flow.
 static uint32_t face_colour(const Drawing *drawing, const CwModelPatch *patch, int region, const Face *face,
                             double share) {
   if (drawing->spec->colour == CW_COLOUR_REGION) return cw_region_colour(region);
-  if (!is_of_flow(drawing->spec)) return cw_patch_colour(patch->name, face->patch);
+  if (!cw_picture_is_of_flow(drawing->spec)) return cw_patch_colour(patch->name, face->patch);
   return isfinite(share) ? cw_colour_scale(share) : bare_colour;
 }
 
@@ -211,7 +209,7 @@ static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const C
     else
       for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
     for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
-    const double *own = is_of_flow(spec) ? share[spec->colour - CW_COLOUR_PRESSURE] : NULL;
+    const double *own = cw_picture_is_of_flow(spec) ? share[spec->colour - CW_COLOUR_PRESSURE] : NULL;
     uint32_t colour = face_colour(drawing, &patch[face.patch], region, &face, own ? own[f] : NAN);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
     if (spec->hollow_white && outside && drawing->part[d] == CW_SEES_ROTOR) group = METAL;
@@ -226,7 +224,10 @@ static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const C
 
 static int is_cut(const double *distance, int count, const int32_t *corner) {
   int above = 0;
-  for (int k = 0; k < count; k++) above += distance[corner[k]] >= 0;
+  for (int k = 0; k < count; k++) {
+    if (isnan(distance[corner[k]])) return 0;
+    above += distance[corner[k]] >= 0;
+  }
   return above > 0 && above < count;
 }
 
@@ -261,18 +262,19 @@ static void draw_cut_cell(Drawing *drawing, const CwRegionData *cells, const dou
                    .group = (uint16_t)group,
                    .edge_colour = ink,
                    .edge_width = size > 12 ? 0.9 : 0.6,
-                   .edge_strength = is_of_flow(drawing->spec) ? 0 : strength};
+                   .edge_strength = cw_picture_is_of_flow(drawing->spec) ? 0 : strength};
   cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
 }
 
-static CwStatus draw_cut(Drawing *drawing, const CwMesh *mesh, int region, const CwFlow *flow,
+static CwStatus draw_cut(Drawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey, const CwFlow *flow,
                          const CwRegionData *cells) {
   CwStatus status = CW_OK;
-  int d = cells->domain, solved = is_of_flow(drawing->spec);
-  int32_t before = 0;
+  int d = cells->domain, solved = cw_picture_is_of_flow(drawing->spec);
   double *distance = NULL;
   CW_NEW(distance, cells->point_count);
-  for (int32_t i = 0; i < cells->point_count; i++) distance[i] = cw_cut_distance(&drawing->plane, cells->points[i]);
+  for (int32_t i = 0; i < cells->point_count; i++)
+    distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
+                                                            : cw_cut_distance(&drawing->plane, cells->points[i]);
   const struct {
     int32_t count;
     int corners;
@@ -281,12 +283,12 @@ static CwStatus draw_cut(Drawing *drawing, const CwMesh *mesh, int region, const
   } kind[] = {{cells->tetrahedron_count, 4, (const int32_t *)cells->tetrahedra, cw_domain_colour(d, 2)},
               {cells->pyramid_count, 5, (const int32_t *)cells->pyramids, pyramid_colour},
               {cells->prism_count, 6, (const int32_t *)cells->prisms, cw_domain_colour(d, 1)}};
-  for (int k = 0; k < 3; before += kind[k++].count) {
+  for (int32_t k = 0, before = 0; k < 3; before += kind[k++].count) {
     for (int32_t c = 0; c < kind[k].count; c++) {
       const int32_t *corner = kind[k].corner + (size_t)kind[k].corners * (size_t)c;
       if (!is_cut(distance, kind[k].corners, corner)) continue;
-      uint32_t colour = kind[k].colour;
-      if (solved) colour = cw_colour_scale(cw_flow_cell_speed(flow, mesh, region, cells, before + c));
+      double speed = solved ? cw_flow_cell_speed(flow, mesh, region, cells, before + c) : NAN;
+      uint32_t colour = solved ? cw_colour_scale(speed) : kind[k].colour;
       draw_cut_cell(drawing, cells, distance, kind[k].corners, corner, colour, d + 1);
     }
   }
@@ -319,7 +321,8 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
 static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
   static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
-  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0 || is_of_flow(drawing->spec)) return;
+  const CwPictureSpec *spec = drawing->spec;
+  if (spec->colour == CW_COLOUR_REGION || spec->inset_of >= 0 || cw_picture_is_of_flow(spec)) return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
       if (!(drawing->spec->sees & drawing->part[d])) continue;
@@ -399,7 +402,7 @@ done:
   return status;
 }
 
-static CwStatus draw_all(const CwMesh *mesh, CwFlow *flow, Drawing *drawings, CwView *view) {
+static CwStatus draw_all(const CwMesh *mesh, const CwSurvey *survey, CwFlow *flow, Drawing *drawings, CwView *view) {
   CwStatus status = CW_OK;
   double *share[2] = {NULL, NULL};
   CwRegionData cells = {0};
@@ -413,7 +416,7 @@ static CwStatus draw_all(const CwMesh *mesh, CwFlow *flow, Drawing *drawings, Cw
       if (drawings[k].spec->plane == CW_PLANE_NONE)
         draw_faces(&drawings[k], mesh, r, &cells, share);
       else
-        CW_TRY(draw_cut(&drawings[k], mesh, r, flow, &cells));
+        CW_TRY(draw_cut(&drawings[k], mesh, r, survey, flow, &cells));
     }
     cw_mesh_region_free(&cells);
     for (int q = 0; q < 2; q++) {
@@ -450,7 +453,7 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
   CW_TRY(survey_all(mesh, drawings, survey));
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwPictureSpec *spec = drawings[k].spec;
-    drawings[k].lacking = is_of_flow(spec) && !flow->present ? "the run has no solved fields" : NULL;
+    drawings[k].lacking = cw_picture_is_of_flow(spec) && !flow->present ? "the run has no solved fields" : NULL;
     if (drawings[k].lacking) continue;
     aim(survey, &drawings[k]);
     if (spec->target == CW_TARGET_ALL && !drawings[k].lacking) {
@@ -462,7 +465,7 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     if (!drawings[k].lacking)
       CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
   }
-  CW_TRY(draw_all(mesh, flow, drawings, view));
+  CW_TRY(draw_all(mesh, survey, flow, drawings, view));
   CW_TRY(cw_view_finish(view, mesh));
   for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
     view->quantity[view->quantity_count++] =
@@ -476,8 +479,8 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     picture->wide = spec->wide;
     picture->width = spec->width;
     picture->height = spec->height;
-    picture->absent = (spec->needs_pipes && mesh->domain_count <= 2) || (is_of_flow(spec) && !flow->present);
-    if (is_of_flow(spec)) {
+    picture->absent = (spec->needs_pipes && mesh->domain_count <= 2) || (cw_picture_is_of_flow(spec) && !flow->present);
+    if (cw_picture_is_of_flow(spec)) {
       picture->scale_label = cw_flow_label[spec->colour - CW_COLOUR_PRESSURE];
       picture->scale = flow->span[spec->colour - CW_COLOUR_PRESSURE];
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 static const char *const place_patch[CW_PLACE_COUNT] = {"blade_leading_edge", "blade_trailing_edge", "tongue"};
+static const char *const wall_patch[CW_WALL_COUNT] = {"hub", "shroud"};
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes) {
   memset(survey, 0, sizeof *survey);
@@ -41,9 +42,10 @@ static double face_area(const double a[3], const double b[3], const double c[3])
 
 void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells) {
   // Patches of a region are counted from the first one of its domain; those of another domain get a number no face has.
-  int first = mesh->domains[cells->domain].first_patch, shroud = cw_mesh_patch_find(mesh, "shroud") - first;
+  int first = mesh->domains[cells->domain].first_patch, wall[CW_WALL_COUNT];
   int patch[CW_PLACE_COUNT];
   for (int k = 0; k < CW_PLACE_COUNT; k++) patch[k] = cw_mesh_patch_find(mesh, place_patch[k]) - first;
+  for (int k = 0; k < CW_WALL_COUNT; k++) wall[k] = cw_mesh_patch_find(mesh, wall_patch[k]) - first;
   for (int32_t t = 0; t < cells->triangle_count; t++) {
     const double *a = cells->points[cells->triangles[t][0]], *b = cells->points[cells->triangles[t][1]],
                  *c = cells->points[cells->triangles[t][2]];
@@ -61,9 +63,10 @@ void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cel
       for (int i = 0; i < 3; i++) sum[1 + i] += area * middle[i];
     }
     int bin = (int)(hypot(middle[0], middle[1]) / survey->sizes.outlet_radius * CW_SURVEY_RADII);
-    if (shroud == cells->triangle_patch[t] && bin < CW_SURVEY_RADII) {
-      survey->shroud_sum[bin][0] += area;
-      survey->shroud_sum[bin][1] += area * middle[2];
+    for (int k = 0; k < CW_WALL_COUNT; k++) {
+      if (wall[k] != cells->triangle_patch[t] || bin >= CW_SURVEY_RADII) continue;
+      survey->wall_sum[k][bin][0] += area;
+      survey->wall_sum[k][bin][1] += area * middle[2];
     }
   }
   for (int32_t q = 0; q < cells->quad_count; q++) {
@@ -127,14 +130,32 @@ int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *r
   return *radius > 0 && *z_most > *z_least;
 }
 
-int cw_survey_shroud(const CwSurvey *survey, double radius, double *z) {
+int cw_survey_wall(const CwSurvey *survey, CwSurveyWall wall, double radius, double *z) {
   int bin = (int)(radius / survey->sizes.outlet_radius * CW_SURVEY_RADII);
   double area = 0, sum = 0;
   for (int k = bin - 2; k <= bin + 2; k++) {
     if (k < 0 || k >= CW_SURVEY_RADII) continue;
-    area += survey->shroud_sum[k][0];
-    sum += survey->shroud_sum[k][1];
+    area += survey->wall_sum[wall][k][0];
+    sum += survey->wall_sum[wall][k][1];
   }
   if (area > 0) *z = sum / area;
   return area > 0;
+}
+
+double cw_survey_mid_span(const CwSurvey *survey, const double x[3]) {
+  double radius = hypot(x[0], x[1]), z[CW_WALL_COUNT][2], middle[2];
+  // Linear between the middles of two bins.
+  double width = survey->sizes.outlet_radius / CW_SURVEY_RADII, at = radius / width - 0.5, below = floor(at);
+  for (int end = 0; end < 2; end++) {
+    for (int k = 0; k < CW_WALL_COUNT; k++)
+      if (!cw_survey_wall(survey, (CwSurveyWall)k, fmax(below + end + 0.5, 0) * width, &z[k][end])) return NAN;
+    middle[end] = 0.5 * (z[CW_WALL_HUB][end] + z[CW_WALL_SHROUD][end]);
+  }
+  return x[2] - middle[0] - (at - below) * (middle[1] - middle[0]);
+}
+
+int cw_survey_has_mid_span(const CwSurvey *survey) {
+  for (int k = 0; k < CW_SURVEY_RADII; k++)
+    if (survey->wall_sum[CW_WALL_HUB][k][0] > 0 && survey->wall_sum[CW_WALL_SHROUD][k][0] > 0) return 1;
+  return 0;
 }

@@ -11,6 +11,9 @@ enum { CW_SURVEY_BINS = 360, CW_SURVEY_RADII = 64 };
 // Places with a patch of their own.
 typedef enum { CW_PLACE_LEADING_EDGE, CW_PLACE_TRAILING_EDGE, CW_PLACE_TONGUE, CW_PLACE_COUNT } CwPlace;
 
+// Walls that a passage of the impeller lies between.
+typedef enum { CW_WALL_HUB, CW_WALL_SHROUD, CW_WALL_COUNT } CwSurveyWall;
+
 // What the pictures take from case and design, m.
 typedef struct {
   int blade_count;       // at the outlet: blades and splitters
@@ -24,8 +27,8 @@ typedef struct {
   double place_sum[CW_PLACE_COUNT][CW_SURVEY_BINS][4];
   // Extent of the boundary by azimuth.
   double radius_most[CW_SURVEY_BINS], z_least[CW_SURVEY_BINS], z_most[CW_SURVEY_BINS];
-  // Sums of area and of area times z of the shroud, by radius up to the outlet.
-  double shroud_sum[CW_SURVEY_RADII][2];
+  // Sums of area and of area times z of hub and shroud, by radius up to the outlet.
+  double wall_sum[CW_WALL_COUNT][CW_SURVEY_RADII][2];
 } CwSurvey;
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes);
@@ -42,7 +45,12 @@ double cw_survey_meridional_azimuth(const CwSurvey *survey);
 // Returns 0 where there is none.
 int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *radius, double *z_least, double *z_most);
 
-// z of the shroud at `radius`. Returns 0 where there is none.
-int cw_survey_shroud(const CwSurvey *survey, double radius, double *z);
+// z of a wall at `radius`. Returns 0 where there is none.
+int cw_survey_wall(const CwSurvey *survey, CwSurveyWall wall, double radius, double *z);
+
+// How far x lies above the surface of revolution midway along the axis between hub and shroud, m; NAN where one of them
+// is missing at its radius.
+double cw_survey_mid_span(const CwSurvey *survey, const double x[3]);
+int cw_survey_has_mid_span(const CwSurvey *survey); // whether both walls are there somewhere
 
 #endif

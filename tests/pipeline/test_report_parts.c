@@ -198,7 +198,7 @@ static void survey_finds_places(void **state) {
   double middle[3], radius, z_least, z_most, z;
   cw_survey_start(survey, &sizes);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 0);
-  assert_int_equal(cw_survey_shroud(survey, 0.02, &z), 0);
+  assert_int_equal(cw_survey_wall(survey, CW_WALL_SHROUD, 0.02, &z), 0);
   cw_survey_add(survey, &mesh, &cells);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle),
                    1); // one blade, not the mean of both
@@ -212,8 +212,17 @@ static void survey_finds_places(void **state) {
   assert_near(radius, hypot(0.001, 0.3), 1e-9);
   assert_near(z_least, -0.02, 1e-12);
   assert_near(z_most, 0.02, 1e-12);
-  assert_int_equal(cw_survey_shroud(survey, 0.05 / 3, &z), 1);
+  assert_int_equal(cw_survey_wall(survey, CW_WALL_SHROUD, 0.05 / 3, &z), 1);
   assert_near(z, -0.01, 1e-12);
+  assert_false(cw_survey_has_mid_span(survey));
+  // Midway between walls: a hub at z = 0.02 of the same radius, over a shroud at -0.01.
+  assert_true(isnan(cw_survey_mid_span(survey, (double[]){0.01, 0.01, 0}))); // no hub yet
+  for (int k = 9; k < 12; k++) x[k][2] = 0.02;
+  snprintf(names[2].name, sizeof names[2].name, "hub");
+  cw_survey_add(survey, &mesh, &cells);
+  assert_true(cw_survey_has_mid_span(survey));
+  assert_near(cw_survey_mid_span(survey, (double[]){0, 0.05 / 3, 0.03}), 0.025, 1e-12);
+  assert_true(isnan(cw_survey_mid_span(survey, (double[]){0.09, 0, 0})));
   // Of leading edges those of whole blades count: the larger face, further out, is a splitter's.
   names[0] = (CwModelPatch){.name = "blade_leading_edge", .kind = CW_PATCH_WALL};
   x[0][0] = 0.04;
