@@ -70,6 +70,26 @@ static void pictures(void **state) {
   check(cw_picture_volute_plan, &design, "D3 = 204.0 mm; throat 890 mm2");
 }
 
+// The blades end at the outlet diameter, by the circle of the interface's radius.
+static void blades_end_at_the_outlet_diameter(void **state) {
+  CwCase table;
+  CwDesign design;
+  double centre[2], circle, x, y, most = 0;
+  int used;
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_picture_blade_to_blade(&design, "picture-test-blades.svg"), CW_OK);
+  char *text = slurp("picture-test-blades.svg");
+  unlink("picture-test-blades.svg");
+  assert_int_equal(
+      sscanf(strstr(text, "<circle"), "<circle cx=\"%lf\" cy=\"%lf\" r=\"%lf", centre, centre + 1, &circle), 3);
+  for (const char *list = text; (list = strstr(list, "<polygon fill=\"#d6e8f2\""));)
+    for (list = strstr(list, "points=\"") + 8; sscanf(list, "%lf,%lf%n", &x, &y, &used) == 2; list += used)
+      most = fmax(most, hypot(x - centre[0], y - centre[1]) / circle * design.interface_radius);
+  assert_true(fabs(most / (design.outlet_diameter / 2) - 1) < 1e-3);
+  free(text);
+}
+
 static void text_is_escaped(void **state) {
   CwPicture picture = {0};
   assert_int_equal(cw_picture_begin(&picture, "picture-test-escape.svg", 10, 10), CW_OK);
@@ -82,6 +102,7 @@ static void text_is_escaped(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(text_is_escaped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(blades_end_at_the_outlet_diameter),
+      cmocka_unit_test(text_is_escaped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,6 +15,7 @@
 #include "pipeline/report/cut.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
+#include "pipeline/report/picture_list.h"
 #include "pipeline/report/survey.h"
 
 #define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
@@ -53,6 +54,21 @@ static void numbers_read_well(void **state) {
   assert_string_equal(cw_format_percent(0.316, text), "31.6 %");
   assert_string_equal(cw_format_percent(0, text), "0 %");
   assert_string_equal(cw_format_percent(NAN, text), "\342\200\223");
+}
+
+// Red, green and blue, no more; neither pale nor dark; neighbours in number differ in one of them by a fifth at least.
+static void regions_have_colours_of_their_own(void **state) {
+  for (int index = 0; index < 200; index++) {
+    uint32_t colour = cw_region_colour(index), next = cw_region_colour(index + 1);
+    int most = 0;
+    assert_true(colour <= 0xffffff);
+    for (int c = 0; c < 24; c += 8) {
+      int value = (int)(colour >> c & 255), other = (int)(next >> c & 255);
+      assert_in_range(value, 128, 240);
+      if (abs(value - other) > most) most = abs(value - other);
+    }
+    assert_true(most > 51);
+  }
 }
 
 static void html_is_escaped_and_encoded(void **state) {
@@ -237,7 +253,7 @@ static void survey_finds_places(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(numbers_read_well),
-      cmocka_unit_test(html_is_escaped_and_encoded),
+      cmocka_unit_test(regions_have_colours_of_their_own), cmocka_unit_test(html_is_escaped_and_encoded),
       cmocka_unit_test(drawings_are_embedded_alone),
       cmocka_unit_test(cuts_have_the_right_areas),
       cmocka_unit_test(a_face_in_the_plane_is_cut_once),

@@ -214,6 +214,31 @@ static void every(const char *page, const char *start, const char *whole) {
   assert_true(count > 0);
 }
 
+// Each chapter has one link before it, and each link its chapter.
+static void links_lead_to_chapters(const char *page) {
+  char id[40], wanted[80];
+  int links = 0, chapters = 0;
+  for (const char *at = page; (at = strstr(at, "<h2 id=\"")); at++, chapters++) {
+    assert_int_equal(sscanf(at, "<h2 id=\"%39[^\"]", id), 1);
+    snprintf(wanted, sizeof wanted, "<a href=\"#%s\">", id);
+    holds(page, wanted);
+  }
+  const char *end = strstr(page, "</nav>");
+  for (const char *at = page; (at = strstr(at, "<a href=\"#")) && at < end; at++, links++) {
+    assert_int_equal(sscanf(at, "<a href=\"#%39[^\"]", id), 1);
+    snprintf(wanted, sizeof wanted, " id=\"%s\"", id);
+    holds(page, wanted);
+  }
+  assert_true(chapters > 0);
+  assert_int_equal(links, chapters + 1); // the first leads to the top
+}
+
+static int count_of(const char *page, const char *text) {
+  int count = 0;
+  for (const char *at = page; (at = strstr(at, text)); at++) count++;
+  return count;
+}
+
 static void page_tells_all_and_stands_alone(void **state) {
   char said[4000];
   if (report(said) != 0) fail_msg("%s", said);
@@ -226,6 +251,10 @@ static void page_tells_all_and_stands_alone(void **state) {
   holds(page, ">866<span>.47</span>"); // throat area in mm2
   holds(page, "constant &lt;K&gt;");   // its source
   holds(page, "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
+  holds(page, "<figcaption><b>Velocity triangles</b></figcaption>");
+  links_lead_to_chapters(page);
+  assert_int_equal(count_of(page, "<figure"), count_of(page, "</figure>"));
+  assert_int_equal(count_of(page, "<table"), count_of(page, "</table>"));
   holds(page, ">97.5 %<"); // first heights met
   holds(page, "<p>3 layers on every wall face");
   const char *headline = strstr(page, "laminar &lt;flow&gt;");
@@ -276,12 +305,12 @@ static void export_figures_are_shown(void **state) {
   path_in_run("export", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
-                                     "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
+                                     "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025012345},"
                                      "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
                                      "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
   assert_int_equal(seal_run(run), 0);
   char *page = page_without_pictures();
-  holds(page, "<tr><td>Volume</td><td class=\"n\">250</td><td>cm&sup3;</td></tr>");
+  holds(page, "<tr><td>Volume</td><td class=\"n\">250.12</td><td>cm&sup3;</td></tr>"); // five digits
   holds(page, "<h3>Patches</h3>");
   holds(page, "<td>rotor, stator</td><td>7, 8</td>");
   holds(page, "12\342\200\257345");
@@ -319,6 +348,18 @@ static void files_that_do_not_belong_together_are_told(void **state) {
   write_text("geometry/record.json", text);
   free(text);
   fails(CW_ERR_IO, "geometry/record.json: is not as the stage wrote it");
+}
+
+static void domains_of_another_mesh_are_told(void **state) {
+  char *text = read_text("mesh/record.json"), *changed = read_text("mesh/record.json");
+  memcpy(strstr(changed, "\"stator\""), "\"status\"", 8);
+  write_text("mesh/record.json", changed);
+  assert_int_equal(seal_run(run), 0);
+  fails(CW_ERR_INPUT, "mesh/record.json: results: domain 2 is 'status'; it must be 'stator'");
+  write_text("mesh/record.json", text);
+  assert_int_equal(seal_run(run), 0);
+  free(text);
+  free(changed);
 }
 
 static void missing_files_are_named(void **state) {
@@ -377,6 +418,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, remove_run),
       cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, remove_run),
       cmocka_unit_test_setup_teardown(files_that_do_not_belong_together_are_told, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(domains_of_another_mesh_are_told, make_run, remove_run),
       cmocka_unit_test_setup_teardown(missing_files_are_named, make_run, remove_run),
       cmocka_unit_test_setup_teardown(wrong_content_is_named, make_run, remove_run),
   };

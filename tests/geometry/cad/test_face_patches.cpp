@@ -135,7 +135,14 @@ static void rules_without_a_face_are_told(void **) {
   rule.faces = {0, nullptr};
   rule.near = {1, point};
   assert_int_equal(blocks.make(), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "cad.patches.blade.near_mm: no face lies within"));
+  const char *told = strstr(cw_fail_message(), "cad.patches.blade.near_mm: no face lies within");
+  double within = 0, at[3] = {0, 0, 0};
+  assert_non_null(told);
+  assert_int_equal(sscanf(told, "cad.patches.blade.near_mm: no face lies within %lf mm of (%lf, %lf, %lf)", &within, at,
+                          at + 1, at + 2),
+                   4);
+  for (double x : at) assert_true(x == 1000);
+  assert_true(within > 0 && within < 1000);
 }
 
 int main() {

@@ -43,7 +43,10 @@ static void each_face_has_its_number(void **) {
 static void a_place_is_marked_in_each_view(void **) {
   SmallParts small({{"water", small_box(0, 0, 0, 10, 20, 30)}});
   const double place[] = {0.01, 0.02, 0.03};
-  assert_int_equal(count(picture_of(small, 0, place), "<circle "), 8);
+  const std::string plain = picture_of(small, 0, nullptr), marked = picture_of(small, 0, place);
+  assert_int_equal(count(plain, "<circle "), 0);
+  assert_int_equal(count(marked, "<circle "), 8);
+  assert_int_equal(count(marked, "<polyline ") - count(plain, "<polyline "), 16); // a cross in each
 }
 
 int main() {

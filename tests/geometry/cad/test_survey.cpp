@@ -5,8 +5,9 @@
 static const double mm = 1e-3;
 
 static void a_box_has_planes_and_right_angles(void **) {
-  SmallParts small({{"water", small_box(10, 0, 0, 2, 3, 4)}});
+  SmallParts small({{"water", small_box(10, 20, 30, 2, 3, 4)}});
   assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  small_near(small.survey.size, 4 * mm, 1e-9); // the longest side
   assert_int_equal(small.survey.face_count, 6);
   assert_int_equal(small.survey.edge_count, 12);
   double area = 0, length = 0;
@@ -15,7 +16,7 @@ static void a_box_has_planes_and_right_angles(void **) {
     area += face.area;
     assert_int_equal(face.form, CW_FORM_PLANE);
     assert_int_equal(face.turned, std::fabs(face.normal[2]) > 0.5); // across the axis
-    const double middle[] = {11 * mm, 1.5 * mm, 2 * mm};
+    const double middle[] = {11 * mm, 21.5 * mm, 32 * mm};
     double outward = 0;
     for (int i = 0; i < 3; i++) outward += face.normal[i] * (face.at[i] - middle[i]);
     assert_true(outward > 0);

@@ -68,11 +68,44 @@ static void bent_top_stays(void **state) {
   assert_int_equal(flips, 0);
 }
 
+// Of a triangle from the law of cosines, degrees.
+static double angles_least(const double a[3], const double b[3], const double c[3]) {
+  const double *x[3] = {a, b, c};
+  double least = 180;
+  for (int k = 0; k < 3; k++) {
+    const double *o = x[k], *p = x[(k + 1) % 3], *q = x[(k + 2) % 3];
+    double op = hypot(p[0] - o[0], p[1] - o[1]), oq = hypot(q[0] - o[0], q[1] - o[1]);
+    double pq = hypot(q[0] - p[0], q[1] - p[1]);
+    least = fmin(least, acos((op * op + oq * oq - pq * pq) / (2 * op * oq)) * 180 / M_PI);
+  }
+  return least;
+}
+
+// Flat tops that are moved by up to a third of a side: a diagonal that gains much is turned, one that loses is not.
+static void the_diagonal_of_the_larger_angles_is_taken(void **state) {
+  int turned = 0, kept = 0;
+  srand(1);
+  for (int i = 0; i < 300; i++) {
+    double top[4][3];
+    int32_t triangle[2][3], flips;
+    for (int k = 0; k < 8; k++) top[k / 2][k % 2] = WALL[k / 2][k % 2] + (rand() % 2001 - 1000) / 3000.0;
+    for (int k = 0; k < 4; k++) top[k][2] = -1;
+    double now = fmin(angles_least(top[0], top[1], top[2]), angles_least(top[0], top[2], top[3]));
+    double then = fmin(angles_least(top[0], top[1], top[3]), angles_least(top[1], top[2], top[3]));
+    start(triangle);
+    assert_int_equal(flip(top, triangle, TOGETHER, &flips), CW_OK);
+    if (then < now) assert_int_equal(flips, 0), kept++;
+    if (then > 2 * now) assert_int_equal(flips, 1), turned++;
+  }
+  assert_true(turned > 5 && kept > 50);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stretched_top_turns_its_diagonal),
       cmocka_unit_test(even_top_and_borders_stay),
       cmocka_unit_test(bent_top_stays),
+      cmocka_unit_test(the_diagonal_of_the_larger_angles_is_taken),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

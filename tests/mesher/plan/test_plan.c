@@ -241,6 +241,8 @@ static void packed_plans_come_back_whole(void **state) {
   check(cw_plan_unpack(bytes, &copy));
   assert_int_equal(copy.region_count, plan.region_count);
   assert_memory_equal(copy.node, plan.node, (size_t)plan.node_count * sizeof *plan.node);
+  assert_memory_equal(copy.worst_angle, plan.worst_angle, (size_t)plan.node_count * sizeof *plan.worst_angle);
+  assert_memory_equal(copy.predicted_cells, plan.predicted_cells, 5 * sizeof *plan.predicted_cells);
   const double x[3] = {0.05, 0.1, 0.001};
   assert_int_equal(cw_plan_locate(&copy, x), cw_plan_locate(&plan, x));
   assert_true(cw_plan_in_region(&copy, cw_plan_locate(&plan, x), x, 0));
