@@ -49,32 +49,34 @@ static void check_overlaps(const CwBoxTree *tree, const CwBox *box) {
 
 static void finds_all_that_meet(void **state) {
   CwBox *box = calloc(COUNT, sizeof *box);
-  CwBoxTree tree;
+  CwBoxTree tree, alike;
   random_boxes(1, box);
   assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
   check_overlaps(&tree, box);
   random_boxes(2, box);
-  assert_int_equal(cw_box_tree_fit(NULL, &tree, box_of, box), CW_OK);
-  check_overlaps(&tree, box);
+  assert_int_equal(cw_box_tree_alike(NULL, &tree, box_of, box, &alike), CW_OK);
   cw_box_tree_free(&tree);
+  check_overlaps(&alike, box);
+  cw_box_tree_free(&alike);
   free(box);
 }
 
 static void follows_those_that_move(void **state) {
   CwBox *box = calloc(COUNT, sizeof *box);
-  CwBoxTree tree, whole;
+  CwBoxTree tree, before, whole;
   uint8_t moved[COUNT - 1] = {0};
   random_boxes(6, box);
   assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
-  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &whole), CW_OK);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &before), CW_OK);
   for (int i = 0; i < COUNT - 1; i += 10) {
     moved[i] = 1;
     for (int k = 0; k < 3; k++) box[i].low[k] += 1, box[i].high[k] += 2;
   }
   cw_box_tree_follow(&tree, moved, COUNT - 1, box_of, box);
-  assert_int_equal(cw_box_tree_fit(NULL, &whole, box_of, box), CW_OK);
+  assert_int_equal(cw_box_tree_alike(NULL, &before, box_of, box, &whole), CW_OK);
   assert_memory_equal(tree.node + 1, whole.node + 1, (2 * (size_t)tree.leaves - 1) * sizeof *tree.node);
   cw_box_tree_free(&tree);
+  cw_box_tree_free(&before);
   cw_box_tree_free(&whole);
   free(box);
 }
