@@ -49,7 +49,7 @@ static void join_nodes(CwBoxTree *tree) {
   }
 }
 
-CwStatus cw_box_tree_fit(const CwContext *context, CwBoxTree *tree, CwBoxOf box_of, const void *given) {
+static CwStatus fit(const CwContext *context, CwBoxTree *tree, CwBoxOf box_of, const void *given) {
   CwStatus status = CW_OK;
   Boxes boxes = {.box_of = box_of, .context = given, .tree = tree};
   int32_t used = (tree->count + LEAF - 1) / LEAF;
@@ -81,10 +81,23 @@ CwStatus cw_box_tree_make(const CwContext *context, int32_t count, const CwBox *
   for (int32_t i = 0; i < count; i++) place[i] = (CwRadix){key[i], i, 0};
   CW_TRY(cw_radix_sort(count, place));
   for (int32_t i = 0; i < count; i++) tree->item[i] = place[i].item;
-  CW_TRY(cw_box_tree_fit(context, tree, box_of, given));
+  CW_TRY(fit(context, tree, box_of, given));
 done:
   free(key);
   free(place);
+  if (status != CW_OK) cw_box_tree_free(tree);
+  return status;
+}
+
+CwStatus cw_box_tree_alike(const CwContext *context, const CwBoxTree *like, CwBoxOf box_of, const void *given,
+                           CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  *tree = (CwBoxTree){.count = like->count, .leaves = like->leaves};
+  CW_NEW_UNSET(tree->item, like->count);
+  CW_NEW_UNSET(tree->node, 2 * (size_t)like->leaves);
+  memcpy(tree->item, like->item, (size_t)like->count * sizeof *tree->item);
+  CW_TRY(fit(context, tree, box_of, given));
+done:
   if (status != CW_OK) cw_box_tree_free(tree);
   return status;
 }

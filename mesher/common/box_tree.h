@@ -30,9 +30,10 @@ typedef CwBox (*CwBoxOf)(const void *context, int32_t item);
 // Orders the items by the middles of their boxes, all of which lie in `within`. Deterministic. given: to box_of.
 CwStatus cw_box_tree_make(const CwContext *context, int32_t count, const CwBox *within, CwBoxOf box_of,
                           const void *given, CwBoxTree *tree);
-// Takes up new boxes of the same items.
-CwStatus cw_box_tree_fit(const CwContext *context, CwBoxTree *tree, CwBoxOf box_of, const void *given);
-// The same where only some of the first `moved_count` items, those with moved[item], have new ones.
+// A tree of other boxes of the same items, in the order of `like`.
+CwStatus cw_box_tree_alike(const CwContext *context, const CwBoxTree *like, CwBoxOf box_of, const void *given,
+                           CwBoxTree *tree);
+// Takes up new boxes where only some of the first `moved_count` items, those with moved[item], have new ones.
 void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,
                         const void *context);
 void cw_box_tree_free(CwBoxTree *tree);

@@ -94,16 +94,19 @@ static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int
   return cw_box_of_triangle(x[corner[0]], x[corner[1]], x[corner[2]]);
 }
 
-// The box of a prism or of an open patch's triangle.
-static CwBox box_of_item(const void *context, int32_t f) {
+// The box of a triangle of the wall or of an open patch.
+static CwBox box_of_fixed(const void *context, int32_t item) {
   const CwLayerCrossing *crossing = context;
-  const CwLayerWork *work = crossing->work;
   const double(*x)[3] = (const double(*)[3])crossing->x;
-  int32_t walls = work->in->triangle_count;
-  if (f >= walls) return box_of(work, x, 2, f - walls);
-  CwBox top = box_of(work, x, 0, f), wall = box_of(work, x, 1, f);
-  cw_box_add(&top, &wall);
-  return top;
+  int32_t walls = crossing->work->in->triangle_count;
+  return item < walls ? box_of(crossing->work, x, 1, item) : box_of(crossing->work, x, 2, item - walls);
+}
+
+// The box of a triangle of the layer top; an open patch has none.
+static CwBox box_of_top(const void *context, int32_t item) {
+  const CwLayerCrossing *crossing = context;
+  if (item >= crossing->work->in->triangle_count) return cw_box_empty();
+  return box_of(crossing->work, (const double(*)[3])crossing->x, 0, item);
 }
 
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing) {
@@ -127,7 +130,25 @@ void cw_layers_crossing_free(CwLayerCrossing *crossing) {
   free(crossing->active);
   free(crossing->list);
   free(crossing->pair);
-  cw_box_tree_free(&crossing->tree);
+  cw_box_tree_free(&crossing->fixed);
+  cw_box_tree_free(&crossing->top);
+}
+
+// The tree of what is fixed, unless it was given, and that of the layer top in the same order: prisms, which are tall
+// in fine meshes, would meet many that neither their tops nor their walls do.
+static CwStatus make_trees(CwLayerCrossing *crossing) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = crossing->work->in;
+  const CwContext *context = in->context;
+  if (crossing->fixed.count == 0) {
+    CwBox within = cw_box_empty();
+    for (int32_t i = in->point_count; i < 2 * in->point_count + in->obstacle_point_count; i++)
+      cw_box_add_point(&within, crossing->x[i]);
+    CW_TRY(cw_box_tree_make(context, crossing->item_count, &within, box_of_fixed, crossing, &crossing->fixed));
+  }
+  CW_TRY(cw_box_tree_alike(context, &crossing->fixed, box_of_top, crossing, &crossing->top));
+done:
+  return status;
 }
 
 // Crossing pairs that one block of triangles has found.
@@ -174,22 +195,34 @@ static int has_area(const CwLayerInput *in, int32_t g) {
   return cw_norm(n) > 1e-12 * (cw_dot(a, a) + cw_dot(b, b));
 }
 
-static int visit(void *context, int32_t item) {
-  CwStatus status = CW_OK;
+// Layer top against layer top.
+static int visit_top(void *context, int32_t item) {
   Finder *finder = context;
   const CwLayerCrossing *crossing = finder->crossing;
-  const CwLayerInput *in = crossing->work->in;
-  int32_t walls = in->triangle_count, f = finder->f;
-  if (item >= walls) {
-    if (!finder->constrained && has_area(in, item - walls)) CW_TRY(try_pair(finder, 0, 2, item - walls));
-    goto done;
-  }
-  CW_TRY(try_pair(finder, 0, 1, item));
-  if (item != f && (!crossing->active[item] || f < item)) CW_TRY(try_pair(finder, 0, 0, item));
-  if (!crossing->searched && f < item) CW_TRY(try_pair(finder, 1, 1, item));
-done:
-  finder->status = status;
-  return status != CW_OK;
+  if (item >= crossing->work->in->triangle_count || item == finder->f) return 0;
+  int twice = crossing->active[item] && item < finder->f;
+  if (!twice) finder->status = try_pair(finder, 0, 0, item);
+  return finder->status != CW_OK;
+}
+
+// Layer top against the wall and the open patches.
+static int visit_fixed(void *context, int32_t item) {
+  Finder *finder = context;
+  const CwLayerInput *in = finder->crossing->work->in;
+  int32_t walls = in->triangle_count;
+  if (item < walls)
+    finder->status = try_pair(finder, 0, 1, item);
+  else if (!finder->constrained && has_area(in, item - walls))
+    finder->status = try_pair(finder, 0, 2, item - walls);
+  return finder->status != CW_OK;
+}
+
+// Wall against wall.
+static int visit_wall(void *context, int32_t item) {
+  Finder *finder = context;
+  if (item < finder->crossing->work->in->triangle_count && finder->f < item)
+    finder->status = try_pair(finder, 1, 1, item);
+  return finder->status != CW_OK;
 }
 
 // Whether a column of layer top triangle f runs in a constraint: there it touches its open patch, as it should, and the
@@ -213,8 +246,11 @@ static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t
     finder.constrained = is_constrained(crossing->work->in, f);
     finder.top = box_of(crossing->work, x, 0, f);
     finder.wall = box_of(crossing->work, x, 1, f);
-    CwBox box = crossing->searched ? finder.top : box_of_item(crossing, f);
-    cw_box_tree_overlaps(&crossing->tree, &box, visit, &finder);
+    cw_box_tree_overlaps(&crossing->top, &finder.top, visit_top, &finder);
+    CW_TRY(finder.status);
+    cw_box_tree_overlaps(&crossing->fixed, &finder.top, visit_fixed, &finder);
+    CW_TRY(finder.status);
+    if (!crossing->searched) cw_box_tree_overlaps(&crossing->fixed, &finder.wall, visit_wall, &finder);
     CW_TRY(finder.status);
   }
   *bytes = finder.pair;
@@ -250,19 +286,10 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
     crossing->active[f] = moved[v[0]] || moved[v[1]] || moved[v[2]];
     if (crossing->active[f]) crossing->list[crossing->list_count++] = f;
   }
-  if (crossing->searched) {
-    cw_box_tree_follow(&crossing->tree, crossing->active, in->triangle_count, box_of_item, crossing);
-  } else if (crossing->tree.count) {
-    CW_TRY(cw_box_tree_fit(crossing->work->in->context, &crossing->tree, box_of_item, crossing));
-  } else {
-    CwBox within = cw_box_empty();
-    for (int32_t i = 0; i < 2 * work->n; i++) cw_box_add_point(&within, crossing->x[i]);
-    for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
-      for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
-    }
-    CW_TRY(cw_box_tree_make(crossing->work->in->context, crossing->item_count, &within, box_of_item, crossing,
-                            &crossing->tree));
-  }
+  if (crossing->searched)
+    cw_box_tree_follow(&crossing->top, crossing->active, in->triangle_count, box_of_top, crossing);
+  else
+    CW_TRY(make_trees(crossing));
   drop_active(crossing);
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
   CW_NEW(bytes, blocks);

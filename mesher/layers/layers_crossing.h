@@ -16,7 +16,8 @@ typedef struct {
   const CwLayerWork *work;
   int32_t item_count;
   double (*x)[3];  // layer top, wall, open patches
-  CwBoxTree tree;  // of the prisms and the open patches; may be given in any order
+  CwBoxTree fixed; // of the triangles of wall and open patches; may be given
+  CwBoxTree top;   // of those of the layer top
   uint8_t *active; // triangles that moved
   int32_t *list, list_count;
   int searched; // a first time

@@ -362,7 +362,7 @@ static CwStatus start(Repair *repair, CwBoxTree *tree) {
   memset(repair->uncrossed, 1, (size_t)n);
   CW_NEW_UNSET(repair->thickness, n);
   CW_TRY(cw_layers_crossing_make(work, &repair->crossing));
-  repair->crossing.tree = *tree; // the prisms stand where the walls do
+  repair->crossing.fixed = *tree;
   memset(tree, 0, sizeof *tree);
   CW_TRY(
       cw_parallel_for(repair->work->in->context, "layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
