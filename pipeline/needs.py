@@ -1,20 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""needs.py FOLDER [--solve] CELLS...: tells what runs of so many cells need of disk and memory, before they start, and
-ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. needs.py --table CELLS...: prints a row
-of a table for each number.
+"""needs.py FOLDER [--solve] [--case FILE] CELLS...: tells what runs of so many cells need of disk and memory, before
+they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. With --case the formats
+of the export are those of the case, and its number of cells where none is given; what a run in FOLDER has on the disk
+already counts as free, and small runs say nothing. needs.py --table CELLS...: prints a row of a table for each number.
 
-The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 8 million cells, on 2 ranks (tests/bench/scale.py
-prints them); layers and size change them by a third."""
+The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 100 million cells, on 2 ranks
+(tests/bench/scale.py prints them); layers and size change them by a third."""
+import argparse
 import os
+import re
 import shutil
 import sys
+from pathlib import Path
 
-BYTES_A_CELL = {"mesh": 36, "export": 120}  # on the disk
-SOLVED_BYTES_A_CELL = 500                   # the case, in parts and whole, with the fields of two times
-MEMORY_AT_LEAST = 0.3e9                     # bytes, of both ranks of the mesher
-MEMORY_A_CELL = {"mesh": 16, "solve": 2000}  # bytes of memory beyond that
+# Bytes on the disk: a cell's, and those that go with the area of the walls, by cells to the power 2/3.
+DISK = {"mesh": (22, 1250), "cgns": (22, 1000), "openfoam": (76, 0), "fluent": (200, 0)}
+FORMATS = ("cgns", "openfoam", "cfx")  # where a case asks for none
+SOLVED_BYTES_A_CELL = 500              # the case, in parts and whole, with the fields of two times
+# Bytes of memory of both ranks of the mesher: at least, and by cells to the power 2/3, as they hold the surfaces.
+MEMORY = (0.25e9, 8300)
+SOLVE_MEMORY_A_CELL = 2000
 UNITS = {"k": 10**3, "M": 10**6, "G": 10**9}
+SMALL = 10**9  # bytes of disk below which a run says nothing
 
 
 def read_count(text):
@@ -25,44 +33,77 @@ def memory_of_machine():
     return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
 
+def disk_of(part, cells):
+    return DISK[part][0] * cells + DISK[part][1] * cells ** (2 / 3)
+
+
+def export_disk(cells, formats=FORMATS):
+    with_cgns = set(formats) | ({"cgns"} if "cfx" in formats else set())
+    return sum(disk_of(part, cells) for part in with_cgns if part in DISK)
+
+
+def mesher_memory(cells):
+    return MEMORY[0] + MEMORY[1] * cells ** (2 / 3)
+
+
 def existing(folder):
     while not os.path.isdir(folder):
         folder = os.path.dirname(os.path.abspath(folder))
     return folder
 
 
+def size_of(folder):
+    return sum(path.lstat().st_size for path in Path(folder).rglob("*") if path.is_file())
+
+
 def row(text):
     """What a run of so many cells needs, in a row of a table."""
     cells = read_count(text)
-    disk = [cells * bytes_a_cell for bytes_a_cell in (*BYTES_A_CELL.values(), SOLVED_BYTES_A_CELL)]
-    memory = [MEMORY_AT_LEAST + cells * bytes_a_cell for bytes_a_cell in MEMORY_A_CELL.values()]
+    values = (disk_of("mesh", cells), disk_of("cgns", cells), export_disk(cells), cells * SOLVED_BYTES_A_CELL,
+              mesher_memory(cells), 0.3e9 + cells * SOLVE_MEMORY_A_CELL)
     return f"| {text} | " + " | ".join(f"{value / 1e9:,.2g}" if value < 1e11 else f"{value / 1e9:,.0f}"
-                                       for value in disk + memory) + " |"
+                                       for value in values) + " |"
 
 
-def main(words):
-    if words[0] == "--table":
-        print("| cells | disk: mesh, GB | export, GB | solved flow, GB | memory: mesher, all ranks, GB | "
-              "OpenFOAM, GB |")
-        print("|---|---|---|---|---|---|")
-        print("\n".join(row(text) for text in words[1:]))
+def case_says(path):
+    """Formats and cells of a case file, as far as it has them; the schema has judged or will judge it."""
+    text = re.sub(r"#.*", "", Path(path).read_text())
+    formats = re.search(r"^\s+formats:\s*\[?([\w, ]+)\]?", text, re.M)
+    formats = formats or re.search(r"^export:\s*\{[^}]*formats:\s*\[?([\w, ]+)\]?", text, re.M)
+    cells = re.search(r"^\s+cells:\s*([\d.]+[kMG]?)\s*$", text, re.M)
+    return (re.findall(r"[a-z]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("words", nargs="+")
+    parser.add_argument("--solve", action="store_true")
+    parser.add_argument("--case")
+    parser.add_argument("--table", action="store_true")
+    options = parser.parse_intermixed_args()
+    if options.table:
+        print("| cells | disk: mesh, GB | CGNS alone, GB | export, GB | solved flow, GB | "
+              "memory: mesher, all ranks, GB | OpenFOAM, GB |")
+        print("|---|---|---|---|---|---|---|")
+        print("\n".join(row(text) for text in options.words))
         return
-    solve = "--solve" in words
-    folder, *sizes = [word for word in words if word != "--solve"]
-    cells = [read_count(text) for text in sizes]
-    disk = sum(cells) * (sum(BYTES_A_CELL.values()) + (SOLVED_BYTES_A_CELL if solve else 0))
-    memory = MEMORY_AT_LEAST + max(cells) * MEMORY_A_CELL["solve" if solve else "mesh"]
-    free = shutil.disk_usage(existing(folder)).free
-    print(f"{len(cells)} runs, {sum(cells):,} cells: about {disk / 1e9:.2g} GB of the {free / 1e9:.3g} GB free on the "
+    folder, *sizes = options.words
+    formats, of_case = case_says(options.case) if options.case else (FORMATS, [])
+    cells = [read_count(text) for text in sizes or of_case]
+    disk = sum(disk_of("mesh", n) + export_disk(n, formats) + n * SOLVED_BYTES_A_CELL * options.solve for n in cells)
+    memory = mesher_memory(max(cells)) if not options.solve else 0.3e9 + max(cells) * SOLVE_MEMORY_A_CELL
+    if options.case and disk < SMALL:
+        return
+    free = shutil.disk_usage(existing(folder)).free + (size_of(folder) if options.case else 0)
+    runs = f"{len(cells)} runs, {sum(cells):,} cells" if len(cells) > 1 else f"{cells[0]:,} cells"
+    print(f"{runs}: about {disk / 1e9:.3g} GB of the {free / 1e9:.3g} GB free on the "
           f"disk, {memory / 1e9:.2g} GB of {memory_of_machine() / 1e9:.3g} GB of memory", file=sys.stderr)
     if disk > free:
-        sys.exit(f"needs: error: {folder}: the disk has {free / 1e9:.3g} GB free, the runs need about {disk / 1e9:.2g} "
+        sys.exit(f"needs: error: {folder}: the disk has {free / 1e9:.3g} GB free, the runs need about {disk / 1e9:.3g} "
                  "GB; make room, or ask for fewer cells")
     if memory > memory_of_machine():
         print("needs: warning: this machine has less memory; the largest runs may end for want of it", file=sys.stderr)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__.splitlines()[0])
-    main(sys.argv[1:])
+    main()

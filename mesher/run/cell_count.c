@@ -22,11 +22,12 @@ static double prisms_per_layer(double asked) {
 // Tetrahedra for each volume of h^3, likewise. A lattice is 8.2; those that fit it to the layer top come on top. In
 // coarse meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the layer top:
 // sizes change within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells,
-// within 5 % in others). In fine ones those on interfaces come with the many regions (measured in the paper's from 3 to
-// 20 million cells: 13.0 at scale 0.75, 11.8 at 0.50, 10.9 at 0.35).
+// within 5 % in others). In fine ones the share of the surfaces falls with the scale (measured in the paper's: 12.9 at
+// scale 0.70, 11.75 at 0.505, 10.89 at 0.357, 9.74 at 0.204, 9.65 at 0.180 and 9.48 at 0.094, which are 3 to 1000
+// million cells; within 1.2 %).
 static double tets_per_volume(const CwMeshRun *run, double scale) {
   double walls = 0, volume = 0;
-  if (scale <= 1) return 8.45 + 6.25 * scale + 0.011 / (scale * scale);
+  if (scale <= 1) return 8.45 + 6.4 * scale + 0.0033 / (scale * scale);
   for (int d = 0; d < run->model.domain_count; d++) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);

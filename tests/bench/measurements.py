@@ -35,6 +35,9 @@ SECTIONS = {
         "100 and 145 million cells, killed and called again", "tests/bench/scale.py 100M 145M --kill",
         "The mesher is run again, all ranks are killed when half of the regions are whole, and it is called once more: "
         "its files must have the same bytes."),
+    "scale_1G": Section(
+        "A thousand million cells", "tests/bench/scale.py 1G --formats cgns --report --audit",
+        "With CGNS alone and the report; the audit reads pump.cgns by HDF5 alone."),
     "cases": Section(
         "All cases at their own sizes", "tests/bench/cases.py",
         "The options print what the columns mean (`tests/bench/cases.py --help`)."),
@@ -75,7 +78,7 @@ SECTIONS = {
                         "Processor seconds on one rank."),
 }
 
-ONLY_NAMED = {"ablation"}  # by far the longest
+ONLY_NAMED = {"ablation", "scale_1G"}  # by far the longest, and the largest
 
 
 def run_text(*line):

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""scale.py [CELLS ...] [--ranks 2] [--kill] [--judge] [--work DIR] [--bin build/bin] [--case cases/paper/case.yaml]
+"""scale.py [CELLS ...] [--ranks 2] [--kill] [--judge] [--audit] [--report] [--formats F ...]
+         [--work DIR] [--bin build/bin] [--case cases/paper/case.yaml]
 
 Whole runs at growing numbers of cells (8M 20M unless others are given), one after the other: cells made and how far
 from those asked, seconds and memory of each stage, balance and least dihedral angle. With --kill the mesher is run once
 more in a folder of its own, all its ranks are killed (SIGKILL) when half of the regions are whole, it is called again,
 and its files must have the same bytes as those of the run that nobody killed. With --judge cgnscheck and OpenFOAM's
-checkMesh (-allGeometry -allTopology) look at what was written; checkMesh takes about 1 GB per million cells.
+checkMesh (-allGeometry -allTopology) look at what was written; checkMesh takes about 1 GB per million cells. With
+--audit build/bin/cgns_audit looks at pump.cgns as a stream, at any size. --formats: of the export (those of the case);
+--report: the page is made too.
 
-Every run is removed before the next one begins; 145 million cells take 60 GB of disk in --work (the system's folder for
-temporary files unless given)."""
+Every run is removed before the next one begins; what it takes in --work (the system's folder for temporary files unless
+given) tells pipeline/needs.py: 1000 million cells 46 GB with CGNS alone."""
 import argparse
 import hashlib
 import json
@@ -25,11 +28,16 @@ from pathlib import Path
 
 from programs import ENVIRONMENT, MPIRUN, SOURCE, execute
 
+sys.path.insert(0, str(SOURCE / "pipeline"))
+import needs  # noqa: E402  (pipeline/needs.py)
+
 
 def command(options, stage, run, cells):
     line = [options.bin / f"cutwater-{stage}", "--case", options.case, "--run", run]
     if stage in ("mesh", "export"):
         line = MPIRUN + [options.ranks] + line + ["--cells", cells]
+    elif stage == "report":
+        line += ["--cells", cells]
     return [str(word) for word in line]
 
 
@@ -67,6 +75,26 @@ def table_row(run, cells):
     print("         mesher, s: " + ", ".join(long), flush=True)
 
 
+def audit(options, run):
+    """Prints what the audit of pump.cgns finds; it ends with a line and 1 at the first fault."""
+    began = time.monotonic()
+    result = execute(options.bin / "cgns_audit", run / "export/pump.cgns")
+    zones = [json.loads(line) for line in result.text.splitlines() if line.startswith("{")]
+    total = sum(zone["cells"] for zone in zones)
+    print(f"         cgns_audit: {len(zones)} zones, {total:,} cells sound, "
+          f"{sum(zone['memory_bytes'] for zone in zones) / 2**30:.2f} GiB, {time.monotonic() - began:.0f} s",
+          flush=True)
+    if total != record(run, "mesh")["results"]["cells"]:
+        sys.exit("scale: the audit counts other cells than the mesher")
+
+
+def case_with_formats(options, folder):
+    """A copy of the case with other formats, beside the run."""
+    path = Path(folder) / "case.yaml"
+    path.write_text(options.case.read_text() + f"\nexport:\n  formats: [{', '.join(options.formats)}]\n")
+    return path
+
+
 def kill_half_way(options, run, cells, regions):
     """Seconds until all ranks were killed, regions that were whole then, seconds of the second call."""
     began = time.monotonic()
@@ -102,6 +130,9 @@ def main():
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--kill", action="store_true")
     parser.add_argument("--judge", action="store_true")
+    parser.add_argument("--audit", action="store_true")
+    parser.add_argument("--report", action="store_true")
+    parser.add_argument("--formats", nargs="+")
     parser.add_argument("--work", type=Path)
     parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
     parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
@@ -115,9 +146,18 @@ def main():
         options.work and options.work.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=options.work) as name:
             run = Path(name) / "run"
-            for stage in ("geometry", "mesh", "export"):
+            began = time.monotonic()
+            given = options.case
+            if options.formats:
+                options.case = case_with_formats(options, name)
+            for stage in ("geometry", "mesh", "export") + ("report",) * options.report:
                 execute(*command(options, stage, run, cells))
             table_row(run, cells)
+            print(f"         {time.monotonic() - began:.0f} s in all, "
+                  f"{record(run, 'mesh')['results']['cells'] / needs.read_count(cells) - 1:+.2%} off the asked number",
+                  flush=True)
+            if options.audit:
+                audit(options, run)
             if options.judge:
                 judge(run)
             if options.kill:
@@ -131,6 +171,7 @@ def main():
                       f"{again:.1f} s: " + ("the same bytes" if same else "OTHER BYTES"), flush=True)
                 if not same:
                     sys.exit(1)
+            options.case = given
 
 
 main()

@@ -76,7 +76,7 @@ class Sweep(unittest.TestCase):
                                   stderr=subprocess.PIPE, text=True, check=False)
         told = call(WORK / "not/there/yet", "100k", "200k")
         self.assertEqual((told.returncode, told.stdout), (0, ""))
-        self.assertRegex(told.stderr, r"^2 runs, 300,000 cells: about 0\.047 GB of the .* GB free on the disk, .*\n$")
+        self.assertRegex(told.stderr, r"^2 runs, 300,000 cells: about 0\.0\d+ GB of the .* GB free on the disk, .*\n$")
         self.assertRegex(call(WORK, "2G", "2000G").stderr, r"needs: error: .* make room, or ask for fewer cells\n$")
         self.assertEqual(call(WORK, "2000G").returncode, 1)
 
@@ -88,9 +88,25 @@ class Sweep(unittest.TestCase):
 
     def test_the_parts_of_a_run_on_the_disk_are_about_what_is_told(self):
         cells = record(RUN, "mesh")["results"]["cells"]
-        for stage, bytes_a_cell in needs.BYTES_A_CELL.items():
-            size = sum(path.stat().st_size for path in (RUN / stage).rglob("*") if path.is_file())
-            self.assertLess(abs(size / cells / bytes_a_cell - 1), 0.33, stage)
+        for stage, expected in (("mesh", needs.disk_of("mesh", cells)), ("export", needs.export_disk(cells))):
+            self.assertLess(abs(needs.size_of(RUN / stage) / expected - 1), 0.33, stage)
+
+    def test_a_run_is_told_what_it_needs_by_its_formats_and_refused(self):
+        case = WORK / "needs.yaml"
+        case.parent.mkdir(parents=True, exist_ok=True)
+        text = (SOURCE / "cases/paper/case.yaml").read_text()
+
+        def call(formats, *cells):
+            case.write_text(text + formats)
+            return subprocess.run([sys.executable, SOURCE / "pipeline/needs.py", WORK, "--case", case, *cells],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        self.assertEqual((call("").returncode, call("").stdout), (0, ""))  # a small one
+        disk = [float(re.search(r"about ([\d.]+) GB", call(formats, "100M").stdout)[1])
+                for formats in ("export: {formats: [cgns]}\n", "", "export:\n  formats: [cfx, fluent]\n")]
+        self.assertEqual(disk, sorted(disk))
+        self.assertLess(2 * disk[0], disk[1])
+        self.assertIn("make room, or ask for fewer cells", call("export: {formats: cgns}\n", "2000G").stdout)
+        self.assertEqual(call("", "2000G").returncode, 1)
 
     def test_table_of_a_run(self):
         table = WORK / "sweep.csv"
