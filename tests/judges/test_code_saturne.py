@@ -48,6 +48,17 @@ class CodeSaturne(unittest.TestCase):
         if ITERATIONS >= SETTLED:
             self.heads_agree(rows)
 
+    @unittest.skipIf(ITERATIONS >= SETTLED, "takes long")
+    def test_3_a_call_for_more_iterations_goes_on(self):
+        before = (self.case / "head.csv").read_text()
+        numbers = self.case / "SRC/pump.h"
+        numbers.write_text(numbers.read_text().replace(f"ITERATIONS {ITERATIONS} ", f"ITERATIONS {ITERATIONS + 1} "))
+        result = execute(["./run", 1], self.case)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        after = (self.case / "head.csv").read_text()
+        self.assertTrue(after.startswith(before))
+        self.assertRegex(after[len(before):], rf"^{ITERATIONS + 1},[\d.]+,[\d.]+\n$")
+
     def mesh_is_whole(self):
         """Every cell and every face of a wall has come along, the sides of the interface are gone but for slivers, and
         the flow is that of the case."""
