@@ -177,21 +177,21 @@ static void region_surface(const char *path, Mesh *mesh) {
   static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   CwRegionMesh region;
   check(cw_region_read(path, &region));
-  int32_t(*neighbour)[4] = take((size_t)region.tetrahedron_count, sizeof *neighbour);
-  int32_t *number = take((size_t)region.point_count, sizeof *number);
-  check(cw_tet_neighbours(region.point_count, region.tetrahedron_count, (const int32_t(*)[4])region.tetrahedron,
-                          neighbour));
+  int32_t(*neighbour)[4] = take((size_t)region.cells.tetrahedron_count, sizeof *neighbour);
+  int32_t *number = take((size_t)region.cells.point_count, sizeof *number);
+  check(cw_tet_neighbours(region.cells.point_count, region.cells.tetrahedron_count,
+                          (const int32_t(*)[4])region.cells.tetrahedra, neighbour));
   memset(mesh, 0, sizeof *mesh);
-  mesh->x = take((size_t)region.point_count, sizeof *mesh->x);
-  mesh->triangle = take(4 * (size_t)region.tetrahedron_count, sizeof *mesh->triangle);
-  for (int32_t t = 0; t < region.tetrahedron_count; t++) {
+  mesh->x = take((size_t)region.cells.point_count, sizeof *mesh->x);
+  mesh->triangle = take(4 * (size_t)region.cells.tetrahedron_count, sizeof *mesh->triangle);
+  for (int32_t t = 0; t < region.cells.tetrahedron_count; t++) {
     for (int i = 0; i < 4; i++) {
       if (neighbour[t][i] >= 0) continue;
       int32_t *made = mesh->triangle[mesh->triangle_count++];
       for (int k = 0; k < 3; k++) {
-        int32_t p = region.tetrahedron[t][face[i][k]];
+        int32_t p = region.cells.tetrahedra[t][face[i][k]];
         if (!number[p]) {
-          memcpy(mesh->x[mesh->point_count], region.x[p], sizeof *mesh->x);
+          memcpy(mesh->x[mesh->point_count], region.cells.points[p], sizeof *mesh->x);
           number[p] = ++mesh->point_count;
         }
         made[k] = number[p] - 1;
@@ -373,8 +373,8 @@ static void print_shapes(int count, char **path) {
     if (length > 3 && !strcmp(path[k] + length - 3, ".h5")) {
       CwRegionMesh region;
       check(cw_region_read(path[k], &region));
-      add_shapes(shapes, region.tetrahedron_count, (const int32_t(*)[4])region.tetrahedron,
-                 (const double(*)[3])region.x, region.shared_count);
+      add_shapes(shapes, region.cells.tetrahedron_count, (const int32_t(*)[4])region.cells.tetrahedra,
+                 (const double(*)[3])region.cells.points, region.cells.shared_count);
       cw_region_free(&region);
     } else {
       Mesh mesh = {0};
