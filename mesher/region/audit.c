@@ -152,6 +152,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       int class = 0;
       while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
+      if (shape.dihedral_least < quality->dihedral_least) cw_cell_centre(data, c, quality->flattest_at);
       quality->dihedral_least = fmin(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = fmax(quality->dihedral_greatest, shape.dihedral_greatest);
       quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;
@@ -211,6 +212,7 @@ void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   sum->cells += more->cells;
   sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
   for (int k = 0; k < 8; k++) sum->aspect_class[k] += more->aspect_class[k];
+  if (more->dihedral_least < sum->dihedral_least) memcpy(sum->flattest_at, more->flattest_at, sizeof sum->flattest_at);
   sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
   sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);
   for (int k = 0; k < 18; k++) sum->dihedral_bin[k] += more->dihedral_bin[k];

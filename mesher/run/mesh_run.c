@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "mesher/parallel/profiler.h"
+#include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
 #include "mesher/run/manifest.h"
 #include "mesher/run/mesh_plan.h"
@@ -19,7 +20,7 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4 };
+enum { PASSES_MOST = 4, MENDS_MOST = 3 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
 // The stages of one attempt, in their order. After the one that the run is to end with it is done.
@@ -37,6 +38,39 @@ static CwStatus mesh_attempt(CwMeshRun *run, CwThinPlaces *places, CwOutcome *ou
   if (run->stopped) goto done;
   CW_TRY(cw_run_regions(run, places, outcome));
 done:
+  return status;
+}
+
+static int count_is_met(const CwMeshRun *run) {
+  return fabs((double)run->cells / (double)run->table->mesh.cells - 1) <= COUNT_TOLERANCE;
+}
+
+// Thins the layers about flat tetrahedra of a mesh that has as many cells as asked, as long as these become fewer or
+// less flat: between layers that leave little room no filling is better. What does not help is taken back.
+static CwStatus mend_flat(CwMeshRun *run, CwThinPlaces *places) {
+  CwStatus status = CW_OK;
+  double *kept[CW_DOMAINS_MOST] = {0}, deficit, left;
+  for (int attempt = 0; attempt < MENDS_MOST && count_is_met(run); attempt++) {
+    CwOutcome outcome = {0};
+    CwThinPlaces after = {0};
+    places->count = 0;
+    CW_TRY(cw_thin_places_flat(run, places, &deficit));
+    if (places->count == 0) break;
+    cw_log("%d regions have tetrahedra below %.0f degrees; made again with thinner layers there", places->count,
+           cw_policy.flat_angle);
+    CW_TRY(cw_thinning_copy(run, kept));
+    CW_TRY(cw_thin_flat(run, places));
+    CW_TRY(mesh_attempt(run, places, &outcome));
+    if (outcome.kind == CW_OUTCOME_DONE) CW_TRY(cw_thin_places_flat(run, &after, &left));
+    cw_thin_places_free(&after);
+    if (outcome.kind == CW_OUTCOME_DONE && count_is_met(run) && left < deficit) continue;
+    cw_thinning_take_back(run, kept);
+    outcome = (CwOutcome){0};
+    CW_TRY(mesh_attempt(run, places, &outcome));
+    break;
+  }
+done:
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) free(kept[d]);
   return status;
 }
 
@@ -60,6 +94,7 @@ static CwStatus mesh_pass(CwMeshRun *run) {
     cw_end_thinning(run); // the walls will be others
     CW_TRY(cw_mesh_plan_again(run, &outcome));
   }
+  if (!run->stopped) CW_TRY(mend_flat(run, &places));
 done:
   cw_thin_places_free(&places);
   cw_end_thinning(run);
@@ -106,7 +141,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
     cw_learn_tets(run);
-    if (fabs(off) <= COUNT_TOLERANCE) break;
+    if (count_is_met(run)) break;
     if (run->passes == PASSES_MOST) {
       cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off,
                   asked, run->passes);

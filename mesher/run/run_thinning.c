@@ -77,6 +77,25 @@ done:
   return status;
 }
 
+CwStatus cw_thin_places_flat(const CwMeshRun *run, CwThinPlaces *places, double *deficit) {
+  CwStatus status = CW_OK;
+  *deficit = 0;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t r = 0; r < domain->plan.region_count; r++) {
+      const CwRegionSummary *made = &run->summary[d][r];
+      double wanted = fmin(cw_policy.flat_angle, made->dihedral_allowed), least = made->quality.dihedral_least;
+      if (cw_image_region_first(&domain->images, &domain->plan, r) != r || !(least < wanted)) continue;
+      CwRegionFailure failure = {0};
+      memcpy(failure.at, made->quality.flattest_at, sizeof failure.at);
+      CW_TRY(add_place(d, r, &failure, places));
+      *deficit += 1 - least / wanted;
+    }
+  }
+done:
+  return status;
+}
+
 // "rotor region 3, at shroud, (x, y, z) mm: message".
 static void describe(const CwMeshRun *run, const CwThinPlace *place, size_t size, char *text) {
   const CwRegionFailure *failure = &place->failure;
@@ -102,6 +121,35 @@ static int is_told(const CwThinPlaces *places, int32_t i) {
   return i == 0 || place->region >= 0 || place[-1].region >= 0 || place[-1].domain != place->domain;
 }
 
+static CwStatus lower(CwMeshRun *run, const CwThinPlace *place, int attempt, const double *least) {
+  CwStatus status = CW_OK;
+  int d = place->domain;
+  CW_TRY(start_thinning(run, d));
+  const CwRegionInput from = cw_domain_region_input(&run->domain[d]);
+  cw_region_failure_thin(&from, place->region, &place->failure, cw_policy.thin_reach * (double)(1 << attempt), least,
+                         run->most_thickness[d]);
+done:
+  return status;
+}
+
+static void lowered(CwMeshRun *run) {
+  for (int d = 0; d < run->model.domain_count; d++) {
+    if (run->most_thickness[d]) thin_alike(&run->domain[d], run->most_thickness[d]);
+  }
+  run->retries++;
+}
+
+CwStatus cw_thin_flat(CwMeshRun *run, const CwThinPlaces *places) {
+  CwStatus status = CW_OK;
+  for (int32_t i = 0; i < places->count; i++) {
+    const CwThinPlace *place = &places->place[i];
+    CW_TRY(lower(run, place, 0, run->domain[place->domain].targets.least));
+  }
+  lowered(run);
+done:
+  return status;
+}
+
 CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   char text[800], file[4200];
@@ -114,17 +162,31 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
     CW_END_UNLESS(attempt < ATTEMPTS, outcome, CW_OUTCOME_REPLAN, NULL, "%s; after %d attempts with thinner layers%s",
                   text, ATTEMPTS, file);
     if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
-    CW_TRY(start_thinning(run, d));
-    const CwRegionInput from = cw_domain_region_input(&run->domain[d]);
-    cw_region_failure_thin(&from, place->region, &place->failure, cw_policy.thin_reach * (double)(1 << attempt),
-                           run->most_thickness[d]);
+    CW_TRY(lower(run, place, attempt, NULL));
   }
-  for (int d = 0; d < run->model.domain_count; d++) {
-    if (run->most_thickness[d]) thin_alike(&run->domain[d], run->most_thickness[d]);
-  }
-  run->retries++;
+  lowered(run);
 done:
   return status;
+}
+
+CwStatus cw_thinning_copy(const CwMeshRun *run, double *copy[CW_DOMAINS_MOST]) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    size_t count = (size_t)run->domain[d].surface.vertex_count;
+    free(copy[d]);
+    copy[d] = NULL;
+    if (!run->most_thickness[d]) continue;
+    CW_NEW_UNSET(copy[d], count);
+    memcpy(copy[d], run->most_thickness[d], count * sizeof *copy[d]);
+  }
+done:
+  return status;
+}
+
+void cw_thinning_take_back(CwMeshRun *run, double *copy[CW_DOMAINS_MOST]) {
+  cw_end_thinning(run);
+  memcpy(run->most_thickness, copy, sizeof run->most_thickness);
+  memset(copy, 0, sizeof run->most_thickness);
 }
 
 void cw_end_thinning(CwMeshRun *run) {
