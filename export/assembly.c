@@ -395,12 +395,12 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CwStatus status = CW_OK;
   Collected c = {0};
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
-  cw_progress_start("number the mesh", mesh->region_count, "regions");
+  cw_progress_start(ranks->log, "number the mesh", mesh->region_count, "regions");
   for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
     if (cw_ranks_own(ranks, r)) status = collect_region(mesh, r, a, &c);
-    cw_progress(r + 1);
+    cw_progress(ranks->log, r + 1);
   }
-  cw_progress_end();
+  cw_progress_end(ranks->log);
   CW_TRY(cw_ranks_agree(ranks, status));
   spread(ranks, a, &c);
   CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));

@@ -6,11 +6,13 @@
 #include <mpi.h>
 #include <stdint.h>
 
+#include "pipeline/log.h"
 #include "pipeline/status.h"
 
 typedef struct {
   MPI_Comm comm;
   int rank, size;
+  CwLog *log; // of this rank
 } CwRanks;
 
 // The regions are dealt to the ranks in turn.

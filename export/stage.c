@@ -37,8 +37,7 @@ done:
 // What rank 0 does alone before the regions are written.
 static CwStatus begin_files(const CwAssembly *assembly, CwInterface *interfaces, CwOutput *output) {
   CwStatus status = CW_OK;
-  for (int i = 0; i < assembly->mesh->interface_count; ++i)
-    CW_TRY(cw_interface_make(assembly, i, &interfaces[i]));
+  for (int i = 0; i < assembly->mesh->interface_count; ++i) CW_TRY(cw_interface_make(assembly, i, &interfaces[i]));
   CW_TRY(cw_folder_remove(output->folder));
   CW_TRY(cw_output_begin(output, interfaces));
 done:
@@ -66,12 +65,12 @@ static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutp
   if (!figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_output_open(output, ranks);
-  cw_progress_start("check and write the mesh", assembly->mesh->region_count, "regions");
+  cw_progress_start(ranks->log, "check and write the mesh", assembly->mesh->region_count, "regions");
   for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
     if (cw_ranks_own(ranks, r)) status = write_region(assembly, r, output, &figures[r]);
-    cw_progress(r + 1);
+    cw_progress(ranks->log, r + 1);
   }
-  cw_progress_end();
+  cw_progress_end(ranks->log);
 done:;
   CwStatus closed = cw_output_close(output);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
@@ -145,22 +144,22 @@ done:
 }
 
 // Worth a word, though the mesh can be used.
-static void warn(const CwAssembly *a, const CwInterface *interfaces) {
+static void warn(CwLog *log, const CwAssembly *a, const CwInterface *interfaces) {
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     double solid = a->mesh->domains[d].solid_volume, off = a->totals[d].volume / solid - 1;
     if (fabs(off) > 0.02)
-      cw_log_warn("domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%", a->mesh->domains[d].name,
+      cw_log_warn(log, "domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%", a->mesh->domains[d].name,
                   a->totals[d].volume, solid, 100 * off);
   }
   for (int i = 0; i < a->mesh->interface_count; ++i) {
     const CwInterfaceSide *side = interfaces[i].sides;
     const int *patch = a->mesh->interfaces[i].patch;
     if (fabs(side[0].area / side[1].area - 1) > 0.02)
-      cw_log_warn("the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'", 1e6 * side[0].area,
+      cw_log_warn(log, "the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'", 1e6 * side[0].area,
                   a->mesh->patches[patch[0]].name, 1e6 * side[1].area, a->mesh->patches[patch[1]].name);
   }
   for (int p = 0; p < a->mesh->patch_count; ++p)
-    if (!cw_patch_is_there(a, p)) cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
+    if (!cw_patch_is_there(a, p)) cw_log_warn(log, "patch '%s' has no face and is left out", a->mesh->patches[p].name);
 }
 
 // The digest of a file that the ranks have written together, each of some of its blocks. Collective.
@@ -204,13 +203,13 @@ done:
 }
 
 // The formats that were written, and why another one was not.
-static CwStatus record_formats(const CwOutput *output, CwRecord *record) {
+static CwStatus record_formats(CwLog *log, const CwOutput *output, CwRecord *record) {
   CwStatus status = CW_OK;
   json_t *written = json_array(), *headlines = json_array();
   for (int f = 0; f < CW_FORMATS; ++f) {
     if (cw_output_has(output, (CwFormat)f)) json_array_append_new(written, json_string(cw_output_names[f]));
     if (!output->left_out[f][0]) continue;
-    cw_log_warn("%s", output->left_out[f]);
+    cw_log_warn(log, "%s", output->left_out[f]);
     json_array_append_new(headlines, json_string(output->left_out[f]));
   }
   CW_TRY(cw_record_json(record, "formats", written));
@@ -220,12 +219,12 @@ done:
 }
 
 static CwStatus fill_record(const CwCase *table, const CwRanks *ranks, const CwAssembly *assembly,
-                             const CwInterface *interfaces, const CwOutput *output, CwRecord *record) {
+                            const CwInterface *interfaces, const CwOutput *output, CwRecord *record) {
   CwStatus status = CW_OK;
-  warn(assembly, interfaces);
+  warn(ranks->log, assembly, interfaces);
   CW_TRY(record_results(assembly, interfaces, record));
   CW_TRY(record_points(table, record));
-  CW_TRY(record_formats(output, record));
+  CW_TRY(record_formats(ranks->log, output, record));
   CW_TRY(cw_record_case(record, table));
   CW_TRY(cw_record_integer(record, "ranks", ranks->size));
 done:
@@ -244,7 +243,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   CW_TRY(join(run, "export", &folder));
   CW_TRY(join(folder, ".part", &part));
   CW_TRY(join(folder, "record.json", &path));
-  CW_TRY(cw_record_start("export", &record));
+  CW_TRY(cw_record_start("export", ranks->log, &record));
   status = cw_record_made_from(record, run, reads);
   if (status == CW_OK) status = cw_mesh_manifest_read(run, &mesh);
   if (status == CW_OK) status = check_ends(&mesh);
@@ -275,7 +274,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
     cw_record_set_peak_memory(record, memory);
     CW_TRY(finish_files(folder, part, output.formats));
     CW_TRY(cw_record_write(record, path));
-    cw_log("%lld cells written to %s in %.1f s", (long long)cells, folder, cw_seconds() - start);
+    cw_log(ranks->log, "%lld cells written to %s in %.1f s", (long long)cells, folder, cw_seconds() - start);
   }
 done:
   if (status != CW_OK && ranks->rank == 0 && part) {

@@ -31,24 +31,26 @@ static const CwStageUsage usage = {
 static const double degree = M_PI / 180;
 static const double LEAST_CORNER = 15 * M_PI / 180; // of a face
 
-static void show_design(const CwDesign *design) {
+static void show_design(CwLog *log, const CwDesign *design) {
   char line[200];
-  cw_log("%-52s %10d       %s", "blade number z", design->blade_count, design->blade_count_source);
+  cw_log(log, "%-52s %10d       %s", "blade number z", design->blade_count, design->blade_count_source);
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     cw_hydraulic_design_row(design, i, line, sizeof line);
-    cw_log("%s", line);
+    cw_log(log, "%s", line);
   }
   CwDesignRemarks remarks;
   cw_design_check(design, &remarks);
-  for (int i = 0; i < remarks.count; i++) cw_log_warn("%s", remarks.text[i]);
+  for (int i = 0; i < remarks.count; i++) cw_log_warn(log, "%s", remarks.text[i]);
 }
 
-static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
-  cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed; shortest edge %.2f mm, narrowest "
+static void show_solid(CwLog *log, const CwSolid *solid, const CwMeasuredSolid *measured) {
+  cw_log(log,
+         "%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed; shortest edge %.2f mm, narrowest "
          "face %.2f mm",
          cw_solid_domain(solid), measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3,
          measured->shortest_edge * 1e3, measured->narrowest_face * 1e3);
-  cw_log("%s: least angles: %.1f deg through the fluid (%s, %s), %.1f deg through the wall (%s, %s), %.1f deg in a "
+  cw_log(log,
+         "%s: least angles: %.1f deg through the fluid (%s, %s), %.1f deg through the wall (%s, %s), %.1f deg in a "
          "corner of %s",
          cw_solid_domain(solid), measured->fluid_edge.angle / degree,
          cw_solid_face_name(solid, measured->fluid_edge_of[0]), cw_solid_face_name(solid, measured->fluid_edge_of[1]),
@@ -56,49 +58,51 @@ static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
          cw_solid_face_name(solid, measured->wall_edge_of[1]), measured->corner.angle / degree,
          cw_solid_face_name(solid, measured->corner_of));
   if (measured->corner.angle < LEAST_CORNER)
-    cw_log_warn("%s: %s has a corner of %.1f deg at (%.2f, %.2f, %.2f) mm, and so have triangles there; 15 deg are "
+    cw_log_warn(log,
+                "%s: %s has a corner of %.1f deg at (%.2f, %.2f, %.2f) mm, and so have triangles there; 15 deg are "
                 "usual: leave out root_fillet_radius_mm, or take trailing_edge bevelled",
                 cw_solid_domain(solid), cw_solid_face_name(solid, measured->corner_of), measured->corner.angle / degree,
                 measured->corner.at[0] * 1e3, measured->corner.at[1] * 1e3, measured->corner.at[2] * 1e3);
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
-static void show_rotor(const CwDesign *design, const CwMeasuredRotor *rotor) {
+static void show_rotor(CwLog *log, const CwDesign *design, const CwMeasuredRotor *rotor) {
   const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
-  cw_log("measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
+  cw_log(log, "measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
   if (design->root_fillet_radius > 0)
-    cw_log("measured: root fillets of %.2f mm meet hub and shroud within %.2f deg of tangency",
+    cw_log(log, "measured: root fillets of %.2f mm meet hub and shroud within %.2f deg of tangency",
            design->root_fillet_radius * 1e3, fabs(180 - least));
   else
-    cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least", rotor->hub_crease.angle / degree,
-           rotor->shroud_crease.angle / degree);
-  cw_log("measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
+    cw_log(log, "measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least",
+           rotor->hub_crease.angle / degree, rotor->shroud_crease.angle / degree);
+  cw_log(log, "measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
   if (least < 66)
-    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: %s", least,
+    cw_log_warn(log, "blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: %s", least,
                 design->blade_form == CW_BLADE_CYLINDRICAL
                     ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
                     : "lower lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
   if (360 - rotor->trailing_edge.angle / degree < 75)
-    cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: take "
+    cw_log_warn(log,
+                "the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: take "
                 "trailing_edge bevelled, or raise trailing_edge_bevel_mm",
                 360 - rotor->trailing_edge.angle / degree);
 }
 
-static void show_measured(const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {
+static void show_measured(CwLog *log, const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {
   const CwMeasuredRotor *rotor = &measured->rotor;
   const CwMeasuredStator *stator = &measured->stator;
-  for (int i = 0; i < pump->count; i++) show_solid(pump->solid[i], &measured->solid[i]);
-  cw_log("measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
+  for (int i = 0; i < pump->count; i++) show_solid(log, pump->solid[i], &measured->solid[i]);
+  cw_log(log, "measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
          100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1),
          rotor->kink.angle / degree);
-  show_rotor(design, rotor);
-  cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides", stator->base_diameter * 1e3,
+  show_rotor(log, design, rotor);
+  cw_log(log, "measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides", stator->base_diameter * 1e3,
          stator->inlet_width * 1e3, rotor->interface_radius * 1e3, rotor->interface_area * 1e6);
 }
 
-static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwRecord *record,
-                      CwPump *pump, CwMeasuredPump *measured) {
+static CwStatus build(CwLog *log, const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs,
+                      CwRecord *record, CwPump *pump, CwMeasuredPump *measured) {
   CwStatus status = CW_OK;
   double begin = cw_seconds();
   int64_t faces = 0;
@@ -108,7 +112,7 @@ static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeS
   CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, faces, "faces"));
   begin = cw_seconds();
   CW_TRY(cw_pump_measure(design, pump, measured));
-  show_measured(design, pump, measured);
+  show_measured(log, design, pump, measured);
   CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin, faces, "faces"));
   for (int i = CW_PUMP_STATOR + 1; i < pump->count; i++) {
     snprintf(key, sizeof key, "%s_volume_m3", cw_solid_domain(pump->solid[i]));
@@ -201,8 +205,8 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CW_TRY(cw_stage_path(args, "geometry", &folder));
   CW_TRY(cw_hydraulic_design(table, &design));
   CW_TRY(cw_pump_pipe_stubs(table, &design, &stubs));
-  show_design(&design);
-  CW_TRY(build(table, &design, &stubs, record, &pump, &measured));
+  show_design(args->log, &design);
+  CW_TRY(build(args->log, table, &design, &stubs, record, &pump, &measured));
   const double begin = cw_seconds();
   CW_TRY(remove_old_solids(args));
   for (int i = 0; i < pump.count; i++) {
@@ -250,10 +254,10 @@ done:
 }
 
 // Adds what to change in the case to the line that refuses it.
-static CwStatus add_remedy(const CwCase *table, CwStatus status) {
+static CwStatus add_remedy(CwLog *log, const CwCase *table, CwStatus status) {
   char refused[1000], remedy[400];
   snprintf(refused, sizeof refused, "%s", cw_fail_message());
-  cw_log("refused; trying changes of the case");
+  cw_log(log, "refused; trying changes of the case");
   if (cw_remedy_find(table, refused, try_geometry, remedy, sizeof remedy))
     return CW_FAIL(status, "%s; tried: %s", refused, remedy);
   return CW_FAIL(status, "%s", refused);
@@ -268,20 +272,20 @@ int main(int argc, char **argv) {
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
   if (args.finished) goto done;
   CW_TRY(in_folder(&args, "record.json", &record_path));
-  CW_TRY(cw_record_start("geometry", &record));
+  CW_TRY(cw_record_start("geometry", args.log, &record));
   CW_TRY(table.cad ? cw_cad_stage(&args, &table, record) : make_geometry(&args, &table, record));
   CW_TRY(cw_record_write(record, record_path));
 done:;
   if (table.cad && (status == CW_ERR_INPUT || status == CW_ERR_GEOMETRY)) {
     cw_fail_place(args.case_path);
   } else if (status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY) {
-    add_remedy(&table, status);
+    add_remedy(args.log, &table, status);
     cw_fail_place(args.case_path); // what to change stands there
   }
-  const int code = cw_log_error(status);
+  const int code = cw_log_error(args.log, status);
   free(record_path);
   cw_record_free(record);
   cw_case_free(&table);
-  cw_log_close();
+  cw_log_close(&args.log);
   return code;
 }

@@ -46,6 +46,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_profiler_make(&run.context.profiler));
   CW_TRY(cw_team_agree(team, cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table)));
   if (args.finished) goto done;
+  run.context.log = args.log;
   CW_TRY(cw_team_agree(team, cw_policy_start()));
   // Of each of these all ranks know the end before they go on: else the run folder might be that of another mesher,
   // which has the file of cw_stop_claim, or that file might be late.
@@ -54,7 +55,7 @@ int main(int argc, char **argv) {
   run.run_path = args.run_path;
   if (args.options[STOP_AFTER]) CW_TRY(cw_stage_of(args.options[STOP_AFTER], &run.stop_after));
   run.vtk = args.options[VTK] != NULL;
-  CW_TRY(cw_record_start("mesh", &run.record));
+  CW_TRY(cw_record_start("mesh", args.log, &run.record));
   CW_TRY(cw_record_made_from(run.record, args.run_path, USAGE.reads));
   CW_TRY(cw_mesh_run(&run));
   json_t *account = NULL, *sides = NULL;
@@ -70,12 +71,12 @@ int main(int argc, char **argv) {
     CW_TRY(cw_record_write(run.record, record_path));
   }
 done:
-  if (status != CW_OK) return cw_mpi_fail(status);
+  if (status != CW_OK) return cw_mpi_fail(args.log, status);
   cw_mesh_run_free(&run);
   cw_profiler_free(&run.context.profiler);
   cw_record_free(run.record);
   free(record_path);
-  cw_log_close();
+  cw_log_close(&args.log);
   cw_stop_end();
   cw_mpi_end(&team);
   return 0;

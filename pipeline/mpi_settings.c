@@ -19,7 +19,7 @@ static void require_memory(void) {
     return;
   }
   CwStatus status = CW_FAIL(CW_ERR_MEMORY, "out of memory: MPI needs %zu MiB to start", START_MEMORY >> 20);
-  exit(!rank || !strcmp(rank, "0") ? cw_log_error(status) : (int)status);
+  exit(!rank || !strcmp(rank, "0") ? cw_log_error(NULL, status) : (int)status);
 }
 
 void cw_mpi_settings(void) {

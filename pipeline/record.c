@@ -15,6 +15,7 @@
 
 struct CwRecord {
   char stage[33];
+  const CwLog *log;
   double started;
   int64_t peak_memory_bytes; // 0: ask the system
   json_t *steps, *results;
@@ -23,12 +24,13 @@ struct CwRecord {
   json_t *origin;    // NULL: of no case
 };
 
-CwStatus cw_record_start(const char *stage, CwRecord **record) {
+CwStatus cw_record_start(const char *stage, const CwLog *log, CwRecord **record) {
   CwStatus status = CW_OK;
   CwRecord *made = NULL;
   *record = NULL;
   CW_NEW(made, 1);
   snprintf(made->stage, sizeof made->stage, "%s", stage);
+  made->log = log;
   made->started = cw_seconds();
   made->steps = json_array();
   made->results = json_object();
@@ -144,8 +146,8 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
   json_t *root = NULL;
   json_t *warnings = json_array();
   CW_REQUIRE(warnings, CW_ERR_MEMORY, "out of memory: the record");
-  for (size_t i = 0; i < cw_log_warning_count(); ++i)
-    CW_REQUIRE(!json_array_append_new(warnings, json_text(cw_log_warning(i))), CW_ERR_MEMORY,
+  for (size_t i = 0; i < cw_log_warning_count(record->log); ++i)
+    CW_REQUIRE(!json_array_append_new(warnings, json_text(cw_log_warning(record->log, i))), CW_ERR_MEMORY,
                "out of memory: the record of a warning");
   int64_t peak = record->peak_memory_bytes ? record->peak_memory_bytes : cw_peak_memory_bytes();
   root = json_pack("{so so sI sO sO sO sO}", "stage", json_text(record->stage), "seconds",

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "pipeline/case.h"
+#include "pipeline/log.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -16,8 +17,9 @@ extern "C" {
 
 typedef struct CwRecord CwRecord;
 
-// Starts the record of `stage` and its clock. Free with cw_record_free.
-CwStatus cw_record_start(const char *stage, CwRecord **record);
+// Starts the record of `stage` and its clock. [in] log: outlives the record, which tells its warnings; may be NULL.
+// [out] record: free with cw_record_free.
+CwStatus cw_record_start(const char *stage, const CwLog *log, CwRecord **record);
 void cw_record_free(CwRecord *record);
 
 // Adds a step that is over: `items` of `unit` ("faces", "cells") in `seconds`. Steps stay in the order of the

@@ -31,7 +31,7 @@ done:
   return status;
 }
 
-CwStatus cw_run_lock(const char *run, const char *stage, CwRunLock *lock) {
+CwStatus cw_run_lock(const char *run, const char *stage, CwLog *log, CwRunLock *lock) {
   CwStatus status = CW_OK;
   char *folder = NULL, *path = NULL, holder[HOST_NAME_MAX + 100];
   int file = -1;
@@ -46,7 +46,8 @@ CwStatus cw_run_lock(const char *run, const char *stage, CwRunLock *lock) {
     read_holder(file, holder, sizeof holder);
     CW_REQUIRE(cause != EAGAIN && cause != EACCES, CW_ERR_IO,
                "%s: %s works in this folder; wait until it ends, or give another --run", run, holder);
-    cw_log_warn("%s: cannot be locked: %s; see to it that no other stage works in this folder", run, strerror(cause));
+    cw_log_warn(log, "%s: cannot be locked: %s; see to it that no other stage works in this folder", run,
+                strerror(cause));
   }
   CW_TRY(write_holder(file, path, stage));
   *lock = (CwRunLock){.held = 1, .file = file};

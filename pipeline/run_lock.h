@@ -6,6 +6,7 @@
 #ifndef CUTWATER_PIPELINE_RUN_LOCK_H
 #define CUTWATER_PIPELINE_RUN_LOCK_H
 
+#include "pipeline/log.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -19,8 +20,8 @@ typedef struct {
 
 // Takes the run folder for `stage` until this process ends or cw_run_unlock; RUN and RUN/log are made where they are
 // missing. Of a stage of several ranks one calls it. CW_ERR_IO, naming stage, host and process, where another one has
-// it. [in,out] lock: one that it holds is given back first.
-CwStatus cw_run_lock(const char *run, const char *stage, CwRunLock *lock);
+// it. [in,out] lock: one that it holds is given back first. log: for a warning.
+CwStatus cw_run_lock(const char *run, const char *stage, CwLog *log, CwRunLock *lock);
 void cw_run_unlock(CwRunLock *lock);
 
 #ifdef __cplusplus

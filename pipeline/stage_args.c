@@ -14,7 +14,6 @@
 #include "pipeline/case_schema.h"
 #include "pipeline/case_sweep.h"
 #include "pipeline/case_value.h"
-#include "pipeline/log.h"
 #include "pipeline/stage_files.h"
 
 // Codes past all characters, so that getopt's code of an unknown short option is never one of them.
@@ -154,16 +153,21 @@ done:
 CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args,
                         CwCase *table) {
   CwStatus status = CW_OK;
+  CwLog *log = NULL;
   char *log_path = NULL, name[64];
   signal(SIGXFSZ, SIG_IGN); // a write past the largest size of a file fails, and its one line says why
-  CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0));
-  CW_TRY(cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args));
+  memset(args, 0, sizeof *args);
+  CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0, &log));
+  status = cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args);
+  args->log = log;
+  CW_TRY(status);
   if (args->finished) goto done;
   if (speaks)
-    CW_TRY(cw_run_lock(args->run_path, usage->stage, &args->lock)); // before the log of the stage that may have it
+    CW_TRY(cw_run_lock(args->run_path, usage->stage, args->log,
+                       &args->lock)); // before the log of the stage that may have it
   snprintf(name, sizeof name, "log/%s.log", usage->stage);
   CW_TRY(cw_stage_path(args, name, &log_path));
-  CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));
+  CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose, &args->log));
   CW_TRY(cw_case_read(args->case_path, table));
   if (args->cells) CW_TRY(cw_case_sweep(args->case_path, args->cells, table));
   for (const char *const *stage = usage->reads; *stage; ++stage) {

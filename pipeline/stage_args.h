@@ -8,8 +8,8 @@
 //     CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
 //     if (!args.finished) CW_TRY(make_everything(&table, args.run_path));
 //   done:;
-//     int code = cw_log_error(status);
-//     cw_log_close();
+//     int code = cw_log_error(args.log, status);
+//     cw_log_close(&args.log);
 //     return code;
 //   }
 #ifndef CUTWATER_PIPELINE_STAGE_ARGS_H
@@ -19,6 +19,7 @@
 #include <stdio.h>
 
 #include "pipeline/case.h"
+#include "pipeline/log.h"
 #include "pipeline/run_lock.h"
 #include "pipeline/status.h"
 
@@ -52,6 +53,7 @@ typedef struct {
   int64_t cells; // 0: not given, the case file's number holds
   int verbose;
   int finished;   // --help or --version was asked and answered: nothing is left to do
+  CwLog *log;     // [out] of cw_stage_begin, also where it fails; the caller closes it
   CwRunLock lock; // [out] of cw_stage_begin: that of the run folder, until the process ends
   // The value of each option of the stage, "" of a switch; NULL: not given.
   const char *options[CW_STAGE_OPTION_LIMIT];

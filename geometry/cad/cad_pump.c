@@ -14,7 +14,7 @@ static const double TOLERANCE = 0.01;
 static const double TOLERANCE_BEFORE = 1e-5; // m, where faces are sewn before the unit is known
 enum { PIECES = 3 };                         // of a closed face that does not rotate
 
-static CwStatus read_parts(const CwCaseCad *cad, CwCadPump *pump) {
+static CwStatus read_parts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwStatus status = CW_OK;
   CwCadBodies *bodies = NULL;
   int *domain = NULL;
@@ -28,7 +28,7 @@ static CwStatus read_parts(const CwCaseCad *cad, CwCadPump *pump) {
   CW_TRY(cw_cad_parts_make(cad, &pump->frame, bodies, domain, &pump->parts));
   const double unit = cw_cad_parts_unit(pump->parts);
   pump->tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE * unit;
-  CW_TRY(cw_cad_heal(pump->tolerance / unit, &pump->frame, pump->parts, &pump->fault));
+  CW_TRY(cw_cad_heal(pump->tolerance / unit, &pump->frame, log, pump->parts, &pump->fault));
 done:
   free(domain);
   cw_cad_bodies_free(&bodies);
@@ -77,10 +77,10 @@ static void keep_blades(CwCadPump *pump, int count, const int *blade) {
   }
 }
 
-static CwStatus cut_contacts(const CwCaseCad *cad, CwCadPump *pump) {
+static CwStatus cut_contacts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwStatus status = CW_OK;
   int cut = 0;
-  CW_TRY(cw_contact_imprint(&pump->survey, pump->contact, pump->tolerance, pump->parts, &cut));
+  CW_TRY(cw_contact_imprint(&pump->survey, pump->contact, pump->tolerance, log, pump->parts, &cut));
   if (!cut) goto done;
   CW_TRY(look(cad, pump));
   for (int f = 0; f < pump->survey.face_count; f++)
@@ -93,10 +93,10 @@ done:
   return status;
 }
 
-CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwCadPump *pump) {
+CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwStatus status = CW_OK;
   int *pieces = NULL, *blade = NULL;
-  CW_TRY(read_parts(cad, pump));
+  CW_TRY(read_parts(cad, log, pump));
   CW_TRY(look(cad, pump));
   const int faces = pump->survey.face_count, blades = pump->blade_count;
   CW_NEW(pieces, cad->domain_count);
@@ -104,9 +104,9 @@ CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwCadPump *pump) {
   note_blades(pump, faces, blade);
   for (int d = 0; d < cad->domain_count; d++)
     pieces[d] = cad->domain[d].rotating && pump->blade_count > 1 ? pump->blade_count : PIECES;
-  CW_TRY(cw_cad_divide(pieces, &pump->frame, pump->parts));
+  CW_TRY(cw_cad_divide(pieces, &pump->frame, log, pump->parts));
   CW_TRY(look(cad, pump));
-  CW_TRY(cut_contacts(cad, pump));
+  CW_TRY(cut_contacts(cad, log, pump));
   keep_blades(pump, faces, blade);
   if (blades > 1) pump->blade_count = blades;
 done:

@@ -27,7 +27,7 @@ typedef struct {
 
 // Reads and prepares the solids up to the roles of the faces. Free with cw_cad_pump_free(), also after a failure;
 // zeroed on entry.
-CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwCadPump *pump);
+CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwLog *log, CwCadPump *pump);
 
 // Gives the faces patches and finds the interfaces.
 CwStatus cw_cad_pump_name(const CwCaseCad *cad, CwCadPump *pump);

@@ -69,23 +69,23 @@ static void show_fault(const CwStageArgs *args, const Work *work) {
   snprintf(title, sizeof title, "%s: where it cannot be healed", work->cad->domain[work->pump.fault.part].name);
   if (cw_survey_make(work->pump.parts, &survey) == CW_OK && in_folder(args, "fault.svg", &path) == CW_OK &&
       cw_faces_picture_write(&survey, work->pump.fault.part, title, work->pump.fault.at, path) == CW_OK)
-    cw_log("geometry/fault.svg shows the place");
+    cw_log(args->log, "geometry/fault.svg shows the place");
   CW_FAIL(CW_ERR_GEOMETRY, "%s", message);
   cw_survey_free(&survey);
   free(path);
 }
 
-static void show(const Work *work) {
+static void show(CwLog *log, const Work *work) {
   const CwCadPump *pump = &work->pump;
   for (int d = 0; d < work->cad->domain_count; d++)
-    cw_log("%s: %d faces, %s", work->cad->domain[d].name, cw_cad_part_face_count(pump->parts, d),
+    cw_log(log, "%s: %d faces, %s", work->cad->domain[d].name, cw_cad_part_face_count(pump->parts, d),
            work->cad->domain[d].rotating ? "rotating" : "at rest");
-  if (pump->blade_count > 1) cw_log("the wheel has %d equal passages", pump->blade_count);
+  if (pump->blade_count > 1) cw_log(log, "the wheel has %d equal passages", pump->blade_count);
   for (int i = 0; i < pump->patches.count; i++) {
     const CwFacePatch *patch = &pump->patches.patch[i];
     int faces = 0;
     for (int f = 0; f < pump->survey.face_count; f++) faces += pump->patches.of_face[f] == i;
-    cw_log("%-10s %-22s %-9s %4d faces %12.2f mm2%s", work->cad->domain[patch->part].name, patch->name,
+    cw_log(log, "%-10s %-22s %-9s %4d faces %12.2f mm2%s", work->cad->domain[patch->part].name, patch->name,
            cw_patch_kind_name(patch->kind), faces, 1e6 * patch->area,
            patch->source == CW_FROM_RULE   ? ""
            : patch->source == CW_FROM_FILE ? "  named by the file"
@@ -134,13 +134,14 @@ done:
   return status;
 }
 
-static CwStatus note(const Work *work, const CwCase *table, CwRecord *record) {
+static CwStatus note(CwLog *log, const Work *work, const CwCase *table, CwRecord *record) {
   CwStatus status = CW_OK;
   const CwCadPump *pump = &work->pump;
   int proposed = 0;
   for (int i = 0; i < pump->patches.count; i++) proposed += pump->patches.patch[i].source == CW_FROM_PROPOSAL;
   if (proposed)
-    cw_log_warn("%d patches are proposals by geometry alone; look at geometry/faces_sheet.csv and name them in "
+    cw_log_warn(log,
+                "%d patches are proposals by geometry alone; look at geometry/faces_sheet.csv and name them in "
                 "cad.patches",
                 proposed);
   CW_TRY(cw_record_case(record, table));
@@ -157,7 +158,7 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   Work work = {.cad = table->cad};
   double begin = cw_seconds();
   CW_NEW(work.solid, work.cad->domain_count);
-  status = cw_cad_pump_read(work.cad, &work.pump);
+  status = cw_cad_pump_read(work.cad, args->log, &work.pump);
   if (status != CW_OK && work.pump.fault.found) show_fault(args, &work);
   if (status != CW_OK) goto done;
   CW_TRY(write_sheet(args, &work, 0));
@@ -166,13 +167,13 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   begin = cw_seconds();
   CW_TRY(cw_cad_pump_name(work.cad, &work.pump));
   CW_TRY(write_sheet(args, &work, 1));
-  show(&work);
+  show(args->log, &work);
   CW_TRY(cw_cad_model_make(table, &work.pump.survey, &work.pump.patches, work.pump.interface_count, work.pump.interface,
                            work.pump.blade_count, cw_cad_parts_unit(work.pump.parts), &work.model));
   CW_TRY(cw_cad_pump_solids(&work.pump, work.solid));
   CW_TRY(write_files(args, &work, record));
   CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + work.cad->domain_count, "files"));
-  CW_TRY(note(&work, table, record));
+  CW_TRY(note(args->log, &work, table, record));
 done:
   for (int d = 0; work.solid && d < work.cad->domain_count; d++) cw_solid_free(&work.solid[d]);
   free(work.solid);

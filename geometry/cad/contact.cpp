@@ -196,8 +196,8 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
   return CW_OK;
 }
 
-CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwCadParts *parts,
-                            int *cut) {
+CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwLog *log,
+                            CwCadParts *parts, int *cut) {
   *cut = 0;
   return cw_cad_guard("cad.domains", [&]() -> CwStatus {
     const std::vector<CwCadPart> before = parts->part;
@@ -217,7 +217,7 @@ CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, do
       if (tools.empty()) continue;
       const CwStatus status = cut_part(tools, tolerance / parts->unit, parts->part[p]);
       if (status != CW_OK) return status;
-      cw_log("%s: cut along the faces of its neighbours where they touch in part", before[p].domain.c_str());
+      cw_log(log, "%s: cut along the faces of its neighbours where they touch in part", before[p].domain.c_str());
     }
     return CW_OK;
   });

@@ -5,6 +5,7 @@
 #define CUTWATER_GEOMETRY_CAD_CONTACT_H
 
 #include "geometry/cad/survey.h"
+#include "pipeline/log.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,8 +25,8 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
 
 // Cuts the faces that touch another part with a share of theirs along the outline of the other's faces, so that each
 // touches wholly or not at all. *cut: how many there were. Faces are counted anew after it.
-CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwCadParts *parts,
-                            int *cut);
+CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwLog *log,
+                            CwCadParts *parts, int *cut);
 
 #ifdef __cplusplus
 }

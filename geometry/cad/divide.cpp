@@ -175,7 +175,7 @@ void replace(CwCadPart &part, const TopoDS_Shape &shape) {
   cw_cad_carry({before}, part);
 }
 
-CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart &part) {
+CwStatus divide_part(int pieces, const CwCadFrame &frame, CwLog *log, double unit, CwCadPart &part) {
   TopoDS_Edge edge;
   int face = 0;
   const int before = cw_cad_faces(part.solid).Extent();
@@ -197,7 +197,8 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
   }
   const int after = cw_cad_faces(part.solid).Extent();
   if (after != before)
-    cw_log("%s: closed and kinked faces divided, %d faces where the file has %d", part.domain.c_str(), after, before);
+    cw_log(log, "%s: closed and kinked faces divided, %d faces where the file has %d", part.domain.c_str(), after,
+           before);
   if (seams(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "stays closed upon itself");
   if (several_poles(part.solid, &edge, &face)) return fail_at(part, frame, unit, edge, face, "has several poles, one");
   return CW_OK;
@@ -205,11 +206,11 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, double unit, CwCadPart
 
 } // namespace
 
-CwStatus cw_cad_divide(const int *pieces, const CwCadFrame *frame, CwCadParts *parts) {
+CwStatus cw_cad_divide(const int *pieces, const CwCadFrame *frame, CwLog *log, CwCadParts *parts) {
   for (size_t i = 0; i < parts->part.size(); i++) {
     CwCadPart &part = parts->part[i];
-    const CwStatus status =
-        cw_cad_guard("cad.domains." + part.domain, [&] { return divide_part(pieces[i], *frame, parts->unit, part); });
+    const CwStatus status = cw_cad_guard("cad.domains." + part.domain,
+                                         [&] { return divide_part(pieces[i], *frame, log, parts->unit, part); });
     if (status != CW_OK) return status;
   }
   return CW_OK;

@@ -6,6 +6,7 @@
 #define CUTWATER_GEOMETRY_CAD_DIVIDE_H
 
 #include "geometry/cad/cad_parts.h"
+#include "pipeline/log.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,7 +14,7 @@ extern "C" {
 
 // Divides the faces of all parts that need it; the others stay. Closed faces get `pieces[part]` pieces, at least 2.
 // CW_ERR_GEOMETRY, naming domain, face and the place in the file, where a seam or two poles of a face stay.
-CwStatus cw_cad_divide(const int *pieces, const CwCadFrame *frame, CwCadParts *parts);
+CwStatus cw_cad_divide(const int *pieces, const CwCadFrame *frame, CwLog *log, CwCadParts *parts);
 
 #ifdef __cplusplus
 }

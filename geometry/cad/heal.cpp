@@ -152,7 +152,8 @@ bool has_small_edge(const TopoDS_Shape &shape, double tolerance) {
   return false;
 }
 
-CwStatus heal_part(double tolerance, const CwCadFrame &frame, double unit, CwCadPart &part, CwCadFault &of_all) {
+CwStatus heal_part(double tolerance, const CwCadFrame &frame, CwLog *log, double unit, CwCadPart &part,
+                   CwCadFault &of_all) {
   const TopoDS_Shape given = part.solid;
   const Fault first = fault_of(given, tolerance);
   Fault fault = first;
@@ -184,18 +185,18 @@ CwStatus heal_part(double tolerance, const CwCadFrame &frame, double unit, CwCad
   CwCadPart before = part;
   before.solid = given;
   cw_cad_carry({before}, part);
-  cw_log("%s: healed%s%s", part.domain.c_str(), first.what.empty() ? "" : ": ", first.what.c_str());
+  cw_log(log, "%s: healed%s%s", part.domain.c_str(), first.what.empty() ? "" : ": ", first.what.c_str());
   return CW_OK;
 }
 
 } // namespace
 
-CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts, CwCadFault *fault) {
+CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwLog *log, CwCadParts *parts, CwCadFault *fault) {
   *fault = CwCadFault();
   for (CwCadPart &part : parts->part) {
     fault->part = (int)(&part - parts->part.data());
     const CwStatus status = cw_cad_guard("cad.domains." + part.domain,
-                                         [&] { return heal_part(tolerance, *frame, parts->unit, part, *fault); });
+                                         [&] { return heal_part(tolerance, *frame, log, parts->unit, part, *fault); });
     if (status != CW_OK) return status;
   }
   return CW_OK;

@@ -5,6 +5,7 @@
 #define CUTWATER_GEOMETRY_CAD_HEAL_H
 
 #include "geometry/cad/cad_parts.h"
+#include "pipeline/log.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,7 +20,7 @@ typedef struct {
 
 // Heals all parts. `tolerance`: largest gap that is closed, in the model unit. CW_ERR_GEOMETRY, naming domain, face or
 // edge and the place in the file, where one stays open, invalid or without volume; *fault then is that place, if any.
-CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwCadParts *parts, CwCadFault *fault);
+CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwLog *log, CwCadParts *parts, CwCadFault *fault);
 
 #ifdef __cplusplus
 }

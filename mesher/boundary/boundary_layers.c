@@ -135,7 +135,8 @@ static CwStatus unfold_wall(const CwContext *context, const CwBoundaryInput *in,
     CW_TRY(cw_flip_neighbours(context, surface->vertex_count, surface->triangle_count, group, mesh));
   }
   if (flips || folded)
-    cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
+    cw_log_debug(cw_log_of(context), "%d edges flipped where the wall was folded; %d vertices with sharp faces", flips,
+                 folded);
 done:
   return status;
 }
@@ -146,7 +147,7 @@ static CwStatus flip_top(const CwContext *context, const CwBoundaryInput *in, co
   int32_t flips;
   CW_TRY(cw_layer_top_flip(context, (const double(*)[3])surface->x, top, surface->triangle_count, mesh, group, &flips));
   cw_image_copy_triangles(in->images, surface, mesh->triangle);
-  cw_log_debug("%d edges of wall and layer top flipped", flips);
+  cw_log_debug(cw_log_of(context), "%d edges of wall and layer top flipped", flips);
 done:
   return status;
 }

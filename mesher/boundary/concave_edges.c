@@ -287,8 +287,8 @@ CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMe
     memcpy(layers->reason, reason, n);
     *opened = 0;
   }
-  cw_log_debug("%d triangles of the layer top in narrow concave edges: %d columns %s", found, *opened,
-               fits ? "moved" : "stay, the layer top would cross");
+  cw_log_debug(cw_log_of(wall->context), "%d triangles of the layer top in narrow concave edges: %d columns %s", found,
+               *opened, fits ? "moved" : "stay, the layer top would cross");
 done:
   cw_incident_free(&concave.around);
   cw_wall_part_free(&concave.part);

@@ -209,7 +209,7 @@ CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInp
     bytes = NULL;
     size = NULL;
   }
-  if (total) cw_log_debug("curves of the walls: %d edges halved to lie as their curves do", total);
+  if (total) cw_log_debug(cw_log_of(context), "curves of the walls: %d edges halved to lie as their curves do", total);
 done:
   for (int32_t i = 0; bytes && i < count; i++) free(bytes[i]);
   free(bytes);

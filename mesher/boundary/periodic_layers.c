@@ -302,7 +302,8 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
     ++*bad_count;
     mark(part, f, bad);
   }
-  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their periodic images",
+  cw_log_debug(cw_log_of(in->context),
+               "layers of one passage: %d of %d wall triangles, columns within %.2g mm of their periodic images",
                in->triangle_count, part->wall.whole->triangle_count, cw_mm(most));
   if (*bad_count || most < SAME) goto done; // crossings only between sound prisms
   CW_TRY(cw_layers_crossing_make(&spread.work, &crossing));
@@ -400,7 +401,8 @@ CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *su
     int32_t first = 0;
     while (!bad[first]) first++;
     near = input->x[first];
-    cw_log_debug("%d prisms and pairs of the layer top do not fit their periodic images, near (%.3f, %.3f, %.3f) mm",
+    cw_log_debug(cw_log_of(input->context),
+                 "%d prisms and pairs of the layer top do not fit their periodic images, near (%.3f, %.3f, %.3f) mm",
                  bad_count, CW_MM(near));
     CW_TRY(thin(&part, bad, layers));
   }

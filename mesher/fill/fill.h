@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "pipeline/log.h"
 #include "pipeline/status.h"
 
 #include "mesher/common/clip.h"
@@ -22,7 +23,7 @@ typedef struct {
   double reach;
 } CwFillSlab;
 
-// All that the steps of a fill read, given once; 17 fields, of which those from offset_count on may be left 0.
+// All that the steps of a fill read, given once; 18 fields, of which those from offset_count on may be left 0.
 typedef struct {
   int32_t point_count;
   const double (*x)[3];
@@ -31,6 +32,7 @@ typedef struct {
   CwSizeAt size;
   const void *size_context;
   const char *name; // for messages: "rotor region 3"
+  CwLog *log;       // how the fill went; NULL: nowhere
   // The last `offset_count` triangles have offset points over them (offset_points.h), of which those over the last
   // `interface_count` are chosen first. The last `open_count` keep points of
   // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the

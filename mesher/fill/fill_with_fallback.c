@@ -36,7 +36,7 @@ CwStatus cw_fill_with_fallback(const CwFillInput *input, CwFillMethod method, Cw
       *fill = own;
       return CW_OK;
     }
-    cw_log_debug("%s: left to TetGen, flatness %.3g", input->name, flatness);
+    cw_log_debug(input->log, "%s: left to TetGen, flatness %.3g", input->name, flatness);
   }
   status = cw_tetgen_fill(input, fill);
   // A valid fill with a flat cell is better than none, and than a flatter one.

@@ -157,11 +157,12 @@ static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *fac
   CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
   recovery->missing = facets->missing_count;
   for (int round = 0; round < cw_policy.recover_rounds && facets->missing_count; round++)
-    CW_TRY(cw_kernel_recover(mesh, facets, round, &flips));
+    CW_TRY(cw_kernel_recover(mesh, facets, round, input->log, &flips));
   recovery->flips = (int32_t)(flips < INT32_MAX ? flips : INT32_MAX);
   if (facets->missing_count) {
     CW_TRY(cw_boundary_check_crossing(input));
-    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count, facets->count);
+    cw_log_debug(input->log, "%s: %d of %d boundary triangles are missing", input->name, facets->missing_count,
+                 facets->count);
   }
 done:
   return status;
@@ -192,11 +193,11 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   CW_TRY(cw_fill_from_mesh(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
   *outcome = CW_KERNEL_FILLED;
-  cw_log_debug("%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
+  cw_log_debug(input->log,
+               "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
                "added, least sine %.3g to %.3g",
                input->name, fill->tetrahedron_count, core.tet_count, changes.edges_removed, changes.faces_removed,
-               changes.points_moved, changes.points_added, changes.least_before,
-               changes.least_after);
+               changes.points_moved, changes.points_added, changes.least_before, changes.least_after);
 done:
   cw_facets_free(&facets);
   cw_kernel_core_free(&core);

@@ -225,7 +225,7 @@ done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t *flips) {
+CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int64_t *flips) {
   CwStatus status = CW_OK;
   Recovery r = {.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + (uint32_t)round};
   int lost_edges = 0, lost_faces = 0, found;
@@ -244,7 +244,7 @@ CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t
     lost_faces += !found;
   }
   *flips += r.flips.done;
-  cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered", facets->missing_count,
+  cw_log_debug(log, "%d missing triangles: %lld flips, %d edges and %d triangles not recovered", facets->missing_count,
                (long long)r.flips.done, lost_edges, lost_faces);
   CW_TRY(locate_again(&r.flips, facets));
 done:

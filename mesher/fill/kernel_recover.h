@@ -4,6 +4,7 @@
 #define CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
 
 #include "mesher/fill/kernel_facets.h"
+#include "pipeline/log.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -12,7 +13,7 @@ extern "C" {
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered
 // stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. Another `round`
 // tries other flips. Adds what was flipped to *flips. Deterministic.
-CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t *flips);
+CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int64_t *flips);
 
 #ifdef __cplusplus
 }

@@ -211,7 +211,8 @@ CwStatus cw_tetgen_fill(const CwFillInput *input, CwFill *fill) {
   if (status != CW_OK) goto done;
   CW_TRY(cw_tet_improve(input->point_count, fill, &changes));
   fill->recovery.tetgen = 1;
-  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine "
+  cw_log_debug(input->log,
+               "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine "
                "%.3g to %.3g",
                input->name, fill->tetrahedron_count, changes.edges_removed, changes.faces_removed, changes.points_moved,
                changes.points_added, changes.least_before, changes.least_after);

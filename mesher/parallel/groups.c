@@ -85,16 +85,16 @@ done:
 }
 
 // Rank 0 prints the lines that the first rank of a group has kept.
-static CwStatus print_kept(const CwTeam *team, int from) {
+static CwStatus print_kept(CwLog *log, const CwTeam *team, int from) {
   CwStatus status = CW_OK;
-  int64_t size = (int64_t)strlen(cw_log_kept()) + 1;
+  int64_t size = (int64_t)strlen(cw_log_kept(log)) + 1;
   char *lines = NULL;
   cw_team_broadcast(team, &size, sizeof size, from);
   CW_NEW_UNSET(lines, size);
-  if (cw_team_rank(team) == from) memcpy(lines, cw_log_kept(), (size_t)size);
+  if (cw_team_rank(team) == from) memcpy(lines, cw_log_kept(log), (size_t)size);
   if (size > 1) cw_team_broadcast(team, lines, size, from);
   for (char *line = lines, *end; cw_team_rank(team) == 0 && size > 1 && (end = strchr(line, '\n')); line = end + 1) {
-    cw_log_debug("%.*s", (int)(end - line), line);
+    cw_log_debug(log, "%.*s", (int)(end - line), line);
   }
 done:
   free(lines);
@@ -104,6 +104,7 @@ done:
 CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwTeam *all = cw_team_of(context);
+  CwLog *log = cw_log_of(context);
   CwTeam *own = NULL;
   int group_of[CW_GROUPS_MOST], ranks_of[CW_GROUPS_MOST], first[CW_GROUPS_MOST] = {0}, owner[CW_GROUPS_MOST], mine = 0;
   CW_REQUIRE(work->count <= CW_GROUPS_MOST, CW_ERR_INPUT, "%d items; at most %d are allowed", work->count,
@@ -118,7 +119,7 @@ CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutc
   if (groups > 1) CW_TRY(cw_team_split(all, mine, &own));
   CwContext group = context ? *context : (CwContext){0};
   group.team = own ? own : all;
-  cw_log_keep(all->rank == first[mine]);
+  cw_log_keep(log, all->rank == first[mine]);
   for (int32_t s = 0; s < work->count; s++) {
     owner[s] = first[group_of[s]];
     if (group_of[s] != mine) continue;
@@ -126,7 +127,7 @@ CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutc
     CW_TRY(work->run(work->given, &group, s, &outcome[s]));
     cw_profiler_item(context, -1);
   }
-  cw_log_keep(0);
+  cw_log_keep(log, 0);
   if (own) cw_team_join(all, &own);
   const char *part = cw_profiler_part(context, "exchange");
   if (groups > 1) cw_outcomes_agree(all, work->count, outcome, owner);
@@ -134,8 +135,8 @@ CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutc
     CwGroupHand hand = {.team = all, .item = s, .mine = group_of[s] == mine, .from = owner[s]};
     CW_TRY(hand_over(context, work, &hand, &outcome[s]));
   }
-  for (int g = 1; g < groups; g++) CW_TRY(print_kept(all, first[g]));
-  cw_log_drop_kept();
+  for (int g = 1; g < groups; g++) CW_TRY(print_kept(log, all, first[g]));
+  cw_log_drop_kept(log);
   cw_profiler_part(context, part);
 done:
   return status;

@@ -116,11 +116,11 @@ int cw_mpi_ranks(void) {
   return ranks;
 }
 
-int cw_mpi_fail(CwStatus status) {
+int cw_mpi_fail(CwLog *log, CwStatus status) {
   int first = cw_stop_claim(); // the others, stopped for this, are to say nothing
-  if (cw_mpi_ranks() == 1) return cw_log_error(status);
+  if (cw_mpi_ranks() == 1) return cw_log_error(log, status);
   if (!first) cw_team_sleep(END_SECONDS);
-  int code = cw_log_error(status);
+  int code = cw_log_error(log, status);
   MPI_Abort(MPI_COMM_WORLD, code);
   _exit(code);
 }

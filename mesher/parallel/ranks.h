@@ -29,7 +29,7 @@ void cw_mpi_end(CwTeam **all);
 // several ranks fail, the first to call cw_stop_claim (pipeline/stop_line.h) prints; without cw_stop_watch each does
 // that gets to it before it is ended. Does not return where there is more than one rank; else returns the exit status
 // for main().
-int cw_mpi_fail(CwStatus status);
+int cw_mpi_fail(CwLog *log, CwStatus status);
 // How many ranks MPI has; 1 where it has not started.
 int cw_mpi_ranks(void);
 

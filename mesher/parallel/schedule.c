@@ -104,6 +104,7 @@ done:
 
 typedef struct {
   const CwTeam *team;
+  CwLog *log;
   const CwSchedule *schedule;
   void **bytes;
   TaskEnd *end;   // by task
@@ -127,6 +128,10 @@ done:
   return status;
 }
 
+static void show_progress(void *log, int64_t ended) {
+  cw_progress(log, ended);
+}
+
 // Each rank takes what is next when it is free.
 static CwStatus take_tasks(Work *work, const Order *order) {
   CwStatus status = CW_OK;
@@ -134,7 +139,7 @@ static CwStatus take_tasks(Work *work, const Order *order) {
   CwTaskOrder list = {work->schedule->count, order->left, order->before};
   CW_TRY(cw_task_server_start(work->team, &list, &server));
   for (;;) {
-    CwPlaces places = cw_task_server_next(server, work->schedule->unit ? cw_progress : NULL);
+    CwPlaces places = cw_task_server_next(server, work->schedule->unit ? show_progress : NULL, work->log);
     if (places.count == 0) break;
     for (int32_t i = 0; i < places.count; i++) CW_TRY(run_task(work, order->task[places.first + i]));
   }
@@ -151,7 +156,7 @@ static CwStatus deal_tasks(Work *work, const Order *order) {
     while (order->before && order->before[first] >= 0) first = order->before[first];
     if (first % work->team->ranks != work->team->rank) continue;
     CW_TRY(run_task(work, order->task[place]));
-    if (work->schedule->unit) cw_progress(++ended * work->team->ranks);
+    if (work->schedule->unit) cw_progress(work->log, ++ended * work->team->ranks);
   }
   cw_team_barrier(work->team);
 done:
@@ -162,7 +167,7 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
                          double *seconds) {
   CwStatus status = CW_OK;
   Order order = {0};
-  Work work = {.team = cw_team_of(context), .schedule = schedule, .bytes = bytes};
+  Work work = {.team = cw_team_of(context), .log = cw_log_of(context), .schedule = schedule, .bytes = bytes};
   int32_t count = schedule->count;
   int64_t gathered = 0;
   double *time = NULL;
@@ -171,7 +176,7 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   CW_NEW(time, count);
   for (int32_t task = 0; task < count; task++) work.end[task] = (TaskEnd){-1, -1, -1};
   CW_TRY(put_in_order(schedule, &order));
-  if (schedule->unit) cw_progress_start(schedule->step, count, schedule->unit);
+  if (schedule->unit) cw_progress_start(work.log, schedule->step, count, schedule->unit);
   int served = work.team->ranks > 1 && work.team->threads && count > 0 && !schedule->alike;
   CW_TRY(served ? take_tasks(&work, &order) : deal_tasks(&work, &order));
   cw_team_most(work.team, 3 * count, &work.end->owner);
@@ -184,12 +189,12 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   CW_TRY(
       cw_profiler_tasks(context, schedule->step, count, schedule->cost, schedule->after, time, work.seconds, gathered));
   if (seconds) memcpy(seconds, time, (size_t)count * sizeof *time);
-  if (schedule->unit) cw_progress_end();
+  if (schedule->unit) cw_progress_end(work.log);
   cw_profiler_part(context, part);
 done:
   free(time);
   free(work.end);
   free_order(&order);
-  if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(status);
+  if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(cw_log_of(context), status);
   return status;
 }

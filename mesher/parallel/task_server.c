@@ -126,7 +126,7 @@ done:
   return status;
 }
 
-CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(int64_t ended)) {
+CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given) {
   CwPlaces places;
   if (server->team->rank > 0) {
     MPI_Request request;
@@ -138,7 +138,7 @@ CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(int64_t end
   pthread_mutex_lock(&server->lock);
   take_up(server, 0);
   for (;;) {
-    if (meanwhile) meanwhile(server->ended);
+    if (meanwhile) meanwhile(given, server->ended);
     if (!server->asks[0]) break;
     struct timespec end = after(SHOW_PAUSE);
     pthread_cond_timedwait(&server->answered, &server->lock, &end);

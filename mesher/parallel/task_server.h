@@ -31,8 +31,8 @@ CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTa
 // The places that this rank had last have ended; returns the next. They are so many that their cost is a quarter of a
 // rank's part of what is left at most, one at least (guided self-scheduling: Polychronopoulos and Kuck 1987), and one
 // where tasks wait for others. Waits asleep until there is one to be had or all have ended; on the first rank calls
-// `meanwhile` (may be NULL) with the number that have, before and a few times a second.
-CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(int64_t ended));
+// `meanwhile` (may be NULL) with `given` and the number that have, before and a few times a second.
+CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given);
 
 // After count 0 on all ranks. NULL is fine.
 void cw_task_server_stop(CwTaskServer *server);

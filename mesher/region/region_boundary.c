@@ -97,6 +97,7 @@ CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBounda
                        .size = from->in->size_at,
                        .size_context = from->in->size,
                        .name = name,
+                       .log = from->log,
                        .offset_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
                        .interface_count = inner->interface_count,
                        .bare_first = inner->wall_count,

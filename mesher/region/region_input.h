@@ -5,8 +5,10 @@
 #define CUTWATER_MESHER_REGION_REGION_INPUT_H
 
 #include "mesher/boundary/boundary.h"
+#include "pipeline/log.h"
 
 typedef struct {
+  CwLog *log; // of the rank that makes them
   const CwBoundaryInput *in;
   const CwWallCurves *wall_curves;
   const CwSurfaceMesh *surface;

@@ -125,6 +125,7 @@ void cw_learn_tets(CwMeshRun *run) {
     integral += cw_domain_tet_integral(&run->domain[d], run->scale);
   }
   cw_cell_law_learn(&run->tets, made * run->scale * run->scale * run->scale / integral, run->scale, 3);
-  cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals; exponents %.2f, %.2f",
+  cw_log_debug(run->context.log,
+               "%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals; exponents %.2f, %.2f",
                run->tets.factor, run->prisms.factor / run->layer_count, run->tets.exponent, run->prisms.exponent);
 }

@@ -90,7 +90,7 @@ done:
   return status;
 }
 
-CwStatus cw_domain_leave_bare(CwDomain *domain) {
+CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain) {
   CwStatus status = CW_OK;
   const CwBackground *background = &domain->background;
   CwBareFaces bare;
@@ -105,7 +105,8 @@ CwStatus cw_domain_leave_bare(CwDomain *domain) {
   if (bare.count == 0) goto done;
   for (int f = 0; f < cw_cad_face_count(domain->cad); f++)
     if (cw_cad_face_is_wall(domain->cad, f)) without += area[f];
-  cw_log_warn("%s: %d faces, %.2g %% of the wall, carry no layers: no direction sees all faces about a corner or an "
+  cw_log_warn(log,
+              "%s: %d faces, %.2g %% of the wall, carry no layers: no direction sees all faces about a corner or an "
               "edge of theirs and lies in the open faces there, first at (%.6g, %.6g, %.6g) mm of face '%s'",
               domain->name, bare.count, 100 * (walls - without) / walls, CW_MM(bare.at),
               cw_cad_face_name(domain->cad, bare.first));
@@ -229,17 +230,18 @@ done:
   return status;
 }
 
-CwRegionInput cw_domain_region_input(const CwDomain *domain) {
-  return (CwRegionInput){.in = &domain->input,
+CwRegionInput cw_domain_region_input(const CwDomain *domain, CwLog *log) {
+  return (CwRegionInput){.log = log,
+                         .in = &domain->input,
                          .wall_curves = &domain->wall_curves,
                          .surface = &domain->surface,
                          .layers = &domain->layers,
                          .interfaces = &domain->interfaces};
 }
 
-CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
+CwStatus cw_domain_share(CwLog *log, CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
-  domain->context = (CwRegionContext){.from = cw_domain_region_input(domain),
+  domain->context = (CwRegionContext){.from = cw_domain_region_input(domain, log),
                                       .domain = domain->name,
                                       .layer_count = domain->layer_count,
                                       .growth = domain->targets.growth,

@@ -11,6 +11,7 @@
 #include "mesher/size/size.h"
 #include "mesher/thickness/column_targets.h"
 #include "mesher/thickness/wall_targets.h"
+#include "pipeline/log.h"
 
 #define CW_LAYER_SHARE 1.0 // before the walls are known
 
@@ -80,7 +81,7 @@ double cw_domain_background_cost(const CwDomain *domain, int face);
 CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);
 // Walls on which no layers can stand become bare, with a warning.
-CwStatus cw_domain_leave_bare(CwDomain *domain);
+CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain);
 
 // Longest edge on walls of a patch, m: longer edges make prisms of small determinant.
 double cw_domain_longest_edge(const CwDomain *domain, int patch);
@@ -106,10 +107,10 @@ CwStatus cw_domain_targets(const CwContext *context, CwDomain *domain);
 CwStatus cw_domain_number(CwDomain *domain);
 
 // What the regions share, once their interfaces are final.
-CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
+CwStatus cw_domain_share(CwLog *log, CwDomain *domain, const CwCase *table);
 
-// The surfaces, for regions.
-CwRegionInput cw_domain_region_input(const CwDomain *domain);
+// The surfaces, for regions whose fill says what it does to `log`.
+CwRegionInput cw_domain_region_input(const CwDomain *domain, CwLog *log);
 
 void cw_domain_clear(CwDomain *domain); // the curve network and what follows from it
 void cw_domain_close(CwDomain *domain);

@@ -17,14 +17,14 @@ enum { WHERE_SIZE = 1500, TEXT_SIZE = 2500 };
 static const char *const SOURCE_NAMES[] = {"asked", "auto", "fitted", "laminar"};
 
 // A warning that is a headline too.
-static void tell(json_t *headlines, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void tell(json_t *headlines, const char *format, ...) {
+static void tell(CwLog *log, json_t *headlines, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void tell(CwLog *log, json_t *headlines, const char *format, ...) {
   char text[TEXT_SIZE];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
-  cw_log_warn("%s", text);
+  cw_log_warn(log, "%s", text);
   json_array_append_new(headlines, json_string(text));
 }
 
@@ -68,8 +68,7 @@ static void add(List *list, const char *format, ...) {
 // Whether an earlier wall patch of the same group has the same first height.
 static int is_told(const CwDomain *domain, int patch) {
   for (int q = 0; q < patch; q++) {
-    if (cw_cad_patch_kind(domain->cad, q) == CW_PATCH_WALL &&
-        domain->patch[q].group == domain->patch[patch].group &&
+    if (cw_cad_patch_kind(domain->cad, q) == CW_PATCH_WALL && domain->patch[q].group == domain->patch[patch].group &&
         domain->patch_target[q].first.height == domain->patch_target[patch].first.height)
       return 1;
   }
@@ -92,7 +91,7 @@ static void add_fitted(const CwPatchTarget *target, const char *patch, const cha
     add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus);
 }
 
-void cw_warn_of_first_heights(const CwDomain *domain, json_t *headlines) {
+void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {
   List laminar = {{0}, 0}, fitted = {{0}, 0};
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     const CwPatchTarget *target = &domain->patch_target[p];
@@ -103,14 +102,14 @@ void cw_warn_of_first_heights(const CwDomain *domain, json_t *headlines) {
       add_fitted(target, name, cw_patch_group_name(domain->patch[p].group), &fitted);
   }
   if (laminar.length)
-    tell(headlines,
+    tell(log, headlines,
          "%s: the flow is laminar where the Reynolds number of the passage is below %.0f (that of pipe flow, "
          "Schlichting "
          "and Gersten): %s. y+ means nothing there; the first height is %g of the passage's width, or as "
          "walls.first_height_blade_um and its like give it",
          domain->name, CW_LAMINAR_REYNOLDS, laminar.text, CW_LAMINAR_SHARE);
   if (fitted.length)
-    tell(headlines, "%s: first heights of which %d layers do not fit both walls become the greatest that do: %s",
+    tell(log, headlines, "%s: first heights of which %d layers do not fit both walls become the greatest that do: %s",
          domain->name, domain->layer_count, fitted.text);
 }
 
@@ -153,7 +152,7 @@ static const char *main_reason(const json_t *patch) {
   return gap >= fmax(gradation, repair) ? "gap" : gradation >= repair ? "gradation" : "repair";
 }
 
-void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headlines) {
+void cw_warn_of_missed(CwLog *log, const char *domain, const json_t *coverage, json_t *headlines) {
   List where = {{0}, 0};
   double all = 0, all_met = 0;
   size_t k;
@@ -167,12 +166,13 @@ void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headl
         100 * met / faces, main_reason(patch));
   }
   if (all_met >= LEAST_MET * all) return;
-  tell(headlines,
+  tell(log, headlines,
        "%s: only %.0f %% of the wall faces have their first height: %s; a lower y+ or walls.layer_count leaves room",
        domain, 100 * all_met / all, where.text);
 }
 
-void cw_warn_of_layers(const char *domain, int layers, int automatic, const json_t *coverage, json_t *headlines) {
+void cw_warn_of_layers(CwLog *log, const char *domain, int layers, int automatic, const json_t *coverage,
+                       json_t *headlines) {
   Jumps jumps = {0};
   size_t k;
   json_t *patch;
@@ -194,7 +194,7 @@ void cw_warn_of_layers(const char *domain, int layers, int automatic, const json
       "within: %s; %s",
       domain, CW_RATIO_FAIR, 100 * MOST_SHARE, CW_RATIO_MOST, jumps.where.text, remedy);
   if (jumps.over > MOST_SHARE * jumps.faces)
-    tell(headlines, "%s", text);
+    tell(log, headlines, "%s", text);
   else
-    cw_log_warn("%s", text);
+    cw_log_warn(log, "%s", text);
 }

@@ -8,6 +8,7 @@
 
 #include "mesher/region/layer_ratio.h"
 #include "mesher/run/domain.h"
+#include "pipeline/log.h"
 
 // Adds what the first height over a patch follows from to its entry of layer_coverage.
 void cw_put_first_height(const CwPatchTarget *target, json_t *patch);
@@ -16,14 +17,15 @@ void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch);
 
 // Warns, before anything is meshed, of walls in laminar flow, and of those whose asked first height does not fit the
 // passage.
-void cw_warn_of_first_heights(const CwDomain *domain, json_t *headlines);
+void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines);
 
 // Warns where less than 90 % of the wall faces of `coverage` (the domain's layer_coverage) have their first height.
-void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headlines);
+void cw_warn_of_missed(CwLog *log, const char *domain, const json_t *coverage, json_t *headlines);
 
 // Warns of the patches of `coverage` over which more than 5 % of the faces of the layer top exceed CW_RATIO_FAIR, any
 // exceeds CW_RATIO_MOST or any has a small weight, and names the key to change. `layers`: their number; automatic: the
 // case leaves it open. A headline where more than 5 % of all its faces exceed CW_RATIO_FAIR.
-void cw_warn_of_layers(const char *domain, int layers, int automatic, const json_t *coverage, json_t *headlines);
+void cw_warn_of_layers(CwLog *log, const char *domain, int layers, int automatic, const json_t *coverage,
+                       json_t *headlines);
 
 #endif

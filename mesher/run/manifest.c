@@ -136,7 +136,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
 static const double REMEDY_MOST = 100; // times the first height that anyone would ask for
 
 // One line for the user on all patches that have thin prisms.
-static void warn_of_thin(const char *domain, const json_t *coverage) {
+static void warn_of_thin(CwLog *log, const char *domain, const json_t *coverage) {
   char where[64 * CW_PATCHES_MOST] = "";
   int length = 0;
   json_int_t sum = 0;
@@ -162,7 +162,8 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
   if (wanted < REMEDY_MOST)
     snprintf(remedy, sizeof remedy, "%.1f times the first height, or with edges as much shorter",
              0.1 * ceil(10 * wanted));
-  cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s; the "
+  cw_log_warn(log,
+              "%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s; the "
               "thinnest at (%.3f, %.3f, %.3f) mm). They are sound; it would name none with %s",
               domain, (long long)sum, where, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], remedy);
 }
@@ -216,8 +217,8 @@ static void put_balance(const CwMeshRun *run, int d, json_t *result) {
   json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted.most / predicted_mean));
   json_object_set_new(result, "region_balance_least_predicted", cw_json_number(predicted.least / predicted_mean));
   json_object_set_new(result, "region_prediction_error", cw_json_number(error));
-  cw_log("%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name, made.least / mean,
-         made.most / mean, predicted.least / predicted_mean, predicted.most / predicted_mean);
+  cw_log(run->context.log, "%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name,
+         made.least / mean, made.most / mean, predicted.least / predicted_mean, predicted.most / predicted_mean);
 }
 
 // Counts, volumes and quality of all regions together.
@@ -240,9 +241,9 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
-      domain->interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3",
-      metres_json(quality.volume, 3), "solid_volume_m3", metres_json(solid, 3), "volume_error",
-      cw_json_number(quality.volume / solid - 1), "least_cell_volume_m3", metres_json(quality.least_volume, 3));
+      domain->interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3", metres_json(quality.volume, 3),
+      "solid_volume_m3", metres_json(solid, 3), "volume_error", cw_json_number(quality.volume / solid - 1),
+      "least_cell_volume_m3", metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
@@ -273,9 +274,10 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
                                              cw_patch_kind_name(kind), "area_m2", metres_json(area, 2)));
     if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
-  warn_of_thin(domain->name, coverage);
-  cw_warn_of_missed(domain->name, coverage, run->headlines);
-  cw_warn_of_layers(domain->name, domain->layer_count, run->table->walls.layer_count == 0, coverage, run->headlines);
+  warn_of_thin(run->context.log, domain->name, coverage);
+  cw_warn_of_missed(run->context.log, domain->name, coverage, run->headlines);
+  cw_warn_of_layers(run->context.log, domain->name, domain->layer_count, run->table->walls.layer_count == 0, coverage,
+                    run->headlines);
   json_object_set_new(result, "patches", patches);
   json_object_set_new(result, "layer_coverage", coverage);
   double predicted_sum = 0;

@@ -79,7 +79,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
   cw_profiler_part(&run->context, "background joined");
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
-    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
+    cw_log(run->context.log, "%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
            run->domain[d].background.triangle_count);
   }
   settle_base_size(run);
@@ -98,9 +98,9 @@ static CwStatus find_symmetry(CwMeshRun *run) {
     CwDomain *domain = &run->domain[d];
     CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
     if (domain->symmetry)
-      cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
+      cw_log(run->context.log, "%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
     else if (run->model.domain[d].rotating)
-      cw_log("%s: no equal passages; it is meshed whole", domain->name);
+      cw_log(run->context.log, "%s: no equal passages; it is meshed whole", domain->name);
   }
 done:
   return status;
@@ -141,7 +141,7 @@ static void field_cost(const CwDomain *domain, double *cost) {
 static int walls_limit(const CwMeshRun *run, double scale) {
   double wanted = 0, asked = 0;
   for (int d = 0; d < run->model.domain_count; d++) cw_domain_walls_ask(&run->domain[d], scale, &wanted, &asked);
-  cw_log_debug("size field: walls ask for %.2f times as many prisms", asked / wanted);
+  cw_log_debug(run->context.log, "size field: walls ask for %.2f times as many prisms", asked / wanted);
   return asked <= cw_policy.prisms_asked * wanted;
 }
 
@@ -165,8 +165,8 @@ static CwStatus hold_gradation(CwMeshRun *run) {
     run->gradation = allowed / made_for;
     if (round == 0 ? walls_limit(run, made_for) : run->wall_scale > 0)
       run->wall_scale = fmin(made_for, greatest) * (1 + GRADATION_TOLERANCE);
-    cw_log_debug("size field: scale %.4f, made again with a gradation of %.4f, walls at %.3f", run->scale,
-                 run->gradation, run->wall_scale);
+    cw_log_debug(run->context.log, "size field: scale %.4f, made again with a gradation of %.4f, walls at %.3f",
+                 run->scale, run->gradation, run->wall_scale);
     CW_TRY(run_parts(run, "size field", cw_step_size, parts, field_cost, &results));
     for (int d = 0; d < run->model.domain_count; d++)
       CW_TRY(cw_domain_take_field(&run->context, &run->domain[d], made_for, results.bytes[d]));
@@ -215,7 +215,7 @@ static CwStatus settle_unit(CwMeshRun *run) {
   int power = cw_model_unit_power(extent);
   cw_model_unit_set(power);
   for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, -power));
-  cw_log_debug("the model reaches over %.6g mm; the unit of lengths is 2^%d m", 1e3 * extent, power);
+  cw_log_debug(run->context.log, "the model reaches over %.6g mm; the unit of lengths is 2^%d m", 1e3 * extent, power);
 done:
   return status;
 }
@@ -240,16 +240,17 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   CW_TRY(settle_unit(run));
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_ask(&run->domain[d], run->table));
-    cw_warn_of_first_heights(&run->domain[d], run->headlines);
+    cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
   }
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->model.domain_count, "domains"));
   CW_TRY(triangulate_domains(run));
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(&run->domain[d]));
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
   if (run->table->walls.layer_count == 0)
-    cw_log("layers: %d lead from the first height to the size of the tetrahedra%s", run->layer_count, y_plus_text(run));
+    cw_log(run->context.log, "layers: %d lead from the first height to the size of the tetrahedra%s", run->layer_count,
+           y_plus_text(run));
 done:
   return status;
 }
@@ -288,7 +289,8 @@ done:
 // Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
 static CwStatus plan_whole(CwMeshRun *run, int d, const char *reason) {
   CwStatus status = CW_OK;
-  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name, reason);
+  cw_log(run->context.log, "%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name,
+         reason);
   cw_domain_clear(&run->domain[d]); // what hangs on the symmetry goes first
   cw_symmetry_free(&run->domain[d].symmetry);
   run->whole = 1;
@@ -312,12 +314,13 @@ static void log_plan(const CwMeshRun *run, int d) {
   for (int32_t n = 0; n < domain->plan.node_count; n++) {
     const CwPlane *plane = &domain->plan.node[n].plane;
     worst = fmin(worst, domain->plan.worst_angle[n]);
-    cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+    cw_log_debug(run->context.log,
+                 "%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
                  n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
                  cw_mm(plane->offset), asin(domain->plan.worst_angle[n]) * 180 / M_PI);
   }
-  cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
-         domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+  cw_log(run->context.log, "%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls",
+         domain->name, domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
 }
 
 // Whether a domain is small enough to be one region: as large as a case file may ask regions to be.
@@ -334,12 +337,12 @@ CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
   CW_REQUIRE(domain->more_regions != CW_UNDIVIDED, CW_ERR_MESH, "%s: %s; after %d other plans, undivided too",
              domain->name, reason, PLANS_MORE);
   if (domain->more_regions < PLANS_MORE) {
-    cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
+    cw_log_warn(run->context.log, "%s: %s; planned again with one region more", domain->name, reason);
     domain->more_regions++;
   } else {
     CW_REQUIRE(fits_one_region(run, why->domain), CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
                PLANS_MORE);
-    cw_log_warn("%s: %s; meshed undivided after %d other plans", domain->name, reason, PLANS_MORE);
+    cw_log_warn(run->context.log, "%s: %s; meshed undivided after %d other plans", domain->name, reason, PLANS_MORE);
     domain->more_regions = CW_UNDIVIDED;
   }
   run->retries++;
@@ -353,7 +356,8 @@ static void warn_of_few_cells(const CwMeshRun *run, int d) {
   double cells = cw_predicted_cells(run, d);
   int asked = run->table->mesh.least_regions, least = cw_domain_least_regions(run->table, cells);
   if (least == asked) return;
-  cw_log_warn("%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more",
+  cw_log_warn(run->context.log,
+              "%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more",
               run->domain[d].name, asked, least, cells);
 }
 
@@ -396,10 +400,10 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
                       .run = plan_item,
                       .hand = hand_plan,
                       .given = run};
-  cw_progress_start("decomposition", run->model.domain_count, "domains");
+  cw_progress_start(run->context.log, "decomposition", run->model.domain_count, "domains");
   CW_TRY(cw_groups_run(&run->context, &work, outcome));
-  cw_progress(run->model.domain_count);
-  cw_progress_end();
+  cw_progress(run->context.log, run->model.domain_count);
+  cw_progress_end(run->context.log);
   for (int d = 0; d < run->model.domain_count; d++) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     warn_of_few_cells(run, d);

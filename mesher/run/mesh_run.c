@@ -56,7 +56,7 @@ static CwStatus mend_flat(CwMeshRun *run, CwThinPlaces *places) {
     places->count = 0;
     CW_TRY(cw_thin_places_flat(run, places, &deficit));
     if (places->count == 0) break;
-    cw_log("%d regions have tetrahedra below %.0f degrees; made again with thinner layers there", places->count,
+    cw_log(run->context.log, "%d regions have tetrahedra below %.0f degrees; made again with thinner layers there", places->count,
            cw_policy.flat_angle);
     CW_TRY(cw_thinning_copy(run, kept));
     CW_TRY(cw_thin_flat(run, places));
@@ -121,7 +121,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   cw_start_factors(run);
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->model, fingerprint));
-  cw_pass_state_read(run->run_path, fingerprint, &state);
+  cw_pass_state_read(run->context.log, run->run_path, fingerprint, &state);
   for (int d = 0; d < run->model.domain_count; d++) run->domain[d].more_regions = state.more_regions[d];
   CW_TRY(cw_stage_view(run, CW_STAGE_SIZE));
   if (run->stopped) goto done;
@@ -132,19 +132,20 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->prisms = state.prisms;
     run->tets = state.tets;
     cw_mesh_solve_scale(run);
-    cw_log("going on with pass %d of an earlier run", state.pass);
+    cw_log(run->context.log, "going on with pass %d of an earlier run", state.pass);
     if (state.whole) CW_TRY(cw_mesh_plan_whole(run, "as in the run that this one goes on from"));
   }
   for (run->passes = state.pass;; run->passes++) {
     CW_TRY(mesh_pass(run));
     if (run->stopped) goto done;
     double off = (double)run->cells / asked - 1;
-    cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
+    cw_log(run->context.log, "pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells,
+           100 * off, asked);
     cw_learn_tets(run);
     if (count_is_met(run)) break;
     if (run->passes == PASSES_MOST) {
-      cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off,
-                  asked, run->passes);
+      cw_log_warn(run->context.log, "%lld cells made, %.1f %% off the asked %.0f after %d passes",
+                  (long long)run->cells, 100 * off, asked, run->passes);
       break;
     }
     // As many digits as the file keeps, so that a run that goes on from it has the same bits.

@@ -45,7 +45,7 @@ CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *s
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   const CwDomain *domain = &run->domain[task.domain];
   char name[64];
-  const CwRegionInput from = cw_domain_region_input(domain);
+  const CwRegionInput from = cw_domain_region_input(domain, run->context.log);
   snprintf(name, sizeof name, "%s region %d", domain->name, task.index + 1);
   return cw_interface_rule(&from, domain->number, task.index, name, bytes, size);
 }

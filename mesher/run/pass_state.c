@@ -72,12 +72,12 @@ static json_t *law_packed(const CwCellLaw *law) {
   return json_pack("{s:f, s:f, s:f}", "factor", law->factor, "scale", law->scale, "exponent", law->exponent);
 }
 
-void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state) {
+void cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   json_t *file = NULL;
   if (access(path, F_OK) == 0 && cw_sealed_json_read(path, &file) != CW_OK)
-    cw_log_warn("%s; the passes begin anew", cw_fail_message());
+    cw_log_warn(log, "%s; the passes begin anew", cw_fail_message());
   const char *of = json_string_value(json_object_get(file, "fingerprint"));
   json_int_t pass = json_integer_value(json_object_get(file, "pass"));
   CwCellLaw prisms = law_in(json_object_get(file, "prisms")), tets = law_in(json_object_get(file, "tetrahedra"));

@@ -6,6 +6,7 @@
 
 #include "mesher/run/cell_law.h"
 #include "pipeline/hash.h"
+#include "pipeline/log.h"
 #include "pipeline/model.h"
 
 typedef struct {
@@ -21,7 +22,7 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
 
 // Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise, with a
 // warning where it is damaged. Never fails.
-void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state);
+void cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state);
 
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state);
 

@@ -75,7 +75,7 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   CW_NEW(task, all);
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
-    const CwRegionInput from = cw_domain_region_input(domain);
+    const CwRegionInput from = cw_domain_region_input(domain, run->context.log);
     for (int32_t r = 0; r < regions[d]; r++) {
       int refines = 0;
       for (int32_t i = 0; i < domain->interfaces.outline_count; i++)
@@ -92,7 +92,8 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
                                    &domain->rule));
     CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
     if (domain->rule.planned == 0) continue;
-    cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
+    cw_log(run->context.log,
+           "%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
            "centres inserted %lld, triangles left to both sides %lld",
            domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
            (long long)domain->rule.inserted, (long long)domain->rule.left);

@@ -110,11 +110,11 @@ CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
                       .run = grow,
                       .hand = hand_layers,
                       .given = run};
-  cw_progress_start("layers", faces, "wall faces");
+  cw_progress_start(run->context.log, "layers", faces, "wall faces");
   CW_TRY(cw_groups_run(&run->context, &work, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
-  if (outcome->kind == CW_OUTCOME_DONE) cw_progress(faces);
-  cw_progress_end();
+  if (outcome->kind == CW_OUTCOME_DONE) cw_progress(run->context.log, faces);
+  cw_progress_end(run->context.log);
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->model.domain_count, "domains"));

@@ -29,7 +29,8 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   uint64_t open_faces[CW_DOMAINS_MOST] = {0};
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
   cw_profiler_part(&run->context, "points that regions share");
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+  for (int d = 0; d < run->model.domain_count; d++)
+    CW_TRY(cw_domain_share(run->context.log, &run->domain[d], run->table));
   for (int d = 0; d < run->model.domain_count; d++) {
     regions[d] = run->domain[d].plan.region_count;
     all += regions[d];
@@ -65,7 +66,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
     if (after[i] < 0) take_summaries(run, task[i].domain, task[i].index, made);
     strcpy(run->summary[task[i].domain][task[i].index].digest, made->digest); // each copy its own
-    if (made->damage[0] && run->rank == 0) cw_log_warn("%s; it is made again", made->damage);
+    if (made->damage[0] && run->rank == 0) cw_log_warn(run->context.log, "%s; it is made again", made->damage);
     open_faces[task[i].domain] += made->quality.open_faces;
     if (made->failure.failed) outcome->kind = CW_OUTCOME_THIN;
   }

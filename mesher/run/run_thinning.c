@@ -125,7 +125,7 @@ static CwStatus lower(CwMeshRun *run, const CwThinPlace *place, int attempt, con
   CwStatus status = CW_OK;
   int d = place->domain;
   CW_TRY(start_thinning(run, d));
-  const CwRegionInput from = cw_domain_region_input(&run->domain[d]);
+  const CwRegionInput from = cw_domain_region_input(&run->domain[d], NULL);
   cw_region_failure_thin(&from, place->region, &place->failure, cw_policy.thin_reach * (double)(1 << attempt), least,
                          run->most_thickness[d]);
 done:
@@ -161,7 +161,8 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
     outcome->domain = d;
     CW_END_UNLESS(attempt < ATTEMPTS, outcome, CW_OUTCOME_REPLAN, NULL, "%s; after %d attempts with thinner layers%s",
                   text, ATTEMPTS, file);
-    if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
+    if (run->rank == 0 && is_told(places, i))
+      cw_log_warn(run->context.log, "%s; tried again with thinner layers there", text);
     CW_TRY(lower(run, place, attempt, NULL));
   }
   lowered(run);

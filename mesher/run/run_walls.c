@@ -66,15 +66,15 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     }
     CW_TRY(cw_run_thickness(run));
     for (int d = 0; d < run->model.domain_count; d++) {
-      cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
+      cw_log_debug(run->context.log, "%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
                    run->domain[d].layer_share);
       triangles += run->domain[d].surface.triangle_count;
     }
     cw_results_free(&results);
     cw_learn_prisms(run, triangles);
     double off = cw_predicted_off(run);
-    cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
-           run->scale, 100 * off);
+    cw_log(run->context.log, "surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted",
+           (long long)triangles, run->scale, 100 * off);
     if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
     cw_mesh_solve_scale(run);
   }

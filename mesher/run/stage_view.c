@@ -36,7 +36,7 @@ static CwStatus write_product(const CwMeshRun *run, int d, CwStage stage) {
   if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&domain->surface, path));
   if (stage == CW_STAGE_LAYERS) CW_TRY(cw_layers_vtk(&domain->layers, domain->surface.region, path));
   if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&domain->interfaces, path));
-  cw_log("%s: written", path);
+  cw_log(run->context.log, "%s: written", path);
 done:
   return status;
 }
@@ -46,7 +46,7 @@ CwStatus cw_stage_view(CwMeshRun *run, CwStage stage) {
   if (run->stop_after != stage) goto done;
   run->stopped = 1;
   for (int d = 0; run->vtk && run->rank == 0 && d < run->model.domain_count; d++) CW_TRY(write_product(run, d, stage));
-  cw_log("ended after the stage %s, as asked; there is no mesh", NAMES[stage]);
+  cw_log(run->context.log, "ended after the stage %s, as asked; there is no mesh", NAMES[stage]);
 done:
   return status;
 }

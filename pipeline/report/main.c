@@ -41,7 +41,7 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *r
   CW_TRY(cw_report_data_read(args->run_path, table, &data));
   CW_TRY(cw_report_sizes(&data, &sizes));
   CW_TRY(require_content(&data));
-  CW_TRY(cw_report_pictures_draw(&data.mesh, &sizes, &data.flow, &data.pictures, &data.view));
+  CW_TRY(cw_report_pictures_draw(args->log, &data.mesh, &sizes, &data.flow, &data.pictures, &data.view));
   drawn = cw_seconds();
   CW_TRY(cw_stage_path(args, "report/index.html", &path));
   CW_TRY(cw_stage_path(args, "report/record.json", &record_path));
@@ -51,7 +51,7 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *r
   CW_TRY(cw_record_step(record, "pictures", drawn - started, data.pictures.count, "pictures"));
   CW_TRY(cw_record_step(record, "page", cw_seconds() - drawn, 1, "files"));
   CW_TRY(cw_record_write(record, record_path));
-  cw_log("%d pictures, page written to %s in %.1f s", data.pictures.count, path, cw_seconds() - started);
+  cw_log(args->log, "%d pictures, page written to %s in %.1f s", data.pictures.count, path, cw_seconds() - started);
 done:
   cw_atomic_file_abandon(&file);
   cw_report_data_free(&data);
@@ -67,11 +67,11 @@ int main(int argc, char **argv) {
   CwRecord *record = NULL;
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
   if (args.finished) goto done;
-  CW_TRY(cw_record_start("report", &record));
+  CW_TRY(cw_record_start("report", args.log, &record));
   CW_TRY(report(&args, &table, record));
 done:;
-  int code = cw_log_error(status);
+  int code = cw_log_error(args.log, status);
   cw_record_free(record);
-  cw_log_close();
+  cw_log_close(&args.log);
   return code;
 }

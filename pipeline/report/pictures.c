@@ -21,7 +21,7 @@ typedef struct {
   CwCameraReach reach;
   CwCutPlane plane;
   CwCanvas canvas;
-  const char *lacking; // what is not there; then nothing is drawn
+  const char *lacking;            // what is not there; then nothing is drawn
   unsigned part[CW_DOMAINS_MOST]; // CW_SEES_ROTOR and so on
   char hidden[CW_DOMAINS_MOST][PATCHES];
   char seen[CW_DOMAINS_MOST][PATCHES];
@@ -402,11 +402,12 @@ done:
   return status;
 }
 
-static CwStatus draw_all(const CwMesh *mesh, const CwSurvey *survey, CwFlow *flow, Drawing *drawings, CwView *view) {
+static CwStatus draw_all(CwLog *log, const CwMesh *mesh, const CwSurvey *survey, CwFlow *flow, Drawing *drawings,
+                         CwView *view) {
   CwStatus status = CW_OK;
   double *share[2] = {NULL, NULL};
   CwRegionData cells = {0};
-  cw_progress_start("pictures", mesh->region_count, "regions");
+  cw_progress_start(log, "pictures", mesh->region_count, "regions");
   for (int r = 0; r < mesh->region_count; r++) {
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &cells));
     if (flow->present) CW_TRY(cw_flow_faces(flow, mesh, r, &cells, share));
@@ -423,16 +424,16 @@ static CwStatus draw_all(const CwMesh *mesh, const CwSurvey *survey, CwFlow *flo
       free(share[q]);
       share[q] = NULL;
     }
-    cw_progress(r + 1);
+    cw_progress(log, r + 1);
   }
-  cw_progress_end();
+  cw_progress_end(log);
 done:
   cw_mesh_region_free(&cells);
   for (int q = 0; q < 2; q++) free(share[q]);
   return status;
 }
 
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
+CwStatus cw_report_pictures_draw(CwLog *log, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
                                  CwReportPictures *pictures, CwView *view) {
   CwStatus status = CW_OK;
   Drawing *drawings = NULL;
@@ -465,11 +466,10 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, C
     if (!drawings[k].lacking)
       CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
   }
-  CW_TRY(draw_all(mesh, survey, flow, drawings, view));
+  CW_TRY(draw_all(log, mesh, survey, flow, drawings, view));
   CW_TRY(cw_view_finish(view, mesh));
   for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
-    view->quantity[view->quantity_count++] =
-        (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
+    view->quantity[view->quantity_count++] = (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwPictureSpec *spec = drawings[k].spec;
     CwReportPicture *picture = &pictures->picture[k];

@@ -3,6 +3,7 @@
 #ifndef CUTWATER_PIPELINE_REPORT_PICTURES_H
 #define CUTWATER_PIPELINE_REPORT_PICTURES_H
 
+#include "pipeline/log.h"
 #include "pipeline/mesh/region_read.h"
 #include "pipeline/report/flow.h"
 #include "pipeline/report/picture_list.h"
@@ -36,7 +37,7 @@ typedef struct {
 
 // Reads every region twice and draws, also the flow, where there is one; *view, zeroed, gets the picture that turns.
 // Free with cw_report_pictures_free and cw_view_free, also after a failure.
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
+CwStatus cw_report_pictures_draw(CwLog *log, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
                                  CwReportPictures *pictures, CwView *view);
 void cw_report_pictures_free(CwReportPictures *pictures);
 

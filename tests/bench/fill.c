@@ -27,6 +27,8 @@
 #include "pipeline/log.h"
 #include "tests/mesher/closed_surfaces.h"
 
+static CwLog *test_log;
+
 typedef struct {
   int32_t point_count, triangle_count, tetrahedron_count;
   double (*x)[3];
@@ -425,7 +427,7 @@ int main(int argc, char **argv) {
   } else if (argc == 4 && (!strcmp(argv[1], "kernel") || !strcmp(argv[1], "tetgen"))) {
     CwSizeGrid grid;
     CwFill fill;
-    check(cw_log_open("bench", NULL, 1, getenv("CUTWATER_VERBOSE") != NULL));
+    check(cw_log_open("bench", NULL, 1, getenv("CUTWATER_VERBOSE") != NULL, &test_log));
     read_mesh(argv[2], &mesh);
     make_size(&mesh, atof(argv[3]), &grid);
     fill_box();

@@ -66,7 +66,7 @@ static CwStatus write_geometry(const CwCase *table, const TopoDS_Shape &solid, c
   FILE *out = nullptr;
   model.unit = 1e-3;
   model.flow = CwModelFlow{1, 0.1, 1, 0.1, 0.2, 1};
-  CW_TRY(cw_record_start("geometry", &record));
+  CW_TRY(cw_record_start("geometry", NULL, &record));
   CW_TRY(cw_model_add_domain(&model, "part", 0));
   CW_TRY(cw_model_add_patch(&model, "walls", CW_PATCH_WALL, &patch));
   patch->flow = CwWallFlow{5, 0.2, 0.1, 0.1, 0}; // as far apart as the case's first height asks
@@ -94,8 +94,8 @@ static CwStatus write_solid(const CwCase *table, const CwCadBody &body, const st
   GProp_GProps properties;
   const std::string run = folder + "/" + std::to_string(number);
   const int pieces = PIECES;
-  CW_TRY(cw_cad_heal(TOLERANCE, &FRAME, &parts, &fault));
-  CW_TRY(cw_cad_divide(&pieces, &FRAME, &parts));
+  CW_TRY(cw_cad_heal(TOLERANCE, &FRAME, nullptr, &parts, &fault));
+  CW_TRY(cw_cad_divide(&pieces, &FRAME, nullptr, &parts));
   mkdir(run.c_str(), 0777);
   mkdir((run + "/geometry").c_str(), 0777);
   CW_TRY(write_geometry(table, parts.part[0].solid, run + "/geometry", cw_cad_faces(parts.part[0].solid).Extent()));
@@ -115,12 +115,11 @@ int main(int argc, char **argv) {
   CwStatus status = cw_case_read(argv[1], &table);
   if (status == CW_OK) status = cw_cad_guard(argv[2], [&] { return read(argv[2], argv[3], &bodies); });
   for (size_t i = 0; status == CW_OK && i < bodies->body.size(); i++) {
-    const CwStatus one =
-        cw_cad_guard("cad", [&] { return write_solid(&table, bodies->body[i], argv[3], (int)i + 1); });
+    const CwStatus one = cw_cad_guard("cad", [&] { return write_solid(&table, bodies->body[i], argv[3], (int)i + 1); });
     if (one != CW_OK) std::printf("solid %d refused: %s\n", (int)i + 1, cw_fail_message());
     std::fflush(stdout); // a crash in a later solid keeps those before
   }
   std::cout.rdbuf(said);
   cw_cad_bodies_free(&bodies);
-  return status == CW_OK ? 0 : cw_log_error(status);
+  return status == CW_OK ? 0 : cw_log_error(NULL, status);
 }

@@ -36,5 +36,5 @@ int main(int argc, char **argv) {
   CW_REQUIRE(argc == 2, CW_ERR_USAGE, "usage: seal_files FOLDER");
   CW_TRY(seal(argv[1]));
 done:
-  return status == CW_OK ? 0 : cw_log_error(status);
+  return status == CW_OK ? 0 : cw_log_error(NULL, status);
 }

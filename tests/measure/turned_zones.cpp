@@ -47,8 +47,7 @@ static TopoDS_Shape turn(const Profile &profile) {
   for (int quarter = 0; quarter < 4; quarter++) {
     double angle = quarter * M_PI / 2;
     BRepBuilderAPI_MakePolygon polygon;
-    for (const auto &p : profile)
-      polygon.Add(gp_Pnt(p.first * std::cos(angle), p.first * std::sin(angle), p.second));
+    for (const auto &p : profile) polygon.Add(gp_Pnt(p.first * std::cos(angle), p.first * std::sin(angle), p.second));
     polygon.Close();
     TopoDS_Shape part = BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(),
                                               gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), M_PI / 2)
@@ -141,7 +140,7 @@ static CwStatus write_geometry(const CwCase *table, const std::string &folder) {
   model.unit = 1e-3;
   model.flow = CwModelFlow{2, 0.08, 5, 0.02, 0.1, 1};
   std::fputs("domain,face,patch,kind,name\n", faces);
-  CW_TRY(cw_record_start("geometry", &record));
+  CW_TRY(cw_record_start("geometry", NULL, &record));
   for (const Zone &zone : make_zones()) CW_TRY(write_zone(zone, folder, faces, record, &model));
   CW_TRY(cw_model_add_interface(&model, cone, CW_SURFACE_OTHER, 0));
   CW_TRY(cw_model_add_interface(&model, plane, CW_SURFACE_PLANE, 0));
@@ -168,5 +167,5 @@ int main(int argc, char **argv) {
   mkdir(folder.c_str(), 0777);
   CwStatus status = cw_case_read(argv[1], &table);
   if (status == CW_OK) status = write_geometry(&table, folder);
-  return status == CW_OK ? 0 : cw_log_error(status);
+  return status == CW_OK ? 0 : cw_log_error(NULL, status);
 }

@@ -36,7 +36,7 @@ struct DomainSurfaces {
     cw_network_free(&network);
   }
   CwRegionInput regions() const {
-    return {&input, &wall_curves, &surface, &layers, &interfaces};
+    return {nullptr, &input, &wall_curves, &surface, &layers, &interfaces};
   }
 };
 

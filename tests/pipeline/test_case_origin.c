@@ -29,7 +29,7 @@ static int make_run(void **state) {
   snprintf(folder, sizeof folder, "%s/geometry", run);
   snprintf(path, sizeof path, "%s/record.json", folder);
   assert_int_equal(cw_make_directory(folder), CW_OK);
-  assert_int_equal(cw_record_start("geometry", &record), CW_OK);
+  assert_int_equal(cw_record_start("geometry", NULL, &record), CW_OK);
   assert_int_equal(cw_record_case(record, &paper), CW_OK);
   assert_int_equal(cw_record_write(record, path), CW_OK);
   cw_record_free(record);

@@ -17,6 +17,8 @@
 
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { TEXT_SIZE = 16384 };
 
 static char folder[] = CUTWATER_BIN_DIR "/log-XXXXXX";
@@ -84,13 +86,13 @@ static void lines_go_to_standard_error_and_to_the_copy(void **state) {
   char seen[TEXT_SIZE], copy[TEXT_SIZE];
   int file = open_capture();
   capture_start(file);
-  CwStatus status = cw_log_open("mesh", copy_path, 1, 0);
-  cw_log("reading %d regions", 12);
-  cw_log_debug("not shown");
-  cw_log_warn("the gap is narrow: %g mm", 0.5);
-  cw_log("two\nlines\tin one");
+  CwStatus status = cw_log_open("mesh", copy_path, 1, 0, &test_log);
+  cw_log(test_log, "reading %d regions", 12);
+  cw_log_debug(test_log, "not shown");
+  cw_log_warn(test_log, "the gap is narrow: %g mm", 0.5);
+  cw_log(test_log, "two\nlines\tin one");
   CW_FAIL(CW_ERR_MESH, "region 3: no layers");
-  int code = cw_log_error(CW_ERR_MESH);
+  int code = cw_log_error(test_log, CW_ERR_MESH);
   capture_end();
   read_capture(file, seen);
   assert_int_equal(status, CW_OK);
@@ -101,43 +103,43 @@ static void lines_go_to_standard_error_and_to_the_copy(void **state) {
                             "cutwater-mesh: error: region 3: no layers\n");
   read_copy(copy); // whole before the log is closed: a killed run leaves its lines
   assert_string_equal(copy, seen);
-  assert_int_equal(cw_log_warning_count(), 1);
-  assert_string_equal(cw_log_warning(0), "the gap is narrow: 0.5 mm");
-  assert_string_equal(cw_log_warning(1), "");
-  cw_log_close();
-  assert_int_equal(cw_log_warning_count(), 0);
+  assert_int_equal(cw_log_warning_count(test_log), 1);
+  assert_string_equal(cw_log_warning(test_log, 0), "the gap is narrow: 0.5 mm");
+  assert_string_equal(cw_log_warning(test_log, 1), "");
+  cw_log_close(&test_log);
+  assert_int_equal(cw_log_warning_count(test_log), 0);
 }
 
 static void verbose_adds_debug_lines_and_the_trace(void **state) {
   char seen[TEXT_SIZE];
   int file = open_capture();
   capture_start(file);
-  cw_log_open("mesh", NULL, 1, 1);
-  cw_log_debug("shown");
+  cw_log_open("mesh", NULL, 1, 1, &test_log);
+  cw_log_debug(test_log, "shown");
   CW_FAIL(CW_ERR_MESH, "broken");
-  cw_log_error(CW_ERR_MESH);
+  cw_log_error(test_log, CW_ERR_MESH);
   capture_end();
-  cw_log_close();
+  cw_log_close(&test_log);
   read_capture(file, seen);
   assert_non_null(strstr(seen, "cutwater-mesh: shown\ncutwater-mesh: error: broken\n"));
   assert_non_null(strstr(seen, "test_log.c:"));
 }
 
 static void quiet_ranks_keep_lines_for_others(void **state) {
-  cw_log_open("mesh", NULL, 0, 1);
-  cw_log_keep(1);
-  cw_log_debug("one");
-  cw_log_debug("two\nlines");
-  cw_log_keep(0);
-  cw_log_debug("not kept");
-  assert_string_equal(cw_log_kept(), "one\ntwo lines\n");
-  cw_log_drop_kept();
-  assert_string_equal(cw_log_kept(), "");
-  cw_log_open("mesh", NULL, 0, 0);
-  cw_log_keep(1);
-  cw_log_debug("nobody asked");
-  assert_string_equal(cw_log_kept(), "");
-  cw_log_close();
+  cw_log_open("mesh", NULL, 0, 1, &test_log);
+  cw_log_keep(test_log, 1);
+  cw_log_debug(test_log, "one");
+  cw_log_debug(test_log, "two\nlines");
+  cw_log_keep(test_log, 0);
+  cw_log_debug(test_log, "not kept");
+  assert_string_equal(cw_log_kept(test_log), "one\ntwo lines\n");
+  cw_log_drop_kept(test_log);
+  assert_string_equal(cw_log_kept(test_log), "");
+  cw_log_open("mesh", NULL, 0, 0, &test_log);
+  cw_log_keep(test_log, 1);
+  cw_log_debug(test_log, "nobody asked");
+  assert_string_equal(cw_log_kept(test_log), "");
+  cw_log_close(&test_log);
 }
 
 static void quiet_ranks_print_errors_only(void **state) {
@@ -145,52 +147,52 @@ static void quiet_ranks_print_errors_only(void **state) {
   int file = open_capture();
   unlink(copy_path);
   capture_start(file);
-  cw_log_open("mesh", copy_path, 0, 1);
-  cw_log("line");
-  cw_log_debug("line");
-  cw_log_warn("kept");
-  cw_progress_start("fill", 3, "regions");
-  cw_progress(3);
-  cw_progress_end();
+  cw_log_open("mesh", copy_path, 0, 1, &test_log);
+  cw_log(test_log, "line");
+  cw_log_debug(test_log, "line");
+  cw_log_warn(test_log, "kept");
+  cw_progress_start(test_log, "fill", 3, "regions");
+  cw_progress(test_log, 3);
+  cw_progress_end(test_log);
   cw_fail_clear();
-  int code = cw_log_error(CW_ERR_MEMORY);
+  int code = cw_log_error(test_log, CW_ERR_MEMORY);
   capture_end();
   read_capture(file, seen);
   assert_string_equal(seen, "cutwater-mesh: error: out of memory\n"); // without a message: the code's text
   assert_int_equal(code, CW_ERR_MEMORY);
-  assert_int_equal(cw_log_warning_count(), 1);
+  assert_int_equal(cw_log_warning_count(test_log), 1);
   assert_int_not_equal(access(copy_path, F_OK), 0);
-  assert_int_equal(cw_log_error(CW_OK), 0);
+  assert_int_equal(cw_log_error(test_log, CW_OK), 0);
   file = open_capture();
   capture_start(file);
-  code = cw_log_error(CW_ERR_RANK);
+  code = cw_log_error(test_log, CW_ERR_RANK);
   capture_end();
   read_capture(file, seen);
   assert_string_equal(seen, ""); // the rank that failed has told
   assert_int_equal(code, CW_ERR_RANK);
-  cw_log_close();
+  cw_log_close(&test_log);
 }
 
 static void copy_that_cannot_be_written_is_an_error(void **state) {
-  assert_int_equal(cw_log_open("mesh", "/proc/none/mesh.log", 1, 0), CW_ERR_IO);
+  assert_int_equal(cw_log_open("mesh", "/proc/none/mesh.log", 1, 0, &test_log), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "/proc/none"));
-  cw_log_close();
+  cw_log_close(&test_log);
 }
 
 static void progress_off_a_terminal_prints_few_plain_lines(void **state) {
   char seen[TEXT_SIZE], copy[TEXT_SIZE];
   int file = open_capture();
   capture_start(file);
-  cw_log_open("mesh", copy_path, 1, 0);
-  cw_progress_start("fill", 2000, "regions");
-  for (int i = 0; i <= 1000; ++i) cw_progress(i);
+  cw_log_open("mesh", copy_path, 1, 0, &test_log);
+  cw_progress_start(test_log, "fill", 2000, "regions");
+  for (int i = 0; i <= 1000; ++i) cw_progress(test_log, i);
   usleep(5100 * 1000); // past the interval of plain lines
-  for (int i = 1000; i <= 2000; ++i) cw_progress(i);
-  cw_progress_end();
-  cw_progress_end(); // nothing more
-  cw_progress(5);
+  for (int i = 1000; i <= 2000; ++i) cw_progress(test_log, i);
+  cw_progress_end(test_log);
+  cw_progress_end(test_log); // nothing more
+  cw_progress(test_log, 5);
   capture_end();
-  cw_log_close();
+  cw_log_close(&test_log);
   read_capture(file, seen);
   read_copy(copy);
   assert_null(strchr(seen, '\r'));
@@ -215,13 +217,13 @@ static void progress_without_total_counts(void **state) {
   char seen[TEXT_SIZE];
   int file = open_capture();
   capture_start(file);
-  cw_log_open("mesh", NULL, 1, 0);
-  cw_progress_start("walk", 0, "faces");
-  cw_progress(7);
-  cw_progress_start("next", 1, "faces"); // ends the one before
-  cw_progress_end();
+  cw_log_open("mesh", NULL, 1, 0, &test_log);
+  cw_progress_start(test_log, "walk", 0, "faces");
+  cw_progress(test_log, 7);
+  cw_progress_start(test_log, "next", 1, "faces"); // ends the one before
+  cw_progress_end(test_log);
   capture_end();
-  cw_log_close();
+  cw_log_close(&test_log);
   read_capture(file, seen);
   assert_int_equal(strncmp(seen, "cutwater-mesh: walk: 7 faces in ", 32), 0);
   assert_non_null(strstr(seen, "\ncutwater-mesh: next: 0 of 1 faces in "));
@@ -239,20 +241,20 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
   settings.c_oflag &= (tcflag_t)~OPOST; // bytes as they were written
   tcsetattr(terminal, TCSANOW, &settings);
   capture_start(terminal);
-  cw_log_open("mesh", copy_path, 1, 0);
-  cw_progress_start("fill", 10, "regions");
+  cw_log_open("mesh", copy_path, 1, 0, &test_log);
+  cw_progress_start(test_log, "fill", 10, "regions");
   double start = cw_seconds();
-  cw_progress(1);
-  cw_progress(2);
+  cw_progress(test_log, 1);
+  cw_progress(test_log, 2);
   int too_soon = cw_seconds() - start < 0.1; // for another line; a busy machine may stand still here
-  cw_log("event");
+  cw_log(test_log, "event");
   usleep(120 * 1000);
   struct winsize window = {.ws_row = 24, .ws_col = 37};
   ioctl(terminal, TIOCSWINSZ, &window);
-  cw_progress(5);
-  cw_progress_end();
+  cw_progress(test_log, 5);
+  cw_progress_end(test_log);
   capture_end();
-  cw_log_close();
+  cw_log_close(&test_log);
   close(terminal); // then reading ends with an error when all has been read
   size_t length = 0;
   for (ssize_t more; (more = read(master, seen + length, TEXT_SIZE - 1 - length)) > 0;) length += (size_t)more;

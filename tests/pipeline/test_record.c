@@ -15,6 +15,8 @@
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
+static CwLog *test_log;
+
 static char folder[] = CUTWATER_BIN_DIR "/record-XXXXXX";
 static char path[sizeof folder + 32];
 
@@ -32,9 +34,9 @@ static int remove_folder(void **state) {
 static void record_is_written_whole_and_in_order(void **state) {
   CwRecord *record = NULL;
   char expected[2000], text[2000];
-  cw_log_open("mesh", NULL, 0, 0); // speaks to nobody, keeps the warnings
-  cw_log_warn("narrow gap at %d mm in \"pa\xffper\"", 5);
-  assert_int_equal(cw_record_start("mesh", &record), CW_OK);
+  cw_log_open("mesh", NULL, 0, 0, &test_log); // speaks to nobody, keeps the warnings
+  cw_log_warn(test_log, "narrow gap at %d mm in \"pa\xffper\"", 5);
+  assert_int_equal(cw_record_start("mesh", test_log, &record), CW_OK);
   assert_int_equal(cw_record_step(record, "surface", 1.5, 20, "faces"), CW_OK);
   assert_int_equal(cw_record_step(record, "fill", 0.25, 3000000000, "cells"), CW_OK);
   assert_int_equal(cw_record_integer(record, "zeta", 1), CW_OK);
@@ -49,7 +51,7 @@ static void record_is_written_whole_and_in_order(void **state) {
   cw_record_set_peak_memory(record, 5000000000);
   assert_int_equal(cw_record_write(record, path), CW_OK);
   cw_record_free(record);
-  cw_log_close();
+  cw_log_close(&test_log);
 
   FILE *file = fopen(path, "r");
   assert_non_null(file);
@@ -83,7 +85,7 @@ static void record_is_written_whole_and_in_order(void **state) {
 
 static void peak_memory_is_that_of_the_process(void **state) {
   CwRecord *record = NULL;
-  assert_int_equal(cw_record_start("export", &record), CW_OK);
+  assert_int_equal(cw_record_start("export", test_log, &record), CW_OK);
   assert_int_equal(cw_record_write(record, path), CW_OK);
   assert_int_equal(cw_record_write(record, path), CW_OK); // again, over the old one
   cw_record_free(record);
@@ -101,7 +103,7 @@ static void place_that_cannot_be_written_is_an_error(void **state) {
   CwRecord *record = NULL;
   char missing[sizeof folder + 32];
   snprintf(missing, sizeof missing, "%s/none/record.json", folder);
-  assert_int_equal(cw_record_start("export", &record), CW_OK);
+  assert_int_equal(cw_record_start("export", test_log, &record), CW_OK);
   assert_int_equal(cw_record_write(record, missing), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "none/record.json: cannot be written: No such file or directory"));
   cw_record_free(record);

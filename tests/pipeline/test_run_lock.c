@@ -36,7 +36,7 @@ static pid_t start_holder(int *end) {
   pid_t child = fork();
   if (child == 0) {
     close(go[1]); // so that the end of the test ends it
-    taken = cw_run_lock(run, "mesh", &lock) == CW_OK;
+    taken = cw_run_lock(run, "mesh", NULL, &lock) == CW_OK;
     _exit(write(ready[1], &taken, 1) != 1 || read(go[0], &taken, 1) < 0);
   }
   assert_int_equal(read(ready[0], &taken, 1), 1);
@@ -55,21 +55,21 @@ static void the_second_is_told_who_has_it(void **state) {
   gethostname(host, sizeof host - 1);
   snprintf(wanted, sizeof wanted, "%s: cutwater-mesh on host %s, process %d works in this folder; ", run, host,
            (int)child);
-  assert_int_equal(cw_run_lock(run, "export", &lock), CW_ERR_IO);
+  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_ERR_IO);
   if (!strstr(cw_fail_message(), wanted)) fail_msg("%s", cw_fail_message());
   close(end);
   assert_int_equal(waitpid(child, NULL, 0), child);
-  assert_int_equal(cw_run_lock(run, "export", &lock), CW_OK);
+  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_OK);
   cw_run_unlock(&lock);
 }
 
 static void it_dies_with_its_process(void **state) {
   int end;
   pid_t child = start_holder(&end);
-  assert_int_equal(cw_run_lock(run, "export", &lock), CW_ERR_IO);
+  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_ERR_IO);
   kill(child, SIGKILL);
   assert_int_equal(waitpid(child, NULL, 0), child);
-  assert_int_equal(cw_run_lock(run, "export", &lock), CW_OK);
+  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_OK);
   cw_run_unlock(&lock);
   close(end);
 }
@@ -79,7 +79,7 @@ static void a_child_does_not_inherit_it(void **state) {
   int go[2];
   char byte;
   assert_int_equal(pipe(go), 0);
-  assert_int_equal(cw_run_lock(run, "mesh", &lock), CW_OK);
+  assert_int_equal(cw_run_lock(run, "mesh", NULL, &lock), CW_OK);
   pid_t child = fork();
   if (child == 0) {
     close(go[1]);
@@ -87,7 +87,7 @@ static void a_child_does_not_inherit_it(void **state) {
   }
   cw_run_unlock(&lock);
   pid_t other = fork();
-  if (other == 0) _exit(cw_run_lock(run, "export", &lock) != CW_OK);
+  if (other == 0) _exit(cw_run_lock(run, "export", NULL, &lock) != CW_OK);
   int how = 0;
   assert_int_equal(waitpid(other, &how, 0), other);
   assert_int_equal(how, 0);
@@ -98,7 +98,7 @@ static void a_child_does_not_inherit_it(void **state) {
 static void a_folder_that_cannot_be_made_is_told(void **state) {
   char path[sizeof run + 60];
   snprintf(path, sizeof path, "%s/log/run.lock", run);
-  assert_int_equal(cw_run_lock(path, "mesh", &lock), CW_ERR_IO);
+  assert_int_equal(cw_run_lock(path, "mesh", NULL, &lock), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), path));
 }
 

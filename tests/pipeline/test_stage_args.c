@@ -160,7 +160,7 @@ static void stage_begins_with_log_and_case(void **state) {
   // The record of an earlier run goes; the folder is made where there is none.
   for (int run = 0; run < 2; ++run) {
     assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_OK);
-    cw_log_close();
+    cw_log_close(&args.log);
     cw_run_unlock(&args.lock);
     snprintf(path, sizeof path, "%s/export/record.json", folder);
     assert_int_equal(access(path, F_OK), -1);
@@ -178,7 +178,7 @@ static void stage_begins_with_log_and_case(void **state) {
   // A case that is not there ends the stage with the message of the reader.
   argv[2] = "/nowhere.yaml";
   assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_ERR_IO);
-  cw_log_close();
+  cw_log_close(&args.log);
   assert_int_equal(strncmp(cw_fail_message(), "/nowhere.yaml: ", 15), 0);
   assert_int_equal(unlink(path), 0);
   cw_run_unlock(&args.lock);

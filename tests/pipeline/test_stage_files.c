@@ -46,7 +46,7 @@ static void write_stage(const char *stage, const char *const *reads, const char 
   snprintf(name, sizeof name, "%s/made.txt", stage);
   assert_int_equal(cw_make_directory(folder), CW_OK);
   write_text(name, text);
-  assert_int_equal(cw_record_start(stage, &record), CW_OK);
+  assert_int_equal(cw_record_start(stage, NULL, &record), CW_OK);
   assert_int_equal(cw_record_made_from(record, run, reads), CW_OK);
   assert_int_equal(cw_record_file(record, folder, "made.txt"), CW_OK);
   snprintf(name, sizeof name, "%s/record.json", stage);

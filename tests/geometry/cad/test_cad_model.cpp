@@ -35,7 +35,7 @@ struct Made : SmallParts {
     CwStatus status = CW_OK;
     int cut;
     CW_TRY(look());
-    CW_TRY(cw_contact_imprint(&survey, contact, small_tolerance, &parts, &cut));
+    CW_TRY(cw_contact_imprint(&survey, contact, small_tolerance, NULL, &parts, &cut));
     cw_survey_free(&survey);
     free(contact);
     CW_TRY(look());

@@ -53,7 +53,7 @@ static void patches_are_proposed(void **) {
   CwCase table;
   CwCadPump pump = {};
   CwModel model = {};
-  if (read_case(whole, &table) || cw_cad_pump_read(table.cad, &pump) || cw_cad_pump_name(table.cad, &pump) ||
+  if (read_case(whole, &table) || cw_cad_pump_read(table.cad, NULL, &pump) || cw_cad_pump_name(table.cad, &pump) ||
       cw_cad_model_make(&table, &pump.survey, &pump.patches, pump.interface_count, pump.interface, pump.blade_count,
                         cw_cad_parts_unit(pump.parts), &model))
     fail_msg("%s", cw_fail_message());
@@ -94,7 +94,7 @@ static void pieces_of_blades_are_blades(void **) {
   CwCadPump pump = {};
   std::string posts(whole);
   posts.replace(posts.find("pump.brep"), 9, "posts.brep");
-  if (read_case(posts, &table) || cw_cad_pump_read(table.cad, &pump) || cw_cad_pump_name(table.cad, &pump))
+  if (read_case(posts, &table) || cw_cad_pump_read(table.cad, NULL, &pump) || cw_cad_pump_name(table.cad, &pump))
     fail_msg("%s", cw_fail_message());
   assert_int_equal(pump.blade_count, 6);
   near_to(area_of(pump, "blade", CW_PATCH_WALL), 6 * 2 * M_PI * 3 * 10);
@@ -111,7 +111,7 @@ static void rules_name_patches(void **) {
                                                  "    suction: {near_mm: [0, 0, -60], kind: inlet}\n"
                                                  "    back: {near_mm: [47, 0, 5], walls: hub_shroud, y_plus: 5}\n"
                                                  "    again: {faces: '*', domain: rotor}\n";
-  if (read_case(rules, &table) || cw_cad_pump_read(table.cad, &pump) || cw_cad_pump_name(table.cad, &pump))
+  if (read_case(rules, &table) || cw_cad_pump_read(table.cad, NULL, &pump) || cw_cad_pump_name(table.cad, &pump))
     fail_msg("%s", cw_fail_message());
   near_to(area_of(pump, "suction", CW_PATCH_INLET), M_PI * 20 * 20);
   near_to(area_of(pump, "back", CW_PATCH_WALL), M_PI * 50 * 50 - 6 * 20 * 3);
@@ -162,7 +162,7 @@ static void wrong_input_is_told(void **) {
     CwCadPump pump = {};
     CwModel model = {};
     CwStatus status = read_case(at.cad, &table);
-    if (status == CW_OK) status = cw_cad_pump_read(table.cad, &pump);
+    if (status == CW_OK) status = cw_cad_pump_read(table.cad, NULL, &pump);
     if (status == CW_OK) status = cw_cad_pump_name(table.cad, &pump);
     if (status == CW_OK)
       status = cw_cad_model_make(&table, &pump.survey, &pump.patches, pump.interface_count, pump.interface,

@@ -25,7 +25,7 @@ static CwStatus run(const std::string &cad) {
   std::ofstream(path) << "name: small\noperating_point: {flow_rate_m3_per_h: 4, head_m: 2, speed_rpm: 1450}\ncad:\n"
                       << cad;
   CW_TRY(cw_case_read(path.c_str(), &table));
-  CW_TRY(cw_record_start("geometry", &record));
+  CW_TRY(cw_record_start("geometry", NULL, &record));
   status = cw_cad_stage(&args, &table, record);
 done:
   cw_record_free(record);

@@ -32,7 +32,7 @@ static void faces_that_touch_in_part_are_cut(void **) {
   if (small.look()) fail_msg("%s", cw_fail_message());
   assert_int_equal(touching(small, 1, &share), 1);
   small_near(share, 1, 0);
-  assert_int_equal(cw_contact_imprint(&small.survey, small.contact, small_tolerance, &small.parts, &cut), CW_OK);
+  assert_int_equal(cw_contact_imprint(&small.survey, small.contact, small_tolerance, NULL, &small.parts, &cut), CW_OK);
   assert_int_equal(cut, 1);
   cw_survey_free(&small.survey);
   free(small.contact);
@@ -81,9 +81,8 @@ static void edges_alone_do_not_touch(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equal_faces_touch_wholly), cmocka_unit_test(faces_that_touch_in_part_are_cut),
+      cmocka_unit_test(equal_faces_touch_wholly),      cmocka_unit_test(faces_that_touch_in_part_are_cut),
       cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(far_parts_do_not_touch),
-      cmocka_unit_test(edges_alone_do_not_touch),
-      cmocka_unit_test(thin_rings_touch_wholly)};
+      cmocka_unit_test(edges_alone_do_not_touch),      cmocka_unit_test(thin_rings_touch_wholly)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -45,7 +45,7 @@ static CwCadParts part_of(const TopoDS_Shape &solid) {
 
 static void check(const TopoDS_Shape &solid, int pieces, int faces, double volume) {
   CwCadParts parts = part_of(solid);
-  if (cw_cad_divide(&pieces, &frame, &parts)) fail_msg("%s", cw_fail_message());
+  if (cw_cad_divide(&pieces, &frame, nullptr, &parts)) fail_msg("%s", cw_fail_message());
   const TopoDS_Shape &made = parts.part[0].solid;
   assert_true(BRepCheck_Analyzer(made).IsValid());
   GProp_GProps properties;
@@ -126,7 +126,7 @@ static void what_needs_no_cut_stays(void **) {
   CwCadParts parts = part_of(BRepPrimAPI_MakeBox(1, 2, 3).Shape());
   const TopoDS_Shape before = parts.part[0].solid;
   const int pieces = 3;
-  assert_int_equal(cw_cad_divide(&pieces, &frame, &parts), CW_OK);
+  assert_int_equal(cw_cad_divide(&pieces, &frame, nullptr, &parts), CW_OK);
   assert_true(parts.part[0].solid.IsSame(before));
   assert_string_equal(parts.part[0].origin[0].name.c_str(), "first");
 }
@@ -135,7 +135,7 @@ static void what_needs_no_cut_stays(void **) {
 static void names_go_with_the_pieces(void **) {
   CwCadParts parts = part_of(BRepPrimAPI_MakeSphere(7).Shape());
   const int pieces = 4;
-  assert_int_equal(cw_cad_divide(&pieces, &frame, &parts), CW_OK);
+  assert_int_equal(cw_cad_divide(&pieces, &frame, nullptr, &parts), CW_OK);
   for (const CwCadFaceOrigin &origin : parts.part[0].origin) assert_string_equal(origin.name.c_str(), "first");
 }
 

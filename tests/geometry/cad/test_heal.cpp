@@ -20,7 +20,7 @@ static void sound_solids_stay(void **) {
   SmallParts small({{"rotor", small_rotor()}});
   const TopoDS_Shape before = small.parts.part[0].solid;
   CwCadFault fault;
-  assert_int_equal(cw_cad_heal(0.01, &small_frame, &small.parts, &fault), CW_OK);
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_OK);
   assert_true(small.parts.part[0].solid.IsSame(before));
   assert_false(fault.found);
 }
@@ -30,7 +30,7 @@ static void solids_inside_out_are_turned(void **) {
   small.parts.part[0].solid.Reverse();
   CwCadFault fault;
   assert_true(volume(small.parts.part[0].solid) < 0);
-  assert_int_equal(cw_cad_heal(0.01, &small_frame, &small.parts, &fault), CW_OK);
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_OK);
   small_near(volume(small.parts.part[0].solid), 6, 1e-9);
 }
 
@@ -55,7 +55,7 @@ static TopoDS_Shape loose_box(double gap, int faces) {
 static void gaps_are_sewn(void **) {
   SmallParts small({{"water", loose_box(0.005, 6)}});
   CwCadFault fault;
-  if (cw_cad_heal(0.01, &small_frame, &small.parts, &fault)) fail_msg("%s", cw_fail_message());
+  if (cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault)) fail_msg("%s", cw_fail_message());
   assert_true(BRepCheck_Analyzer(small.parts.part[0].solid).IsValid());
   small_near(volume(small.parts.part[0].solid), 6, 0.02);
   assert_int_equal(small.parts.part[0].origin.size(), 6);
@@ -64,7 +64,7 @@ static void gaps_are_sewn(void **) {
 static void what_stays_open_is_refused_with_its_place(void **) {
   SmallParts small({{"wheel", small_box(5, 5, 5, 1, 1, 1)}, {"water", loose_box(0, 5)}});
   CwCadFault fault;
-  assert_int_equal(cw_cad_heal(0.01, &small_frame, &small.parts, &fault), CW_ERR_GEOMETRY);
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_ERR_GEOMETRY);
   assert_non_null(strstr(cw_fail_message(), "cad.domains.water: the solid cannot be healed within 0.01 mm"));
   assert_non_null(strstr(cw_fail_message(), "edges do not lie between two faces"));
   assert_non_null(strstr(cw_fail_message(), "mm; allowed"));

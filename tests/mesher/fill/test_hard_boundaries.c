@@ -21,6 +21,8 @@
 #include "pipeline/log.h"
 #include "random_boundary.h"
 
+static CwLog *test_log;
+
 // Of the random ones.
 static int random_count = 40;
 static uint64_t first_seed = 1, seed_step = 1;
@@ -171,7 +173,7 @@ int main(int argc, char **argv) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(library), cmocka_unit_test(random_ones),
                                      cmocka_unit_test(equal_bits_twice)};
   const struct CMUnitTest many[] = {cmocka_unit_test(random_ones)};
-  if (getenv("CUTWATER_VERBOSE")) cw_log_open("test", NULL, 1, getenv("CUTWATER_VERBOSE")[0] == '2');
+  if (getenv("CUTWATER_VERBOSE")) cw_log_open("test", NULL, 1, getenv("CUTWATER_VERBOSE")[0] == '2', &test_log);
   if (argc == 3) return one_alone(NULL, strtoull(argv[2], NULL, 10));
   if (argc == 2) return one_alone(argv[1], 0);
   if (argc == 4) {

@@ -107,7 +107,7 @@ static void missing_facets_are_recovered(void **unused) {
     assert_true(missing > 0);
     double six = joined_volume6(&mesh);
     for (int round = 0; round < 4 && facets.missing_count; round++)
-      assert_int_equal(cw_kernel_recover(&mesh, &facets, round, &flips), CW_OK);
+      assert_int_equal(cw_kernel_recover(&mesh, &facets, round, NULL, &flips), CW_OK);
     assert_true(4 * facets.missing_count < missing);
     assert_true(flips >= (missing - facets.missing_count) / 2);
     for (int32_t f = 0, left = 0; f < facets.count; f++) {

@@ -13,6 +13,8 @@
 #include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { DOMAINS = 3, MOST = 20000 };
 
 typedef struct {
@@ -39,7 +41,7 @@ static CwStatus work_on(void *given, const CwContext *context, int32_t domain, C
   Work *work = given;
   int failing = domain == 1;
   work->ran[domain]++;
-  cw_log_debug("work on domain %d", domain);
+  cw_log_debug(context->log, "work on domain %d", domain);
   cw_profiler_part(context, domain == 1 ? "of the second" : "of the others");
   CW_TRY(cw_parallel_for(context, "items", count_of(domain), sizeof(int64_t), fill, &domain, work->made[domain]));
   const double place[3] = {0.001, 0.002, domain};
@@ -95,7 +97,8 @@ static int be_a_rank(int argc, char **argv) {
   CwContext context = {.team = all};
   int rank = cw_team_rank(all);
   wrong += cw_profiler_make(&context.profiler) != CW_OK;
-  cw_log_open("test", NULL, rank == 0, !strcmp(argv[1], "work"));
+  cw_log_open("test", NULL, rank == 0, !strcmp(argv[1], "work"), &test_log);
+  context.log = test_log;
   CwGroupWork domains = {
       .step = "domains", .count = DOMAINS, .cost = cost, .own = 0.5, .run = work_on, .hand = hand_over, .given = &work};
   for (int repeat = 0; repeat < 2; repeat++) {
@@ -104,7 +107,7 @@ static int be_a_rank(int argc, char **argv) {
     memset(&work, 0, sizeof work);
     work.mode = argv[1];
     status = cw_groups_run(&context, &domains, outcome);
-    if (status != CW_OK) return cw_mpi_fail(status);
+    if (status != CW_OK) return cw_mpi_fail(test_log, status);
     for (int32_t s = 0; s < DOMAINS; s++) {
       wrong += outcome[s].kind != (retry && s == 1 ? CW_OUTCOME_REPLAN : CW_OUTCOME_DONE);
       if (outcome[s].kind == CW_OUTCOME_DONE) wrong += items_wrong(&work, s);
@@ -121,7 +124,7 @@ static int be_a_rank(int argc, char **argv) {
   wrong += profiler_wrong(&context, 2);
   cw_profiler_free(&context.profiler);
   printf("RANK %d RAN %d WRONG %d\n", rank, ran, wrong);
-  cw_log_close();
+  cw_log_close(&test_log);
   return end_as_rank(all, wrong != 0);
 }
 

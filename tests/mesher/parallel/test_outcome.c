@@ -11,6 +11,8 @@
 #include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { COUNT = 7 };
 
 // What the rank `of` finds out about item i.
@@ -28,7 +30,7 @@ static int be_a_rank(int argc, char **argv) {
   CwTeam *all;
   begin_as_rank(&argc, &argv, &all);
   int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
-  cw_log_open("test", NULL, rank == 0, 0);
+  cw_log_open("test", NULL, rank == 0, 0, &test_log);
   for (int32_t i = 0; i < COUNT; i++) {
     owner[i] = (3 * i + 1) % ranks;
     outcome[i] = found_by(owner[i] == rank ? rank : rank + 100, i + (owner[i] != rank));
@@ -40,7 +42,7 @@ static int be_a_rank(int argc, char **argv) {
     wrong += memcmp(outcome[i].place, wanted.place, sizeof wanted.place) != 0;
   }
   printf("RANK %d WRONG %d\n", rank, wrong);
-  cw_log_close();
+  cw_log_close(&test_log);
   return end_as_rank(all, wrong != 0);
 }
 

@@ -10,6 +10,8 @@
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { COUNT = 10000 }; // more than one block, and one that is not full
 
 static CwStatus square(void *context, int32_t item, void *out) {
@@ -65,15 +67,16 @@ static int be_a_rank(int argc, char **argv) {
   int wrong = 0;
   CwTeam *all;
   begin_as_rank(&argc, &argv, &all);
-  const CwContext context = {.team = all};
+  CwContext context = {.team = all};
   int rank = cw_team_rank(all);
-  cw_log_open("test", NULL, rank == 0, 0);
+  cw_log_open("test", NULL, rank == 0, 0, &test_log);
+  context.log = test_log;
   for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + (i >= COUNT - 100);
   CwStatus status = cw_parallel_for_lists(&context, "lists", COUNT, start, sizeof *out, mark, NULL, out);
-  if (status != CW_OK) return cw_mpi_fail(status);
+  if (status != CW_OK) return cw_mpi_fail(test_log, status);
   for (int k = 0; k < 100; k++) wrong += out[k] != COUNT - 100 + k;
   printf("RANK %d WRONG %d\n", rank, wrong);
-  cw_log_close();
+  cw_log_close(&test_log);
   return end_as_rank(all, wrong != 0);
 }
 

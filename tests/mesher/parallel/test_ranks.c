@@ -9,6 +9,8 @@
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { SIZE = 150000001 }; // more than two messages
 
 // Where two ranks of three fail, those that do not get another failure, and later.
@@ -47,12 +49,12 @@ static int be_a_rank(int argc, char **argv) {
   CwTeam *all;
   cw_mpi_start(&argc, &argv, &all); // without a watch: all ranks agree first
   int rank = cw_team_rank(all);
-  cw_log_open("test", NULL, rank == 0, 0);
+  cw_log_open("test", NULL, rank == 0, 0, &test_log);
   CwStatus status = cw_team_agree(all, fail_where(argv[1], rank));
-  if (status != CW_OK) return cw_mpi_fail(status);
+  if (status != CW_OK) return cw_mpi_fail(test_log, status);
   int wrong = spread_wrong(all) + split_wrong(all) + (cw_mpi_ranks() != cw_team_ranks(all));
   printf("RANK %d WRONG %d\n", rank, wrong);
-  cw_log_close();
+  cw_log_close(&test_log);
   cw_mpi_end(&all);
   return wrong != 0;
 }

@@ -17,6 +17,8 @@
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { TASKS = 40, RANKS_MOST = 8 };
 
 typedef struct {
@@ -165,12 +167,13 @@ static int be_a_rank(int argc, char **argv) {
   if (!strncmp(argv[1], "dealt", 5)) MPI_Init(&argc, &argv); // one thread: no server
   CwTeam *all;
   begin_as_rank(&argc, &argv, &all);
-  const CwContext context = {.team = all};
+  CwContext context = {.team = all};
   int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
-  cw_log_open("test", NULL, rank == 0, 0);
+  cw_log_open("test", NULL, rank == 0, 0, &test_log);
+  context.log = test_log;
   if (strstr(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
     printf("RANK %d EARLY %d\n", rank, began_too_early(&context, argv[1]));
-    cw_log_close();
+    cw_log_close(&test_log);
     return end_as_rank(all, 0);
   }
   for (int repeat = 0; repeat < (strcmp(argv[1], "large") ? 3 : 1); repeat++) {
@@ -193,7 +196,7 @@ static int be_a_rank(int argc, char **argv) {
     printf("RANK %d RAN %d WRONG %d\n", rank, work.count, wrong);
     if (!strcmp(argv[1], "idle")) break;
   }
-  cw_log_close();
+  cw_log_close(&test_log);
   return end_as_rank(all, wrong != 0);
 }
 
@@ -323,7 +326,7 @@ static void one_rank_gives_the_failure_back(void **state) {
 
 int main(int argc, char **argv) {
   if (launched(argc)) return be_a_rank(argc, argv);
-  cw_log_open("test", NULL, 0, 0);
+  cw_log_open("test", NULL, 0, 0, &test_log);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_rank_runs_largest_first),
       cmocka_unit_test(one_rank_gives_the_failure_back),
@@ -341,6 +344,6 @@ int main(int argc, char **argv) {
       cmocka_unit_test(waiting_ranks_sleep),
   };
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  cw_log_close();
+  cw_log_close(&test_log);
   return failed;
 }

@@ -12,12 +12,14 @@
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 enum { PLACES = 1000, TAKEN = 900 };
 
 static int64_t last_shown;
 
-static void show(int64_t ended) {
-  last_shown = ended;
+static void show(void *shown, int64_t ended) {
+  *(int64_t *)shown = ended;
 }
 
 // Places of cost 1. Each is given once; all ranks learn of the end; what is given at a time is a quarter of a rank's
@@ -36,7 +38,7 @@ static int serve_places(const CwTeam *all, int chain, int *most) {
   if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
   *most = 0;
   for (;;) {
-    CwPlaces places = cw_task_server_next(server, show);
+    CwPlaces places = cw_task_server_next(server, show, &last_shown);
     if (places.count == 0) break;
     if (places.count > *most) *most = places.count;
     wrong += !chain && places.count > 1 && 4 * ranks * places.count > PLACES - places.first;
@@ -58,7 +60,7 @@ static int serve_while_at_work(const CwTeam *all) {
   if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
   if (rank > 0) MPI_Barrier(MPI_COMM_WORLD);
   for (;;) {
-    CwPlaces places = cw_task_server_next(server, NULL);
+    CwPlaces places = cw_task_server_next(server, NULL, NULL);
     if (places.count == 0) break;
     taken += places.count;
     if (rank > 0) MPI_Send(NULL, 0, MPI_BYTE, 0, TAKEN, MPI_COMM_WORLD);
@@ -82,7 +84,7 @@ static int be_a_rank(int argc, char **argv) {
   CwTeam *all;
   begin_as_rank(&argc, &argv, &all);
   int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
-  cw_log_open("test", NULL, rank == 0, 0);
+  cw_log_open("test", NULL, rank == 0, 0, &test_log);
   for (int repeat = 0; repeat < 3; repeat++) {
     wrong += serve_places(all, 0, &most);
     wrong += ranks == 1 && most != PLACES / 4;
@@ -90,7 +92,7 @@ static int be_a_rank(int argc, char **argv) {
   }
   if (ranks > 1) wrong += serve_while_at_work(all);
   printf("RANK %d WRONG %d\n", rank, wrong);
-  cw_log_close();
+  cw_log_close(&test_log);
   return end_as_rank(all, wrong != 0);
 }
 

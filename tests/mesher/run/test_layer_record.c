@@ -9,6 +9,8 @@
 #include "mesher/run/layer_record.h"
 #include "pipeline/log.h"
 
+static CwLog *test_log;
+
 #define PATCH(name, faces, met, gap, thin, thick, over, most, weights)                                                 \
   json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f, s:i, s:f}", "patch", name, "wall_faces", faces,             \
             "first_height_met_faces", met, "first_height_missed_by_gap_faces", gap, "thin_last_layer_faces", thin,     \
@@ -21,13 +23,13 @@ static json_t *coverage, *headlines;
 static int start(void **state) {
   coverage = json_array();
   headlines = json_array();
-  return cw_log_open("mesh", NULL, 0, 0) != CW_OK;
+  return cw_log_open("mesh", NULL, 0, 0, &test_log) != CW_OK;
 }
 
 static int end(void **state) {
   json_decref(coverage);
   json_decref(headlines);
-  cw_log_close();
+  cw_log_close(&test_log);
   return 0;
 }
 
@@ -37,9 +39,9 @@ static void says(const char *text, const char *part) {
 
 static void even_layers_are_not_told_of(void **state) {
   json_array_append_new(coverage, PATCH("hub", 1000, 950, 50, 20, 30, 0, 3.9, 0));
-  cw_warn_of_layers("rotor", 5, 0, coverage, headlines);
-  cw_warn_of_missed("rotor", coverage, headlines);
-  assert_int_equal(cw_log_warning_count(), 0);
+  cw_warn_of_layers(test_log, "rotor", 5, 0, coverage, headlines);
+  cw_warn_of_missed(test_log, "rotor", coverage, headlines);
+  assert_int_equal(cw_log_warning_count(test_log), 0);
   assert_int_equal(json_array_size(headlines), 0);
 }
 
@@ -47,10 +49,10 @@ static void even_layers_are_not_told_of(void **state) {
 static void thin_layers_need_more(void **state) {
   json_array_append_new(coverage, PATCH("hub", 1000, 1000, 0, 20, 0, 0, 3, 0));
   json_array_append_new(coverage, PATCH("shroud", 1000, 1000, 0, 81, 0, 7, 13.824, 4));
-  cw_warn_of_layers("rotor", 5, 0, coverage, headlines);
+  cw_warn_of_layers(test_log, "rotor", 5, 0, coverage, headlines);
   assert_int_equal(json_array_size(headlines), 1);
   const char *told = json_string_value(json_array_get(headlines, 0));
-  assert_string_equal(told, cw_log_warning(0));
+  assert_string_equal(told, cw_log_warning(test_log, 0));
   says(told, "rotor: volumes change by more than 4");
   says(told, "within: shroud 13.8, greatest 27.6, 4 face weights below 0.05;");
   says(told, "walls.layer_count 12 instead of 5, or auto");
@@ -59,22 +61,22 @@ static void thin_layers_need_more(void **state) {
 
 static void thick_layers_need_a_lower_y_plus(void **state) {
   json_array_append_new(coverage, PATCH("volute", 100, 100, 0, 1, 5, 0, 4.5, 0));
-  cw_warn_of_layers("stator", 5, 1, coverage, headlines);
+  cw_warn_of_layers(test_log, "stator", 5, 1, coverage, headlines);
   says(json_string_value(json_array_get(headlines, 0)), "thick: a lower walls.y_plus");
 }
 
 static void few_faces_are_no_headline(void **state) {
   json_array_append_new(coverage, PATCH("volute", 100, 100, 0, 1, 0, 1, 2, 0));
-  cw_warn_of_layers("stator", 5, 1, coverage, headlines);
+  cw_warn_of_layers(test_log, "stator", 5, 1, coverage, headlines);
   assert_int_equal(json_array_size(headlines), 0);
-  assert_int_equal(cw_log_warning_count(), 1);
-  says(cw_log_warning(0), "few faces");
+  assert_int_equal(cw_log_warning_count(test_log), 1);
+  says(cw_log_warning(test_log, 0), "few faces");
 }
 
 static void first_heights_that_are_missed(void **state) {
   json_array_append_new(coverage, PATCH("hub", 100, 94, 6, 0, 0, 0, 2, 0));
   json_array_append_new(coverage, PATCH("tongue", 100, 20, 80, 0, 0, 0, 2, 0));
-  cw_warn_of_missed("stator", coverage, headlines);
+  cw_warn_of_missed(test_log, "stator", coverage, headlines);
   const char *told = json_string_value(json_array_get(headlines, 0));
   says(told, "stator: only 57 % of the wall faces");
   says(told, "tongue 20 % (gap)");

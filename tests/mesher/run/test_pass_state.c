@@ -72,7 +72,7 @@ static void state_comes_back_as_written(void **unused) {
   const CwPassState written = {3, {12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 1, {0, 2}};
   assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
   CwPassState read = {.pass = 1};
-  cw_pass_state_read(run, fingerprint, &read);
+  cw_pass_state_read(NULL, run, fingerprint, &read);
   assert_int_equal(read.pass, 3);
   assert_int_equal(read.whole, 1);
   assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
@@ -89,7 +89,7 @@ static void another_case_or_geometry_starts_anew(void **unused) {
   assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
   assert_string_not_equal(before, after);
   CwPassState read = {.pass = 1};
-  cw_pass_state_read(run, after, &read);
+  cw_pass_state_read(NULL, run, after, &read);
   assert_int_equal(read.pass, 1);
   table.mesh.cells--;
   write_file("geometry/faces.csv", "changed");
@@ -100,7 +100,7 @@ static void another_case_or_geometry_starts_anew(void **unused) {
 static void broken_state_is_left_aside(void **unused) {
   write_file("mesh/pass.json", "{\"fingerprint\": \"x\", \"pass\": 2");
   CwPassState read = {.pass = 1};
-  cw_pass_state_read(run, "x", &read);
+  cw_pass_state_read(NULL, run, "x", &read);
   assert_int_equal(read.pass, 1);
 }
 
