@@ -38,7 +38,7 @@ def disk_of(part, cells):
 
 
 def export_disk(cells, formats=FORMATS):
-    with_cgns = set(formats) | ({"cgns"} if "cfx" in formats else set())
+    with_cgns = set(formats) | ({"cgns"} if {"cfx", "code_saturne"} & set(formats) else set())  # they read pump.cgns
     return sum(disk_of(part, cells) for part in with_cgns if part in DISK)
 
 
@@ -71,7 +71,7 @@ def case_says(path):
     formats = re.search(r"^\s+formats:\s*\[?([\w, ]+)\]?", text, re.M)
     formats = formats or re.search(r"^export:\s*\{[^}]*formats:\s*\[?([\w, ]+)\]?", text, re.M)
     cells = re.search(r"^\s+cells:\s*([\d.]+[kMG]?)\s*$", text, re.M)
-    return (re.findall(r"[a-z]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"])
+    return (re.findall(r"[a-z_]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"])
 
 
 def main():

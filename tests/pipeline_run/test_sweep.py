@@ -101,9 +101,12 @@ class Sweep(unittest.TestCase):
             return subprocess.run([sys.executable, SOURCE / "pipeline/needs.py", WORK, "--case", case, *cells],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertEqual((call("").returncode, call("").stdout), (0, ""))  # a small one
-        disk = [float(re.search(r"about ([\d.]+) GB", call(formats, "100M").stdout)[1])
-                for formats in ("export: {formats: [cgns]}\n", "", "export:\n  formats: [cfx, fluent]\n")]
+        *disk, code_saturne = [
+            float(re.search(r"about ([\d.]+) GB", call(formats, "100M").stdout)[1])
+            for formats in ("export: {formats: [cgns]}\n", "", "export:\n  formats: [cfx, fluent]\n",
+                            "export: {formats: [code_saturne]}\n")]
         self.assertEqual(disk, sorted(disk))
+        self.assertEqual(code_saturne, disk[0])  # it reads pump.cgns
         self.assertLess(2 * disk[0], disk[1])
         self.assertIn("make room, or ask for fewer cells", call("export: {formats: cgns}\n", "2000G").stdout)
         self.assertEqual(call("", "2000G").returncode, 1)
