@@ -20,7 +20,7 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, MENDS_MOST = 3 };
+enum { PASSES_MOST = 4, MENDS_MOST = 6 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
 // The stages of one attempt, in their order. After the one that the run is to end with it is done.
@@ -56,8 +56,8 @@ static CwStatus mend_flat(CwMeshRun *run, CwThinPlaces *places) {
     places->count = 0;
     CW_TRY(cw_thin_places_flat(run, places, &deficit));
     if (places->count == 0) break;
-    cw_log(run->context.log, "%d regions have tetrahedra below %.0f degrees; made again with thinner layers there", places->count,
-           cw_policy.flat_angle);
+    cw_log(run->context.log, "%d regions have tetrahedra below %.0f degrees; made again with thinner layers there",
+           places->count, cw_policy.flat_angle);
     CW_TRY(cw_thinning_copy(run, kept));
     CW_TRY(cw_thin_flat(run, places));
     CW_TRY(mesh_attempt(run, places, &outcome));

@@ -77,6 +77,9 @@ done:
   return status;
 }
 
+// A flat tetrahedron between layers touches columns that are no farther away than its edges are long.
+static const double FLAT_REACH = 1; // h
+
 CwStatus cw_thin_places_flat(const CwMeshRun *run, CwThinPlaces *places, double *deficit) {
   CwStatus status = CW_OK;
   *deficit = 0;
@@ -121,13 +124,13 @@ static int is_told(const CwThinPlaces *places, int32_t i) {
   return i == 0 || place->region >= 0 || place[-1].region >= 0 || place[-1].domain != place->domain;
 }
 
-static CwStatus lower(CwMeshRun *run, const CwThinPlace *place, int attempt, const double *least) {
+// Lowers the columns about a place within `reach` times h, to `least` (NULL: without a limit) at the lowest.
+static CwStatus lower(CwMeshRun *run, const CwThinPlace *place, double reach, const double *least) {
   CwStatus status = CW_OK;
   int d = place->domain;
   CW_TRY(start_thinning(run, d));
   const CwRegionInput from = cw_domain_region_input(&run->domain[d], NULL);
-  cw_region_failure_thin(&from, place->region, &place->failure, cw_policy.thin_reach * (double)(1 << attempt), least,
-                         run->most_thickness[d]);
+  cw_region_failure_thin(&from, place->region, &place->failure, reach, least, run->most_thickness[d]);
 done:
   return status;
 }
@@ -143,7 +146,7 @@ CwStatus cw_thin_flat(CwMeshRun *run, const CwThinPlaces *places) {
   CwStatus status = CW_OK;
   for (int32_t i = 0; i < places->count; i++) {
     const CwThinPlace *place = &places->place[i];
-    CW_TRY(lower(run, place, 0, run->domain[place->domain].targets.least));
+    CW_TRY(lower(run, place, FLAT_REACH, run->domain[place->domain].targets.least));
   }
   lowered(run);
 done:
@@ -163,7 +166,7 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
                   text, ATTEMPTS, file);
     if (run->rank == 0 && is_told(places, i))
       cw_log_warn(run->context.log, "%s; tried again with thinner layers there", text);
-    CW_TRY(lower(run, place, attempt, NULL));
+    CW_TRY(lower(run, place, cw_policy.thin_reach * (double)(1 << attempt), NULL));
   }
   lowered(run);
 done:

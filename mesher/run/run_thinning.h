@@ -31,7 +31,7 @@ CwStatus cw_thin_places_flat(const CwMeshRun *run, CwThinPlaces *places, double 
 // where there were three.
 CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutcome *outcome);
 
-// The same about flat tetrahedra, as far as a first attempt reaches; columns keep their first heights.
+// The same about flat tetrahedra, no farther than these touch; columns keep their first heights.
 CwStatus cw_thin_flat(CwMeshRun *run, const CwThinPlaces *places);
 
 // What columns are thinned to, copied, or taken back from the copy, which is empty then.

@@ -37,7 +37,7 @@ static void the_scripts_are_built_in_and_executable(void **state) {
       ++scripts;
       assert_memory_equal(cw_templates[i].text, "#!", 2);
     }
-  assert_int_equal(scripts, 5); // Allrun of the three cases, Allclean, summary
+  assert_int_equal(scripts, 6); // Allrun of the three cases, Allclean, summary, run of code_saturne
 }
 
 int main(void) {
