@@ -122,7 +122,10 @@ def diverged(row):
 
 
 def watch(child, case, most, within, name):
-    """Looks at the reports of the running solver until it ends; asks it to end where head and torque have settled."""
+    """Looks at the reports of the running solver until it ends; asks it to end where head and torque have settled.
+
+    It asks again and again: OpenFOAM takes no notice of a change within 10 s (fileModificationSkew) after it has read
+    a file."""
     first, began, told, stopping = max(reports.history(case), default=0), time.monotonic(), time.monotonic(), False
     while child.poll() is None:
         time.sleep(LOOK_EVERY)
@@ -136,7 +139,9 @@ def watch(child, case, most, within, name):
         if last > first and time.monotonic() - told > TELL_EVERY:
             told = time.monotonic()
             progress(table, most, (last - first) / (told - began), name)
-        if not stopping and settling.settled(table, within)[0]:
+        if stopping:
+            (case / "system/controlDict").touch()
+        elif settling.settled(table, within)[0]:
             set_entry(case, "system/controlDict", "stopAt", "writeNow")
             stopping = True
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The stage `solve`: when a made-up history counts as settled, what is read of the solver's reports, and a real flow on
-a small mesh: killed, gone on with, its result beside the energy balance, its curve, and what is told where it cannot be
-solved."""
+"""The stage `solve`: when a made-up history counts as settled, what is read of the solver's reports, how the solver is
+asked to end, and a real flow on a small mesh: killed, gone on with, its result beside the energy balance, its curve,
+and what is told where it cannot be solved."""
 import csv
 import math
 import shutil
@@ -10,10 +10,12 @@ import subprocess
 import sys
 import time
 import unittest
+from unittest import mock
 
 from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, fresh, record
 
 sys.path.insert(0, str(SOURCE / "pipeline/solve"))
+import foam  # noqa: E402
 import reports  # noqa: E402
 import settling  # noqa: E402
 
@@ -78,6 +80,37 @@ class Reports(unittest.TestCase):
                  "residual_p": 5e-2, "residual_u": 3e-3},
             20: {"head_m": 2.5, "torque_n_m": 8}, 30: {"head_m": 3.5, "torque_n_m": 9}})
         self.assertEqual(reports.history(case / "none"), {})
+
+
+class Stop(unittest.TestCase):
+    # A solver that takes no notice of its settings when they change for the first time, as OpenFOAM within 10 s.
+    SOLVER = """if 1:
+        import os, time
+        seen, changes = os.stat("system/controlDict").st_mtime_ns, 0
+        open("started", "w").close()
+        while changes < 2:
+            time.sleep(0.01)
+            now = os.stat("system/controlDict").st_mtime_ns
+            changes, seen = changes + (now != seen), now
+    """
+
+    def test_a_solver_is_asked_to_end_until_it_does(self):
+        case = fresh("solve_stop")
+        (case / "system").mkdir(parents=True)
+        (case / "system/controlDict").write_text("stopAt endTime;\n")
+        asked = []
+
+        def set_entry(folder, file, *words):
+            asked.append(words)
+            (folder / file).touch()
+
+        child = subprocess.Popen([sys.executable, "-c", self.SOLVER], cwd=case)
+        while not (case / "started").exists():
+            time.sleep(0.01)
+        with mock.patch.multiple(foam, LOOK_EVERY=0.1, set_entry=set_entry), \
+                mock.patch.object(reports, "history", lambda _: history(lambda i: 10.0)):
+            foam.watch(child, case, 4000, 0.003, "flow")
+        self.assertEqual((child.returncode, asked), (0, [("stopAt", "writeNow")]))
 
 
 class Flow(unittest.TestCase):
