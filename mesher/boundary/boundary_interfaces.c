@@ -284,10 +284,7 @@ static CwStatus append(const CwBoundaryInput *in, CwInterfaces *interfaces, cons
     double x[3];
     cw_image_point(images, turns, block->x[i], x);
     CW_TRY(cw_node_table_add(&interfaces->nodes, x, on_plane, &node));
-    if (turns > 0) CW_TRY(cw_image_link(&interfaces->images, node - block->point_count, node, turns));
-    if (turns > 0 && turns == copies - 1) {
-      CW_TRY(cw_image_link(&interfaces->images, node, node - turns * block->point_count, 0));
-    }
+    CW_TRY(cw_image_link_copy(&interfaces->images, node, block->point_count, turns, copies));
   }
   for (int32_t t = 0; t < block->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {

@@ -136,7 +136,7 @@ static void append_triangles(const CwBoundaryInput *in, CwSurfaceMesh *surface, 
 static CwStatus merge_wall(const CwBoundaryInput *in, int32_t face, const CwPatchBlock *block, CwSurfaceMesh *surface) {
   CwStatus status = CW_OK;
   const CwPeriodicImages *images = in->images;
-  int32_t copies = cw_image_face_copies(images, face), first = surface->vertex_count;
+  int32_t copies = cw_image_face_copies(images, face);
   int32_t source = surface->triangle_count, *vertex = NULL;
   CW_NEW(vertex, block->outline_points + block->point_count);
   for (int32_t turns = 0; turns < copies; turns++) {
@@ -150,8 +150,7 @@ static CwStatus merge_wall(const CwBoundaryInput *in, int32_t face, const CwPatc
       *made = surface->vertex_count++;
       cw_copy(x, surface->x[*made]);
       surface->constraint[*made] = (CwConstraint){CW_CONSTRAINT_NONE, -1};
-      if (turns > 0) CW_TRY(cw_image_link(&surface->images, *made - block->point_count, *made, turns));
-      if (turns > 0 && turns == copies - 1) CW_TRY(cw_image_link(&surface->images, *made, first + i, 0));
+      CW_TRY(cw_image_link_copy(&surface->images, *made, block->point_count, turns, copies));
     }
     append_triangles(in, surface, face, turns, source, block, vertex);
   }

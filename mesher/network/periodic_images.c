@@ -35,6 +35,14 @@ done:
   return status;
 }
 
+CwStatus cw_image_link_copy(CwNodeImages *images, int32_t node, int32_t count, int32_t turns, int32_t copies) {
+  CwStatus status = CW_OK;
+  if (turns > 0) CW_TRY(cw_image_link(images, node - count, node, turns));
+  if (turns > 0 && turns == copies - 1) CW_TRY(cw_image_link(images, node, node - turns * count, 0));
+done:
+  return status;
+}
+
 int32_t cw_image_node(const CwNodeImages *images, int32_t node, int32_t turns) {
   for (int32_t k = 0; k < turns && node >= 0; k++) node = node < images->capacity ? images->next[node] : -1;
   return node;

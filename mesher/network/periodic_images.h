@@ -27,6 +27,9 @@ void cw_periodic_images_free(CwPeriodicImages *images);
 
 // Notes that one turn takes `node` to `next`, which is `turns` turns from the first of its image set.
 CwStatus cw_image_link(CwNodeImages *images, int32_t node, int32_t next, int32_t turns);
+// Links `node` of the copy `turns` of a block of `count` nodes, of which `copies` are numbered one behind the other: to
+// the copy before, and the last copy to the first.
+CwStatus cw_image_link_copy(CwNodeImages *images, int32_t node, int32_t count, int32_t turns, int32_t copies);
 int32_t cw_image_node(const CwNodeImages *images, int32_t node, int32_t turns);
 int32_t cw_image_node_turns(const CwNodeImages *images, int32_t node);
 CwStatus cw_node_images_copy(const CwNodeImages *images, CwNodeImages *copy);

@@ -194,9 +194,7 @@ static CwStatus take_up(const CwPeriodicImages *images, CwInterfaces *interfaces
     memcpy(x, at, sizeof x);
     cw_image_point(images, turns, x, turned);
     CW_TRY(cw_node_table_add(&interfaces->nodes, turned, 1, &node));
-    if (turns > 0) CW_TRY(cw_image_link(&interfaces->images, node - header[INSERTED], node, turns));
-    if (turns > 0 && turns == copies - 1)
-      CW_TRY(cw_image_link(&interfaces->images, node, node - turns * header[INSERTED], 0));
+    CW_TRY(cw_image_link_copy(&interfaces->images, node, header[INSERTED], turns, copies));
   }
   interface->refined_start = interfaces->refined.count;
   interface->refined_count = header[TRIANGLES];
