@@ -6,7 +6,7 @@
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
 #include "export/orthogonality.h"
-#include "export/ranks.h"
+#include "pipeline/parallel/ranks.h"
 #include "pipeline/mesh/region_faces.h"
 #include "pipeline/mesh/region_read.h"
 

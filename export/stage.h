@@ -3,7 +3,7 @@
 #ifndef CUTWATER_EXPORT_STAGE_H
 #define CUTWATER_EXPORT_STAGE_H
 
-#include "export/ranks.h"
+#include "pipeline/parallel/ranks.h"
 #include "pipeline/case.h"
 
 // Collective. What it writes takes its final name only when all of it is whole; on failure nothing stays

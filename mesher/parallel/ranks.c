@@ -10,12 +10,10 @@
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 #include "pipeline/mpi_settings.h"
+#include "pipeline/parallel/message.h"
 #include "pipeline/stop_line.h"
 
-enum {
-  CHUNK = 1 << 26, // bytes of one broadcast: counts of MPI are int
-  LOOKS = 20       // for a message before the first sleep: some microseconds, less than the sleep itself
-};
+enum { LOOKS = 20 }; // for a message before the first sleep: some microseconds, less than the sleep itself
 
 const double CW_TEAM_PAUSE = 2e-5;                         // s
 static const double MOST_PAUSE = 2e-3, PAUSE_GROWTH = 1.5; // s
@@ -125,18 +123,20 @@ int cw_mpi_fail(CwLog *log, CwStatus status) {
   _exit(code);
 }
 
-void cw_team_most(const CwTeam *team, int32_t count, double *value) {
-  MPI_Request request;
-  if (team->ranks == 1) return;
-  MPI_Iallreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, team->comm, &request);
-  cw_team_wait(&request);
+void cw_team_most(const CwTeam *team, int64_t count, double *value) {
+  for (int64_t at = 0, part; at < count && team->ranks > 1; at += part) {
+    MPI_Request request;
+    part = cw_message_items(count - at, sizeof *value);
+    MPI_Iallreduce(MPI_IN_PLACE, value + at, (int)part, MPI_DOUBLE, MPI_MAX, team->comm, &request);
+    cw_team_wait(&request);
+  }
 }
 
 void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from) {
-  for (int64_t at = 0; at < size && team->ranks > 1; at += CHUNK) {
-    int64_t left = size - at;
+  for (int64_t at = 0, part; at < size && team->ranks > 1; at += part) {
     MPI_Request request;
-    MPI_Ibcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, from, team->comm, &request);
+    part = cw_message_items(size - at, 1);
+    MPI_Ibcast((char *)bytes + at, (int)part, MPI_BYTE, from, team->comm, &request);
     cw_team_wait(&request);
   }
 }

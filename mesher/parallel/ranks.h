@@ -51,7 +51,7 @@ void cw_team_join(const CwTeam *team, CwTeam **part);
 void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from);
 
 // The greatest of all ranks, for each of `count` values. [in,out] value.
-void cw_team_most(const CwTeam *team, int32_t count, double *value);
+void cw_team_most(const CwTeam *team, int64_t count, double *value);
 
 #ifdef __cplusplus
 }

@@ -179,7 +179,7 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   if (schedule->unit) cw_progress_start(work.log, schedule->step, count, schedule->unit);
   int served = work.team->ranks > 1 && work.team->threads && count > 0 && !schedule->alike;
   CW_TRY(served ? take_tasks(&work, &order) : deal_tasks(&work, &order));
-  cw_team_most(work.team, 3 * count, &work.end->owner);
+  cw_team_most(work.team, (int64_t)3 * count, &work.end->owner);
   for (int32_t task = 0; task < count; task++) {
     time[task] = work.end[task].seconds;
     if (size) size[task] = (int64_t)work.end[task].size;

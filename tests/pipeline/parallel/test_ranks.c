@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the ranks hand each other, in several messages each: the program starts itself under mpirun.
+// What the ranks hand each other, in several messages each (message): the program starts itself under mpirun.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
+
 #include <cmocka.h>
 
-#include "export/ranks.h"
-#include "tests/export/stage_run.h"
+#include "pipeline/parallel/message.h"
+#include "pipeline/parallel/ranks.h"
 
-enum { ITEMS = 400000 }; // of each rank; the second has none
+enum { ITEMS = 4000 }; // of each rank; the second has none
 
 typedef struct {
   int64_t number[25];
@@ -69,21 +71,38 @@ static int be_a_rank(int argc, char **argv) {
   return wrong != 0;
 }
 
+// By messages of so many bytes: the default, of which one takes all; more than one item; less than one.
 static void items_come_whole_and_in_order(void **state) {
-  (void)state;
-  static char output[STAGE_OUTPUT_SIZE];
-  char self[4000] = {0};
+  static const char *const most[] = {"", "10000", "150", "7"};
+  char command[4200], self[4000] = {0};
   assert_true(readlink("/proc/self/exe", self, sizeof self - 1) > 0);
-  for (int ranks = 1; ranks <= 3; ++ranks) {
-    if (stage_shell(output, "mpirun -q --oversubscribe -n %d '%s' rank", ranks, self))
-      fail_msg("%d ranks: %s", ranks, output);
+  for (size_t k = 0; k < sizeof most / sizeof *most; ++k) {
+    setenv("CUTWATER_MESSAGE_BYTES", most[k], 1);
+    for (int ranks = 1; ranks <= 3; ++ranks) {
+      snprintf(command, sizeof command, "mpirun -q --oversubscribe -n %d '%s' rank", ranks, self);
+      if (system(command) != 0) fail_msg("%d ranks, messages of '%s' bytes", ranks, most[k]);
+    }
   }
+  unsetenv("CUTWATER_MESSAGE_BYTES");
+}
+
+static void a_message_holds_what_mpi_can_count(void **state) {
+  unsetenv("CUTWATER_MESSAGE_BYTES");
+  assert_int_equal(cw_message_items(5, 8), 5);
+  assert_int_equal(cw_message_items((int64_t)1 << 40, 1), 1 << 26);
+  assert_int_equal(cw_message_items((int64_t)1 << 40, 100), (1 << 26) / 100);
+  assert_int_equal(cw_message_items((int64_t)1 << 40, (size_t)1 << 30), 1);
+  setenv("CUTWATER_MESSAGE_BYTES", "99", 1);
+  assert_int_equal(cw_message_items(50, 8), 12);
+  assert_int_equal(cw_message_items(3, 100), 1);
+  unsetenv("CUTWATER_MESSAGE_BYTES");
 }
 
 int main(int argc, char **argv) {
   if (argc > 1) return be_a_rank(argc, argv);
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  const struct CMUnitTest tests[] = {cmocka_unit_test(items_come_whole_and_in_order)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_message_holds_what_mpi_can_count),
+                                     cmocka_unit_test(items_come_whole_and_in_order)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "export/ranks.h"
+#include "pipeline/parallel/ranks.h"
 
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Items of one message: counts of MPI are int, and a message of two gigabytes and more is too much for some ways of
-// sending.
-static const int64_t MESSAGE_BYTES = 1 << 26;
+#include "pipeline/parallel/message.h"
 
 CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status) {
   int mine = status != CW_OK, any = 0;
@@ -24,12 +22,11 @@ int cw_ranks_speaks_of(const CwRanks *ranks, CwStatus status) {
 
 // Sends or receives items, message by message.
 static void pass_items(const CwRanks *ranks, char *items, int64_t count, size_t size, int from, int to) {
-  const int64_t most = MESSAGE_BYTES / (int64_t)size + 1;
-  for (int64_t at = 0; at < count; at += most) {
-    const int bytes = (int)((count - at < most ? count - at : most) * (int64_t)size);
-    char *part = items + at * (int64_t)size;
-    if (ranks->rank == from) MPI_Send(part, bytes, MPI_BYTE, to, 0, ranks->comm);
-    if (ranks->rank == to) MPI_Recv(part, bytes, MPI_BYTE, from, 0, ranks->comm, MPI_STATUS_IGNORE);
+  const int64_t bytes = count * (int64_t)size;
+  for (int64_t at = 0, part; at < bytes; at += part) {
+    part = cw_message_items(bytes - at, 1);
+    if (ranks->rank == from) MPI_Send(items + at, (int)part, MPI_BYTE, to, 0, ranks->comm);
+    if (ranks->rank == to) MPI_Recv(items + at, (int)part, MPI_BYTE, from, 0, ranks->comm, MPI_STATUS_IGNORE);
   }
 }
 
@@ -70,16 +67,17 @@ done:
 
 void cw_ranks_broadcast(const CwRanks *ranks, void *items, int64_t count, size_t size) {
   const int64_t bytes = count * (int64_t)size;
-  for (int64_t at = 0; at < bytes; at += MESSAGE_BYTES)
-    MPI_Bcast((char *)items + at, (int)(bytes - at < MESSAGE_BYTES ? bytes - at : MESSAGE_BYTES), MPI_BYTE, 0,
-              ranks->comm);
+  for (int64_t at = 0, part; at < bytes; at += part) {
+    part = cw_message_items(bytes - at, 1);
+    MPI_Bcast((char *)items + at, (int)part, MPI_BYTE, 0, ranks->comm);
+  }
 }
 
 void cw_ranks_reduce(const CwRanks *ranks, void *values, int64_t count, MPI_Datatype type, MPI_Op operation) {
   int size;
   MPI_Type_size(type, &size);
-  const int64_t most = MESSAGE_BYTES / size;
-  for (int64_t at = 0; at < count; at += most)
-    MPI_Allreduce(MPI_IN_PLACE, (char *)values + size * at, (int)(count - at < most ? count - at : most), type,
-                  operation, ranks->comm);
+  for (int64_t at = 0, part; at < count; at += part) {
+    part = cw_message_items(count - at, (size_t)size);
+    MPI_Allreduce(MPI_IN_PLACE, (char *)values + size * at, (int)part, type, operation, ranks->comm);
+  }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What all MPI ranks of the exporter do together.
-#ifndef CUTWATER_EXPORT_RANKS_H
-#define CUTWATER_EXPORT_RANKS_H
+// What all MPI ranks of exporter and report do together.
+#ifndef CUTWATER_PIPELINE_PARALLEL_RANKS_H
+#define CUTWATER_PIPELINE_PARALLEL_RANKS_H
 
 #include <mpi.h>
 #include <stdint.h>

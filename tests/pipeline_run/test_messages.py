@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""No call of MPI with a count that grows with the mesh: every stage goes through with messages of some thousand bytes,
+and ends where it hands MPI more at once (tests/message_limit.c); and the files are the same."""
+import os
+import shutil
+import unittest
+
+from cutwater import CELLS, RUN, command, digests, execute, with_geometry
+
+LIMIT = os.environ["CUTWATER_MESSAGE_LIMIT"]
+
+
+class Messages(unittest.TestCase):
+    def limited(self, stage, run):
+        line = command(stage, run, cells=CELLS, ranks=3)
+        program = next(i for i, word in enumerate(line) if word.endswith(f"/cutwater-{stage}"))
+        result = execute(line[:program] + ["env", f"LD_PRELOAD={LIMIT}"] + line[program:])
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(digests(run / stage), digests(RUN / stage), stage)
+
+    def test_every_stage_with_small_messages(self):
+        run = with_geometry("messages")
+        for stage in ("mesh", "export"):
+            self.limited(stage, run)
+        shutil.rmtree(run)
+
+
+if __name__ == "__main__":
+    unittest.main()
