@@ -80,7 +80,7 @@ static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
       t->tetrahedra += line->tetrahedra;
       t->pyramids += line->pyramids;
       t->prisms += line->prisms;
-      cells += line->tetrahedra + line->pyramids + line->prisms;
+      cells += cw_mesh_region_cells(line);
     }
     t->cells = t->tetrahedra + t->pyramids + t->prisms;
     t->first_point = points;

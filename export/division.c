@@ -22,8 +22,7 @@ static int part_of(int64_t cell, int64_t parts, int64_t cells) {
 }
 
 static int64_t region_cells(const CwAssembly *a, int region) {
-  const CwMeshRegion *line = &a->mesh->regions[region];
-  return line->tetrahedra + line->pyramids + line->prisms;
+  return cw_mesh_region_cells(&a->mesh->regions[region]);
 }
 
 static CwStatus plan_pieces(CwDivision *v, int64_t cells) {

@@ -48,7 +48,7 @@ define cutwater_run
 $(1)-solve $(1)-curve: $(1)-%: $(2) $(3)/export/record.json
 	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(or $(NP),2) --bin $(BIN) \
 	  $$(if $$(filter curve,$$*),--curve)
-	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
+	@$(LAUNCHER) $(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 
 .PHONY: $(1)-faces
@@ -77,5 +77,5 @@ $(3)/export/record.json: $(2) $(3)/mesh/record.json $(BIN)/cutwater-export
 	@$(LAUNCHER) $(BIN)/cutwater-export --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 $(3)/report/record.json: $(2) $(3)/export/record.json $(BIN)/cutwater-report
-	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
+	@$(LAUNCHER) $(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 endef

@@ -41,6 +41,10 @@ typedef struct {
   CwModelFlow flow;
 } CwMesh;
 
+static inline int64_t cw_mesh_region_cells(const CwMeshRegion *region) {
+  return region->tetrahedra + region->pyramids + region->prisms;
+}
+
 // Reads RUN/mesh/manifest.json. CW_ERR_IO or CW_ERR_INPUT with file and place. Zeroed `mesh` on entry.
 CwStatus cw_mesh_manifest_read(const char *run, CwMesh *mesh);
 void cw_mesh_free(CwMesh *mesh);

@@ -20,13 +20,12 @@ int cw_ranks_speaks_of(const CwRanks *ranks, CwStatus status) {
   return first == ranks->rank;
 }
 
-// Sends or receives items, message by message.
-static void pass_items(const CwRanks *ranks, char *items, int64_t count, size_t size, int from, int to) {
+void cw_ranks_pass(const CwRanks *ranks, void *items, int64_t count, size_t size, int from, int to) {
   const int64_t bytes = count * (int64_t)size;
   for (int64_t at = 0, part; at < bytes; at += part) {
     part = cw_message_items(bytes - at, 1);
-    if (ranks->rank == from) MPI_Send(items + at, (int)part, MPI_BYTE, to, 0, ranks->comm);
-    if (ranks->rank == to) MPI_Recv(items + at, (int)part, MPI_BYTE, from, 0, ranks->comm, MPI_STATUS_IGNORE);
+    if (ranks->rank == from) MPI_Send((char *)items + at, (int)part, MPI_BYTE, to, 0, ranks->comm);
+    if (ranks->rank == to) MPI_Recv((char *)items + at, (int)part, MPI_BYTE, from, 0, ranks->comm, MPI_STATUS_IGNORE);
   }
 }
 
@@ -50,11 +49,11 @@ CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count,
     if (count > 0) memcpy(place, items, (size_t)count * size);
     for (int r = 1; r < ranks->size; ++r) {
       place += counts[r - 1] * (int64_t)size;
-      pass_items(ranks, place, counts[r], size, r, 0);
+      cw_ranks_pass(ranks, place, counts[r], size, r, 0);
     }
     *total = sum;
   } else {
-    pass_items(ranks, (char *)(uintptr_t)items, count, size, ranks->rank, 0); // only read
+    cw_ranks_pass(ranks, (void *)(uintptr_t)items, count, size, ranks->rank, 0); // only read
   }
 done:
   if (status != CW_OK) {
@@ -80,4 +79,12 @@ void cw_ranks_reduce(const CwRanks *ranks, void *values, int64_t count, MPI_Data
     part = cw_message_items(count - at, (size_t)size);
     MPI_Allreduce(MPI_IN_PLACE, (char *)values + size * at, (int)part, type, operation, ranks->comm);
   }
+}
+
+void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count) {
+  for (int64_t at = 0, part; at < count; at += part) {
+    part = cw_message_items(count - at, sizeof *values);
+    MPI_Exscan(MPI_IN_PLACE, values + at, (int)part, MPI_INT64_T, MPI_SUM, ranks->comm);
+  }
+  if (ranks->rank == 0) memset(values, 0, (size_t)count * sizeof *values); // MPI leaves these as they are
 }

@@ -32,10 +32,16 @@ int cw_ranks_speaks_of(const CwRanks *ranks, CwStatus status);
 CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count, size_t size, void **all,
                          int64_t *total);
 
+// `count` items of `size` bytes from one rank to another, for both of which it is called; others may call it too.
+void cw_ranks_pass(const CwRanks *ranks, void *items, int64_t count, size_t size, int from, int to);
+
 // Rank 0 sends `count` items of `size` bytes to all. Collective.
 void cw_ranks_broadcast(const CwRanks *ranks, void *items, int64_t count, size_t size);
 
 // All ranks get the sum, least or greatest (MPI's operation) of each of `count` values. Collective.
 void cw_ranks_reduce(const CwRanks *ranks, void *values, int64_t count, MPI_Datatype type, MPI_Op operation);
+
+// Each rank gets the sums over the ranks before it. [in,out] values. Collective.
+void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count);
 
 #endif

@@ -98,7 +98,7 @@ CwStatus cw_flow_open(const char *run, const CwMesh *mesh, const CwCase *table, 
   CW_NEW(flow->next_face, mesh->patch_count);
   for (int r = 0; r < mesh->region_count; r++) {
     flow->first_cell[r] = cells;
-    cells += mesh->regions[r].tetrahedra + mesh->regions[r].pyramids + mesh->regions[r].prisms;
+    cells += cw_mesh_region_cells(&mesh->regions[r]);
   }
   CW_TRY(open_field(folder, flow->iteration, "p", 1, cells, &flow->pressure));
   CW_TRY(open_field(folder, flow->iteration, "U", 3, cells, &flow->velocity));
@@ -132,6 +132,10 @@ static double y_plus_at(CwFlow *flow, const CwMesh *mesh, int patch) {
   if (mesh->patches[patch].kind != CW_PATCH_WALL || !values || (values->bytes && face >= values->count)) return NAN;
   cw_foam_field_value(&flow->y_plus, values, face, &value);
   return cw_colour_share(&flow->span[CW_FLOW_Y_PLUS], value);
+}
+
+void cw_flow_skip(CwFlow *flow, const CwMesh *mesh, const int64_t *faces) {
+  for (int p = 0; p < mesh->patch_count; p++) flow->next_face[p] += faces[p];
 }
 
 CwStatus cw_flow_faces(CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, double *share[2]) {

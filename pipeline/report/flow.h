@@ -29,8 +29,12 @@ extern const char *const cw_flow_label[CW_FLOW_QUANTITIES]; // with unit, HTML
 CwStatus cw_flow_open(const char *run, const CwMesh *mesh, const CwCase *table, CwFlow *flow);
 void cw_flow_close(CwFlow *flow);
 
+// Leaves out so many faces of each patch: those of regions that another process takes.
+void cw_flow_skip(CwFlow *flow, const CwMesh *mesh, const int64_t *faces);
+
 // The shares of the colour scale of each boundary face of a region, triangles before quadrilaterals, in new arrays of
-// quantities PRESSURE and Y_PLUS; NAN: the face has no such value. Once for each region, in the order of the manifest.
+// quantities PRESSURE and Y_PLUS; NAN: the face has no such value. Once for each region that is not left out, in the
+// order of the manifest.
 CwStatus cw_flow_faces(CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, double *share[2]);
 
 // The share of the speed of a cell: its number in its region.

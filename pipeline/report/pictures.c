@@ -7,302 +7,37 @@
 #include <string.h>
 
 #include "pipeline/log.h"
-#include "pipeline/report/camera.h"
-#include "pipeline/report/cut.h"
+#include "pipeline/report/drawing.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-static const uint32_t pyramid_colour = 0xb98fc0, bare_colour = 0xd5dade;
-enum { PATCHES = CW_PATCHES_MOST, FIT_MARGIN = 28, METAL = 65000 };
+enum { FIT_MARGIN = 28 };
 
-// A picture while it is drawn.
+// What all ranks draw together: each its regions, which are neighbours in the order of the manifest.
 typedef struct {
-  const CwPictureSpec *spec;
-  CwCamera camera;
-  CwCameraReach reach;
-  CwCutPlane plane;
-  CwCanvas canvas;
-  const char *lacking;            // what is not there; then nothing is drawn
-  unsigned part[CW_DOMAINS_MOST]; // CW_SEES_ROTOR and so on
-  char hidden[CW_DOMAINS_MOST][PATCHES];
-  char seen[CW_DOMAINS_MOST][PATCHES];
-} Drawing;
+  const CwRanks *ranks;
+  const CwMesh *mesh;
+  int first, last; // regions from `first` to `last` - 1
+  CwSurvey *survey;
+  CwDrawing *drawing; // one for each of the list
+} Board;
 
-// What a domain is in a picture: the first that does not rotate is the stator, others are pipes.
-static unsigned part_of(const CwMesh *mesh, int d) {
-  if (mesh->domains[d].rotating) return CW_SEES_ROTOR;
-  for (int before = 0; before < d; before++)
-    if (!mesh->domains[before].rotating) return CW_SEES_PIPES;
-  return CW_SEES_STATOR;
+// Each picture is finished by one rank; the first has the view to finish too.
+static int finisher(const Board *board, int picture) {
+  return board->ranks->size - 1 - picture % board->ranks->size;
 }
 
-static void mark_parts(const CwMesh *mesh, Drawing *drawing) {
-  char name[80];
-  for (int d = 0; d < mesh->domain_count; d++) drawing->part[d] = part_of(mesh, d);
-  if (!drawing->spec->hidden) return;
-  for (int p = 0; p < mesh->patch_count; p++) {
-    const CwModelPatch *patch = &mesh->patches[p];
-    snprintf(name, sizeof name, "|%s|", patch->name);
-    drawing->hidden[patch->domain][p - mesh->domains[patch->domain].first_patch] =
-        strstr(drawing->spec->hidden, name) != NULL;
-  }
-}
-
-// From directions along radius, rotation and axis at `middle` to x, y, z.
-static void turn_with(const double middle[3], const double local[3], double x[3]) {
-  double radius = hypot(middle[0], middle[1]);
-  double c = radius > 0 ? middle[0] / radius : 1, s = radius > 0 ? middle[1] / radius : 0;
-  x[0] = c * local[0] - s * local[1];
-  x[1] = s * local[0] + c * local[1];
-  x[2] = local[2];
-}
-
-static void aim(const CwSurvey *survey, Drawing *drawing) {
-  const CwPictureSpec *spec = drawing->spec;
-  CwCamera *camera = &drawing->camera;
-  double towards[3], up[3], middle[3] = {0, 0, 0}, azimuth = cw_survey_meridional_azimuth(survey), z = 0;
-  double radius = survey->sizes.interface_radius + survey->sizes.base_radius;
-  memcpy(towards, spec->towards, sizeof towards);
-  memcpy(up, spec->up, sizeof up);
-  if (spec->plane == CW_PLANE_MERIDIONAL) {
-    memcpy(towards, (double[3]){sin(azimuth), -cos(azimuth), 0}, sizeof towards);
-    memcpy(up, (double[3]){0, 0, 1}, sizeof up);
-  } else if (spec->plane != CW_PLANE_NONE) {
-    memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
-    memcpy(up, (double[3]){1, 0, 0}, sizeof up);
-  }
-  radius *= 0.5;
-  switch (spec->target) {
-  case CW_TARGET_ALL:
-    break;
-  case CW_TARGET_PLACE:
-    if (!cw_survey_place(survey, spec->place, middle)) drawing->lacking = "the mesh has no such patch";
-    if (spec->plane == CW_PLANE_NONE) {
-      turn_with(middle, spec->towards, towards);
-      turn_with(middle, spec->up, up);
-    }
-    break;
-  case CW_TARGET_SHROUD:
-    radius = 0.43 * survey->sizes.outlet_radius;
-    if (!cw_survey_wall(survey, CW_WALL_SHROUD, radius, &z)) drawing->lacking = "the mesh has no shroud";
-    // fall through
-  case CW_TARGET_NECK:
-    memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
-    break;
-  }
-  if (spec->plane == CW_PLANE_MID_SPAN && !cw_survey_has_mid_span(survey))
-    drawing->lacking = "the mesh has no hub, or no shroud";
-  cw_camera_turn(camera, towards, up);
-  memcpy(camera->centre, middle, sizeof middle);
-  camera->width = spec->width;
-  camera->height = spec->height;
-  camera->metres_per_pixel = spec->span * 2 * survey->sizes.outlet_radius / spec->width;
-  memcpy(drawing->plane.u, camera->right, sizeof camera->right);
-  memcpy(drawing->plane.v, camera->up, sizeof camera->up);
-  memcpy(drawing->plane.normal, camera->towards, sizeof camera->towards);
-  if (spec->target == CW_TARGET_ALL && spec->plane == CW_PLANE_MERIDIONAL) {
-    double z_least, z_most;
-    if (!cw_survey_meridional_reach(survey, azimuth, &radius, &z_least, &z_most)) {
-      drawing->lacking = "the mesh has no boundary near the plane";
-      return;
-    }
-    for (int side = -1; side <= 1; side += 2) {
-      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
-                      &drawing->reach);
-      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_most},
-                      &drawing->reach);
-    }
-  }
-}
-
-// Faces as corners: triangles with four equal to three.
-typedef struct {
-  const double *x[4];
-  int count, patch;
-} Face;
-
-static Face face_at(const CwRegionData *cells, int32_t index) {
-  Face face = {.count = index < cells->triangle_count ? 3 : 4};
-  const int32_t *corner = face.count == 3 ? cells->triangles[index] : cells->quads[index - cells->triangle_count];
-  face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangle_count];
-  for (int k = 0; k < face.count; k++) face.x[k] = cells->points[corner[k]];
-  return face;
-}
-
-static int face_shown(const Drawing *drawing, int d, const Face *face) {
-  if (drawing->hidden[d][face->patch]) return 0;
-  if (!drawing->spec->upper_half || drawing->part[d] == CW_SEES_ROTOR) return 1;
-  double z = 0;
-  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
-  return z > 0;
-}
-
-// Cuts off what lies at z < 0: the corners that are left, in order; at most one more than before.
-static int upper_part(const Face *face, double part[5][3]) {
-  int count = 0;
-  for (int k = 0; k < face->count; k++) {
-    const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
-    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
-    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
-    for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
-    count++;
-  }
-  return count;
-}
-
-static void reach_faces(Drawing *drawing, int d, const CwRegionData *cells) {
-  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
-  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
-    Face face = face_at(cells, f);
-    if (!face_shown(drawing, d, &face)) continue;
-    for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
-  }
-}
-
-// Flat shading by a light over the viewer's left shoulder; a face has no back.
-// *outside becomes true where the viewer stands on the outer side of the face.
-static double light_of(const CwCamera *camera, const Face *face, int *outside) {
-  static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
-  double u[3], v[3], n[3], facing[3] = {0, 0, 0};
-  for (int i = 0; i < 3; i++) {
-    u[i] = face->x[face->count - 2][i] - face->x[0][i];
-    v[i] = face->x[face->count - 1][i] - face->x[face->count - 3][i];
-  }
-  if (face->count == 3) {
-    for (int i = 0; i < 3; i++) v[i] = face->x[2][i] - face->x[0][i];
-  }
-  for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  *outside = 0;
-  if (!(length > 0)) return 1;
-  for (int i = 0; i < 3; i++) {
-    facing[0] += n[i] * camera->right[i] / length;
-    facing[1] += n[i] * camera->up[i] / length;
-    facing[2] += n[i] * camera->towards[i] / length;
-  }
-  *outside = facing[2] > 0;
-  double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
-  for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];
-  return 0.5 + 0.56 * fmax(cosine, 0);
-}
-
-// share: of pressure and y+ by face, for pictures of the flow.
-static uint32_t face_colour(const Drawing *drawing, const CwModelPatch *patch, int region, const Face *face,
-                            double share) {
-  if (drawing->spec->colour == CW_COLOUR_REGION) return cw_region_colour(region);
-  if (!cw_picture_is_of_flow(drawing->spec)) return cw_patch_colour(patch->name, face->patch);
-  return isfinite(share) ? cw_colour_scale(share) : bare_colour;
-}
-
-static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells,
-                       double *const share[2]) {
-  const CwPictureSpec *spec = drawing->spec;
-  int d = cells->domain;
-  const CwModelPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
-  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
-    Face face = face_at(cells, f);
-    if (!face_shown(drawing, d, &face)) continue;
-    double p[5][3], part[5][3];
-    int corners = face.count, outside;
-    double light = light_of(&drawing->camera, &face, &outside);
-    if (spec->upper_half && drawing->part[d] == CW_SEES_STATOR)
-      corners = upper_part(&face, part);
-    else
-      for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
-    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
-    const double *own = cw_picture_is_of_flow(spec) ? share[spec->colour - CW_COLOUR_PRESSURE] : NULL;
-    uint32_t colour = face_colour(drawing, &patch[face.patch], region, &face, own ? own[f] : NAN);
-    int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
-    if (spec->hollow_white && outside && drawing->part[d] == CW_SEES_ROTOR) group = METAL;
-    CwPaint paint = {.colour = cw_render_shade(colour, light),
-                     .group = (uint16_t)group,
-                     .edge_colour = ink,
-                     .edge_width = spec->edges ? 0.9 : 0,
-                     .edge_strength = spec->edges ? 0.75 : 0};
-    cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
-  }
-}
-
-static int is_cut(const double *distance, int count, const int32_t *corner) {
-  int above = 0;
-  for (int k = 0; k < count; k++) {
-    if (isnan(distance[corner[k]])) return 0;
-    above += distance[corner[k]] >= 0;
-  }
-  return above > 0 && above < count;
-}
-
-static void draw_cut_cell(Drawing *drawing, const CwRegionData *cells, const double *distance, int count,
-                          const int32_t *corner, uint32_t colour, int group) {
-  const double *x[6];
-  double s[6], polygon[CW_CUT_CORNERS][2], p[CW_CUT_CORNERS][3];
-  for (int k = 0; k < count; k++) {
-    s[k] = distance[corner[k]];
-    x[k] = cells->points[corner[k]];
-  }
-  int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
-  const CwCamera *camera = &drawing->camera;
-  double centre[2] = {0, 0}, area = 0;
-  for (int i = 0; i < 3; i++) {
-    centre[0] += camera->centre[i] * camera->right[i];
-    centre[1] += camera->centre[i] * camera->up[i];
-  }
-  for (int k = 0; k < corners; k++) {
-    p[k][0] = 0.5 * camera->width + (polygon[k][0] - centre[0]) / camera->metres_per_pixel;
-    p[k][1] = 0.5 * camera->height - (polygon[k][1] - centre[1]) / camera->metres_per_pixel;
-    p[k][2] = 0;
-  }
-  for (int k = 0; k < corners; k++) {
-    int next = (k + 1) % corners;
-    area += 0.5 * (p[next][0] * p[k][1] - p[k][0] * p[next][1]);
-  }
-  // Lines of cells of a few pixels are drawn paler, or they would be all that one sees.
-  double size = sqrt(fmax(area, 0));
-  double strength = fmin(fmax(0.12 + 0.09 * (size - 1), 0.12), 0.8);
-  CwPaint paint = {.colour = colour,
-                   .group = (uint16_t)group,
-                   .edge_colour = ink,
-                   .edge_width = size > 12 ? 0.9 : 0.6,
-                   .edge_strength = cw_picture_is_of_flow(drawing->spec) ? 0 : strength};
-  cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
-}
-
-static CwStatus draw_cut(Drawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey, const CwFlow *flow,
-                         const CwRegionData *cells) {
-  CwStatus status = CW_OK;
-  int d = cells->domain, solved = cw_picture_is_of_flow(drawing->spec);
-  double *distance = NULL;
-  CW_NEW(distance, cells->point_count);
-  for (int32_t i = 0; i < cells->point_count; i++)
-    distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
-                                                            : cw_cut_distance(&drawing->plane, cells->points[i]);
-  const struct {
-    int32_t count;
-    int corners;
-    const int32_t *corner;
-    uint32_t colour;
-  } kind[] = {{cells->tetrahedron_count, 4, (const int32_t *)cells->tetrahedra, cw_domain_colour(d, 2)},
-              {cells->pyramid_count, 5, (const int32_t *)cells->pyramids, pyramid_colour},
-              {cells->prism_count, 6, (const int32_t *)cells->prisms, cw_domain_colour(d, 1)}};
-  for (int32_t k = 0, before = 0; k < 3; before += kind[k++].count) {
-    for (int32_t c = 0; c < kind[k].count; c++) {
-      const int32_t *corner = kind[k].corner + (size_t)kind[k].corners * (size_t)c;
-      if (!is_cut(distance, kind[k].corners, corner)) continue;
-      double speed = solved ? cw_flow_cell_speed(flow, mesh, region, cells, before + c) : NAN;
-      uint32_t colour = solved ? cw_colour_scale(speed) : kind[k].colour;
-      draw_cut_cell(drawing, cells, distance, kind[k].corners, corner, colour, d + 1);
-    }
-  }
-done:
-  free(distance);
-  return status;
-}
-
-// Which patches are to be seen in the finished picture.
-static void mark_seen(Drawing *drawing) {
-  size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
-  for (size_t i = 0; i < samples; i++) {
-    int group = drawing->canvas.group[i] - 1;
-    if (group >= 0 && group < CW_DOMAINS_MOST * PATCHES) drawing->seen[group / PATCHES][group % PATCHES] = 1;
+// Shares the regions by their cells.
+static void take_regions(Board *board) {
+  const CwMesh *mesh = board->mesh;
+  double all = 0, before = 0;
+  for (int r = 0; r < mesh->region_count; r++) all += (double)cw_mesh_region_cells(&mesh->regions[r]);
+  board->first = board->last = 0;
+  for (int r = 0; r < mesh->region_count; r++) {
+    const double cells = (double)cw_mesh_region_cells(&mesh->regions[r]);
+    const int owner = (int)(board->ranks->size * fmin((before + 0.5 * cells) / fmax(all, 1), 1 - 1e-9));
+    board->first += owner < board->ranks->rank;
+    board->last += owner <= board->ranks->rank;
+    before += cells;
   }
 }
 
@@ -318,7 +53,7 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
   item->colour = colour;
 }
 
-static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
+static void make_legend(const CwMesh *mesh, const CwDrawing *drawing, CwReportPicture *picture) {
   static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
   const CwPictureSpec *spec = drawing->spec;
@@ -333,7 +68,7 @@ static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPict
       }
     }
     for (int r = 0; r < mesh->region_count; r++) pyramids |= mesh->regions[r].pyramids > 0;
-    if (pyramids) add_legend(picture, "pyramids", pyramid_colour);
+    if (pyramids) add_legend(picture, "pyramids", cw_pyramid_colour);
     return;
   }
   for (int d = 0; d < mesh->domain_count; d++) {
@@ -344,9 +79,9 @@ static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPict
   }
 }
 
-static void annotate(const Drawing *drawings, int index, CwAnnotation *annotation) {
+static void annotate(const CwDrawing *drawings, int index, CwAnnotation *annotation) {
   static const char *const names[] = {"x", "y", "z"};
-  const Drawing *drawing = &drawings[index];
+  const CwDrawing *drawing = &drawings[index];
   const CwCamera *camera = &drawing->camera;
   annotation->metres_per_pixel = camera->metres_per_pixel;
   annotation->axis_count = 3;
@@ -367,34 +102,47 @@ static void annotate(const Drawing *drawings, int index, CwAnnotation *annotatio
   }
 }
 
-static CwStatus finish(const CwMesh *mesh, Drawing *drawings, int index, CwReportPicture *picture) {
+static CwStatus finish(const Board *board, int index, CwPng *png) {
   CwStatus status = CW_OK;
-  Drawing *drawing = &drawings[index];
+  CwDrawing *drawing = &board->drawing[index];
   CwAnnotation annotation = {0};
-  picture->lacking = drawing->lacking;
-  if (drawing->lacking) goto done;
-  cw_render_erase(&drawing->canvas, METAL, background);
+  cw_render_erase(&drawing->canvas, CW_DRAWING_METAL);
   if (drawing->spec->plane == CW_PLANE_NONE && !drawing->spec->edges)
     cw_render_occlusion(&drawing->canvas, 14, drawing->camera.metres_per_pixel);
   cw_render_outline(&drawing->canvas, ink, 3 * drawing->camera.metres_per_pixel);
-  mark_seen(drawing);
-  annotate(drawings, index, &annotation);
-  CW_TRY(cw_render_png(&drawing->canvas, &annotation, &picture->png));
-  make_legend(mesh, drawing, picture);
+  cw_drawing_mark_seen(drawing);
+  annotate(board->drawing, index, &annotation);
+  CW_TRY(cw_render_png(&drawing->canvas, &annotation, png));
 done:
   cw_render_free(&drawing->canvas);
   return status;
 }
 
-static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *survey) {
+// The reach of each drawing over all ranks. Collective.
+static void join_reaches(const Board *board) {
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    CwCameraReach *reach = &board->drawing[k].reach;
+    double most[4]; // least ones negative
+    for (int i = 0; i < 2; i++) {
+      most[i] = reach->started ? -reach->least[i] : -INFINITY;
+      most[2 + i] = reach->started ? reach->most[i] : -INFINITY;
+    }
+    cw_ranks_reduce(board->ranks, most, 4, MPI_DOUBLE, MPI_MAX);
+    *reach = (CwCameraReach){isfinite(most[0]), {-most[0], -most[1]}, {most[2], most[3]}};
+  }
+}
+
+// The first look at this rank's regions; counts their faces by patch.
+static CwStatus survey_own(Board *board, int64_t *faces) {
   CwStatus status = CW_OK;
   CwRegionData cells = {0};
-  for (int r = 0; r < mesh->region_count; r++) {
-    CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_SURFACE, &cells));
-    cw_survey_add(survey, mesh, &cells);
-    for (int k = 0; k < cw_picture_list_count; k++) {
-      if (drawings[k].spec->sees & drawings[k].part[cells.domain]) reach_faces(&drawings[k], cells.domain, &cells);
-    }
+  for (int r = board->first; r < board->last; r++) {
+    CW_TRY(cw_mesh_region_read(board->mesh, r, CW_REGION_SURFACE, &cells));
+    int64_t *of = faces + board->mesh->domains[cells.domain].first_patch;
+    for (int32_t t = 0; t < cells.triangle_count; t++) of[cells.triangle_patch[t]]++;
+    for (int32_t q = 0; q < cells.quad_count; q++) of[cells.quad_patch[q]]++;
+    cw_survey_add(board->survey, board->mesh, &cells);
+    for (int k = 0; k < cw_picture_list_count; k++) cw_drawing_reach(&board->drawing[k], &cells);
     cw_mesh_region_free(&cells);
   }
 done:
@@ -402,94 +150,188 @@ done:
   return status;
 }
 
-static CwStatus draw_all(CwLog *log, const CwMesh *mesh, const CwSurvey *survey, CwFlow *flow, Drawing *drawings,
-                         CwView *view) {
+// The survey of all regions on all ranks, and where the faces of this rank begin in the fields of the flow. Collective.
+static CwStatus survey_all(Board *board, CwFlow *flow) {
+  CwStatus status = CW_OK;
+  int64_t *faces = calloc((size_t)board->mesh->patch_count + 1, sizeof *faces);
+  status = faces ? survey_own(board, faces) : CW_FAIL(CW_ERR_MEMORY, "out of memory: faces of patches");
+  CW_TRY(cw_ranks_agree(board->ranks, status));
+  cw_survey_join(board->survey, board->ranks);
+  join_reaches(board);
+  cw_ranks_before(board->ranks, faces, board->mesh->patch_count);
+  if (flow->present) cw_flow_skip(flow, board->mesh, faces);
+done:
+  free(faces);
+  return status;
+}
+
+// Puts all views to their places and begins the canvases.
+static CwStatus begin_canvases(const Board *board, const CwFlow *flow) {
+  CwStatus status = CW_OK;
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    CwDrawing *drawing = &board->drawing[k];
+    const CwPictureSpec *spec = drawing->spec;
+    drawing->lacking = cw_picture_is_of_flow(spec) && !flow->present ? "the run has no solved fields" : NULL;
+    if (drawing->lacking) continue;
+    cw_drawing_aim(drawing, board->survey);
+    if (spec->target == CW_TARGET_ALL && !drawing->lacking) {
+      if (drawing->reach.started)
+        cw_camera_fit(&drawing->camera, &drawing->reach, FIT_MARGIN);
+      else
+        drawing->lacking = "the mesh has no such faces";
+    }
+    if (!drawing->lacking)
+      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawing->canvas));
+  }
+done:
+  return status;
+}
+
+static CwStatus draw_own(const Board *board, CwFlow *flow, CwView *view) {
   CwStatus status = CW_OK;
   double *share[2] = {NULL, NULL};
   CwRegionData cells = {0};
-  cw_progress_start(log, "pictures", mesh->region_count, "regions");
-  for (int r = 0; r < mesh->region_count; r++) {
-    CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &cells));
-    if (flow->present) CW_TRY(cw_flow_faces(flow, mesh, r, &cells, share));
-    CW_TRY(cw_view_add(view, mesh, &cells, share));
-    for (int k = 0; k < cw_picture_list_count; k++) {
-      if (!(drawings[k].spec->sees & drawings[k].part[cells.domain]) || drawings[k].lacking) continue;
-      if (drawings[k].spec->plane == CW_PLANE_NONE)
-        draw_faces(&drawings[k], mesh, r, &cells, share);
-      else
-        CW_TRY(draw_cut(&drawings[k], mesh, r, survey, flow, &cells));
-    }
+  for (int r = board->first; r < board->last; r++) {
+    CW_TRY(cw_mesh_region_read(board->mesh, r, CW_REGION_WHOLE, &cells));
+    if (flow->present) CW_TRY(cw_flow_faces(flow, board->mesh, r, &cells, share));
+    CW_TRY(cw_view_add(view, board->mesh, &cells, share));
+    for (int k = 0; k < cw_picture_list_count; k++)
+      CW_TRY(cw_drawing_add(&board->drawing[k], board->mesh, r, board->survey, flow, &cells, share));
     cw_mesh_region_free(&cells);
     for (int q = 0; q < 2; q++) {
       free(share[q]);
       share[q] = NULL;
     }
-    cw_progress(log, r + 1);
+    cw_progress(board->ranks->log, (int64_t)(r + 1 - board->first) * board->mesh->region_count /
+                                       (board->last - board->first));
   }
-  cw_progress_end(log);
 done:
   cw_mesh_region_free(&cells);
   for (int q = 0; q < 2; q++) free(share[q]);
   return status;
 }
 
-CwStatus cw_report_pictures_draw(CwLog *log, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
-                                 CwReportPictures *pictures, CwView *view) {
+// The rows of a canvas from one rank to another, which has one of the same size for them. Called on both.
+static void pass_canvas(const CwRanks *ranks, CwCanvas *canvas, int from, int to) {
+  int rows[2] = {canvas->top, canvas->bottom};
+  cw_ranks_pass(ranks, rows, 2, sizeof *rows, from, to);
+  canvas->top = rows[0];
+  canvas->bottom = rows[1];
+  if (rows[0] >= rows[1]) return;
+  const size_t first = (size_t)rows[0] * (size_t)canvas->columns;
+  const int64_t samples = (int64_t)(rows[1] - rows[0]) * canvas->columns;
+  cw_ranks_pass(ranks, canvas->group + first, samples, sizeof *canvas->group, from, to);
+  cw_ranks_pass(ranks, canvas->colour + first, samples, sizeof *canvas->colour, from, to);
+  if (canvas->depth) cw_ranks_pass(ranks, canvas->depth + first, samples, sizeof *canvas->depth, from, to);
+}
+
+// What all ranks have drawn of a picture, on the canvas of the one that finishes it: in the order of the regions, from
+// its own outwards. Collective.
+static CwStatus join_canvas(const Board *board, int picture) {
   CwStatus status = CW_OK;
-  Drawing *drawings = NULL;
-  CwSurvey *survey = NULL;
-  *pictures = (CwReportPictures){0};
-  CW_NEW(drawings, cw_picture_list_count);
-  CW_NEW(survey, 1);
-  CW_NEW(pictures->picture, cw_picture_list_count);
-  pictures->count = cw_picture_list_count;
-  cw_survey_start(survey, sizes);
-  for (int k = 0; k < cw_picture_list_count; k++) {
-    drawings[k].spec = &cw_picture_list[k];
-    mark_parts(mesh, &drawings[k]);
-    aim(survey, &drawings[k]); // the directions of views of all; the places are not known yet
-    drawings[k].reach = (CwCameraReach){0};
+  const CwRanks *ranks = board->ranks;
+  CwCanvas *canvas = &board->drawing[picture].canvas, other = {0};
+  const int to = finisher(board, picture);
+  if (ranks->size == 1) goto done;
+  if (ranks->rank == to)
+    status = cw_render_start(canvas->width, canvas->height, background, canvas->depth != NULL, &other);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  for (int step = 1; step < ranks->size; step++) {
+    const int from = step <= to ? to - step : step;
+    if (ranks->rank == from) pass_canvas(ranks, canvas, from, to);
+    if (ranks->rank != to) continue;
+    pass_canvas(ranks, &other, from, to);
+    cw_render_merge(canvas, &other, from > to);
   }
-  CW_TRY(cw_view_start(mesh, sizes->outlet_radius, view));
-  CW_TRY(survey_all(mesh, drawings, survey));
+  if (ranks->rank != to) cw_render_free(canvas);
+done:
+  cw_render_free(&other);
+  return status;
+}
+
+// Joins the pictures and finishes them, each on one rank; rank 0 gets them all. Collective.
+static CwStatus finish_all(const Board *board, CwReportPictures *pictures) {
+  CwStatus status = CW_OK;
+  const CwRanks *ranks = board->ranks;
+  for (int k = 0; k < cw_picture_list_count; k++)
+    if (!board->drawing[k].lacking) CW_TRY(join_canvas(board, k));
+  for (int k = 0; k < cw_picture_list_count && status == CW_OK; k++)
+    if (!board->drawing[k].lacking && finisher(board, k) == ranks->rank)
+      status = finish(board, k, &pictures->picture[k].png);
+  CW_TRY(cw_ranks_agree(ranks, status));
   for (int k = 0; k < cw_picture_list_count; k++) {
-    const CwPictureSpec *spec = drawings[k].spec;
-    drawings[k].lacking = cw_picture_is_of_flow(spec) && !flow->present ? "the run has no solved fields" : NULL;
-    if (drawings[k].lacking) continue;
-    aim(survey, &drawings[k]);
-    if (spec->target == CW_TARGET_ALL && !drawings[k].lacking) {
-      if (drawings[k].reach.started)
-        cw_camera_fit(&drawings[k].camera, &drawings[k].reach, FIT_MARGIN);
-      else
-        drawings[k].lacking = "the mesh has no such faces";
-    }
-    if (!drawings[k].lacking)
-      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
-  }
-  CW_TRY(draw_all(log, mesh, survey, flow, drawings, view));
-  CW_TRY(cw_view_finish(view, mesh));
-  for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
-    view->quantity[view->quantity_count++] = (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
-  for (int k = 0; k < cw_picture_list_count; k++) {
-    const CwPictureSpec *spec = drawings[k].spec;
-    CwReportPicture *picture = &pictures->picture[k];
-    picture->section = spec->section;
-    picture->title = spec->title;
-    picture->caption = spec->caption;
-    picture->wide = spec->wide;
-    picture->width = spec->width;
-    picture->height = spec->height;
-    picture->absent = (spec->needs_pipes && mesh->domain_count <= 2) || (cw_picture_is_of_flow(spec) && !flow->present);
-    if (cw_picture_is_of_flow(spec)) {
-      picture->scale_label = cw_flow_label[spec->colour - CW_COLOUR_PRESSURE];
-      picture->scale = flow->span[spec->colour - CW_COLOUR_PRESSURE];
-    }
-    CW_TRY(finish(mesh, drawings, k, picture));
+    CwPng *png = &pictures->picture[k].png;
+    CwDrawing *drawing = &board->drawing[k];
+    const int from = finisher(board, k);
+    cw_ranks_reduce(ranks, drawing->seen, sizeof drawing->seen, MPI_SIGNED_CHAR, MPI_MAX);
+    if (from == 0) continue;
+    int64_t size = (int64_t)png->size;
+    cw_ranks_pass(ranks, &size, 1, sizeof size, from, 0);
+    if (ranks->rank == 0) png->bytes = malloc((size_t)size + 1);
+    if (ranks->rank == 0 && !png->bytes) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld bytes", (long long)size);
+    CW_TRY(cw_ranks_agree(ranks, status));
+    cw_ranks_pass(ranks, png->bytes, size, 1, from, 0);
+    png->size = (size_t)size;
   }
 done:
-  for (int k = 0; drawings && k < cw_picture_list_count; k++) cw_render_free(&drawings[k].canvas);
-  free(drawings);
-  free(survey);
+  return status;
+}
+
+static void describe(const Board *board, const CwFlow *flow, int index, CwReportPicture *picture) {
+  const CwPictureSpec *spec = &cw_picture_list[index];
+  picture->section = spec->section;
+  picture->title = spec->title;
+  picture->caption = spec->caption;
+  picture->wide = spec->wide;
+  picture->width = spec->width;
+  picture->height = spec->height;
+  picture->lacking = board->drawing[index].lacking;
+  picture->absent =
+      (spec->needs_pipes && board->mesh->domain_count <= 2) || (cw_picture_is_of_flow(spec) && !flow->present);
+  if (cw_picture_is_of_flow(spec)) {
+    picture->scale_label = cw_flow_label[spec->colour - CW_COLOUR_PRESSURE];
+    picture->scale = flow->span[spec->colour - CW_COLOUR_PRESSURE];
+  }
+  if (!picture->lacking) make_legend(board->mesh, &board->drawing[index], picture);
+}
+
+static CwStatus start_board(const CwPumpSizes *sizes, Board *board, CwReportPictures *pictures, CwView *view) {
+  CwStatus status = CW_OK;
+  CW_NEW(board->drawing, cw_picture_list_count);
+  CW_NEW(board->survey, 1);
+  CW_NEW(pictures->picture, cw_picture_list_count);
+  pictures->count = cw_picture_list_count;
+  cw_survey_start(board->survey, sizes);
+  for (int k = 0; k < cw_picture_list_count; k++)
+    cw_drawing_start(&cw_picture_list[k], board->mesh, board->survey, &board->drawing[k]);
+  CW_TRY(cw_view_start(board->mesh, sizes->outlet_radius, view));
+done:
+  return status;
+}
+
+CwStatus cw_report_pictures_draw(const CwRanks *ranks, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
+                                 CwReportPictures *pictures, CwView *view) {
+  CwStatus status = CW_OK;
+  Board board = {.ranks = ranks, .mesh = mesh};
+  *pictures = (CwReportPictures){0};
+  take_regions(&board);
+  CW_TRY(cw_ranks_agree(ranks, start_board(sizes, &board, pictures, view)));
+  CW_TRY(survey_all(&board, flow));
+  CW_TRY(cw_ranks_agree(ranks, begin_canvases(&board, flow)));
+  cw_progress_start(ranks->log, "pictures", mesh->region_count, "regions");
+  CW_TRY(cw_ranks_agree(ranks, draw_own(&board, flow, view)));
+  cw_progress_end(ranks->log);
+  CW_TRY(cw_view_join(view, mesh, ranks));
+  CW_TRY(finish_all(&board, pictures));
+  if (ranks->rank == 0) status = cw_view_finish(view, mesh);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
+    view->quantity[view->quantity_count++] = (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
+  for (int k = 0; k < cw_picture_list_count; k++) describe(&board, flow, k, &pictures->picture[k]);
+done:
+  for (int k = 0; board.drawing && k < cw_picture_list_count; k++) cw_render_free(&board.drawing[k].canvas);
+  free(board.drawing);
+  free(board.survey);
   return status;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The pictures of geometry and mesh, drawn from the region files, one region in memory at a time.
+// The pictures of geometry and mesh, drawn from the region files, one region in memory of a rank at a time.
 #ifndef CUTWATER_PIPELINE_REPORT_PICTURES_H
 #define CUTWATER_PIPELINE_REPORT_PICTURES_H
 
-#include "pipeline/log.h"
 #include "pipeline/mesh/region_read.h"
+#include "pipeline/parallel/ranks.h"
 #include "pipeline/report/flow.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/render.h"
@@ -35,9 +35,10 @@ typedef struct {
   int count;
 } CwReportPictures;
 
-// Reads every region twice and draws, also the flow, where there is one; *view, zeroed, gets the picture that turns.
-// Free with cw_report_pictures_free and cw_view_free, also after a failure.
-CwStatus cw_report_pictures_draw(CwLog *log, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
+// Each rank reads its share of the regions twice and draws, also the flow, where there is one; rank 0 gets all pictures
+// and in *view, zeroed, the one that turns: the same for any number of ranks. Free with cw_report_pictures_free and
+// cw_view_free on all ranks, also after a failure. Collective.
+CwStatus cw_report_pictures_draw(const CwRanks *ranks, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
                                  CwReportPictures *pictures, CwView *view);
 void cw_report_pictures_free(CwReportPictures *pictures);
 

@@ -7,16 +7,16 @@
 
 CwStatus cw_render_start(int width, int height, uint32_t background, int depth_buffer, CwCanvas *canvas) {
   CwStatus status = CW_OK;
-  *canvas = (CwCanvas){
-      .width = width, .height = height, .columns = width * CW_RENDER_SAMPLES, .rows = height * CW_RENDER_SAMPLES};
+  *canvas = (CwCanvas){.width = width,
+                       .height = height,
+                       .columns = width * CW_RENDER_SAMPLES,
+                       .rows = height * CW_RENDER_SAMPLES,
+                       .background = background};
+  canvas->top = canvas->rows;
   size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
   CW_NEW(canvas->colour, samples);
   CW_NEW(canvas->group, samples);
-  for (size_t i = 0; i < samples; i++) canvas->colour[i] = background;
-  if (depth_buffer) {
-    CW_NEW(canvas->depth, samples);
-    for (size_t i = 0; i < samples; i++) canvas->depth[i] = -INFINITY;
-  }
+  if (depth_buffer) CW_NEW(canvas->depth, samples);
 done:
   if (status != CW_OK) cw_render_free(canvas);
   return status;
@@ -49,6 +49,12 @@ uint32_t cw_render_shade(uint32_t colour, double factor) {
 
 enum { POLYGON_MOST = 16 };
 
+static void touch(CwCanvas *canvas, int up, int down) {
+  if (up > down) return;
+  if (up < canvas->top) canvas->top = up;
+  if (down >= canvas->bottom) canvas->bottom = down + 1;
+}
+
 // Paints one sample; `line` is how far it lies within a line, 1 and more: wholly.
 static void put(CwCanvas *canvas, size_t place, double line, const CwPaint *paint) {
   line = fmin(fmax(line, 0), 1) * paint->edge_strength;
@@ -71,6 +77,7 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
   // Sample (i, j) has its centre at (i + 0.5, j + 0.5).
   int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
   int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
+  touch(canvas, up, down);
   // weight[k] is 1 at corner k and 0 on the edge k+1, k+2 opposite to it; reach[k] is the height over that
   // edge.
   double gx[3], gy[3], at[3], reach[3];
@@ -91,7 +98,7 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
       if (w[0] < -1e-9 || w[1] < -1e-9 || w[2] < -1e-9) continue;
       if (canvas->depth) {
         float depth = (float)(w[0] * p[0][2] + w[1] * p[1][2] + w[2] * p[2][2]);
-        if (depth < canvas->depth[place]) continue;
+        if (canvas->group[place] && depth < canvas->depth[place]) continue;
         canvas->depth[place] = depth;
       }
       double line = 0;
@@ -130,6 +137,7 @@ static void flat_polygon(CwCanvas *canvas, const double (*p)[3], int count, cons
   if (area == 0 || right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows) return;
   int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
   int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
+  touch(canvas, up, down);
   double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
   for (int j = up; j <= down; j++) {
     for (int i = first; i <= last; i++) {
@@ -157,6 +165,28 @@ void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const 
   }
 }
 
+void cw_render_merge(CwCanvas *canvas, const CwCanvas *other, int later) {
+  const size_t columns = (size_t)canvas->columns;
+  touch(canvas, other->top, other->bottom - 1);
+  for (size_t i = (size_t)other->top * columns; i < (size_t)other->bottom * columns; i++) {
+    if (!other->group[i]) continue;
+    if (canvas->group[i]) {
+      double nearer = canvas->depth ? other->depth[i] - canvas->depth[i] : 0;
+      if (nearer < 0 || (nearer == 0 && !later)) continue;
+    }
+    canvas->group[i] = other->group[i];
+    canvas->colour[i] = other->colour[i];
+    if (canvas->depth) canvas->depth[i] = other->depth[i];
+  }
+}
+
+// Where nothing is drawn, the depth is -INFINITY from here on.
+static void clear_depth(CwCanvas *canvas) {
+  size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
+  for (size_t i = 0; canvas->depth && i < samples; i++)
+    if (!canvas->group[i]) canvas->depth[i] = -INFINITY;
+}
+
 // A step in depth is a bend of the depth along a line of samples, so that slanted faces have none.
 static int steps(const float *depth, size_t place, size_t stride, double step) {
   double before = depth[place - stride], here = depth[place], behind = depth[place + stride];
@@ -167,6 +197,7 @@ static int steps(const float *depth, size_t place, size_t stride, double step) {
 
 void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step) {
   size_t columns = (size_t)canvas->columns, rows = (size_t)canvas->rows;
+  clear_depth(canvas);
   for (size_t j = 1; j + 1 < rows; j++) {
     for (size_t i = 1; i + 1 < columns; i++) {
       size_t place = j * columns + i;
@@ -223,6 +254,7 @@ static double hollow(const CwCanvas *canvas, long i, long j, const Pair pairs[PA
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
   Pair pairs[PAIRS];
   if (!canvas->depth) return;
+  clear_depth(canvas);
   place_pairs(radius, pairs);
   for (long j = 0; j < canvas->height; j++) {
     for (long i = 0; i < canvas->width; i++) {
@@ -242,14 +274,10 @@ void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
   }
 }
 
-void cw_render_erase(CwCanvas *canvas, uint16_t group, uint32_t background) {
+void cw_render_erase(CwCanvas *canvas, uint16_t group) {
   size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
-  for (size_t i = 0; i < samples; i++) {
-    if (canvas->group[i] != group) continue;
-    canvas->colour[i] = background;
-    canvas->group[i] = 0;
-    if (canvas->depth) canvas->depth[i] = -INFINITY;
-  }
+  for (size_t i = 0; i < samples; i++)
+    if (canvas->group[i] == group) canvas->group[i] = 0;
 }
 
 double cw_render_round_length(double limit) {

@@ -15,9 +15,11 @@ enum { CW_RENDER_SAMPLES = 2 }; // along each side of a pixel
 typedef struct {
   int width, height; // pixels of the finished picture
   int columns, rows; // samples
-  uint32_t *colour;  // 0xRRGGBB
-  float *depth;      // -INFINITY: nothing drawn
-  uint16_t *group;   // what the sample shows; 0: background. An outline is drawn where it changes.
+  int top, bottom;   // rows from `top` to `bottom` - 1 may have something on them
+  uint32_t background;
+  uint16_t *group;  // what the sample shows; 0: background. An outline is drawn where it changes.
+  uint32_t *colour; // 0xRRGGBB, where there is a group: what was never drawn on takes no memory
+  float *depth;     // the same; NULL: none
 } CwCanvas;
 
 // `depth_buffer` 0: later triangles cover earlier ones (flat pictures). CW_ERR_MEMORY.
@@ -38,6 +40,10 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
 // buffer as a fan of triangles.
 void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint);
 
+// Adds what was drawn on another canvas of the same size, `later` than what is on this one or earlier: the same samples
+// as from all of it on one canvas.
+void cw_render_merge(CwCanvas *canvas, const CwCanvas *other, int later);
+
 // Darkens the borders between groups and, in pictures with a depth buffer, steps in depth of more than `step`
 // (in units of the depth).
 void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step);
@@ -46,7 +52,7 @@ void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step);
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit);
 
 // Makes the samples of `group` background again.
-void cw_render_erase(CwCanvas *canvas, uint16_t group, uint32_t background);
+void cw_render_erase(CwCanvas *canvas, uint16_t group);
 
 // 0xRRGGBB times a factor, limited to white.
 uint32_t cw_render_shade(uint32_t colour, double factor);

@@ -16,7 +16,8 @@ static void average(const CwCanvas *canvas, unsigned char *pixels, int stride) {
       for (int s = 0; s < samples; s++) {
         size_t place = (size_t)(j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES) * (size_t)canvas->columns +
                        (size_t)(i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES);
-        for (int c = 0; c < 3; c++) sum[c] += (canvas->colour[place] >> (8 * c)) & 255;
+        uint32_t colour = canvas->group[place] ? canvas->colour[place] : canvas->background;
+        for (int c = 0; c < 3; c++) sum[c] += (colour >> (8 * c)) & 255;
       }
       row[i] = 0;
       for (int c = 0; c < 3; c++) row[i] |= ((sum[c] + samples / 2) / samples) << (8 * c);

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/report/exact_sum.h"
+
 // While triangles come there may be SLACK times as many as wanted; from then on the lattice grows.
-enum { SLACK = 4 };
+enum { SLACK = 4, REACH = 8192 }; // REACH: first cells along the lengths that sums are exact for
 // Pull to the middle of the corners, over that of the planes: it chooses where planes leave a direction open.
 static const double pull = 1e-3;
 
@@ -23,6 +25,7 @@ typedef struct {
 struct CwSimplifier {
   int64_t most;
   double cell, first_cell;
+  double area_unit, moment_unit; // of the sums of areas, and of areas times lengths
   Cluster *cluster;
   int32_t (*place)[3]; // of each cluster, in cells
   int32_t *table;      // clusters by their place, open addressing; -1: free
@@ -67,6 +70,8 @@ CwStatus cw_simplify_start(int64_t most, double cell, CwSimplifier **simplifier)
   CW_NEW(s, 1);
   s->most = most;
   s->cell = s->first_cell = cell;
+  s->area_unit = cw_exact_unit(pow(REACH * cell, 2));
+  s->moment_unit = cw_exact_unit(pow(REACH * cell, 3));
   CW_TRY(rehash(s, 1024));
   *simplifier = s;
   s = NULL;
@@ -75,22 +80,48 @@ done:
   return status;
 }
 
-// The cluster of the cube that holds x, made where it is new.
-static CwStatus cluster_at(CwSimplifier *s, const double x[3], int32_t *index) {
+static void place_of(double cell, const double x[3], int32_t place[3]) {
+  for (int i = 0; i < 3; i++) place[i] = (int32_t)floor(x[i] / cell);
+}
+
+// The cluster of a cube, made where it is new.
+static CwStatus cluster_at(CwSimplifier *s, const int32_t place[3], int32_t *index) {
   CwStatus status = CW_OK;
-  int32_t place[3];
-  for (int i = 0; i < 3; i++) place[i] = (int32_t)floor(x[i] / s->cell);
   int64_t slot = slot_of(s, place);
   if (s->table[slot] < 0) {
     CW_GROW(s->cluster, s->cluster_space, s->cluster_count + 1);
     CW_GROW(s->place, s->place_space, s->cluster_count + 1);
     s->cluster[s->cluster_count] = (Cluster){0};
-    memcpy(s->place[s->cluster_count], place, sizeof place);
+    memcpy(s->place[s->cluster_count], place, sizeof s->place[0]);
     s->table[slot] = (int32_t)s->cluster_count++;
     if (2 * s->cluster_count > s->table_size) CW_TRY(rehash(s, 2 * s->table_size));
     slot = slot_of(s, place);
   }
   *index = s->table[slot];
+done:
+  return status;
+}
+
+static void add_cluster(Cluster *to, const Cluster *from) {
+  to->weight += from->weight;
+  for (int i = 0; i < 3; i++) {
+    to->sum[i] += from->sum[i];
+    to->b[i] += from->b[i];
+  }
+  for (int i = 0; i < 6; i++) to->a[i] += from->a[i];
+  for (int i = 0; i < CW_SIMPLIFY_VALUES; i++) {
+    to->value_weight[i] += from->value_weight[i];
+    to->value_sum[i] += from->value_sum[i];
+  }
+}
+
+// Keeps a triangle unless two of its corners are one.
+static CwStatus add_triangle(CwSimplifier *s, const Triangle *triangle) {
+  CwStatus status = CW_OK;
+  const int32_t *corner = triangle->corner;
+  if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) goto done;
+  CW_GROW(s->triangle, s->triangle_space, s->triangle_count + 1);
+  s->triangle[s->triangle_count++] = *triangle;
 done:
   return status;
 }
@@ -125,48 +156,52 @@ static void point_of(const CwSimplifier *s, const Cluster *c, double x[3]) {
   for (int i = 0; i < 3; i++) x[i] += share * off[i];
 }
 
-// Puts the clusters into cubes of another edge, by the points that they stand for.
+// Adds the clusters of one lattice to those of another, which is as fine or coarser, and the triangles: of twice the
+// cells by the cubes themselves, of others by the points that the clusters stand for.
+static CwStatus move_all(const CwSimplifier *from, CwSimplifier *to) {
+  CwStatus status = CW_OK;
+  int32_t *moved = NULL;
+  CW_NEW_UNSET(moved, from->cluster_count);
+  for (int64_t k = 0; k < from->cluster_count; k++) {
+    double x[3];
+    int32_t place[3];
+    const int32_t *at = from->place[k];
+    point_of(from, &from->cluster[k], x);
+    place_of(to->cell, x, place);
+    if (to->cell == from->cell) memcpy(place, at, sizeof place);
+    if (to->cell == 2 * from->cell)
+      for (int i = 0; i < 3; i++) place[i] = (at[i] - (at[i] & 1)) / 2;
+    CW_TRY(cluster_at(to, place, &moved[k]));
+    add_cluster(&to->cluster[moved[k]], &from->cluster[k]);
+  }
+  for (int64_t t = 0; t < from->triangle_count; t++) {
+    Triangle triangle = from->triangle[t];
+    for (int i = 0; i < 3; i++) triangle.corner[i] = moved[triangle.corner[i]];
+    CW_TRY(add_triangle(to, &triangle));
+  }
+done:
+  free(moved);
+  return status;
+}
+
 static CwStatus coarsen(CwSimplifier *s, double cell) {
   CwStatus status = CW_OK;
   CwSimplifier *next = NULL;
-  int32_t *moved = NULL;
-  CW_NEW_UNSET(moved, s->cluster_count);
-  CW_TRY(cw_simplify_start(s->most, cell, &next));
-  for (int64_t k = 0; k < s->cluster_count; k++) {
-    const Cluster *from = &s->cluster[k];
-    double x[3];
-    point_of(s, from, x);
-    CW_TRY(cluster_at(next, x, &moved[k]));
-    Cluster *to = &next->cluster[moved[k]];
-    to->weight += from->weight;
-    for (int i = 0; i < 3; i++) {
-      to->sum[i] += from->sum[i];
-      to->b[i] += from->b[i];
-    }
-    for (int i = 0; i < 6; i++) to->a[i] += from->a[i];
-    for (int i = 0; i < CW_SIMPLIFY_VALUES; i++) {
-      to->value_weight[i] += from->value_weight[i];
-      to->value_sum[i] += from->value_sum[i];
-    }
-  }
-  next->triangle = s->triangle;
-  next->triangle_space = s->triangle_space;
-  for (int64_t t = 0; t < s->triangle_count; t++) {
-    Triangle triangle = s->triangle[t];
-    for (int i = 0; i < 3; i++) triangle.corner[i] = moved[triangle.corner[i]];
-    if (triangle.corner[0] == triangle.corner[1] || triangle.corner[1] == triangle.corner[2] ||
-        triangle.corner[2] == triangle.corner[0])
-      continue;
-    next->triangle[next->triangle_count++] = triangle;
-  }
-  s->triangle = NULL;
-  next->first_cell = s->first_cell;
+  CW_TRY(cw_simplify_start(s->most, s->first_cell, &next));
+  next->cell = cell;
+  CW_TRY(move_all(s, next));
   CwSimplifier swap = *s;
   *s = *next;
   *next = swap;
 done:
-  free(moved);
   cw_simplify_free(next);
+  return status;
+}
+
+static CwStatus coarsen_to_slack(CwSimplifier *s) {
+  CwStatus status = CW_OK;
+  while (s->triangle_count > SLACK * s->most) CW_TRY(coarsen(s, 2 * s->cell));
+done:
   return status;
 }
 
@@ -185,29 +220,81 @@ CwStatus cw_simplify_add(CwSimplifier *s, const double *const corner[3], int mar
   area = sqrt(area);
   if (!(area > 0)) goto done;
   for (int i = 0; i < 3; i++) distance += n[i] / area * corner[0][i];
+  const double weight = cw_exact_term(area, s->area_unit);
   for (int k = 0; k < 3; k++) {
-    CW_TRY(cluster_at(s, corner[k], &triangle.corner[k]));
+    int32_t place[3];
+    place_of(s->cell, corner[k], place);
+    CW_TRY(cluster_at(s, place, &triangle.corner[k]));
     Cluster *c = &s->cluster[triangle.corner[k]];
-    c->weight += area;
+    c->weight += weight;
     for (int i = 0; i < 3; i++) {
-      c->sum[i] += area * corner[k][i];
-      c->a[i] += n[i] * n[i] / area;
-      c->a[3 + i] += n[i] * n[(i + 1) % 3] / area;
-      c->b[i] += n[i] * distance;
+      c->sum[i] += cw_exact_term(area * corner[k][i], s->moment_unit);
+      c->a[i] += cw_exact_term(n[i] * n[i] / area, s->area_unit);
+      c->a[3 + i] += cw_exact_term(n[i] * n[(i + 1) % 3] / area, s->area_unit);
+      c->b[i] += cw_exact_term(n[i] * distance, s->moment_unit);
     }
     for (int i = 0; value && i < CW_SIMPLIFY_VALUES; i++) {
       if (!isfinite(value[i])) continue;
-      c->value_weight[i] += area;
-      c->value_sum[i] += area * value[i];
+      c->value_weight[i] += weight;
+      c->value_sum[i] += cw_exact_term(area * value[i], s->area_unit);
     }
   }
-  if (triangle.corner[0] == triangle.corner[1] || triangle.corner[1] == triangle.corner[2] ||
-      triangle.corner[2] == triangle.corner[0])
-    goto done;
-  CW_GROW(s->triangle, s->triangle_space, s->triangle_count + 1);
-  s->triangle[s->triangle_count++] = triangle;
-  while (s->triangle_count > SLACK * s->most) CW_TRY(coarsen(s, 2 * s->cell));
+  CW_TRY(add_triangle(s, &triangle));
+  CW_TRY(coarsen_to_slack(s));
 done:
+  return status;
+}
+
+// What a packed simplifier begins with; its clusters, their places and the triangles follow.
+typedef struct {
+  double cell;
+  int64_t cluster_count, triangle_count;
+} Packed;
+
+CwStatus cw_simplify_pack(const CwSimplifier *s, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const size_t clusters = (size_t)s->cluster_count, triangles = (size_t)s->triangle_count;
+  const Packed head = {s->cell, s->cluster_count, s->triangle_count};
+  char *pack = NULL;
+  *size = (int64_t)(sizeof head + clusters * (sizeof *s->cluster + sizeof *s->place) + triangles * sizeof *s->triangle);
+  CW_NEW_UNSET(pack, *size);
+  *bytes = pack;
+  memcpy(pack, &head, sizeof head);
+  pack += sizeof head;
+  if (clusters) memcpy(pack, s->cluster, clusters * sizeof *s->cluster);
+  pack += clusters * sizeof *s->cluster;
+  if (clusters) memcpy(pack, s->place, clusters * sizeof *s->place);
+  pack += clusters * sizeof *s->place;
+  if (triangles) memcpy(pack, s->triangle, triangles * sizeof *s->triangle);
+done:
+  return status;
+}
+
+CwStatus cw_simplify_absorb(CwSimplifier *s, const void *bytes) {
+  CwStatus status = CW_OK;
+  const char *pack = bytes;
+  Packed head;
+  CwSimplifier *from = NULL;
+  memcpy(&head, pack, sizeof head);
+  pack += sizeof head;
+  CW_TRY(cw_simplify_start(s->most, s->first_cell, &from));
+  from->cell = head.cell;
+  CW_GROW(from->cluster, from->cluster_space, head.cluster_count);
+  CW_GROW(from->place, from->place_space, head.cluster_count);
+  CW_GROW(from->triangle, from->triangle_space, head.triangle_count);
+  from->cluster_count = head.cluster_count;
+  from->triangle_count = head.triangle_count;
+  if (from->cluster) memcpy(from->cluster, pack, (size_t)head.cluster_count * sizeof *from->cluster);
+  pack += (size_t)head.cluster_count * sizeof *from->cluster;
+  if (from->place) memcpy(from->place, pack, (size_t)head.cluster_count * sizeof *from->place);
+  pack += (size_t)head.cluster_count * sizeof *from->place;
+  if (from->triangle) memcpy(from->triangle, pack, (size_t)head.triangle_count * sizeof *from->triangle);
+  while (s->cell < from->cell) CW_TRY(coarsen(s, 2 * s->cell));
+  while (from->cell < s->cell) CW_TRY(coarsen(from, 2 * from->cell));
+  CW_TRY(move_all(from, s));
+  CW_TRY(coarsen_to_slack(s));
+done:
+  cw_simplify_free(from);
   return status;
 }
 
@@ -215,47 +302,90 @@ int cw_simplify_coarsened(const CwSimplifier *s) {
   return s->cell > s->first_cell;
 }
 
-static int by_corners(const void *left, const void *right) {
-  const Triangle *const both[2] = {left, right};
-  int32_t sorted[2][3];
-  for (int k = 0; k < 2; k++) {
-    memcpy(sorted[k], both[k]->corner, sizeof sorted[k]);
-    for (int pass = 0; pass < 3; pass++) {
-      int i = pass % 2;
-      if (sorted[k][i] <= sorted[k][i + 1]) continue;
-      int32_t swap = sorted[k][i];
-      sorted[k][i] = sorted[k][i + 1];
-      sorted[k][i + 1] = swap;
-    }
+// Numbers in ascending order.
+static void sort_three(int32_t v[3]) {
+  for (int pass = 0; pass < 3; pass++) {
+    int i = pass % 2;
+    if (v[i] <= v[i + 1]) continue;
+    int32_t swap = v[i];
+    v[i] = v[i + 1];
+    v[i + 1] = swap;
   }
-  for (int i = 0; i < 3; i++)
-    if (sorted[0][i] != sorted[1][i]) return sorted[0][i] < sorted[1][i] ? -1 : 1;
-  for (int i = 0; i < 3; i++) // then by all that they hold: no order is left open
-    if (both[0]->corner[i] != both[1]->corner[i]) return both[0]->corner[i] < both[1]->corner[i] ? -1 : 1;
-  return (both[0]->mark > both[1]->mark) - (both[0]->mark < both[1]->mark);
 }
 
-static int same_corners(const Triangle *left, const Triangle *right) {
-  int same = 0;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) same += left->corner[i] == right->corner[j];
-  return same == 3;
+// A triangle, or a cube with its index, by which it is put in order. No order is left open.
+typedef struct {
+  int32_t key[7];
+} Sorted;
+
+static int by_key(const void *left, const void *right) {
+  const Sorted *a = left, *b = right;
+  for (int i = 0; i < 7; i++)
+    if (a->key[i] != b->key[i]) return a->key[i] < b->key[i] ? -1 : 1;
+  return 0;
 }
 
-static void drop_twins(CwSimplifier *s) {
-  int64_t left = 0;
-  qsort(s->triangle, (size_t)s->triangle_count, sizeof *s->triangle, by_corners);
+// Numbers the clusters by their places, whatever came first.
+static CwStatus put_in_order(CwSimplifier *s) {
+  CwStatus status = CW_OK;
+  Sorted *sorted = NULL;
+  Cluster *cluster = NULL;
+  int32_t(*place)[3] = NULL, *moved = NULL;
+  CW_NEW(sorted, s->cluster_count);
+  CW_NEW_UNSET(cluster, s->cluster_count);
+  CW_NEW_UNSET(place, s->cluster_count);
+  CW_NEW_UNSET(moved, s->cluster_count);
+  for (int64_t k = 0; k < s->cluster_count; k++) {
+    memcpy(sorted[k].key, s->place[k], sizeof s->place[k]);
+    sorted[k].key[3] = (int32_t)k;
+  }
+  qsort(sorted, (size_t)s->cluster_count, sizeof *sorted, by_key);
+  for (int64_t k = 0; k < s->cluster_count; k++) {
+    const int32_t from = sorted[k].key[3];
+    cluster[k] = s->cluster[from];
+    memcpy(place[k], s->place[from], sizeof place[k]);
+    moved[from] = (int32_t)k;
+  }
   for (int64_t t = 0; t < s->triangle_count; t++)
-    if (left == 0 || !same_corners(&s->triangle[left - 1], &s->triangle[t])) s->triangle[left++] = s->triangle[t];
+    for (int i = 0; i < 3; i++) s->triangle[t].corner[i] = moved[s->triangle[t].corner[i]];
+  if (s->cluster_count) memcpy(s->cluster, cluster, (size_t)s->cluster_count * sizeof *cluster);
+  if (s->cluster_count) memcpy(s->place, place, (size_t)s->cluster_count * sizeof *place);
+done:
+  free(sorted);
+  free(cluster);
+  free(place);
+  free(moved);
+  return status;
+}
+
+// Puts the triangles in order and leaves one of each three corners.
+static CwStatus drop_twins(CwSimplifier *s) {
+  CwStatus status = CW_OK;
+  Sorted *sorted = NULL;
+  int64_t left = 0;
+  CW_NEW_UNSET(sorted, s->triangle_count);
+  for (int64_t t = 0; t < s->triangle_count; t++) {
+    memcpy(sorted[t].key, s->triangle[t].corner, sizeof s->triangle[t].corner);
+    sort_three(sorted[t].key);
+    memcpy(sorted[t].key + 3, &s->triangle[t], sizeof s->triangle[t]);
+  }
+  qsort(sorted, (size_t)s->triangle_count, sizeof *sorted, by_key);
+  for (int64_t t = 0; t < s->triangle_count; t++)
+    if (t == 0 || memcmp(sorted[t].key, sorted[t - 1].key, 3 * sizeof sorted[t].key[0]) != 0)
+      memcpy(&s->triangle[left++], sorted[t].key + 3, sizeof s->triangle[t]);
   s->triangle_count = left;
+done:
+  free(sorted);
+  return status;
 }
 
 CwStatus cw_simplify_finish(CwSimplifier *s, CwSimpleSurface *surface) {
   CwStatus status = CW_OK;
-  if (s->triangle) drop_twins(s);
+  CW_TRY(put_in_order(s));
+  CW_TRY(drop_twins(s));
   while (s->triangle_count > s->most) { // triangles go with the square of the cell; 2 % closer than needed
     CW_TRY(coarsen(s, 1.02 * s->cell * sqrt((double)s->triangle_count / (double)s->most)));
-    drop_twins(s);
+    CW_TRY(drop_twins(s));
   }
   CW_NEW_UNSET(surface->points, s->cluster_count);
   CW_NEW_UNSET(surface->values, s->cluster_count);
@@ -273,6 +403,7 @@ CwStatus cw_simplify_finish(CwSimplifier *s, CwSimpleSurface *surface) {
     memcpy(surface->triangles[t], s->triangle[t].corner, sizeof surface->triangles[t]);
     surface->mark[t] = s->triangle[t].mark;
   }
+  CW_TRY(rehash(s, s->table_size)); // for triangles that may yet come
 done:
   return status;
 }

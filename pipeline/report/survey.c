@@ -4,12 +4,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "pipeline/report/exact_sum.h"
+
 static const char *const place_patch[CW_PLACE_COUNT] = {"blade_leading_edge", "blade_trailing_edge", "tongue"};
 static const char *const wall_patch[CW_WALL_COUNT] = {"hub", "shroud"};
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes) {
   memset(survey, 0, sizeof *survey);
   survey->sizes = *sizes;
+  survey->area_unit = cw_exact_unit(pow(sizes->outlet_radius, 2));
+  survey->moment_unit = cw_exact_unit(pow(sizes->outlet_radius, 3));
   for (int k = 0; k < CW_SURVEY_BINS; k++) {
     survey->radius_most[k] = -INFINITY;
     survey->z_least[k] = INFINITY;
@@ -59,19 +63,27 @@ void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cel
       if (patch[k] != cells->triangle_patch[t]) continue;
       if (k == CW_PLACE_LEADING_EDGE && hypot(middle[0], middle[1]) > survey->sizes.leading_radius) continue;
       double *sum = survey->place_sum[k][bin_of(atan2(middle[1], middle[0]))];
-      sum[0] += area;
-      for (int i = 0; i < 3; i++) sum[1 + i] += area * middle[i];
+      sum[0] += cw_exact_term(area, survey->area_unit);
+      for (int i = 0; i < 3; i++) sum[1 + i] += cw_exact_term(area * middle[i], survey->moment_unit);
     }
     int bin = (int)(hypot(middle[0], middle[1]) / survey->sizes.outlet_radius * CW_SURVEY_RADII);
     for (int k = 0; k < CW_WALL_COUNT; k++) {
       if (wall[k] != cells->triangle_patch[t] || bin >= CW_SURVEY_RADII) continue;
-      survey->wall_sum[k][bin][0] += area;
-      survey->wall_sum[k][bin][1] += area * middle[2];
+      survey->wall_sum[k][bin][0] += cw_exact_term(area, survey->area_unit);
+      survey->wall_sum[k][bin][1] += cw_exact_term(area * middle[2], survey->moment_unit);
     }
   }
   for (int32_t q = 0; q < cells->quad_count; q++) {
     for (int k = 0; k < 4; k++) add_point(survey, cells->points[cells->quads[q][k]]);
   }
+}
+
+void cw_survey_join(CwSurvey *survey, const CwRanks *ranks) {
+  cw_ranks_reduce(ranks, survey->place_sum, sizeof survey->place_sum / sizeof(double), MPI_DOUBLE, MPI_SUM);
+  cw_ranks_reduce(ranks, survey->wall_sum, sizeof survey->wall_sum / sizeof(double), MPI_DOUBLE, MPI_SUM);
+  cw_ranks_reduce(ranks, survey->radius_most, CW_SURVEY_BINS, MPI_DOUBLE, MPI_MAX);
+  cw_ranks_reduce(ranks, survey->z_least, CW_SURVEY_BINS, MPI_DOUBLE, MPI_MIN);
+  cw_ranks_reduce(ranks, survey->z_most, CW_SURVEY_BINS, MPI_DOUBLE, MPI_MAX);
 }
 
 int cw_survey_place(const CwSurvey *survey, CwPlace place, double middle[3]) {

@@ -5,6 +5,7 @@
 #define CUTWATER_PIPELINE_REPORT_SURVEY_H
 
 #include "pipeline/mesh/region_read.h"
+#include "pipeline/parallel/ranks.h"
 
 enum { CW_SURVEY_BINS = 360, CW_SURVEY_RADII = 64 };
 
@@ -23,6 +24,7 @@ typedef struct {
 
 typedef struct {
   CwPumpSizes sizes;
+  double area_unit, moment_unit; // of the sums below, which are exact (exact_sum.h)
   // Faces of each place by their azimuth: sums of area and of area times centroid.
   double place_sum[CW_PLACE_COUNT][CW_SURVEY_BINS][4];
   // Extent of the boundary by azimuth.
@@ -33,6 +35,8 @@ typedef struct {
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes);
 void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells);
+// All ranks get the survey of the regions of all. Collective.
+void cw_survey_join(CwSurvey *survey, const CwRanks *ranks);
 
 // The middle of a place: of the tongue, or of one blade's edge. Returns 0 where the mesh has no such patch.
 int cw_survey_place(const CwSurvey *survey, CwPlace place, double middle[3]);

@@ -53,6 +53,39 @@ done:
   return status;
 }
 
+// Hands the faces of a domain from one rank to another, for several such pairs at once. Collective.
+static CwStatus pass_faces(const CwRanks *ranks, int from, int to, CwSimplifier *simplifier) {
+  CwStatus status = CW_OK;
+  void *bytes = NULL;
+  int64_t size = 0;
+  if (ranks->rank == from) status = cw_simplify_pack(simplifier, &bytes, &size);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  cw_ranks_pass(ranks, &size, 1, sizeof size, from, to);
+  if (ranks->rank == to) {
+    bytes = malloc((size_t)size);
+    if (!bytes) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld bytes", (long long)size);
+  }
+  CW_TRY(cw_ranks_agree(ranks, status));
+  cw_ranks_pass(ranks, bytes, size, 1, from, to);
+  if (ranks->rank == to) status = cw_simplify_absorb(simplifier, bytes);
+  CW_TRY(cw_ranks_agree(ranks, status));
+done:
+  free(bytes);
+  return status;
+}
+
+// By pairs of ranks, then of pairs, and so on.
+CwStatus cw_view_join(CwView *view, const CwMesh *mesh, const CwRanks *ranks) {
+  CwStatus status = CW_OK;
+  for (int step = 1; step < ranks->size; step *= 2) {
+    const int first = ranks->rank / (2 * step) * (2 * step), second = first + step;
+    const int to = second < ranks->size ? first : -1, from = second < ranks->size ? second : -1;
+    for (int d = 0; d < mesh->domain_count; d++) CW_TRY(pass_faces(ranks, from, to, view->simplifier[d]));
+  }
+done:
+  return status;
+}
+
 int cw_view_shown(const CwMesh *mesh, const CwViewPart *part) {
   char name[CW_MESH_NAME_SIZE + 2];
   if (part->patch < 0) return 0;

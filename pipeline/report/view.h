@@ -5,6 +5,7 @@
 #define CUTWATER_PIPELINE_REPORT_VIEW_H
 
 #include "pipeline/mesh/region_read.h"
+#include "pipeline/parallel/ranks.h"
 #include "pipeline/report/colour_scale.h"
 #include "pipeline/report/simplify.h"
 
@@ -37,9 +38,11 @@ typedef struct {
 // after a failure. CW_ERR_MEMORY.
 CwStatus cw_view_start(const CwMesh *mesh, double size, CwView *view);
 // Takes the boundary faces of a region, with shares of the colour scale of each quantity by face, triangles before
-// quadrilaterals (NULL: none); regions in the order of the manifest. CW_ERR_MEMORY.
+// quadrilaterals (NULL: none). CW_ERR_MEMORY.
 CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells,
                      double *const share[CW_VIEW_QUANTITIES]);
+// Rank 0 gets the faces of all ranks. Collective. CW_ERR_MEMORY.
+CwStatus cw_view_join(CwView *view, const CwMesh *mesh, const CwRanks *ranks);
 // Makes the parts. CW_ERR_MEMORY.
 CwStatus cw_view_finish(CwView *view, const CwMesh *mesh);
 void cw_view_free(CwView *view);

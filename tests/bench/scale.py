@@ -34,10 +34,8 @@ import needs  # noqa: E402  (pipeline/needs.py)
 
 def command(options, stage, run, cells):
     line = [options.bin / f"cutwater-{stage}", "--case", options.case, "--run", run]
-    if stage in ("mesh", "export"):
+    if stage != "geometry":
         line = MPIRUN + [options.ranks] + line + ["--cells", cells]
-    elif stage == "report":
-        line += ["--cells", cells]
     return [str(word) for word in line]
 
 

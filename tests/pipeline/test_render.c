@@ -21,12 +21,14 @@ static const CwPaint red = {.colour = RED, .group = 1}, blue = {.colour = BLUE, 
 
 static int count_colour(const CwCanvas *canvas, uint32_t colour) {
   int count = 0;
-  for (int i = 0; i < canvas->columns * canvas->rows; i++) count += canvas->colour[i] == colour;
+  for (int i = 0; i < canvas->columns * canvas->rows; i++)
+    count += (canvas->group[i] ? canvas->colour[i] : canvas->background) == colour;
   return count;
 }
 
 static uint32_t sample(const CwCanvas *canvas, double x, double y) {
-  return canvas->colour[(int)(y * CW_RENDER_SAMPLES) * canvas->columns + (int)(x * CW_RENDER_SAMPLES)];
+  int place = (int)(y * CW_RENDER_SAMPLES) * canvas->columns + (int)(x * CW_RENDER_SAMPLES);
+  return canvas->group[place] ? canvas->colour[place] : canvas->background;
 }
 
 static void triangle_fills_its_area(void **state) {
@@ -158,11 +160,43 @@ static void outlines_follow_groups_and_depth_steps(void **state) {
   assert_int_equal(sample(&canvas, 6, 10), RED);
   assert_int_equal(sample(&canvas, 14, 10), BLUE);
   assert_int_equal(sample(&canvas, 1, 10), WHITE);
-  cw_render_erase(&canvas, 2, WHITE);
+  cw_render_erase(&canvas, 2);
   assert_int_equal(sample(&canvas, 14, 10), WHITE);
-  assert_true(isinf(canvas.depth[20 * canvas.columns + 28]));
   assert_int_equal(sample(&canvas, 6, 10), RED);
   cw_render_free(&canvas);
+}
+
+// Random triangles, some of one depth, on one canvas and in turn on three that are then merged from the middle one out.
+static void merged_canvases_are_as_one(void **state) {
+  for (int depth = 0; depth < 2; depth++) {
+    CwCanvas one, part[3];
+    unsigned random = 1;
+    assert_int_equal(cw_render_start(40, 60, WHITE, depth, &one), CW_OK);
+    for (int k = 0; k < 3; k++) {
+      assert_int_equal(cw_render_start(40, 60, WHITE, depth, &part[k]), CW_OK);
+      for (int t = 0; t < 200; t++) {
+        double p[3][3];
+        for (int i = 0; i < 9; i++) {
+          random = 1664525 * random + 1013904223; // D. Knuth and H. Lewis's
+          p[i / 3][i % 3] = i % 3 == 2 ? (random >> 24) % 3 : (random >> 20) % 20 + 10 * k;
+        }
+        if (t % 3 == 0) p[1][2] = p[2][2] = p[0][2];
+        const CwPaint paint = {.colour = random >> 8, .group = (uint16_t)(1 + t + 200 * k)};
+        cw_render_triangle(&one, p, &paint);
+        cw_render_triangle(&part[k], p, &paint);
+      }
+    }
+    assert_in_range(part[0].bottom, 30, 80);
+    assert_in_range(part[2].top, 40, 80);
+    cw_render_merge(&part[1], &part[0], 0);
+    cw_render_merge(&part[1], &part[2], 1);
+    for (int i = 0; i < one.columns * one.rows; i++) {
+      assert_int_equal(one.group[i], part[1].group[i]);
+      if (one.group[i]) assert_int_equal(one.colour[i], part[1].colour[i]);
+    }
+    for (int k = 0; k < 3; k++) cw_render_free(&part[k]);
+    cw_render_free(&one);
+  }
 }
 
 static void hollows_are_dark_and_slanted_planes_are_not(void **state) {
@@ -269,6 +303,7 @@ int main(void) {
       cmocka_unit_test(short_edges_keep_their_neighbours),
       cmocka_unit_test(what_lies_outside_is_left_out),
       cmocka_unit_test(outlines_follow_groups_and_depth_steps),
+      cmocka_unit_test(merged_canvases_are_as_one),
       cmocka_unit_test(hollows_are_dark_and_slanted_planes_are_not),
       cmocka_unit_test(png_holds_the_averaged_picture),
       cmocka_unit_test(lengths_of_scale_bars_are_round),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-report on a run of two boxes: one page, whole or not at all, and one line where something is
 // wrong.
-// Modules without a test of their own that it runs: page_curve, page_design, page_mesh, page_pictures, page_run,
-// page_solve, page_view, picture_list, pictures, quantity.
+// Modules without a test of their own that it runs: drawing, page_curve, page_design, page_mesh, page_pictures,
+// page_run, page_solve, page_view, picture_list, pictures, quantity.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

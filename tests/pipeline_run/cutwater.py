@@ -20,7 +20,7 @@ RUN = WORK / f"paper-{CELLS}"  # the run that the tests share
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 ENVIRONMENT = {**os.environ, **MPI_ENVIRONMENT, "WM_PROJECT_DIR": "/usr/share/openfoam"}
-MPI_STAGES = ("mesh", "export")
+MPI_STAGES = ("mesh", "export", "report")
 
 
 def command(stage, run, case=PAPER, cells=None, ranks=1):

@@ -11,6 +11,10 @@ from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, 
                      state, with_geometry)
 
 
+def page_of(run):
+    return (run / "report/index.html").read_bytes()
+
+
 class Ranks(unittest.TestCase):
     def test_mesh_is_the_same(self):
         expected = digests(RUN / "mesh")
@@ -29,6 +33,19 @@ class Ranks(unittest.TestCase):
             done(self, "export", run, cells=CELLS, ranks=ranks)
             self.assertEqual(digests(run / "export"), expected, f"{ranks} ranks against 2")
             shutil.rmtree(run)
+
+    def test_report_is_the_same(self):
+        run = with_geometry("report")
+        for stage in ("mesh", "export"):
+            os.symlink(RUN / stage, run / stage)
+        pages = []
+        for ranks in (1, 2, 3):
+            done(self, "report", run, cells=CELLS, ranks=ranks)
+            pages.append(page_of(run))
+        self.assertEqual(execute(command("report", run, cells=CELLS)[-7:]).returncode, 0, "without mpirun")
+        pages.append(page_of(run))
+        self.assertEqual([page == pages[0] for page in pages], [True] * 4, "1, 2, 3 ranks and without mpirun")
+        shutil.rmtree(run)
 
 
 def first_region(run, process):

@@ -178,8 +178,12 @@ class Flow(unittest.TestCase):
         # A call for the operating point alone keeps the curve, and the report shows it.
         self.assertEqual(self.call().returncode, 0)
         self.assertEqual(record(self.pump, "solve")["results"]["curve"], curve)
-        done(self, "report", self.pump, case=self.case, cells=CELLS)
-        self.assertIn("Characteristic curve", (self.pump / "report/index.html").read_text())
+        pages = []
+        for ranks in (1, 3):
+            done(self, "report", self.pump, case=self.case, cells=CELLS, ranks=ranks)
+            pages.append((self.pump / "report/index.html").read_text())
+        self.assertIn("Characteristic curve", pages[0])
+        self.assertTrue(pages[0] == pages[1], "1 rank and 3")
 
     def test_what_is_missing_is_told_in_one_line(self):
         result = self.call("--run", self.pump.parent / "none")

@@ -56,6 +56,10 @@ static int spread_wrong(const CwRanks *ranks) {
   for (int32_t i = 0; i < 50 * ITEMS; ++i) parts[i] = ranks->rank - i;
   cw_ranks_reduce(ranks, parts, 50 * ITEMS, MPI_INT32_T, MPI_MAX);
   for (int32_t i = 0; i < 50 * ITEMS; ++i) wrong += parts[i] != ranks->size - 1 - i;
+  for (int64_t i = 0; i < ITEMS; ++i) sums[i] = ranks->rank + i;
+  cw_ranks_before(ranks, sums, ITEMS);
+  for (int64_t i = 0; i < ITEMS; ++i)
+    wrong += sums[i] != ranks->rank * i + (int64_t)ranks->rank * (ranks->rank - 1) / 2;
   free(sums);
   free(items);
   return wrong;

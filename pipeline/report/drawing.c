@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/drawing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/report/cut.h"
+
+static const uint32_t ink = 0x27313c, bare_colour = 0xd5dade;
+const uint32_t cw_pyramid_colour = 0xb98fc0;
+enum { PATCHES = CW_PATCHES_MOST };
+
+// What a domain is in a picture: the first that does not rotate is the stator, others are pipes.
+static unsigned part_of(const CwMesh *mesh, int d) {
+  if (mesh->domains[d].rotating) return CW_SEES_ROTOR;
+  for (int before = 0; before < d; before++)
+    if (!mesh->domains[before].rotating) return CW_SEES_PIPES;
+  return CW_SEES_STATOR;
+}
+
+static void mark_parts(const CwMesh *mesh, CwDrawing *drawing) {
+  char name[80];
+  for (int d = 0; d < mesh->domain_count; d++) drawing->part[d] = part_of(mesh, d);
+  if (!drawing->spec->hidden) return;
+  for (int p = 0; p < mesh->patch_count; p++) {
+    const CwModelPatch *patch = &mesh->patches[p];
+    snprintf(name, sizeof name, "|%s|", patch->name);
+    drawing->hidden[patch->domain][p - mesh->domains[patch->domain].first_patch] =
+        strstr(drawing->spec->hidden, name) != NULL;
+  }
+}
+
+void cw_drawing_start(const CwPictureSpec *spec, const CwMesh *mesh, const CwSurvey *survey, CwDrawing *drawing) {
+  drawing->spec = spec;
+  mark_parts(mesh, drawing);
+  cw_drawing_aim(drawing, survey);
+  drawing->reach = (CwCameraReach){0};
+}
+
+// From directions along radius, rotation and axis at `middle` to x, y, z.
+static void turn_with(const double middle[3], const double local[3], double x[3]) {
+  double radius = hypot(middle[0], middle[1]);
+  double c = radius > 0 ? middle[0] / radius : 1, s = radius > 0 ? middle[1] / radius : 0;
+  x[0] = c * local[0] - s * local[1];
+  x[1] = s * local[0] + c * local[1];
+  x[2] = local[2];
+}
+
+void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
+  const CwPictureSpec *spec = drawing->spec;
+  CwCamera *camera = &drawing->camera;
+  double towards[3], up[3], middle[3] = {0, 0, 0}, azimuth = cw_survey_meridional_azimuth(survey), z = 0;
+  double radius = survey->sizes.interface_radius + survey->sizes.base_radius;
+  memcpy(towards, spec->towards, sizeof towards);
+  memcpy(up, spec->up, sizeof up);
+  if (spec->plane == CW_PLANE_MERIDIONAL) {
+    memcpy(towards, (double[3]){sin(azimuth), -cos(azimuth), 0}, sizeof towards);
+    memcpy(up, (double[3]){0, 0, 1}, sizeof up);
+  } else if (spec->plane != CW_PLANE_NONE) {
+    memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
+    memcpy(up, (double[3]){1, 0, 0}, sizeof up);
+  }
+  radius *= 0.5;
+  switch (spec->target) {
+  case CW_TARGET_ALL:
+    break;
+  case CW_TARGET_PLACE:
+    if (!cw_survey_place(survey, spec->place, middle)) drawing->lacking = "the mesh has no such patch";
+    if (spec->plane == CW_PLANE_NONE) {
+      turn_with(middle, spec->towards, towards);
+      turn_with(middle, spec->up, up);
+    }
+    break;
+  case CW_TARGET_SHROUD:
+    radius = 0.43 * survey->sizes.outlet_radius;
+    if (!cw_survey_wall(survey, CW_WALL_SHROUD, radius, &z)) drawing->lacking = "the mesh has no shroud";
+    // fall through
+  case CW_TARGET_NECK:
+    memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
+    break;
+  }
+  if (spec->plane == CW_PLANE_MID_SPAN && !cw_survey_has_mid_span(survey))
+    drawing->lacking = "the mesh has no hub, or no shroud";
+  cw_camera_turn(camera, towards, up);
+  memcpy(camera->centre, middle, sizeof middle);
+  camera->width = spec->width;
+  camera->height = spec->height;
+  camera->metres_per_pixel = spec->span * 2 * survey->sizes.outlet_radius / spec->width;
+  memcpy(drawing->plane.u, camera->right, sizeof camera->right);
+  memcpy(drawing->plane.v, camera->up, sizeof camera->up);
+  memcpy(drawing->plane.normal, camera->towards, sizeof camera->towards);
+  if (spec->target == CW_TARGET_ALL && spec->plane == CW_PLANE_MERIDIONAL) {
+    double z_least, z_most;
+    if (!cw_survey_meridional_reach(survey, azimuth, &radius, &z_least, &z_most)) {
+      drawing->lacking = "the mesh has no boundary near the plane";
+      return;
+    }
+    for (int side = -1; side <= 1; side += 2) {
+      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
+                      &drawing->reach);
+      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_most},
+                      &drawing->reach);
+    }
+  }
+}
+
+// Faces as corners: triangles with four equal to three.
+typedef struct {
+  const double *x[4];
+  int count, patch;
+} Face;
+
+static Face face_at(const CwRegionData *cells, int32_t index) {
+  Face face = {.count = index < cells->triangle_count ? 3 : 4};
+  const int32_t *corner = face.count == 3 ? cells->triangles[index] : cells->quads[index - cells->triangle_count];
+  face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangle_count];
+  for (int k = 0; k < face.count; k++) face.x[k] = cells->points[corner[k]];
+  return face;
+}
+
+static int face_shown(const CwDrawing *drawing, int d, const Face *face) {
+  if (drawing->hidden[d][face->patch]) return 0;
+  if (!drawing->spec->upper_half || drawing->part[d] == CW_SEES_ROTOR) return 1;
+  double z = 0;
+  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
+  return z > 0;
+}
+
+// Cuts off what lies at z < 0: the corners that are left, in order; at most one more than before.
+static int upper_part(const Face *face, double part[5][3]) {
+  int count = 0;
+  for (int k = 0; k < face->count; k++) {
+    const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
+    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
+    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
+    for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
+    count++;
+  }
+  return count;
+}
+
+void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *cells) {
+  int d = cells->domain;
+  if (!(drawing->spec->sees & drawing->part[d])) return;
+  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
+  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
+    Face face = face_at(cells, f);
+    if (!face_shown(drawing, d, &face)) continue;
+    for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
+  }
+}
+
+// Flat shading by a light over the viewer's left shoulder; a face has no back.
+// *outside becomes true where the viewer stands on the outer side of the face.
+static double light_of(const CwCamera *camera, const Face *face, int *outside) {
+  static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
+  double u[3], v[3], n[3], facing[3] = {0, 0, 0};
+  for (int i = 0; i < 3; i++) {
+    u[i] = face->x[face->count - 2][i] - face->x[0][i];
+    v[i] = face->x[face->count - 1][i] - face->x[face->count - 3][i];
+  }
+  if (face->count == 3) {
+    for (int i = 0; i < 3; i++) v[i] = face->x[2][i] - face->x[0][i];
+  }
+  for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  *outside = 0;
+  if (!(length > 0)) return 1;
+  for (int i = 0; i < 3; i++) {
+    facing[0] += n[i] * camera->right[i] / length;
+    facing[1] += n[i] * camera->up[i] / length;
+    facing[2] += n[i] * camera->towards[i] / length;
+  }
+  *outside = facing[2] > 0;
+  double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
+  for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];
+  return 0.5 + 0.56 * fmax(cosine, 0);
+}
+
+// share: of pressure and y+ by face, for pictures of the flow.
+static uint32_t face_colour(const CwDrawing *drawing, const CwModelPatch *patch, int region, const Face *face,
+                            double share) {
+  if (drawing->spec->colour == CW_COLOUR_REGION) return cw_region_colour(region);
+  if (!cw_picture_is_of_flow(drawing->spec)) return cw_patch_colour(patch->name, face->patch);
+  return isfinite(share) ? cw_colour_scale(share) : bare_colour;
+}
+
+static void draw_faces(CwDrawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells,
+                       double *const share[2]) {
+  const CwPictureSpec *spec = drawing->spec;
+  int d = cells->domain;
+  const CwModelPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
+  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
+    Face face = face_at(cells, f);
+    if (!face_shown(drawing, d, &face)) continue;
+    double p[5][3], part[5][3];
+    int corners = face.count, outside;
+    double light = light_of(&drawing->camera, &face, &outside);
+    if (spec->upper_half && drawing->part[d] == CW_SEES_STATOR)
+      corners = upper_part(&face, part);
+    else
+      for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
+    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
+    const double *own = cw_picture_is_of_flow(spec) ? share[spec->colour - CW_COLOUR_PRESSURE] : NULL;
+    uint32_t colour = face_colour(drawing, &patch[face.patch], region, &face, own ? own[f] : NAN);
+    int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
+    if (spec->hollow_white && outside && drawing->part[d] == CW_SEES_ROTOR) group = CW_DRAWING_METAL;
+    CwPaint paint = {.colour = cw_render_shade(colour, light),
+                     .group = (uint16_t)group,
+                     .edge_colour = ink,
+                     .edge_width = spec->edges ? 0.9 : 0,
+                     .edge_strength = spec->edges ? 0.75 : 0};
+    cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
+  }
+}
+
+static int is_cut(const double *distance, int count, const int32_t *corner) {
+  int above = 0;
+  for (int k = 0; k < count; k++) {
+    if (isnan(distance[corner[k]])) return 0;
+    above += distance[corner[k]] >= 0;
+  }
+  return above > 0 && above < count;
+}
+
+static void draw_cut_cell(CwDrawing *drawing, const CwRegionData *cells, const double *distance, int count,
+                          const int32_t *corner, uint32_t colour, int group) {
+  const double *x[6];
+  double s[6], polygon[CW_CUT_CORNERS][2], p[CW_CUT_CORNERS][3];
+  for (int k = 0; k < count; k++) {
+    s[k] = distance[corner[k]];
+    x[k] = cells->points[corner[k]];
+  }
+  int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
+  const CwCamera *camera = &drawing->camera;
+  double centre[2] = {0, 0}, area = 0;
+  for (int i = 0; i < 3; i++) {
+    centre[0] += camera->centre[i] * camera->right[i];
+    centre[1] += camera->centre[i] * camera->up[i];
+  }
+  for (int k = 0; k < corners; k++) {
+    p[k][0] = 0.5 * camera->width + (polygon[k][0] - centre[0]) / camera->metres_per_pixel;
+    p[k][1] = 0.5 * camera->height - (polygon[k][1] - centre[1]) / camera->metres_per_pixel;
+    p[k][2] = 0;
+  }
+  for (int k = 0; k < corners; k++) {
+    int next = (k + 1) % corners;
+    area += 0.5 * (p[next][0] * p[k][1] - p[k][0] * p[next][1]);
+  }
+  // Lines of cells of a few pixels are drawn paler, or they would be all that one sees.
+  double size = sqrt(fmax(area, 0));
+  double strength = fmin(fmax(0.12 + 0.09 * (size - 1), 0.12), 0.8);
+  CwPaint paint = {.colour = colour,
+                   .group = (uint16_t)group,
+                   .edge_colour = ink,
+                   .edge_width = size > 12 ? 0.9 : 0.6,
+                   .edge_strength = cw_picture_is_of_flow(drawing->spec) ? 0 : strength};
+  cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
+}
+
+static CwStatus draw_cut(CwDrawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey, const CwFlow *flow,
+                         const CwRegionData *cells) {
+  CwStatus status = CW_OK;
+  int d = cells->domain, solved = cw_picture_is_of_flow(drawing->spec);
+  double *distance = NULL;
+  CW_NEW(distance, cells->point_count);
+  for (int32_t i = 0; i < cells->point_count; i++)
+    distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
+                                                            : cw_cut_distance(&drawing->plane, cells->points[i]);
+  const struct {
+    int32_t count;
+    int corners;
+    const int32_t *corner;
+    uint32_t colour;
+  } kind[] = {{cells->tetrahedron_count, 4, (const int32_t *)cells->tetrahedra, cw_domain_colour(d, 2)},
+              {cells->pyramid_count, 5, (const int32_t *)cells->pyramids, cw_pyramid_colour},
+              {cells->prism_count, 6, (const int32_t *)cells->prisms, cw_domain_colour(d, 1)}};
+  for (int32_t k = 0, before = 0; k < 3; before += kind[k++].count) {
+    for (int32_t c = 0; c < kind[k].count; c++) {
+      const int32_t *corner = kind[k].corner + (size_t)kind[k].corners * (size_t)c;
+      if (!is_cut(distance, kind[k].corners, corner)) continue;
+      double speed = solved ? cw_flow_cell_speed(flow, mesh, region, cells, before + c) : NAN;
+      uint32_t colour = solved ? cw_colour_scale(speed) : kind[k].colour;
+      draw_cut_cell(drawing, cells, distance, kind[k].corners, corner, colour, d + 1);
+    }
+  }
+done:
+  free(distance);
+  return status;
+}
+
+CwStatus cw_drawing_add(CwDrawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey,
+                        const CwFlow *flow, const CwRegionData *cells, double *const share[2]) {
+  CwStatus status = CW_OK;
+  if (!(drawing->spec->sees & drawing->part[cells->domain]) || drawing->lacking) goto done;
+  if (drawing->spec->plane == CW_PLANE_NONE)
+    draw_faces(drawing, mesh, region, cells, share);
+  else
+    CW_TRY(draw_cut(drawing, mesh, region, survey, flow, cells));
+done:
+  return status;
+}
+
+void cw_drawing_mark_seen(CwDrawing *drawing) {
+  size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
+  for (size_t i = 0; i < samples; i++) {
+    int group = drawing->canvas.group[i] - 1;
+    if (group >= 0 && group < CW_DOMAINS_MOST * PATCHES) drawing->seen[group / PATCHES][group % PATCHES] = 1;
+  }
+}
