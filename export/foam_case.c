@@ -170,6 +170,11 @@ done:
   return status;
 }
 
+// checkMesh needs 1 GB for a million cells on one rank, and on several as much together; the solver 2 GB.
+const char *cw_foam_usual_ranks(int64_t cells) {
+  return cells > 20000000 ? "$(nproc)" : "1";
+}
+
 // What follows from the release and from the number of processors. Debian's v1912 has no scotch.
 static CwStatus set_release(const CwCase *table, CwValues *values) {
   CwStatus status = CW_OK;
@@ -199,6 +204,9 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   CwStatus status = CW_OK;
   const CwOperatingPoint *point = &table->operating_point;
   int resolved = cw_walls_resolved(a->mesh);
+  int64_t cells = 0;
+  for (int d = 0; d < a->mesh->domain_count; ++d) cells += a->totals[d].cells;
+  CW_TRY(cw_values_set(values, "usual_ranks", "%s", cw_foam_usual_ranks(cells)));
   CW_TRY(cw_patch_names_set(a, cw_patch_turns, " ", "rotating_walls", values));
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
   CW_TRY(cw_values_set(values, "speed", "%.9g", point->speed));

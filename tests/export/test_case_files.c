@@ -246,6 +246,14 @@ static void a_wrong_number_of_ranks_is_told(void **state) {
   }
 }
 
+static void large_meshes_take_all_cores(void **state) {
+  (void)state;
+  assert_string_equal(cw_foam_usual_ranks(20000000), "1");
+  assert_string_equal(cw_foam_usual_ranks(20000001), "$(nproc)");
+  export_with("");
+  expect("openfoam/run_solver.sh", "\nusual_ranks=1 #");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_paper_in_cfx),
@@ -258,6 +266,7 @@ int main(void) {
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
+      cmocka_unit_test(large_meshes_take_all_cores),
   };
   return cmocka_run_group_tests(tests, make_run, remove_run);
 }

@@ -109,6 +109,22 @@ static void steady_run_starts_and_reports(void **state) {
   assert_non_null(strstr(output, "(inlet suction_pipe rotor_interface)"));
 }
 
+// As a large mesh is run where no number of ranks is asked for: checked, divided and solved on several.
+static void a_large_mesh_is_checked_in_parts(void **state) {
+  (void)state;
+  stage_need_program("simpleFoam");
+  int code = stage_shell(output,
+                         "cp -r '%s/run/export/openfoam' '%s/large' && cd '%s/large' && sed -i 's/^usual_ranks=1/"
+                         "usual_ranks=$(echo 2)/' run_solver.sh && sed -i 's/endTime  .*/endTime 10;/; s/writeInterval "
+                         ".*/writeInterval 10;/' system/controlDict && ./Allrun && ls -d 10/U processor1/constant && "
+                         "grep -h '^nProcs' log.checkMesh log.simpleFoam && find . -name cellToRegion",
+                         folder, folder, folder);
+  if (code) fail_msg("%s", output);
+  assert_non_null(strstr(output, "Mesh OK"));
+  assert_non_null(strstr(output, "10/U\nprocessor1/constant\nnProcs : 2\nnProcs : 2\n"));
+  assert_null(strstr(output, "cellToRegion"));
+}
+
 static void transient_run_starts_from_the_steady_one(void **state) {
   (void)state;
   stage_need_program("pimpleFoam");
@@ -129,6 +145,7 @@ int main(void) {
       cmocka_unit_test(cgnscheck_has_nothing_to_say),  cmocka_unit_test(checkmesh_finds_a_sound_mesh),
       cmocka_unit_test(checkmesh_takes_pyramids),      cmocka_unit_test(interface_weights_are_about_one),
       cmocka_unit_test(steady_run_starts_and_reports), cmocka_unit_test(transient_run_starts_from_the_steady_one),
+      cmocka_unit_test(a_large_mesh_is_checked_in_parts),
   };
   return cmocka_run_group_tests(tests, make_export, remove_export);
 }

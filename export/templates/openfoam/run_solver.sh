@@ -4,6 +4,7 @@
 export WM_PROJECT_DIR
 # Open MPI: also as root, and with more ranks than cores.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+usual_ranks=@usual_ranks@ # where the caller asks for none
 
 die() {
     echo "Allrun: $1" >&2
@@ -31,31 +32,30 @@ latest() { # the latest time after 0 of the case folder $1 that has fields; noth
     done | sort -g | tail -n 1
 }
 
-rank_count() { # the ranks that the caller asks for: $1, else as many as the mesh is divided for
-    divided . || { echo "${1:-1}" && return; }
+rank_count() { # the ranks that the caller asks for: $1, else as many as the mesh is divided for, else the usual ones
+    divided . || { echo "${1:-$usual_ranks}" && return; }
     parts=$(find . -maxdepth 1 -name 'processor[0-9]*' | wc -l)
     [ "${1:-$parts}" = "$parts" ] || die "RANKS is '$1'; allowed: $parts, for which the mesh is divided"
     echo "$parts"
 }
 
-in_parallel() { # $1: ranks, then PROGRAM ARGUMENTS...
+on_ranks() { # $1: ranks, then PROGRAM ARGUMENTS..., its words into log.PROGRAM
     count=$1
     shift
+    [ "$count" -gt 1 ] || { logged "$@" && return; }
     mpirun -n "$count" "$@" -parallel > "log.$1" 2>&1 || die "$1 failed: see log.$1"
 }
 
-run_solver() { # $1: the solver, $2: ranks
-    if divided .; then
-        in_parallel "$2" "$1"
-    elif [ "$2" -gt 1 ]; then
-        foamDictionary -entry numberOfSubdomains -set "$2" system/decomposeParDict > /dev/null || exit 1
-        if grep -q hierarchical system/decomposeParDict; then
-            foamDictionary -entry coeffs/n -set "($2 1 1)" system/decomposeParDict > /dev/null || exit 1
-        fi
-        logged decomposePar -force -latestTime
-        in_parallel "$2" "$1"
-        logged reconstructPar -latestTime
-    else
-        logged "$1"
+divide() { # for $1 ranks, if there are several, a mesh that is whole, with its latest fields
+    divided . || [ "$1" = 1 ] && return
+    foamDictionary -entry numberOfSubdomains -set "$1" system/decomposeParDict > /dev/null || exit 1
+    if grep -q hierarchical system/decomposeParDict; then
+        foamDictionary -entry coeffs/n -set "($1 1 1)" system/decomposeParDict > /dev/null || exit 1
     fi
+    logged decomposePar -force -latestTime
+}
+
+run_solver() { # $1: the solver, $2: ranks, for which the mesh is divided
+    on_ranks "$2" "$1"
+    divided . || [ "$2" = 1 ] || logged reconstructPar -latestTime
 }
