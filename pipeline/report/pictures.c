@@ -10,7 +10,7 @@
 #include "pipeline/report/drawing.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-enum { FIT_MARGIN = 28 };
+enum { FIT_MARGIN = 28, VIEW_PICTURES = 6 };
 
 // What all ranks draw together: each its regions, which are neighbours in the order of the manifest.
 typedef struct {
@@ -21,9 +21,11 @@ typedef struct {
   CwDrawing *drawing; // one for each of the list
 } Board;
 
-// Each picture is finished by one rank; the first has the view to finish too.
+// Each picture is finished by one rank. The first finishes the view too, and begins with pictures when each other one
+// has had as many as that takes.
 static int finisher(const Board *board, int picture) {
-  return board->ranks->size - 1 - picture % board->ranks->size;
+  const int others = board->ranks->size - 1;
+  return picture < VIEW_PICTURES * others ? 1 + picture % others : picture % board->ranks->size;
 }
 
 // Shares the regions by their cells.
@@ -249,12 +251,13 @@ done:
   return status;
 }
 
-// Joins the pictures and finishes them, each on one rank; rank 0 gets them all. Collective.
-static CwStatus finish_all(const Board *board, CwReportPictures *pictures) {
+// Joins the pictures and finishes them, each on one rank; rank 0 gets them all, and finishes the view. Collective.
+static CwStatus finish_all(const Board *board, CwReportPictures *pictures, CwView *view) {
   CwStatus status = CW_OK;
   const CwRanks *ranks = board->ranks;
   for (int k = 0; k < cw_picture_list_count; k++)
     if (!board->drawing[k].lacking) CW_TRY(join_canvas(board, k));
+  if (ranks->rank == 0) status = cw_view_finish(view, board->mesh);
   for (int k = 0; k < cw_picture_list_count && status == CW_OK; k++)
     if (!board->drawing[k].lacking && finisher(board, k) == ranks->rank)
       status = finish(board, k, &pictures->picture[k].png);
@@ -322,9 +325,7 @@ CwStatus cw_report_pictures_draw(const CwRanks *ranks, const CwMesh *mesh, const
   CW_TRY(cw_ranks_agree(ranks, draw_own(&board, flow, view)));
   cw_progress_end(ranks->log);
   CW_TRY(cw_view_join(view, mesh, ranks));
-  CW_TRY(finish_all(&board, pictures));
-  if (ranks->rank == 0) status = cw_view_finish(view, mesh);
-  CW_TRY(cw_ranks_agree(ranks, status));
+  CW_TRY(finish_all(&board, pictures, view));
   for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
     view->quantity[view->quantity_count++] = (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
   for (int k = 0; k < cw_picture_list_count; k++) describe(&board, flow, k, &pictures->picture[k]);

@@ -177,10 +177,11 @@ static int remove_run(void **state) {
   return system(command);
 }
 
-// Runs the program; returns its exit status and what it said.
-static int report(char said[4000]) {
+// Runs the program by itself or by a launcher; returns its exit status and what it said.
+static int report_by(const char *launcher, char said[4000]) {
   char command[600];
-  snprintf(command, sizeof command, "%s/cutwater-report --case %s --run %s 2>&1", CUTWATER_BIN_DIR, CASE, run);
+  snprintf(command, sizeof command, "%s %s/cutwater-report --case %s --run %s 2>&1", launcher, CUTWATER_BIN_DIR, CASE,
+           run);
   FILE *pipe = popen(command, "r");
   assert_non_null(pipe);
   size_t length = fread(said, 1, 3999, pipe);
@@ -188,6 +189,10 @@ static int report(char said[4000]) {
   int status = pclose(pipe);
   assert_true(WIFEXITED(status));
   return WEXITSTATUS(status);
+}
+
+static int report(char said[4000]) {
+  return report_by("", said);
 }
 
 static void fails(int code, const char *message) {
@@ -281,8 +286,16 @@ static void page_tells_all_and_stands_alone(void **state) {
   assert_int_equal(report(said), 0);
   char *again = read_text("report/index.html");
   assert_string_equal(page, again);
-  free(page);
   free(again);
+  // And with two ranks that draw a region each, or a third that has none.
+  static const char *const launchers[] = {"mpirun -q --oversubscribe -n 2", "mpirun -q --oversubscribe -n 3"};
+  for (int k = 0; k < 2; k++) {
+    if (report_by(launchers[k], said) != 0) fail_msg("%s", said);
+    again = read_text("report/index.html");
+    assert_true(strcmp(page, again) == 0);
+    free(again);
+  }
+  free(page);
 }
 
 // The page without its pictures, as it is checked before they are drawn. The caller frees it.
@@ -414,6 +427,8 @@ static void wrong_content_is_named(void **state) {
 }
 
 int main(void) {
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, remove_run),
       cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, remove_run),
