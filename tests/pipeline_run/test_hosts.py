@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Mesher and exporter over three hosts with addresses of their own, by mpirun's defaults: the bytes of one host, and at
-most 1.5 times its time with as many ranks. A host that dies, or that the network loses, ends the run with one line, and
-the next call goes on from the regions that are whole. Ends with 77, skipped, where such hosts cannot be made."""
+"""Mesher, exporter and report over three hosts with addresses of their own, by mpirun's defaults: the bytes of one
+host, and the mesher at most 1.5 times its time with as many ranks. A host that dies, or that the network loses, ends
+the run with one line, and the next call goes on from the regions that are whole. Ends with 77, skipped, where such
+hosts cannot be made."""
 import shutil
 import sys
 import time
@@ -60,6 +61,11 @@ class Hosts(unittest.TestCase):
             result = on_hosts(*without_launcher(stage, run))
             self.assertEqual(result.returncode, 0, result.stdout)
             self.assertEqual(digests(run / stage), digests(self.one / stage))
+        result = on_hosts(*without_launcher("report", run))
+        self.assertEqual(result.returncode, 0, result.stdout)
+        page = (run / "report/index.html").read_bytes()
+        done(self, "report", run, cells=CELLS, ranks=2)
+        self.assertTrue((run / "report/index.html").read_bytes() == page)
 
     def test_whatever_way_messages_take(self):
         for way in WAYS:
