@@ -87,6 +87,8 @@ int main(int argc, char **argv) {
   CwCase table;
   CwRanks ranks = {.comm = MPI_COMM_WORLD};
   cw_mpi_settings();
+  // A rank that waits gives its core away (Open MPI): on a busy machine the one that it waits for needs it.
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   H5dont_atexit();
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(ranks.comm, &ranks.rank);
