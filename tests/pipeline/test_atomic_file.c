@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "pipeline/atomic_file.h"
+#include "tests/sync_order.h"
 
 static char folder[] = CUTWATER_BIN_DIR "/atomic-XXXXXX";
 static char whole[sizeof folder + 32];
@@ -134,6 +135,47 @@ static void library_writes_by_name(void **state) {
   assert_content(whole, "by name");
 }
 
+static int renames, renames_on_disk, syncs_when_renamed;
+
+static void count_rename(const char *to, int is_on_disk) {
+  assert_string_equal(to, whole);
+  renames++;
+  renames_on_disk += is_on_disk;
+  syncs_when_renamed = synced_count;
+}
+
+// All of a file is on the disk before it takes its name, and its folder with the name before the commit returns.
+static void names_are_given_to_what_is_on_the_disk(void **state) {
+  struct stat about;
+  tell_rename = count_rename;
+  for (int by_name = 0; by_name < 2; ++by_name) {
+    CwAtomicFile file = {0};
+    assert_int_equal(by_name ? cw_atomic_file_name(whole, &file) : cw_atomic_file_open(whole, &file), CW_OK);
+    FILE *stream = by_name ? fopen(file.temporary_path, "w") : file.stream;
+    assert_non_null(stream);
+    fputs("by name", stream);
+    if (by_name) fclose(stream);
+    assert_int_equal(cw_atomic_file_commit(&file), CW_OK);
+    assert_int_equal(renames, by_name + 1);
+    assert_int_equal(renames_on_disk, renames);
+    assert_int_equal(stat(folder, &about), 0);
+    assert_int_equal(synced_count, syncs_when_renamed + 1);
+    assert_int_equal(synced[synced_count - 1].st_ino, about.st_ino);
+  }
+  tell_rename = NULL;
+  // The judge itself: what is written after fsync is not on the disk.
+  FILE *late = fopen(whole, "a");
+  assert_non_null(late);
+  fputs("more", late);
+  fflush(late);
+  assert_int_equal(stat(whole, &about), 0);
+  assert_false(was_synced(&about));
+  assert_int_equal(fsync(fileno(late)), 0);
+  assert_true(was_synced(&about));
+  fclose(late);
+  assert_int_equal(truncate(whole, strlen("by name")), 0);
+}
+
 static void full_disk_is_an_error(void **state) {
   if (access("/dev/full", W_OK)) skip();
   CwAtomicFile file = {0};
@@ -190,6 +232,7 @@ int main(void) {
       cmocka_unit_test(what_killed_runs_left_is_cleared),
       cmocka_unit_test(others_may_read_it),
       cmocka_unit_test(library_writes_by_name),
+      cmocka_unit_test(names_are_given_to_what_is_on_the_disk),
       cmocka_unit_test(full_disk_is_an_error),
       cmocka_unit_test(bad_places_are_errors),
       cmocka_unit_test(directories_are_made_with_parents),

@@ -2,20 +2,28 @@
 """The run of the paper's pump at a small size, by all stages in turn: the other tests of whole runs look at it.
 Modules without a test of their own that it runs: mesh_run, mesh_steps, run_step, run_walls, run_layers,
 run_interfaces, run_regions, manifest, coupled_edges."""
+import os
 import shutil
 import subprocess
 import unittest
+from unittest import mock
 
-from cutwater import BIN, CELLS, RUN, done, record
+from cutwater import BIN, CELLS, ENVIRONMENT, RUN, WORK, done, record
+
+ORDER = WORK / "sync_order.txt"  # what the stages brought to the disk and renamed: tests/sync_order.c
+SYNC_LIBRARY = os.environ.get("CUTWATER_SYNC_LIBRARY")  # none where sanitizers must be the first library
 
 
 class Run(unittest.TestCase):
     def test_1_all_stages(self):
         shutil.rmtree(RUN, ignore_errors=True)
-        done(self, "geometry", RUN)
-        done(self, "mesh", RUN, cells=CELLS, ranks=2)
-        done(self, "export", RUN, cells=CELLS, ranks=2)
-        done(self, "report", RUN, cells=CELLS)
+        ORDER.unlink(missing_ok=True)
+        watched = {"LD_PRELOAD": SYNC_LIBRARY, "CUTWATER_SYNC_ORDER": str(ORDER)} if SYNC_LIBRARY else {}
+        with mock.patch.dict(ENVIRONMENT, watched):
+            done(self, "geometry", RUN)
+            done(self, "mesh", RUN, cells=CELLS, ranks=2)
+            done(self, "export", RUN, cells=CELLS, ranks=2)
+            done(self, "report", RUN, cells=CELLS)
         for name in ("geometry/rotor.brep", "geometry/stator.brep", "geometry/faces.csv", "geometry/pump.step",
                      "geometry/design.json", "mesh/manifest.json", "export/pump.cgns",
                      "export/openfoam/constant/polyMesh/faces", "export/cfx/steady.ccl", "report/index.html"):
@@ -41,6 +49,27 @@ class Run(unittest.TestCase):
             help_text = subprocess.run([BIN / f"cutwater-{name}", "--help"], capture_output=True, text=True)
             self.assertEqual(help_text.returncode, 0, help_text.stderr)
             self.assertIn(f"usage: cutwater-{name} --case FILE --run DIR", help_text.stdout)
+
+    @unittest.skipUnless(SYNC_LIBRARY, "sanitizers allow no library before their own")
+    def test_5_files_are_on_the_disk_before_they_have_their_names(self):
+        named, awaited = [], {}
+        for line in ORDER.read_text().splitlines():
+            process, event, *words = line.split(maxsplit=4)
+            if event == "synced":
+                awaited.pop((process, words[0]), None)
+            elif not words[2].startswith(str(RUN)):
+                continue  # of mpirun
+            else:
+                self.assertEqual(words[0], "on-disk", line)
+                self.assertNotIn((process, words[1]), awaited)
+                named.append(words[2][len(str(RUN)) + 1:])
+                awaited[process, words[1]] = line  # until the folder with the name is on the disk too
+        self.assertFalse(awaited)
+        regions = {f"mesh/{path.name}" for path in (RUN / "mesh").glob("*.h5")}
+        self.assertLessEqual(regions | {"geometry/rotor.brep", "geometry/pump.step", "geometry/faces.csv",
+                                        "geometry/model.json", "geometry/record.json", "mesh/manifest.json",
+                                        "mesh/record.json", "export/pump.cgns", "export/openfoam", "export/cfx",
+                                        "export/record.json", "report/index.html"}, set(named))
 
 
 if __name__ == "__main__":
