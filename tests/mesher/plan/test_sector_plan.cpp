@@ -99,6 +99,22 @@ static void pitches_are_planned_alike(void **) {
   assert_true(cw_plan_locate(&plan, water) < plan.sector_region);
 }
 
+// Slices before the sectors are about as large as the regions of a pitch: as many as there fit into them, or one more.
+// The samples of all pitches together tell work by 2 %.
+static void slices_are_as_large_as_regions(void **) {
+  const int turns = 5;
+  for (int asked : {7, 16}) {
+    PlannedTank tank(tank_solid(turns), turns, asked);
+    PlannedSolid::check(tank.status);
+    assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
+    const int slices = tank.plan.sector_region, regions = (tank.plan.region_count - slices) / turns;
+    double pipe = 0, pitch = 0;
+    for (int r = 0; r < slices + regions; r++) (r < slices ? pipe : pitch) += tank.plan.predicted_cells[r];
+    const double fitting = pipe / pitch * regions;
+    assert_true(slices > 0.98 * fitting - 1 && slices <= 1.02 * fitting + 1 && slices <= asked);
+  }
+}
+
 // Where fluid lies on the axis from end to end no sector decomposition can be.
 static void fluid_all_along_the_axis_has_no_sectors(void **) {
   PlannedTank cube(BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 40).Shape(), 4, 9);
@@ -112,6 +128,7 @@ int main() {
       cmocka_unit_test(sectors_divide_by_angle),
       cmocka_unit_test(wedges_have_two_half_planes),
       cmocka_unit_test(pitches_are_planned_alike),
+      cmocka_unit_test(slices_are_as_large_as_regions),
       cmocka_unit_test(fluid_all_along_the_axis_has_no_sectors),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
