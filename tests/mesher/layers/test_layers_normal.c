@@ -116,6 +116,27 @@ static void plane_through_box(void **state) {
     }
 }
 
+static int crossing_planes(const void *context, const double x[3], double normal[2][3]) {
+  (void)context;
+  int count = 0;
+  for (int k = 0; k < 2; k++)
+    if (fabs(x[k] - 0.4 * (1 + 11 * k) * MM) < 1e-9) normal[count++][k] = 1;
+  return count;
+}
+
+// Two planes cross in a line that meets the floor and the ceiling one edge off a wall, from where the smoothing leans
+// columns: the column on the line cannot, the others on a plane along it alone.
+static void planes_crossing_beside_a_wall(void **state) {
+  const double low[3] = {0, 0, 0}, high[3] = {0.008, 0.008, 0.008};
+  Case c = {.target = 0.6 * MM, .constraint = crossing_planes};
+  int crossings = 0;
+  surface_box(&c.wall, low, high, 0.4 * MM, 63, 0);
+  case_run(&c, "crossing planes"); // looks at the columns on planes
+  for (int32_t v = 0; v < c.wall.point_count; v++) crossings += c.in.constraint_count[v] == 2;
+  assert_int_equal(crossings, 2);
+  case_free(&c);
+}
+
 typedef struct {
   double depth, tangent;
 } Slant;
@@ -181,6 +202,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(most_normal_by_hand),   cmocka_unit_test(folds_by_hand),
       cmocka_unit_test(plane_through_box),     cmocka_unit_test(slanted_open_patches),
+      cmocka_unit_test(planes_crossing_beside_a_wall),
       cmocka_unit_test(constraint_along_wall),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
