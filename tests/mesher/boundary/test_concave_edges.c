@@ -111,6 +111,28 @@ static void concave_edges_are_opened(void **state) {
   (void)state;
 }
 
+// Columns on a seam are judged with their periodic images: as in a ring of one passage, whose columns about the ray 0
+// are tried in the same order, though in directions that do not turn with the images: alike to 1 % of their height.
+static void seams_do_not_matter(void **state) {
+  static Ring ring, whole;
+  int32_t opened;
+  make_ring(&ring, 0, LOW, 0.5);
+  make_ring(&whole, 0, LOW, 0.5);
+  whole.flat.symmetry.count = 1;
+  for (int32_t v = 0; v < POINTS; v++) whole.flat.next[v] = v, whole.flat.turns[v] = 0;
+  for (int32_t t = 0; t < TRIANGLES; t++) whole.flat.source[t] = t;
+  assert_int_equal(cw_open_concave_edges(&ring.images, &ring.surface, &ring.wall, &ring.layers, &opened), CW_OK);
+  assert_int_equal(cw_open_concave_edges(&whole.images, &whole.surface, &whole.wall, &whole.layers, &opened), CW_OK);
+  assert_true(opened > 0);
+  for (int i = -4; i <= 4; i++)
+    for (int j = 0; j <= RINGS; j++)
+      for (int k = 0; k < 3; k++) {
+        int32_t v = ring_point(AROUND + i, j);
+        assert_float_equal(ring.top[v][k], whole.top[v][k], 0.01 * HIGH);
+      }
+  (void)state;
+}
+
 // Two things leave all as it is: no narrow concave edge, and one in which something stands.
 static void others_stay(void **state) {
   static Ring ring, before;
@@ -142,6 +164,7 @@ static void others_stay(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(concave_edges_are_opened), cmocka_unit_test(others_stay)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(concave_edges_are_opened), cmocka_unit_test(seams_do_not_matter),
+                                     cmocka_unit_test(others_stay)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
