@@ -19,6 +19,7 @@
 #include "mesher/run/cell_count.h"
 #include "mesher/run/domain_size.h"
 #include "mesher/run/mesh_plan.h"
+#include "mesher/thickness/layer_count.h"
 #include "pipeline/case_read.h"
 
 enum { CELLS_PER_REGION = 20000 };
@@ -316,6 +317,43 @@ static void plans_that_do_not_fit_give_way(void **state) {
   cw_plan_free(&run.domain[1].plan);
 }
 
+// The number of layers that enough faces need at the scale of a run.
+static int layers_needed(const CwMeshRun *run) {
+  double needing[CW_LAYER_COUNT_MOST + 1] = {0};
+  for (int d = 0; d < model.domain_count; d++) cw_domain_layers_needed(&run->domain[d], run->scale, needing);
+  return cw_layer_count_for(needing);
+}
+
+// Where y+ is given the number of layers is what the faces need. Where it is left open it is the same y+, and the same
+// number, up to the usual one; then that number is kept, and y+ grows until it is enough.
+static void layers_grow_in_number_before_y_plus(void **state) {
+  static const double cells[] = {1e4, 1e5, 3e5, 2e6};
+  const CwCase paper = table;
+  int given_count = 0;
+  for (int i = 0; i < 8; i++) {
+    CwMeshRun run = {.table = &table, .model = model};
+    CwWalls *walls = &table.walls;
+    walls->layer_count = 0;
+    table.mesh.cells = (int64_t)cells[i / 2];
+    if (i % 2) walls->blade.y_plus = walls->hub_shroud.y_plus = walls->volute.y_plus = walls->pipe.y_plus = NAN;
+    memcpy(run.domain, domain, sizeof domain);
+    for (int d = 0; d < model.domain_count; d++) check(cw_domain_ask(&run.domain[d], &table));
+    cw_mesh_solve_layers(&run);
+    assert_int_equal(run.layer_count, layers_needed(&run));
+    if (i % 2)
+      assert_int_equal(run.layer_count, given_count < CW_LAYER_COUNT_USUAL ? given_count : CW_LAYER_COUNT_USUAL);
+    assert_int_equal(run.y_plus_auto > CW_LOG_LAYER_Y_PLUS, i % 2 && given_count > CW_LAYER_COUNT_USUAL);
+    assert_true(fabs(cw_predicted_off(&run)) < 1e-9);
+    given_count = run.layer_count;
+    for (int d = 0; d < model.domain_count; d++) {
+      free(run.domain[d].patch_target);
+      free(run.domain[d].relative_size);
+      free(run.domain[d].patch_layers);
+    }
+    table = paper;
+  }
+}
+
 static double layers_at_corner(const CwDomain *of, const CwCorner *corner) {
   double most = corner->face >= 0 ? layers_at(of, corner->face, corner->x) : 0;
   int faces[2];
@@ -441,6 +479,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(few_regions_are_even_and_cut_cleanly),  cmocka_unit_test(dozens_of_regions_too),
       cmocka_unit_test(planes_keep_clear_of_edges_and_layers), cmocka_unit_test(two_plans_are_the_same),
       cmocka_unit_test(plans_that_do_not_fit_give_way),        cmocka_unit_test(packed_plans_come_back_whole),
+      cmocka_unit_test(layers_grow_in_number_before_y_plus),
   };
   const struct CMUnitTest many[] = {cmocka_unit_test(all_that_are_asked_can_be_had)};
   if (argc < 2) return cmocka_run_group_tests(quick, open_pump, close_pump);
