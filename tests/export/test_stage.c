@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The whole stage through its executable: the same bytes for any number of ranks, and what bad input does.
 // Modules without a test of their own that it runs: assembly, blocks, cgns_fill, cgns_sections, cgns_tree, division,
-// fluent_case, foam_boundary, foam_files, foam_layout, foam_processors, foam_region, foam_zones, folder,
-// interface_near, manifest, saturne_case.
+// fluent_case, foam_files, foam_layout, foam_processors, foam_region, foam_zones, folder, interface_near, manifest,
+// saturne_case.
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -197,6 +198,25 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
   expect_error(run, "mm has the radius 101 mm; the interface has 102 mm");
 }
 
+// Two prisms of n sides and of many in one cylinder: their areas are 2 n sin(pi / n) r h.
+static void sides_of_different_area_are_told(void **state) {
+  (void)state;
+  SyntheticPump pump = synthetic_pump();
+  char other[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10], words[200];
+  pump.stator.around = 8;
+  assert_int_equal(stage_run_make(other, &pump), 0);
+  snprintf(run, sizeof run, "%s/run", other);
+  assert_int_equal(stage_export(run, 1, output), 0);
+  const double height = pump.top - pump.bottom;
+  const int n[2] = {pump.rotor.around, pump.stator.around};
+  double area[2];
+  for (int i = 0; i < 2; ++i) area[i] = 1e6 * 2 * n[i] * sin(M_PI / n[i]) * pump.rotor.outer * height;
+  snprintf(words, sizeof words, "the interface has %.6g mm2 on patch 'rotor_interface' and %.6g mm2 on '", area[0],
+           area[1]);
+  if (!strstr(output, words)) fail_msg("no '%s' in: %s", words, output);
+  stage_folder_remove(other);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(any_number_of_ranks_gives_the_same_bytes),
@@ -204,6 +224,7 @@ int main(void) {
       cmocka_unit_test(with_two_ranks_one_of_them_tells),
       cmocka_unit_test(files_that_are_missing_or_cut_are_told),
       cmocka_unit_test(a_manifest_that_does_not_fit_is_told),
+      cmocka_unit_test(sides_of_different_area_are_told),
       cmocka_unit_test(a_broken_mesh_is_told_with_its_place),
   };
   return cmocka_run_group_tests(tests, make_run, remove_run);
