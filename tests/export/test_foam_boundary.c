@@ -83,8 +83,9 @@ static void several_ends_are_a_zone(void **state) {
   write_files(inlets);
   content("boundary", text);
   content("faceZones", text);
-  assert_string_equal(text, "1\n(\ninlets\n{\ntypefaceZone;\nfaceLabelsList<label>\n5\n(\n100\n101\n102\n133\n134\n)\n;\n"
-                            "flipMapList<bool>5{0};\n}\n)\n");
+  assert_string_equal(text,
+                      "1\n(\ninlets\n{\ntypefaceZone;\nfaceLabelsList<label>\n5\n(\n100\n101\n102\n133\n134\n)\n;\n"
+                      "flipMapList<bool>5{0};\n}\n)\n");
   write_files(outlets);
   content("boundary", text);
   content("faceZones", text);

@@ -192,8 +192,7 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
   seal(run);
   expect_error(run, "differs between regions by 0.0001 mm");
   copy_run("bad", run);
-  stage_shell(output,
-              "sed -i 's/\"radius_m\": 0.101[0-9]*/\"radius_m\": 0.102/' '%s/mesh/manifest.json'", run);
+  stage_shell(output, "sed -i 's/\"radius_m\": 0.101[0-9]*/\"radius_m\": 0.102/' '%s/mesh/manifest.json'", run);
   seal(run);
   expect_error(run, "mm has the radius 101 mm; the interface has 102 mm");
 }

@@ -15,17 +15,57 @@ static const double LEAST_FLOW = 0.3 / 3600; // m3/s
 
 // A pump of the size D2 (m, about) that turns with u2 = 25 m/s: psi by Guelich gives the head, nq the flow rate.
 // Returns 0 where that is under 0.3 m3/h.
-static int duty(double nq, double size, CwDesign *design) {
+static int duty_with(double nq, double size, const CwVoluteTable *volute, CwDesign *design) {
   CwCase table;
   const double speed = 25 / (size / 2), rpm = speed * 30 / M_PI;
   const double head = 1.21 * exp(-0.77 * nq / 100) * 25 * 25 / (2 * 9.80665);
   cw_case_defaults(&table);
+  if (volute) table.volute = *volute;
   table.operating_point.head = head;
   table.operating_point.speed = speed;
   table.operating_point.flow_rate = pow(nq * pow(head, 0.75) / rpm, 2);
   if (table.operating_point.flow_rate < LEAST_FLOW) return 0;
   if (cw_hydraulic_design(&table, design) != CW_OK) fail_msg("nq %g, D2 %g m: %s", nq, size, cw_fail_message());
   return 1;
+}
+
+static int duty(double nq, double size, CwDesign *design) {
+  return duty_with(nq, size, NULL, design);
+}
+
+// A spiral that would be too tall: what is open of b3 and side walls yields, then given side walls or a rectangle,
+// which becomes a trapezoid, then a given b3. What yields without having been given was not asked; what stays is as
+// given.
+static void given_walls_yield_after_open_ones(void **state) {
+  static const struct {
+    double nq;
+    int angle_given, width_given;
+    CwVoluteSectionKind section;
+    int angle_yields, width_yields;
+  } cases[] = {{65, 0, 0, CW_SECTION_TRAPEZOID, 0, 0}, {65, 0, 0, CW_SECTION_CIRCLE, 0, 0},
+               {60, 1, 0, CW_SECTION_TRAPEZOID, 0, 0}, {75, 1, 0, CW_SECTION_TRAPEZOID, 1, 0},
+               {45, 0, 0, CW_SECTION_RECTANGLE, 0, 0}, {75, 0, 0, CW_SECTION_RECTANGLE, 1, 0},
+               {90, 0, 1, CW_SECTION_TRAPEZOID, 0, 1}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    CwCase table;
+    CwDesign d;
+    CwVoluteTable *given = &table.volute;
+    cw_case_defaults(&table);
+    given->section = cases[i].section;
+    if (cases[i].angle_given) given->side_wall_angle = 10 * M_PI / 180;
+    if (cases[i].width_given) given->inlet_width = 0.06; // 1.05 b2
+    assert_true(duty_with(cases[i].nq, 0.3, given, &d));
+    const int rectangle = given->section == CW_SECTION_RECTANGLE;
+    const double angle = rectangle ? 0 : given->side_wall_angle, asked_angle = d.asked[CW_DESIGN_side_wall_angle];
+    assert_int_equal(!isnan(asked_angle), cases[i].angle_yields);
+    assert_int_equal(!isnan(d.asked[CW_DESIGN_inlet_width]), cases[i].width_yields);
+    if (cases[i].angle_yields) near_to(asked_angle, angle, 1e-15);
+    if (cases[i].width_yields) near_to(d.asked[CW_DESIGN_inlet_width], given->inlet_width, 1e-15);
+    if (cases[i].angle_given || rectangle) assert_int_equal(d.side_wall_angle > angle + 1e-9, cases[i].angle_yields);
+    if (cases[i].width_yields) assert_true(d.side_wall_angle > 20.5 * M_PI / 180); // from 20 degrees on, as an open one
+    if (given->section == CW_SECTION_TRAPEZOID || !cases[i].angle_yields)
+      assert_int_equal(d.volute.input.section, given->section);
+  }
 }
 
 static void volutes_of_any_duty(void **state) {
@@ -56,6 +96,7 @@ static void similar_pumps(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(given_walls_yield_after_open_ones),
       cmocka_unit_test(volutes_of_any_duty),
       cmocka_unit_test(similar_pumps),
   };
