@@ -124,6 +124,42 @@ static void clearance(void **state) {
   assert_true(found < 0);
 }
 
+// A cylindrical blade is one curve in plan: where others of its sections have a radius of mid-span's, they have its
+// angle and its tangent there; before that, both go on without a step.
+static void cylindrical_sections_lie_over_each_other(void **state) {
+  CwDesign flat = design;
+  CwBladeSection middle, wall;
+  flat.blade_form = CW_BLADE_CYLINDRICAL;
+  assert_int_equal(cw_blade_section(&flat, &meridian, 0.5, &middle), CW_OK);
+  for (int side = 0; side < 2; side++) {
+    double last_theta = NAN, last_r = NAN;
+    int before = 0;
+    assert_int_equal(cw_blade_section(&flat, &meridian, side, &wall), CW_OK);
+    for (int i = 0; i <= 200; i++) {
+      const double q = i / 200.0, theta = cw_blade_theta(&wall, q);
+      double x[2], dx[2], y[2], dy[2], low = 0, high = 1;
+      cw_meridian_blade_point(&meridian, side, q, x, dx);
+      // d theta / dr = -1 / (r tan beta'), beta' the angle in plan: no step anywhere
+      const double plan = tan(cw_blade_beta(&wall, q)) * dx[0] / hypot(dx[0], dx[1]);
+      if (i > 0 && dx[0] > 0.1 * hypot(dx[0], dx[1]))
+        near_to(last_theta - theta, (x[0] - last_r) / (0.5 * (x[0] + last_r) * plan),
+                0.02 * (x[0] - last_r) / (x[0] * plan));
+      last_theta = theta, last_r = x[0];
+      cw_meridian_blade_point(&meridian, 0.5, 0, y, dy);
+      before += x[0] < y[0];
+      if (x[0] <= y[0]) continue;
+      for (int k = 0; k < 60; k++) {
+        const double mid = 0.5 * (low + high);
+        cw_meridian_blade_point(&meridian, 0.5, mid, y, dy);
+        *(y[0] < x[0] ? &low : &high) = mid;
+      }
+      near_to(theta, cw_blade_theta(&middle, low), 1e-6);
+      near_to(plan, tan(cw_blade_beta(&middle, low)) * dy[0] / hypot(dy[0], dy[1]), 1e-6);
+    }
+    assert_int_equal(before > 0, side == 0);
+  }
+}
+
 // From the thickest place on, the sides of a thick blade turn into a rounded trailing edge one way: along each of them
 // the angle to the mean line keeps its sign.
 static void thick_rounded_sides_do_not_swing(void **state) {
@@ -149,6 +185,7 @@ static void thick_rounded_sides_do_not_swing(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(thick_rounded_sides_do_not_swing),
+      cmocka_unit_test(cylindrical_sections_lie_over_each_other),
       cmocka_unit_test(spiral),
       cmocka_unit_test(wrap_closes),
       cmocka_unit_test(thickness),

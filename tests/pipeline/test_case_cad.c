@@ -103,6 +103,23 @@ static void what_is_left_out_has_its_default(void **state) {
   cw_case_free(&table);
 }
 
+// Domains have up to 14 letters, patches up to 22.
+static void names_may_be_so_long(void **state) {
+  (void)state;
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
+  for (int i = 0; i < 4; i++) {
+    char text[200];
+    CwCase table;
+    const int domain = i == 1 ? 15 : 14, patch = i == 2 ? 23 : 22, fits = i != 1 && i != 2;
+    snprintf(text, sizeof text, "  files: x.step\n  domains: {%.*s: {solid: 1}}\n  patches: {%.*s: {faces: 1}}\n",
+             domain, letters, patch, letters);
+    assert_int_equal(read_text(text, &table) == CW_OK, fits);
+    if (!fits) assert_non_null(strstr(cw_fail_message(), "no name that files and solvers take; allowed: 1 to "));
+    if (fits) assert_int_equal(strlen(table.cad->patch[0].name), 22);
+    cw_case_free(&table);
+  }
+}
+
 static void wrong_values_have_their_place(void **state) {
   (void)state;
   static const struct {
@@ -153,8 +170,8 @@ static int remove_folder(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(everything_is_read),
-                                     cmocka_unit_test(what_is_left_out_has_its_default),
-                                     cmocka_unit_test(wrong_values_have_their_place)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(everything_is_read), cmocka_unit_test(what_is_left_out_has_its_default),
+      cmocka_unit_test(names_may_be_so_long), cmocka_unit_test(wrong_values_have_their_place)};
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

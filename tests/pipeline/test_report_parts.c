@@ -16,6 +16,7 @@
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
 #include "pipeline/report/picture_list.h"
+#include "pipeline/report/quantity.h"
 #include "pipeline/report/survey.h"
 
 #define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
@@ -54,6 +55,33 @@ static void numbers_read_well(void **state) {
   assert_string_equal(cw_format_percent(0.316, text), "31.6 %");
   assert_string_equal(cw_format_percent(0, text), "0 %");
   assert_string_equal(cw_format_percent(NAN, text), "\342\200\223");
+}
+
+// One of each unit in what it is shown in.
+static void quantities_have_their_units(void **state) {
+  static const struct {
+    const char *key, *stem, *unit;
+    double shown; // of 1 in the unit of the key
+  } wanted[] = {{"flow_rate_m3_per_s", "flow_rate", "m&sup3;/h", 3600},
+                {"kinematic_viscosity_m2_per_s", "kinematic_viscosity", "m&sup2;/s", 1},
+                {"angular_speed_rad_per_s", "angular_speed", "rad/s", 1},
+                {"inlet_blade_speed_m_per_s", "inlet_blade_speed", "m/s", 1},
+                {"theoretical_head_m", "theoretical_head", "m", 1},
+                {"wrap_angle_deg", "wrap_angle", "&deg;", 1},
+                {"throat_area_m2", "throat_area", "mm&sup2;", 1e6},
+                {"least_cell_volume_m3", "least_cell_volume", "mm&sup3;", 1e9},
+                {"solid_volume_m3", "solid_volume", "cm&sup3;", 1e6},
+                {"outlet_diameter_m", "outlet_diameter", "mm", 1e3},
+                {"shaft_power_w", "shaft_power", "W", 1},
+                {"blade_count", "blade_count", "", 1}};
+  for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+    char stem[CW_STEM_SIZE];
+    const CwQuantityUnit *unit = cw_quantity_unit(wanted[i].key);
+    cw_quantity_stem(wanted[i].key, stem);
+    assert_string_equal(stem, wanted[i].stem);
+    assert_string_equal(unit->unit, wanted[i].unit);
+    assert_near(unit->scale, wanted[i].shown, 0);
+  }
 }
 
 // Red, green and blue, no more; neither pale nor dark; neighbours in number differ in one of them by a fifth at least.
@@ -253,7 +281,9 @@ static void survey_finds_places(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(numbers_read_well),
-      cmocka_unit_test(regions_have_colours_of_their_own), cmocka_unit_test(html_is_escaped_and_encoded),
+      cmocka_unit_test(quantities_have_their_units),
+      cmocka_unit_test(regions_have_colours_of_their_own),
+      cmocka_unit_test(html_is_escaped_and_encoded),
       cmocka_unit_test(drawings_are_embedded_alone),
       cmocka_unit_test(cuts_have_the_right_areas),
       cmocka_unit_test(a_face_in_the_plane_is_cut_once),

@@ -27,7 +27,26 @@ static void least_first_and_ties_by_number(void **state) {
   cw_heap_free(&heap);
 }
 
+// All orders in which up to six items can come.
+static void any_order_comes_out_sorted(void **state) {
+  (void)state;
+  for (int count = 1, orders = 1; count <= 6; orders *= ++count)
+    for (int order = 0; order < orders; order++) {
+      CwHeap heap = {0};
+      int left[6], rest = order;
+      for (int i = 0; i < count; i++) left[i] = i;
+      for (int n = count; n > 0; rest /= n--) {
+        int chosen = rest % n;
+        assert_int_equal(cw_heap_push(&heap, left[chosen], left[chosen]), CW_OK);
+        left[chosen] = left[n - 1];
+      }
+      for (int i = 0; i < count; i++) assert_int_equal(cw_heap_pop(&heap).v, i);
+      cw_heap_free(&heap);
+    }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(least_first_and_ties_by_number)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(least_first_and_ties_by_number),
+                                     cmocka_unit_test(any_order_comes_out_sorted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

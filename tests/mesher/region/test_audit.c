@@ -293,12 +293,21 @@ static void sums_of_two_regions(void **state) {
   cw_quality_add(&sum, &q, 1);
   q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0;
   q.aspect_class[0] = 0, q.aspect_class[2] = 3;
+  q.beside = (CwTetFigures){5, 9.0, 3.0, 2.5, 0.25, 20.0};
+  q.apart = (CwTetFigures){7, 8.0, 2.0, 4.5, 0.5, 30.0};
+  const CwTetFigures beside = sum.beside, apart = sum.apart;
   cw_quality_add(&sum, &q, 3);
   NEAR(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
   NEAR(sum.aspect_max, 4.0, 0.0);
   NEAR(sum.dihedral_least, 12.0, 0.0);
   NEAR(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
   assert_int_equal(sum.cells, 4);
+  assert_int_equal(sum.beside.count, beside.count + 5);
+  assert_int_equal(sum.apart.count, apart.count + 7);
+  NEAR(sum.apart.aspect_sum, apart.aspect_sum + 8.0, 1e-14);
+  NEAR(sum.apart.mean_ratio_sum, apart.mean_ratio_sum + 4.5, 1e-14);
+  NEAR(sum.apart.mean_ratio_least, 0.5, 0.0);
+  NEAR(sum.apart.dihedral_least, 30.0, 0.0);
   assert_int_equal(sum.aspect_class[2], 3);
   assert_int_equal(sum.prism_count, 2);
 }
