@@ -72,6 +72,9 @@ static void spoiled_ones_are_told(void **state) {
   told(&of, "vertex 3 at (0.000, 0.000, 1000.000) mm has no triangle");
   of.triangle[3][1] = 2, of.triangle[3][2] = 3; // turned over
   told(&of, "run the same way along the edge");
+  // The edge of the first triangle that ends at its first corner counts as the others do.
+  of.triangle[3][0] = 1, of.triangle[3][1] = 0, of.triangle[3][2] = 3; // as triangle 0 has its edge from 1 to 0
+  told(&of, "triangles 0 and 3 run the same way along the edge from (0.000, 0.000, 0.000) to (1000.000, 0.000, 0.000)");
   of.start[2] = 3;
   told(&of, "regions list 3 of 4 triangles");
   of.listed[1] = 0;
@@ -80,6 +83,17 @@ static void spoiled_ones_are_told(void **state) {
   told(&of, "region 1 lists triangle 3 after 1");
   of.source[3] = 1, of.source[1] = 0;
   told(&of, "triangle 3 is a copy of 1");
+}
+
+// What is free has nothing, and may be freed again.
+static void freed_ones_are_empty(void **state) {
+  CwSurfaceMesh surface = {.vertex_count = 1, .triangle_count = 1}, none = {0};
+  (void)state;
+  surface.x = malloc(sizeof *surface.x);
+  surface.triangle = malloc(sizeof *surface.triangle);
+  cw_surface_mesh_free(&surface);
+  assert_memory_equal(&surface, &none, sizeof none);
+  cw_surface_mesh_free(&surface);
 }
 
 static void vtk_has_all_triangles(void **state) {
@@ -106,6 +120,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sound_ones_pass),
       cmocka_unit_test(spoiled_ones_are_told),
+      cmocka_unit_test(freed_ones_are_empty),
       cmocka_unit_test(vtk_has_all_triangles),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

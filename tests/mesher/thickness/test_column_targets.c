@@ -107,6 +107,26 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   free_wall(&wall, &targets);
 }
 
+// A periodic image has what its first has, whatever the layers where it lies ask for.
+static void images_have_those_of_their_first(void **state) {
+  double x[8][3];
+  int32_t triangle[4][3] = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, face[4] = {0, 0, 1, 1};
+  int32_t next[8] = {4, 5, 6, 7, 0, 1, 2, 3}, turns[8] = {0, 0, 0, 0, 1, 1, 1, 1};
+  for (int v = 0; v < 8; v++) memcpy(x[v], (double[3]){square_x[v % 4][0] + 50 * (v / 4), square_x[v % 4][1], 0}, 24);
+  const CwLayerTarget layers[2] = {DOUBLING, {.first_height = 3, .growth = 1.5, .thickness = 20, .last = 1}};
+  Wall wall;
+  CwColumnTargets targets = {0};
+  make_wall(&wall, 100, 8, x, 4, triangle, face);
+  wall.surface.images = (CwNodeImages){.capacity = 8, .next = next, .turns = turns};
+  assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
+  for (int v = 0; v < 8; v++) {
+    NEAR(targets.first_height[v], 1);
+    NEAR(targets.growth[v], 2);
+    NEAR(targets.target[v], 7);
+  }
+  free_wall(&wall, &targets);
+}
+
 // A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below a hollow. One end of
 // the ridge lies higher by `lift`.
 static double roof_height(double size, int fluid_above, double lift) {
@@ -163,8 +183,8 @@ static void the_share_of_graded_columns(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_flat_wall), cmocka_unit_test(the_finer_patch_holds_where_two_meet),
-      cmocka_unit_test(bends_of_the_wall), cmocka_unit_test(a_vertex_without_triangle_is_an_error),
-      cmocka_unit_test(the_share_of_graded_columns)};
+      cmocka_unit_test(images_have_those_of_their_first),      cmocka_unit_test(a_flat_wall),
+      cmocka_unit_test(the_finer_patch_holds_where_two_meet),  cmocka_unit_test(bends_of_the_wall),
+      cmocka_unit_test(a_vertex_without_triangle_is_an_error), cmocka_unit_test(the_share_of_graded_columns)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
