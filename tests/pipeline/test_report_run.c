@@ -251,6 +251,7 @@ static void page_tells_all_and_stands_alone(void **state) {
   assert_non_null(page);
   assert_true(there("report/record.json"));
   assert_true(is_clean());
+  holds(page, "<b>1 + 1</b><span>regions of rotor and stator</span>");
   holds(page, "<b>4</b><span>cells; 5 asked, -20.00");
   holds(page, "12.87&#8239;m");
   holds(page, ">866<span>.47</span>"); // throat area in mm2

@@ -159,7 +159,7 @@ static void crossing_edges_are_refused_with_their_place(void **state) {
   add_point(&plan, 0, 1);
   add_point(&plan, 1, 1);
   for (int k = 0; k < 4; k++) add_edge(&plan, k, (k + 1) % 4, 1);
-  expect_refusal(&plan, "cross", "(500, 500, 250) mm");
+  expect_refusal(&plan, "cross", "(500, 500, 250) mm, (u,v) = (0.5, 0.5)");
 }
 
 static void points_on_edges_are_refused(void **state) {
