@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sound solids stay as they are, bad ones are mended or refused with the place.
 #include <BRepCheck_Analyzer.hxx>
+#include <TopExp_Explorer.hxx>
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 
@@ -73,9 +74,24 @@ static void what_stays_open_is_refused_with_its_place(void **) {
   small_near(fault.at[2], 3e-3, 1e-9); // the lid is missing
 }
 
+// Edges that meet in a corner within 0.7 mm alone, where 0.01 mm are allowed: the refusal names that corner.
+static void wide_corners_are_refused_with_their_place(void **) {
+  SmallParts small({{"water", small_box(0, 0, 0, 1, 2, 3)}});
+  for (TopExp_Explorer at(small.parts.part[0].solid, TopAbs_VERTEX); at.More(); at.Next()) {
+    const TopoDS_Vertex &vertex = TopoDS::Vertex(at.Current());
+    if (BRep_Tool::Pnt(vertex).Distance(gp_Pnt(1, 2, 3)) < 1e-9) BRep_Builder().UpdateVertex(vertex, 0.7);
+  }
+  CwCadFault fault;
+  assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "fit one another within no less than 0.7"));
+  assert_true(fault.found);
+  for (int k = 0; k < 3; k++) small_near(fault.at[k], 1e-3 * (k + 1), 1e-9);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sound_solids_stay),
                                      cmocka_unit_test(solids_inside_out_are_turned), cmocka_unit_test(gaps_are_sewn),
-                                     cmocka_unit_test(what_stays_open_is_refused_with_its_place)};
+                                     cmocka_unit_test(what_stays_open_is_refused_with_its_place),
+                                     cmocka_unit_test(wide_corners_are_refused_with_their_place)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
