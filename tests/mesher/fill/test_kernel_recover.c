@@ -86,6 +86,16 @@ static void a_triangle_listed_twice_is_refused(void **unused) {
   surface_free(&s);
 }
 
+static int has_edge(const CwTetMesh *mesh, int32_t a, int32_t b) {
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *corner = mesh->tet[t].corner;
+    int both = 0;
+    for (int i = 0; i < 4; i++) both += corner[i] == a || corner[i] == b;
+    if (corner[0] >= 0 && both == 2) return 1;
+  }
+  return 0;
+}
+
 // Wrong diagonals on a sphere without inner points: some facets are missing, by the list of all faces too; flips bring
 // most in, and the mesh stays one of the same volume.
 static void missing_facets_are_recovered(void **unused) {
@@ -110,6 +120,14 @@ static void missing_facets_are_recovered(void **unused) {
       assert_int_equal(cw_kernel_recover(&mesh, &facets, round, NULL, &flips), CW_OK);
     assert_true(4 * facets.missing_count < missing);
     assert_true(flips >= (missing - facets.missing_count) / 2);
+    // What stays missing lacks an edge: nothing else keeps a face away.
+    int32_t closed = 0;
+    for (int32_t f = 0; f < facets.count; f++) {
+      const int32_t *c = facets.corner[f];
+      closed += !has_face(&mesh, c) && has_edge(&mesh, c[0], c[1]) && has_edge(&mesh, c[1], c[2]) &&
+                has_edge(&mesh, c[2], c[0]);
+    }
+    assert_int_equal(closed, 0);
     for (int32_t f = 0, left = 0; f < facets.count; f++) {
       left += !has_face(&mesh, facets.corner[f]);
       if (f + 1 == facets.count) assert_int_equal(left, facets.missing_count);
