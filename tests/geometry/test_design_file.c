@@ -63,7 +63,27 @@ static void keys_of_the_format(void **state) {
   json_decref(root);
 }
 
+// One splitter a blade, or none.
+static void splitters_are_counted(void **state) {
+  CwCase table;
+  CwDesign design;
+  CwMeasuredPump measured = {.solid = {{.volume = 5e-4}, {.volume = 7e-4}}};
+  for (int splitters = 0; splitters < 2; splitters++) {
+    assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+    assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+    if (splitters) design.splitter_start = 0.4;
+    assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
+    json_error_t error;
+    json_t *root = json_load_file("design-file-test.json", 0, &error);
+    unlink("design-file-test.json");
+    assert_non_null(root);
+    assert_true(number(root, "blade_count") == 6);
+    assert_true(number(root, "splitter_count") == 6 * splitters);
+    json_decref(root);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_the_format)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_the_format), cmocka_unit_test(splitters_are_counted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
