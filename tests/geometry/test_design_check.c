@@ -64,6 +64,12 @@ static void ends_and_reach_are_remarked(void **state) {
   assert_true(remarked(&design, "raise the wrap"));
   design.overlap = 3.5;
   assert_true(remarked(&design, "lower the wrap"));
+  design.diffusion_ratio = 0.7; // the least without a remark
+  assert_false(remarked(&design, "separate"));
+  design.diffusion_ratio = 0.699;
+  assert_true(remarked(&design, "separate"));
+  design.diffusion_ratio = 1.1; // the most
+  assert_false(remarked(&design, "accelerates"));
   design.diffusion_ratio = 1.3;
   assert_true(remarked(&design, "accelerates"));
   design.tongue_tip_radius = 0.13;
