@@ -61,6 +61,13 @@ class Audit(unittest.TestCase):
         self.assertAlmostEqual(areas["inlet"] / (3.141592653589793 / 4 * 0.074**2), 1, delta=0.01)
         self.assertAlmostEqual(areas["outlet"] / (3.141592653589793 / 4 * 0.050**2), 1, delta=0.02)
 
+    def test_stages_agree_on_the_area_of_each_patch(self):
+        areas = {patch["name"]: patch["area_m2"] for patch in self.export["patches"]}
+        patches = [patch for domain in self.mesh["domains"] for patch in domain["patches"]]
+        self.assertEqual(len(patches), len(areas))
+        for patch in patches:
+            self.assertAlmostEqual(patch["area_m2"] / areas[patch["name"]], 1, delta=1e-12, msg=patch["name"])
+
     def test_layers_cover_the_walls(self):
         walls = [wall for domain in self.mesh["domains"] for wall in domain["layer_coverage"]]
         faces = sum(wall["wall_faces"] for wall in walls)
