@@ -340,7 +340,8 @@ def report(rows):
         print(f"{room:24}{len(here):7}{sum(found):8}   {', '.join(map(str, found))}")
     for row in counted:
         if row["end"] == "survived":
-            told = any(Path(row["file"]).name in line and row["line_text"] in line for line in known)
+            told = any(Path(row["file"]).name in line and row["line_text"] in line.replace("\\|", "|")
+                       for line in known)
             print(f"survived: {row['number']}: {row['file']}:{row['line']}: {row['kind']}: {row['old']} to {row['new']}"
                   f"{' (explained)' if told else ''}: {row['line_text']}")
     caught = [row for row in counted if row["end"] != "survived"]
