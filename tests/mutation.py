@@ -20,10 +20,11 @@ that use its library, cheapest first, those of whole runs among them; up to the 
 of its room's and the others than fit into T seconds of the processor: the others are left to a run with --again.
 
 A mutation is caught where a test fails or takes 10 times as long as without it (a test that fails without it is left
-out); one that the compiler refuses, or makes the same code of (Papadakis et al. 2015), does not count. What each came
-to is a line of DIR/mutations.jsonl, and not tried again but with --again, which tries what survived before the tests
-and sources as they are now. At the end, or with --report alone: caught of tried by room, and the survivors. Those that
-docs/testing.md gives a reason for are marked."""
+out); one that the compiler refuses, or makes the same code of (Papadakis et al. 2015), does not count, nor does one of
+a template for other compilers. What each came to is a line of DIR/mutations.jsonl, and not tried again but with
+--again, which tries what survived before the tests and sources as they are now. At the end, or with --report alone:
+caught of tried by room, and the survivors. Those that docs/testing.md gives a reason for are marked. Tests in C start a
+program where it was built: a mutant of a program's own main.c is seen by tests of whole runs alone."""
 import argparse
 import json
 import os
