@@ -113,6 +113,9 @@ NUMBER(double, core_height, 0.65, 0, "edge",
 NUMBER(double, core_ratio, 4, none, "1",
        "volume of a tetrahedron across that over the last prism, at most: what counts as even")
 NUMBER(double, prism_good, 0.12, 0, "quality", "of prisms and their layer tops that is asked for")
+NUMBER(double, channel_share, 0.5, 1, "1",
+       "that the quality of prisms and layer top counts where another wall is near: without it needles of the layer "
+       "top leave angles of 5 to 11 degrees for 10 to 21 (pumps by duty and with y+ 0.5 to 40, 150,000 cells)")
 NUMBER(double, prism_fair, 0.05, 0, "quality", "least, where prism_good cannot be had")
 NUMBER(double, prism_kept, 0.08, 0, "quality", "least, where columns would have to give up their first height for more")
 NUMBER(double, column_kept, 0.8, 1, "1", "that a thinned column keeps")
@@ -145,6 +148,9 @@ NUMBER(double, least_growth, 0.6, 1, "1", "of layers in thinned columns")
 NUMBER(double, even_layers, 1.05, none, "1", "of count times first height: columns are asked to be no shorter")
 NUMBER(double, tallest_column, 2.5, none, "h", "at the wall: about what columns come to, for the planes")
 NUMBER(double, coupled_near, 0.15, 0, "h", "breaks of two domains that are nearer share one place")
+NUMBER(double, width_share, 0.01, 0, "1",
+       "of a patch's area that may be nearer to the wall opposite than its layers have room for: first heights are to "
+       "be met on 99 % of the faces")
 NUMBER(double, growth_auto, 1.3, none, "1", "greatest ratio of neighbouring layers where their number is automatic")
 NUMBER(double, layer_count_share, 0.95, none, "1", "of the wall faces that have layers enough then")
 
@@ -155,8 +161,7 @@ NUMBER(double, size_least_asked, 0.28, none, "1",
        "of the wanted size: where open edges ask for less they get none shorter, for there prisms inside have a small "
        "determinant too")
 NUMBER(double, crease_cosine, 0.94, 1, "cosine", "20 degrees between the normals of the faces of a crease")
-NUMBER(double, size_least_curvature, 0.4, 1, "1",
-       "of the patch's size, that bends ask for")
+NUMBER(double, size_least_curvature, 0.4, 1, "1", "of the patch's size, that bends ask for")
 NUMBER(double, size_facing, 0.7, 1, "cosine", "of the angle between a ray and the wall that it meets")
 NUMBER(double, size_parallel, 0.95, 1, "cosine", "from there on no crease can be the cause of a gap")
 NUMBER(double, size_least_share, 0.15, 1, "1",

@@ -44,7 +44,9 @@ static const char *const treatments[] = {"smooth", "rough", NULL};
 // The layers of one group of walls.
 #define WALL_GROUP(suffix, group, place)                                                                               \
   REAL_AUTO("walls", "y_plus_" suffix, "", 0.05, 1000, walls.group.y_plus,                                             \
-            "target " place "; auto: 30, more where the cells are large, less where the passage is narrow"),           \
+            "target " place                                                                                            \
+            "; auto: the least of other walls; where all are open 30, more where cells are large, less where it is "   \
+            "narrow"),                                                                                                 \
       REAL_COMPUTED("walls", "velocity_" suffix "_m_per_s", "m_per_s", 0.001, 1000, walls.group.velocity,              \
                     "of the flow along the walls " place "; computed: by the design"),                                 \
       REAL_COMPUTED("walls", "first_height_" suffix "_um", "um", 0.01, 1e5, walls.group.first_height,                  \

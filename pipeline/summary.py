@@ -66,7 +66,8 @@ def mesh_lines(result):
         first = sum(wall["first_height_met_faces"] for wall in walls)
         full = sum(wall["full_thickness_faces"] for wall in walls)
         jumps = sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls)
-        yield "layers", (f"{result['layers']} on {faces:,} wall faces; first height as asked on "
+        counts = sorted({domain["layers"] for domain in domains})
+        yield "layers", (f"{' or '.join(map(str, counts))} on {faces:,} wall faces; first height as asked on "
                          f"{100 * first / faces:.1f} %, full thickness on {100 * full / faces:.1f} %; volumes change "
                          f"by up to 4 across the layer top on {100 * (1 - jumps / faces):.1f} %")
     yield "volume", ", ".join(f"{domain['name']} {100 * domain['volume_error']:+.3f} %" for domain in domains) + \

@@ -101,7 +101,14 @@ typedef struct {
   int constrained;
   double x[3], g[3], stretch, offset, best, far;
   double core; // between two layer tops, that a tetrahedron fits in, m
+  int faced;   // whether a wall stands opposite
 } Ray;
+
+// What the ray has found.
+typedef struct {
+  double thickness;
+  int32_t faced;
+} Free;
 
 // The mean length of the wall's edges at v, m.
 static double mean_edge(const CwLayerWork *work, int32_t v) {
@@ -145,6 +152,7 @@ static int meet(void *context, int32_t f) {
   if (wall) {
     if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
     double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
+    ray->faced = 1;
     ray->best = fmin(ray->best, cw_layers_room(ray->work, ray->v, way / ray->stretch, core / ray->stretch));
   } else {
     // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
@@ -189,18 +197,19 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
   cw_box_tree_ray(gaps->tree, ray.x, ray.g, &ray.far, meet, &ray);
-  *(double *)out = ray.best;
+  *(Free *)out = (Free){ray.best, ray.faced};
   return CW_OK;
 }
 
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
-  double *most = NULL;
+  Free *most = NULL;
   Gaps gaps = {.work = work, .tree = tree};
   int again = work->gap != NULL;
   if (!again) {
     CW_NEW_UNSET(work->gap, work->n);
     CW_NEW_UNSET(work->gap_column, work->n);
+    CW_NEW(work->faced, work->n);
   }
   CW_NEW_UNSET(gaps.vertex, work->n);
   for (int32_t v = 0; v < work->n; v++) {
@@ -210,7 +219,10 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   }
   CW_NEW_UNSET(most, gaps.count);
   CW_TRY(cw_parallel_for(work->in->context, "layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
-  for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
+  for (int32_t i = 0; i < gaps.count; i++) {
+    work->gap[gaps.vertex[i]] = most[i].thickness;
+    work->faced[gaps.vertex[i]] = (uint8_t)most[i].faced;
+  }
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], work->gap[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;

@@ -42,17 +42,26 @@ static double least_thickness(const CwLayerWork *work, int32_t v) {
   return work->in->least ? work->in->least[v] : 0;
 }
 
-// The layer top, and rounder prisms, count as long as one of the columns can still give way. What is good but for its
-// shear is prism_good: such columns are turned once more at the end, but never thinned.
+// Whether another wall is so near that the layers of both leave a core of few cells. Elsewhere tetrahedra have room to
+// grow from needles of the layer top; there they reach to the other side.
+static int in_channel(const CwLayerWork *work, int32_t f) {
+  const int32_t *v = work->in->triangle[f];
+  return work->faced && (work->faced[v[0]] || work->faced[v[1]] || work->faced[v[2]]);
+}
+
+// The layer top, and rounder prisms, count as long as one of the columns can still give way, and are to be the rounder
+// in channels. What is good but for its shear is prism_good: such columns are turned once more at the end, but never
+// thinned.
 static double judge(const Repair *repair, int32_t f) {
   const CwLayerWork *work = repair->work;
   const double(*top)[3] = (const double(*)[3])repair->top;
+  double share = in_channel(work, f) ? cw_policy.channel_share : 1;
   double prism = cw_layers_prism_quality(work, f, top),
          quality = prism < cw_policy.prism_kept ? prism : cw_policy.prism_good;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
     if (work->t[v] <= least_thickness(work, v)) continue;
-    quality = fmin(prism, cw_layers_top_quality(work, f, top));
+    quality = share * fmin(prism, cw_layers_top_quality(work, f, top));
     break;
   }
   if (quality <= cw_policy.prism_good) return quality;

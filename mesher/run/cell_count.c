@@ -37,10 +37,9 @@ static double tets_per_volume(const CwMeshRun *run, double scale) {
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
   double asked = (double)run->table->mesh.cells;
-  double prisms =
-      run->prisms.factor > 0 ? cw_cell_law_at(&run->prisms, scale) : prisms_per_layer(asked) * run->layer_count;
+  double prisms = run->prisms.factor > 0 ? cw_cell_law_at(&run->prisms, scale) : prisms_per_layer(asked);
   double tets = run->tets.factor > 0 ? cw_cell_law_at(&run->tets, scale) : tets_per_volume(run, scale);
-  return prisms * run->domain[d].prism_integral / (scale * scale) +
+  return prisms * run->domain[d].layer_count * run->domain[d].prism_integral / (scale * scale) +
          tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
 
@@ -59,7 +58,7 @@ double cw_predicted_off(const CwMeshRun *run) {
 }
 
 void cw_start_factors(CwMeshRun *run) {
-  run->prisms = (CwCellLaw){.factor = prisms_per_layer((double)run->table->mesh.cells) * run->layer_count};
+  run->prisms = (CwCellLaw){.factor = prisms_per_layer((double)run->table->mesh.cells)};
   run->tets = (CwCellLaw){.factor = tets_per_volume(run, run->scale)};
 }
 
@@ -83,38 +82,73 @@ void cw_mesh_solve_scale(CwMeshRun *run) {
   cw_mesh_set_scale(run, run->scale);
 }
 
-static void set_layers(CwMeshRun *run, int count, double y_plus_auto) {
-  run->layer_count = count;
+static void set_layers(CwMeshRun *run, const int *count, double y_plus_auto) {
   run->y_plus_auto = y_plus_auto;
   for (int d = 0; d < run->model.domain_count; d++)
-    cw_domain_set_layers(&run->domain[d], run->table, count, y_plus_auto);
+    cw_domain_set_layers(&run->domain[d], run->table, count[d], y_plus_auto);
+}
+
+// The least y+ of those that the case gives; INFINITY where it gives none, and for walls in laminar flow.
+static double least_given(const CwMeshRun *run) {
+  double least = INFINITY;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+      const CwPatchTarget *target = &domain->patch_target[p];
+      const CwFirstHeight *first = &target->first;
+      if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL || isnan(first->y_plus)) continue;
+      if (cw_case_given(target->walls.y_plus) || cw_case_given(target->walls.first_height))
+        least = fmin(least, first->y_plus * first->asked / first->height);
+    }
+  }
+  return least;
+}
+
+void cw_start_layers(CwMeshRun *run) {
+  int count[CW_DOMAINS_MOST], given = run->table->walls.layer_count;
+  for (int d = 0; d < run->model.domain_count; d++) count[d] = given > 0 ? given : CW_LAYERS_LEAST;
+  set_layers(run, count, CW_LOG_LAYER_Y_PLUS);
+  double least = least_given(run);
+  if (!isinf(least)) set_layers(run, count, least);
 }
 
 // More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. From below the
-// rounds therefore end at the least number that is enough.
+// rounds therefore end at the least numbers that are enough.
 void cw_mesh_solve_layers(CwMeshRun *run) {
   const CwWalls *walls = &run->table->walls;
   double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : cw_policy.growth_auto;
-  int given = walls->layer_count > 0;
-  set_layers(run, given ? walls->layer_count : CW_LAYERS_LEAST, CW_LOG_LAYER_Y_PLUS);
-  for (;;) {
-    double needing[CW_LAYER_COUNT_MOST + 1] = {0}, y_plus = run->y_plus_auto;
+  int grows = walls->layer_count == 0;
+  cw_start_layers(run);
+  int in_log_layer = cw_walls_auto(walls) && isinf(least_given(run));
+  do {
+    double y_plus = run->y_plus_auto;
+    int count[CW_DOMAINS_MOST], most = 0, more = 0;
     cw_mesh_solve_scale(run);
-    for (int d = 0; d < run->model.domain_count; d++) cw_domain_layers_needed(&run->domain[d], run->scale, needing);
-    int needed = cw_layer_count_for(needing);
-    if (given || needed <= run->layer_count) break;
-    if (needed > CW_LAYER_COUNT_USUAL && cw_walls_auto(walls) && y_plus < CW_LOG_LAYER_END) {
-      y_plus = fmin(y_plus * pow(growth, needed - CW_LAYER_COUNT_USUAL), CW_LOG_LAYER_END);
-      needed = (int)fmax(run->layer_count, CW_LAYER_COUNT_USUAL);
+    for (int d = 0; d < run->model.domain_count; d++) {
+      double needing[CW_LAYER_COUNT_MOST + 1] = {0};
+      cw_domain_layers_needed(&run->domain[d], run->scale, needing);
+      count[d] = (int)fmax(run->domain[d].layer_count, cw_layer_count_for(needing));
+      more |= count[d] > run->domain[d].layer_count;
+      most = (int)fmax(most, count[d]);
     }
-    set_layers(run, needed, y_plus);
-  }
+    grows = grows && more;
+    if (grows && most > CW_LAYER_COUNT_USUAL && in_log_layer && y_plus < CW_LOG_LAYER_END) {
+      y_plus = fmin(y_plus * pow(growth, most - CW_LAYER_COUNT_USUAL), CW_LOG_LAYER_END);
+      for (int d = 0; d < run->model.domain_count; d++)
+        count[d] = (int)fmax(run->domain[d].layer_count, fmin(count[d], CW_LAYER_COUNT_USUAL));
+    }
+    if (grows) set_layers(run, count, y_plus);
+  } while (grows);
 }
 
-void cw_learn_prisms(CwMeshRun *run, int64_t triangles) {
-  double integral = 0;
-  for (int d = 0; d < run->model.domain_count; d++) integral += run->domain[d].prism_integral;
-  double factor = (double)triangles * run->layer_count * run->scale * run->scale / integral;
+void cw_learn_prisms(CwMeshRun *run) {
+  double integral = 0, prisms = 0;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    integral += domain->layer_count * domain->prism_integral;
+    prisms += (double)domain->layer_count * domain->surface.triangle_count;
+  }
+  double factor = prisms * run->scale * run->scale / integral;
   cw_cell_law_learn(&run->prisms, factor, run->scale, 2);
 }
 
@@ -127,5 +161,5 @@ void cw_learn_tets(CwMeshRun *run) {
   cw_cell_law_learn(&run->tets, made * run->scale * run->scale * run->scale / integral, run->scale, 3);
   cw_log_debug(run->context.log,
                "%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals; exponents %.2f, %.2f",
-               run->tets.factor, run->prisms.factor / run->layer_count, run->tets.exponent, run->prisms.exponent);
+               run->tets.factor, run->prisms.factor, run->tets.exponent, run->prisms.exponent);
 }

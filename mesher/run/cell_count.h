@@ -14,14 +14,18 @@ double cw_predicted_cells(const CwMeshRun *run, int domain);
 // Sets the scale of the size fields of all domains; or that with which the predicted count is the asked one.
 void cw_mesh_set_scale(CwMeshRun *run, double scale);
 void cw_mesh_solve_scale(CwMeshRun *run);
-// The same, and where the case leaves it open the number of layers, the least that leads to the size of the tetrahedra.
+// Sets the layers with which that starts: as many as the case gives, or the fewest. A y+ that it leaves open is the
+// least that it gives anywhere, so that walls are resolved, or not, together; where it gives none, of the log layer.
+void cw_start_layers(CwMeshRun *run);
+// The scale, and where the case leaves it open the number of layers of each domain, the least that leads to the size of
+// its tetrahedra.
 void cw_mesh_solve_layers(CwMeshRun *run);
 
 // Cells of all domains at the present scale, over the asked number, less one.
 double cw_predicted_off(const CwMeshRun *run);
 
-// Set a factor to what was made: `triangles` on the walls, or the tetrahedra of the last pass.
-void cw_learn_prisms(CwMeshRun *run, int64_t triangles);
+// Set a factor to what was made: the triangles on the walls, or the tetrahedra of the last pass.
+void cw_learn_prisms(CwMeshRun *run);
 void cw_learn_tets(CwMeshRun *run);
 
 #endif

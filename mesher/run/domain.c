@@ -13,6 +13,7 @@
 #include "mesher/plan/sector_plan.h"
 #include "mesher/policy.h"
 #include "mesher/region/region_number.h"
+#include "mesher/thickness/passage_width.h"
 #include "pipeline/log.h"
 
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -52,6 +53,25 @@ CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table) {
   cw_domain_set_layers(domain, table, table->walls.layer_count > 0 ? table->walls.layer_count : CW_LAYERS_LEAST,
                        CW_LOG_LAYER_Y_PLUS);
 done:
+  return status;
+}
+
+CwStatus cw_domain_measure_widths(const CwContext *context, CwDomain *domain) {
+  CwStatus status = CW_OK;
+  double *width = NULL;
+  int patches = cw_cad_patch_count(domain->cad);
+  CW_NEW(width, patches);
+  for (int p = 0; p < patches; p++) width[p] = domain->patch_target[p].flow.width / cw_model_unit();
+  CW_TRY(cw_passage_widths(context, domain->cad, &domain->background, width));
+  for (int p = 0; p < patches; p++) {
+    double *of = &domain->patch_target[p].flow.width, measured = width[p] * cw_model_unit();
+    if (measured < *of)
+      cw_log_debug(context->log, "%s: %s is %g mm wide, %g mm as designed", domain->name, domain->patch[p].name,
+                   1e3 * measured, 1e3 * *of);
+    *of = fmin(*of, measured);
+  }
+done:
+  free(width);
   return status;
 }
 

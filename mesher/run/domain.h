@@ -71,6 +71,9 @@ enum { CW_UNDIVIDED = -1 };
 CwStatus cw_domain_open(CwDomain *domain, const CwModel *model, int number, const char *geometry_dir);
 CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table);
 
+// Takes the widths of the passages from the solid where the model's are more. Collective.
+CwStatus cw_domain_measure_widths(const CwContext *context, CwDomain *domain);
+
 // Sets the number of layers and the first heights, of this y+ where the case leaves it open, and what patches ask of so
 // many.
 void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count, double y_plus_auto);

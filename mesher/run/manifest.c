@@ -265,6 +265,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   json_t *result = sums_json(run, d), *patches = json_array(), *coverage = json_array();
   json_t *region_list = json_array(), *pairs = json_array();
   put_balance(run, d, result);
+  json_object_set_new(result, "layers", json_integer(domain->layer_count));
   json_object_set_new(result, "region_rule", rule_json(&domain->rule));
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     CwPatchKind kind = cw_cad_patch_kind(domain->cad, p);
@@ -327,7 +328,6 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_TRY(cw_record_integer(run->record, "retries", run->retries));
   CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
   CW_TRY(cw_record_number(run->record, "size_gradation", run->scale * run->gradation));
-  CW_TRY(cw_record_integer(run->record, "layers", run->layer_count));
   CW_TRY(cw_record_json(run->record, "headlines", json_incref(run->headlines)));
   json_t *given = domains;
   domains = NULL;

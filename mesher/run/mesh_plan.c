@@ -238,19 +238,22 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
   for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_open(&run->domain[d], &run->model, d, path));
   CW_TRY(settle_unit(run));
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_domain_ask(&run->domain[d], run->table));
-    cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
-  }
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_ask(&run->domain[d], run->table));
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->model.domain_count, "domains"));
   CW_TRY(triangulate_domains(run));
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
+  for (int d = 0; d < run->model.domain_count; d++) {
+    CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
+    CW_TRY(cw_domain_measure_widths(&run->context, &run->domain[d]));
+  }
+  cw_start_layers(run);
+  for (int d = 0; d < run->model.domain_count; d++)
+    cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
-  if (run->table->walls.layer_count == 0)
-    cw_log(run->context.log, "layers: %d lead from the first height to the size of the tetrahedra%s", run->layer_count,
-           y_plus_text(run));
+  for (int d = 0; run->table->walls.layer_count == 0 && d < run->model.domain_count; d++)
+    cw_log(run->context.log, "%s: %d layers lead from the first height to the size of the tetrahedra%s",
+           run->domain[d].name, run->domain[d].layer_count, y_plus_text(run));
 done:
   return status;
 }
@@ -259,7 +262,7 @@ done:
 static CwStatus plan_domain(const CwContext *context, CwMeshRun *run, int d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   cw_profiler_part(context, "planes weighed");
-  double prisms = cw_cell_law_at(&run->prisms, run->scale);
+  double prisms = run->domain[d].layer_count * cw_cell_law_at(&run->prisms, run->scale);
   CW_TRY_STAGE(cw_domain_plan(context, &run->domain[d], run->table, cw_predicted_cells(run, d), prisms, outcome),
                outcome);
   CW_AUDIT(cw_plan_audit(&run->domain[d].plan));

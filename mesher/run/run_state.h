@@ -64,9 +64,8 @@ typedef struct {
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
   void **seeds[CW_DOMAINS_MOST];           // of the size field, by part, while it is made
-  int layer_count;                         // as the case gives it, or as the size fields ask
   double y_plus_auto;                      // where the case leaves it open
-  CwCellLaw prisms, tets;                  // as the passes learn them
+  CwCellLaw prisms, tets;                  // prisms of a layer, tetrahedra: as the passes learn them
   double scale;                            // of the size field
   double gradation;                        // of the size field at scale 1
   double wall_scale;                       // at which walls limit its edges; 0: they do not

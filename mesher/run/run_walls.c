@@ -71,7 +71,7 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
       triangles += run->domain[d].surface.triangle_count;
     }
     cw_results_free(&results);
-    cw_learn_prisms(run, triangles);
+    cw_learn_prisms(run);
     double off = cw_predicted_off(run);
     cw_log(run->context.log, "surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted",
            (long long)triangles, run->scale, 100 * off);

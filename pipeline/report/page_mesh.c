@@ -442,8 +442,6 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   json_t *domain[DOMAINS_MOST], *list[DOMAINS_MOST];
   char where[4096], text[CW_FORMAT_SIZE];
   double all = 0, met = 0;
-  json_t *results;
-  CW_TRY(cw_report_mesh_results(data, &results));
   CW_TRY(all_domains(data, domain));
   for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);
@@ -453,13 +451,14 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       met += fmax(cw_json_real(json_array_get(list[d], k), "first_height_met_faces"), 0);
     }
   }
-  fprintf(
-      page,
-      "<p>%d layers on every wall face%s. The first height comes from the y<sup>+</sup> target of the wall; it is met "
-      "within 10&#8239;%% on %s of the wall faces.</p>\n<figure>",
-      (int)cw_json_real(results, "layers"),
-      data->table->walls.layer_count > 0 ? "" : ", as many as lead to the size of the tetrahedra",
-      cw_format_percent(met / all, text));
+  fputs("<p>Layers on every wall face: ", page);
+  for (int d = 0; d < data->mesh.domain_count; d++)
+    fprintf(page, "%s%s %d", d ? ", " : "", data->mesh.domains[d].name, (int)cw_json_real(domain[d], "layers"));
+  fprintf(page,
+          "%s. The first height comes from the y<sup>+</sup> target of the wall; it is met within 10&#8239;%% on %s of "
+          "the wall faces.</p>\n<figure>",
+          data->table->walls.layer_count > 0 ? "" : "; as many as lead to the size of the tetrahedra",
+          cw_format_percent(met / all, text));
   CW_TRY(coverage_chart(page, data, list));
   fputs("<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
         "why the "

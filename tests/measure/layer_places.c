@@ -271,9 +271,9 @@ static CwStatus read_targets(const char *mesh_dir, const char *domain, const CwC
   snprintf(path, sizeof path, "%s/record.json", mesh_dir);
   json_t *file = json_load_file(path, 0, &error), *record = json_object_get(file, "results");
   CW_REQUIRE(file, CW_ERR_IO, "%s: %s", path, error.text);
-  *layers = (int)json_integer_value(json_object_get(record, "layers"));
   json_array_foreach(json_object_get(record, "domains"), i, one) {
     if (strcmp(json_string_value(json_object_get(one, "name")), domain) != 0) continue;
+    *layers = (int)json_integer_value(json_object_get(one, "layers"));
     json_array_foreach(json_object_get(one, "layer_coverage"), k, patch) {
       for (int p = 0; p < cw_cad_patch_count(cad); p++) {
         if (strcmp(cw_cad_patch_name(cad, p), json_string_value(json_object_get(patch, "patch"))) != 0) continue;

@@ -132,7 +132,7 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
   "\"radius_m\":0.101}],\"flow\":{\"inlet_speed_m_per_s\":2,\"inlet_diameter_m\":0.07,\"passage_speed_m_per_s\":7," \
   "\"passage_width_m\":0.01,\"reference_length_m\":0.2,\"blade_count\":6}}"
 #define DOMAIN(name, patch) \
-  "{\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5," \
+  "{\"layers\":3,\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5," \
   "\"tetrahedron_aspect_class\":[0,0,0,0,0,0,0,0]," \
   "\"least_dihedral_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]," \
   "\"prism_scaled_jacobian_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,2,0]," \
@@ -158,13 +158,12 @@ static int make_run(void **state) {
                                        "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
                                        "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
   write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
-  write_record(
-      "mesh/record.json",
-      "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
-      "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
-      "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
-      "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"layers\":3,\"headlines\":[\"laminar <flow>\"],"
-      "\"domains\":[" DOMAIN("rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
+  write_record("mesh/record.json",
+               "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
+               "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
+               "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
+               "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"headlines\":[\"laminar <flow>\"],"
+               "\"domains\":[" DOMAIN("rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
   write_text("mesh/manifest.json", MANIFEST);
   write_region("rotor", 0.03, 0.101, 7);
   write_region("stator", 0.101, 0.14, 7);
@@ -262,7 +261,7 @@ static void page_tells_all_and_stands_alone(void **state) {
   assert_int_equal(count_of(page, "<figure"), count_of(page, "</figure>"));
   assert_int_equal(count_of(page, "<table"), count_of(page, "</table>"));
   holds(page, ">97.5 %<"); // first heights met
-  holds(page, "<p>3 layers on every wall face");
+  holds(page, "<p>Layers on every wall face: rotor 3, stator 3. ");
   const char *headline = strstr(page, "laminar &lt;flow&gt;");
   assert_non_null(headline);
   assert_true(headline < strstr(page, "<h2"));

@@ -20,7 +20,7 @@ while [ "$1" != --run ]; do shift; done
 mkdir -p "$2/$name"
 case $name in
 geometry) results='"predicted_head_m": 12' ;;
-mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "layers": 1, "headlines": ["laminar flow"],
+mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "headlines": ["laminar flow"],
   "domains": [%(domain)s]' ;;
 *) results= ;;
 esac

@@ -281,11 +281,12 @@ static void packed_plans_come_back_whole(void **state) {
 // Planned anew, a domain has one region more, other planes and the scale of before; three times. Then it is
 // not divided, unless it is too large for a region, and then the run ends.
 static void plans_that_do_not_fit_give_way(void **state) {
+  const double of_layer = prism_factor / domain[1].layer_count;
   CwMeshRun run = {.table = &table,
                    .model = model,
-                   .prisms.factor = 2 * prism_factor,
+                   .prisms.factor = 2 * of_layer,
                    .tets.factor = 2 * TET_FACTOR,
-                   .planned_prisms.factor = prism_factor,
+                   .planned_prisms.factor = of_layer,
                    .planned_tets.factor = TET_FACTOR,
                    .planned_scale = 2};
   memcpy(run.domain, domain, sizeof domain);
@@ -302,7 +303,7 @@ static void plans_that_do_not_fit_give_way(void **state) {
   assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
   check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 9);
-  assert_true(run.scale == 1.7 && run.prisms.factor == 2 * prism_factor && run.tets.factor == 2 * TET_FACTOR);
+  assert_true(run.scale == 1.7 && run.prisms.factor == 2 * of_layer && run.tets.factor == 2 * TET_FACTOR);
   assert_true(cw_size_at(domain[1].size, x) == wanted);
   run.tets.factor *= 1e6;
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
@@ -317,19 +318,19 @@ static void plans_that_do_not_fit_give_way(void **state) {
   cw_plan_free(&run.domain[1].plan);
 }
 
-// The number of layers that enough faces need at the scale of a run.
-static int layers_needed(const CwMeshRun *run) {
+// The number of layers that enough faces of a domain need at the scale of a run.
+static int layers_needed(const CwMeshRun *run, int d) {
   double needing[CW_LAYER_COUNT_MOST + 1] = {0};
-  for (int d = 0; d < model.domain_count; d++) cw_domain_layers_needed(&run->domain[d], run->scale, needing);
+  cw_domain_layers_needed(&run->domain[d], run->scale, needing);
   return cw_layer_count_for(needing);
 }
 
-// Where y+ is given the number of layers is what the faces need. Where it is left open it is the same y+, and the same
-// number, up to the usual one; then that number is kept, and y+ grows until it is enough.
+// Where y+ is given the number of layers is what the faces of a domain need. Where it is left open that is so up to the
+// usual number; then that is kept, and y+ grows until it is enough.
 static void layers_grow_in_number_before_y_plus(void **state) {
   static const double cells[] = {1e4, 1e5, 3e5, 2e6};
   const CwCase paper = table;
-  int given_count = 0;
+  int most = 0; // where y+ is given
   for (int i = 0; i < 8; i++) {
     CwMeshRun run = {.table = &table, .model = model};
     CwWalls *walls = &table.walls;
@@ -339,13 +340,14 @@ static void layers_grow_in_number_before_y_plus(void **state) {
     memcpy(run.domain, domain, sizeof domain);
     for (int d = 0; d < model.domain_count; d++) check(cw_domain_ask(&run.domain[d], &table));
     cw_mesh_solve_layers(&run);
-    assert_int_equal(run.layer_count, layers_needed(&run));
-    if (i % 2)
-      assert_int_equal(run.layer_count, given_count < CW_LAYER_COUNT_USUAL ? given_count : CW_LAYER_COUNT_USUAL);
-    assert_int_equal(run.y_plus_auto > CW_LOG_LAYER_Y_PLUS, i % 2 && given_count > CW_LAYER_COUNT_USUAL);
+    assert_int_equal(run.y_plus_auto > CW_LOG_LAYER_Y_PLUS, i % 2 && most > CW_LAYER_COUNT_USUAL);
     assert_true(fabs(cw_predicted_off(&run)) < 1e-9);
-    given_count = run.layer_count;
+    if (i % 2 == 0) most = 0;
     for (int d = 0; d < model.domain_count; d++) {
+      int count = run.domain[d].layer_count;
+      assert_in_range(layers_needed(&run, d), i % 2 ? 1 : count, count);
+      if (i % 2) assert_true(count <= CW_LAYER_COUNT_USUAL);
+      if (i % 2 == 0 && count > most) most = count;
       free(run.domain[d].patch_target);
       free(run.domain[d].relative_size);
       free(run.domain[d].patch_layers);
