@@ -16,9 +16,9 @@ enum { PARTS_MOST = 24 };
 
 enum { BINS = 200 }; // of a patch's distances, over its width
 
-// Areas by distance; what sees no wall within the width is in none.
+// What a ray sees, and the area that it stands for.
 typedef struct {
-  int32_t patch, bin; // of a ray; bin BINS: no wall
+  int32_t patch, bin; // of the distance; BINS: no wall within the width
   double area;
 } Seen;
 
@@ -27,7 +27,7 @@ typedef struct {
   const CwBackground *background;
   const CwRays *rays;
   const double *width;
-  const int32_t *first;    // ray of each triangle; of the count too
+  const int32_t *first;    // ray of each triangle; last: of all
   const int32_t *triangle; // of each ray
 } Look;
 
