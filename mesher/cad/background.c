@@ -41,3 +41,15 @@ double cw_background_volume(const CwBackground *background) {
   }
   return six_volumes / 6;
 }
+
+CwStatus cw_background_vtk(const CwBackground *background, const char *title, const CwVtkField *field,
+                           const char *path) {
+  const CwVtkTriangles triangles = {.title = title,
+                                    .point_count = background->point_count,
+                                    .x = (const double(*)[3])background->x,
+                                    .triangle_count = background->triangle_count,
+                                    .triangle = (const int32_t(*)[3])background->triangle,
+                                    .field_count = 1,
+                                    .field = field};
+  return cw_vtk_write(path, &triangles);
+}

@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#include "mesher/common/vtk.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -27,6 +29,10 @@ void cw_background_normal(const CwBackground *background, int32_t t, double n[3]
 
 // Area of triangle t, m2, and its centre.
 double cw_background_area(const CwBackground *background, int32_t t, double centre[3]);
+
+// The triangles with a number of each, as a VTK file.
+CwStatus cw_background_vtk(const CwBackground *background, const char *title, const CwVtkField *field,
+                           const char *path);
 
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);

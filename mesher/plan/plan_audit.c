@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/common/vtk.h"
 
 static const double UNIT = 1e-12; // of a normal's length: rounding
 
@@ -61,15 +60,7 @@ CwStatus cw_plan_vtk(const CwPlan *plan, const CwBackground *background, const c
     cw_background_area(background, t, centre);
     region[t] = cw_plan_locate(plan, centre);
   }
-  const CwVtkField field = {"region", region, NULL};
-  const CwVtkTriangles triangles = {.title = "regions",
-                                    .point_count = background->point_count,
-                                    .x = (const double(*)[3])background->x,
-                                    .triangle_count = background->triangle_count,
-                                    .triangle = (const int32_t(*)[3])background->triangle,
-                                    .field_count = 1,
-                                    .field = &field};
-  CW_TRY(cw_vtk_write(path, &triangles));
+  CW_TRY(cw_background_vtk(background, "regions", &(CwVtkField){"region", region, NULL}, path));
 done:
   free(region);
   return status;

@@ -50,8 +50,6 @@ CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table) {
     domain->patch_target[p] = cw_patch_target(table, &domain->patch[p]);
     domain->relative_size[p] = domain->patch_target[p].relative_size;
   }
-  cw_domain_set_layers(domain, table, table->walls.layer_count > 0 ? table->walls.layer_count : CW_LAYERS_LEAST,
-                       CW_LOG_LAYER_Y_PLUS);
 done:
   return status;
 }
@@ -68,7 +66,7 @@ CwStatus cw_domain_measure_widths(const CwContext *context, CwDomain *domain) {
     if (measured < *of)
       cw_log_debug(context->log, "%s: %s is %g mm wide, %g mm as designed", domain->name, domain->patch[p].name,
                    1e3 * measured, 1e3 * *of);
-    *of = fmin(*of, measured);
+    *of = measured;
   }
 done:
   free(width);

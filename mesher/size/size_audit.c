@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/common/vtk.h"
 
 CwStatus cw_size_audit(const CwSize *size, const CwBackground *background) {
   CwStatus status = CW_OK;
@@ -27,15 +26,7 @@ CwStatus cw_size_vtk(const CwSize *size, const CwBackground *background, const c
     cw_background_area(background, t, centre);
     h[t] = cw_model_unit() * cw_size_at(size, centre);
   }
-  const CwVtkField field = {"size_m", NULL, h};
-  const CwVtkTriangles triangles = {.title = "wanted edge lengths",
-                                    .point_count = background->point_count,
-                                    .x = (const double(*)[3])background->x,
-                                    .triangle_count = background->triangle_count,
-                                    .triangle = (const int32_t(*)[3])background->triangle,
-                                    .field_count = 1,
-                                    .field = &field};
-  CW_TRY(cw_vtk_write(path, &triangles));
+  CW_TRY(cw_background_vtk(background, "wanted edge lengths", &(CwVtkField){"size_m", NULL, h}, path));
 done:
   free(h);
   return status;

@@ -89,7 +89,10 @@ CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwB
   int patches = cw_cad_patch_count(cad);
   CW_NEW(first, (size_t)triangles + 1);
   CW_NEW(area, patches);
-  for (int32_t t = 0; t < triangles; t++) first[t + 1] = first[t] + parts_along(&look, t) * parts_along(&look, t);
+  for (int32_t t = 0; t < triangles; t++) {
+    int32_t n = parts_along(&look, t);
+    first[t + 1] = first[t] + n * n;
+  }
   CW_NEW_UNSET(triangle, first[triangles]);
   CW_NEW_UNSET(seen, first[triangles]);
   for (int32_t t = 0; t < triangles; t++) {

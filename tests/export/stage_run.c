@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <cgnslib.h>
 #include <cmocka.h>
 
 int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
@@ -55,6 +56,15 @@ int stage_export(const char *run, int ranks, char *output) {
   if (ranks > 1) snprintf(launch, sizeof launch, "mpirun -q -n %d ", ranks);
   return stage_shell(output, "%s'%s/cutwater-export' --case '%s/cases/paper/case.yaml' --run '%s'", launch,
                      CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, run);
+}
+
+int stage_cgns_open(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump, char *output, int *file) {
+  char path[STAGE_PATH_SIZE + 40];
+  if (stage_run_make(folder, pump)) return -1;
+  snprintf(path, sizeof path, "%s/run", folder);
+  if (stage_export(path, 2, output)) return -1;
+  snprintf(path, sizeof path, "%s/run/export/pump.cgns", folder);
+  return cg_open(path, CG_MODE_READ, file);
 }
 
 int stage_export_with(const char *run, int ranks, const char *more, char *output) {

@@ -19,7 +19,10 @@ int stage_shell(char *output, const char *format, ...) __attribute__((format(pri
 // Runs the exporter on `run` with so many ranks, on the paper's case. Returns its exit status.
 int stage_export(const char *run, int ranks, char *output);
 
-// The same on the paper's case with `more` behind it, keys of sections that the paper's does not have.
+// Makes such a folder, exports its run on two ranks, and opens pump.cgns as *file. Returns 0, or another number.
+int stage_cgns_open(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump, char *output, int *file);
+
+// The same as stage_export on the paper's case with `more` behind it, keys of sections that the paper's does not have.
 int stage_export_with(const char *run, int ranks, const char *more, char *output);
 
 // Fails the test where a program cannot be called: what it would have judged has not been judged.

@@ -33,13 +33,8 @@ static int file;
 
 static int open_export(void **state) {
   (void)state;
-  char path[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
-  if (stage_run_make(folder, &pump)) return -1;
-  snprintf(path, sizeof path, "%s/run", folder);
-  if (stage_export(path, 2, output)) return -1;
-  snprintf(path, sizeof path, "%s/run/export/pump.cgns", folder);
-  return cg_open(path, CG_MODE_READ, &file);
+  return stage_cgns_open(folder, &pump, output, &file);
 }
 
 static int close_export(void **state) {

@@ -43,6 +43,8 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
   int64_t size;
   check(cw_domain_open(made, &model, number, folder));
   check(cw_domain_ask(made, &table));
+  cw_domain_set_layers(made, &table, table.walls.layer_count > 0 ? table.walls.layer_count : CW_LAYERS_LEAST,
+                       CW_LOG_LAYER_Y_PLUS);
   int faces = cw_cad_face_count(made->cad);
   part = calloc((size_t)faces, sizeof *part);
   assert_non_null(part);
