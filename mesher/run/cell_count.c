@@ -112,33 +112,66 @@ void cw_start_layers(CwMeshRun *run) {
   if (!isinf(least)) set_layers(run, count, least);
 }
 
+// The number of layers that each domain needs at the present scale.
+static void find_needed(const CwMeshRun *run, int *needed) {
+  for (int d = 0; d < run->model.domain_count; d++) {
+    double needing[CW_LAYER_COUNT_MOST + 1] = {0};
+    cw_domain_layers_needed(&run->domain[d], run->scale, needing);
+    needed[d] = cw_layer_count_for(needing);
+  }
+}
+
 // More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. From below the
-// rounds therefore end at the least numbers that are enough.
+// rounds therefore end at the least numbers that are enough, or, beyond the usual number, where edges have become too
+// long for narrow faces: the shape of the pump comes first.
 void cw_mesh_solve_layers(CwMeshRun *run) {
   const CwWalls *walls = &run->table->walls;
   double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : cw_policy.growth_auto;
-  int grows = walls->layer_count == 0;
   cw_start_layers(run);
   int in_log_layer = cw_walls_auto(walls) && isinf(least_given(run));
-  do {
+  cw_mesh_solve_scale(run);
+  for (int more = walls->layer_count == 0; more;) {
     double y_plus = run->y_plus_auto;
-    int count[CW_DOMAINS_MOST], most = 0, more = 0;
-    cw_mesh_solve_scale(run);
+    int count[CW_DOMAINS_MOST], needed[CW_DOMAINS_MOST], before[CW_DOMAINS_MOST], most = 0;
+    find_needed(run, needed);
+    more = 0;
     for (int d = 0; d < run->model.domain_count; d++) {
-      double needing[CW_LAYER_COUNT_MOST + 1] = {0};
-      cw_domain_layers_needed(&run->domain[d], run->scale, needing);
-      count[d] = (int)fmax(run->domain[d].layer_count, cw_layer_count_for(needing));
-      more |= count[d] > run->domain[d].layer_count;
-      most = (int)fmax(most, count[d]);
+      before[d] = run->domain[d].layer_count;
+      int usual = before[d] < CW_LAYER_COUNT_USUAL;
+      count[d] = before[d] + (needed[d] > before[d] && (usual || run->scale < cw_size_scale_fine()));
+      more |= count[d] > before[d];
+      most = (int)fmax(most, needed[d]);
     }
-    grows = grows && more;
-    if (grows && most > CW_LAYER_COUNT_USUAL && in_log_layer && y_plus < CW_LOG_LAYER_END) {
+    if (more && most > CW_LAYER_COUNT_USUAL && in_log_layer && y_plus < CW_LOG_LAYER_END) {
       y_plus = fmin(y_plus * pow(growth, most - CW_LAYER_COUNT_USUAL), CW_LOG_LAYER_END);
       for (int d = 0; d < run->model.domain_count; d++)
-        count[d] = (int)fmax(run->domain[d].layer_count, fmin(count[d], CW_LAYER_COUNT_USUAL));
+        count[d] = (int)fmax(before[d], fmin(count[d], CW_LAYER_COUNT_USUAL));
     }
-    if (grows) set_layers(run, count, y_plus);
-  } while (grows);
+    if (!more) break;
+    set_layers(run, count, y_plus);
+    cw_mesh_solve_scale(run);
+  }
+}
+
+double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]) {
+  int made[CW_DOMAINS_MOST], is_short = 0;
+  double scale = run->scale, fine = cw_size_scale_fine(), y_plus = run->y_plus_auto;
+  if (run->table->walls.layer_count > 0) return 0;
+  find_needed(run, needed);
+  for (int d = 0; d < run->model.domain_count; d++) {
+    made[d] = run->domain[d].layer_count;
+    is_short |= needed[d] > made[d];
+  }
+  if (!is_short) return 0;
+  int roomy[CW_DOMAINS_MOST];
+  cw_mesh_set_scale(run, fine);
+  find_needed(run, roomy);
+  for (int d = 0; d < run->model.domain_count; d++) roomy[d] = (int)fmax(roomy[d], made[d]);
+  set_layers(run, roomy, y_plus);
+  double cells = all_cells_at(run, fine);
+  set_layers(run, made, y_plus);
+  cw_mesh_set_scale(run, scale);
+  return cells;
 }
 
 void cw_learn_prisms(CwMeshRun *run) {

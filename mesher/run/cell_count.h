@@ -18,8 +18,11 @@ void cw_mesh_solve_scale(CwMeshRun *run);
 // least that it gives anywhere, so that walls are resolved, or not, together; where it gives none, of the log layer.
 void cw_start_layers(CwMeshRun *run);
 // The scale, and where the case leaves it open the number of layers of each domain, the least that leads to the size of
-// its tetrahedra.
+// its tetrahedra, or what the cells have room for.
 void cw_mesh_solve_layers(CwMeshRun *run);
+// The number of layers of each domain that leads to the size of its tetrahedra, where the case leaves it open and the
+// cells have no room for it. Returns about how many cells have room for all, or 0 where these have.
+double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]);
 
 // Cells of all domains at the present scale, over the asked number, less one.
 double cw_predicted_off(const CwMeshRun *run);

@@ -91,6 +91,14 @@ static void add_fitted(const CwPatchTarget *target, const char *patch, const cha
     add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus);
 }
 
+void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, double cells, json_t *headlines) {
+  double tenth = pow(10, floor(log10(cells)) - 1);
+  tell(log, headlines,
+       "%s: %d of the %d layers that lead from the first height to the size of the tetrahedra: with more the edges on "
+       "narrow faces would be too long; mesh.cells %.0f has room for all",
+       domain->name, domain->layer_count, needed, ceil(cells / tenth) * tenth);
+}
+
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {
   List laminar = {{0}, 0}, fitted = {{0}, 0};
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
@@ -180,8 +188,9 @@ void cw_warn_of_layers(CwLog *log, const char *domain, int layers, int automatic
   json_array_foreach((json_t *)coverage, k, patch) add_patch(patch, &jumps);
   if (jumps.where.length == 0) return;
   if (jumps.thin > jumps.thick)
-    snprintf(remedy, sizeof remedy, "last layers are thin: walls.layer_count %.0f instead of %d%s",
-             fmin(layers + jumps.missing_layers, CW_LAYER_COUNT_MOST), layers, automatic ? "" : ", or auto");
+    snprintf(remedy, sizeof remedy, "last layers are thin: %swalls.layer_count %.0f instead of %d%s",
+             automatic ? "more mesh.cells, or " : "", fmin(layers + jumps.missing_layers, CW_LAYER_COUNT_MOST), layers,
+             automatic ? "" : ", or auto");
   else if (jumps.thick > 0)
     snprintf(remedy, sizeof remedy, "last layers are thick: a lower walls.y_plus of these walls%s",
              automatic ? "" : ", or walls.layer_count auto");

@@ -227,6 +227,19 @@ static const char *y_plus_text(const CwMeshRun *run) {
   return text;
 }
 
+static void tell_layers(CwMeshRun *run) {
+  int needed[CW_DOMAINS_MOST];
+  double cells = cw_layers_short(run, needed);
+  for (int d = 0; run->table->walls.layer_count == 0 && d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    if (cells > 0 && needed[d] > domain->layer_count)
+      cw_warn_of_few_layers(run->context.log, domain, needed[d], cells, run->headlines);
+    else
+      cw_log(run->context.log, "%s: %d layers lead from the first height to the size of the tetrahedra%s", domain->name,
+             domain->layer_count, y_plus_text(run));
+  }
+}
+
 CwStatus cw_mesh_open(CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096];
@@ -251,9 +264,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
     cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
-  for (int d = 0; run->table->walls.layer_count == 0 && d < run->model.domain_count; d++)
-    cw_log(run->context.log, "%s: %d layers lead from the first height to the size of the tetrahedra%s",
-           run->domain[d].name, run->domain[d].layer_count, y_plus_text(run));
+  tell_layers(run);
 done:
   return status;
 }

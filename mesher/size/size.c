@@ -296,6 +296,10 @@ void cw_size_free(CwSize **size) {
   *size = NULL;
 }
 
+double cw_size_scale_fine(void) {
+  return WIDTHS / cw_policy.size_least_open;
+}
+
 void cw_size_set_scale(CwSize *size, double scale) {
   size->scale = scale;
 }

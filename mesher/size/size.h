@@ -54,6 +54,9 @@ CwStatus cw_size_unpack(void **bytes, CwSize **size);
 void cw_size_join(CwSize *size, CwSize **open_edges);
 void cw_size_free(CwSize **size);
 
+// The greatest scale at which narrow faces still have edges no longer than twice their width.
+double cw_size_scale_fine(void);
+
 // The factor in front of the whole field; 1 at first.
 void cw_size_set_scale(CwSize *size, double scale);
 

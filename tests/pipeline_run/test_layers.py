@@ -145,14 +145,26 @@ class AskedWalls(unittest.TestCase):
         self.assertGreater(self.share(patches, "first_height_met_faces"), 0.9)
 
     def test_resolved_walls(self):
+        """Few cells leave no room for the layers of resolved walls; as many as the headline tells have it."""
         walls = "".join(f"  y_plus_{group}: 0.5\n" for group in ("blade", "hub_shroud", "volute", "pipe"))
-        results, patches, _ = self.run_with("walls-resolved", walls)
+        results, patches, told = self.run_with("walls-resolved", walls)
         self.assertEqual({patch["first_height_from"] for patch in patches}, {"asked"})
+        self.assertGreater(self.share(patches, "first_height_met_faces"), 0.98)
+        self.assertGreater(min(domain["least_dihedral_deg"] for domain in results["domains"]), 12)
+        few = [text for text in results["headlines"] if "layers that lead from the first height" in text]
+        self.assertEqual(len(few), 2, results["headlines"])  # rotor and stator
+        made, needed, cells = re.search(r"rotor: (\d+) of the (\d+) layers.* mesh.cells (\S+) has", few[0]).groups()
+        self.assertEqual({patch["layers"] for patch in patches}, {int(made)})
+        self.assertGreater(int(needed), 15)
+        lines = told.splitlines()
+        first_told = next(i for i, line in enumerate(lines) if few[0] in line)
+        self.assertLess(first_told, next(i for i, line in enumerate(lines) if "decomposition" in line))
+
+        results, patches, _ = self.run_with("walls-resolved", walls, cells=int(1.1 * float(cells)))
+        self.assertEqual([text for text in results["headlines"] if "layers that lead" in text], [])
         self.assertGreater(min(patch["layers"] for patch in patches), 15)
         self.assertGreater(self.share(patches, "first_height_met_faces"), 0.98)
-        # So few cells are mostly prisms, on edges longer than passages are wide; the tetrahedra between them are as
-        # large as the passages leave them.
-        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.25)
+        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.06)
 
 
 if __name__ == "__main__":
