@@ -117,8 +117,11 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          "walls.first_height_blade_um and its like give it",
          domain->name, CW_LAMINAR_REYNOLDS, laminar.text, CW_LAMINAR_SHARE);
   if (fitted.length)
-    tell(log, headlines, "%s: first heights of which %d layers do not fit both walls become the greatest that do: %s",
-         domain->name, domain->layer_count, fitted.text);
+    tell(log, headlines,
+         "%s: first heights of which %d layers do not fit both walls become the greatest that do, or less beside edges "
+         "of the walls: %s%s",
+         domain->name, domain->layer_count, fitted.text,
+         domain->layer_count > CW_LAYERS_LEAST ? "; fewer walls.layer_count have room for greater ones" : "");
 }
 
 // What the warning of a domain adds up.

@@ -18,7 +18,7 @@ static double even_layers(double room, int layer_count) {
 }
 
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
-  double across = even_layers(cw_policy.gap_share * flow->width, layer_count);
+  double across = even_layers(cw_policy.fit_share * flow->width, layer_count);
   if (flow->before == 0) return across;
   int count = layer_count > 0 ? layer_count : CW_LAYERS_LEAST;
   return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_policy.least_growth));

@@ -42,7 +42,7 @@ typedef struct {
 // How tall columns may become, m: their share of the passage, or of the way to an open patch.
 double cw_column_room(const CwWallFlow *flow);
 
-// The greatest first height that fits: of `layer_count` even layers in the share of the passage, and before an open
+// The greatest first height that fits: of `layer_count` even layers in fit_share of the passage, and before an open
 // patch, where one end of a wall is short of room, of layers that fall by least_growth. 0 layers: CW_LAYERS_LEAST.
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
 
