@@ -109,8 +109,8 @@ NUMBER(double, thickness_slope, 0.3, none, "1", "thicknesses of columns change b
 NUMBER(double, gap_share, 0.35, none, "1", "of the gap to another wall, the most that a column takes")
 NUMBER(double, fit_share, 0.2, none, "1",
        "of a passage's width, what even layers take whose asked first height does not fit: with gap_share ten pumps of "
-       "the population with options had it on 37 to 93 % of the walls and least angles from 3.2 degrees, with this on 53 "
-       "to 99 %, from 6.4 degrees")
+       "the population with options had it on 37 to 93 % of the walls and least angles from 3.2 degrees, with this on "
+       "53 to 99 %, from 6.4 degrees")
 NUMBER(double, core_height, 0.65, 0, "edge",
        "between layers of walls that face each other, at least: 0.5 leaves angles of 9 degrees, 0.8 thin last layers "
        "(pumps of nq 7 to 9 at 150,000 cells)")
