@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/surface/chords.h"
@@ -31,7 +32,8 @@ static int32_t first_of(const CwBoundaryInput *in, int32_t curve) {
 // Whether the face is meshed, and not a copy.
 static int is_meshed(const CwBoundaryInput *in, int32_t face) {
   const CwSymmetry *symmetry = in->images->symmetry;
-  return cw_cad_face_is_wall(in->cad, face) && (!symmetry || !symmetry->face.turns[face]);
+  return cw_cad_face_is_wall(in->cad, face) && !cw_cad_face_is_left_out(in->cad, face) &&
+         (!symmetry || !symmetry->face.turns[face]);
 }
 
 static int bounds(const CwCurve *curve, int32_t face) {
@@ -42,7 +44,9 @@ static int bounds(const CwCurve *curve, int32_t face) {
 static void make_chord(const CwBoundaryInput *in, int32_t face, const CwCurve *curve, const CwCurve *first,
                        const CwCurveDivision *division, int32_t k, CwChord *chord) {
   const CwCurvePoint *a = &division->point[k], *b = &division->point[k + 1];
-  double along[3], from[3], beside[3];
+  double along[3], from[3], beside[3], gap = 0;
+  if (k == 0) gap += cw_curve_end_gap(in->network, first, 0);
+  if (k + 2 == division->count) gap += cw_curve_end_gap(in->network, first, 1);
   cw_sub(b->x, a->x, along);
   double length = cw_norm(along);
   chord->deviation = 0;
@@ -62,7 +66,7 @@ static void make_chord(const CwBoundaryInput *in, int32_t face, const CwCurve *c
     }
     cw_sub(x, a->x, from);
     cw_cross(along, from, beside);
-    if (length > 0) chord->deviation = fmax(chord->deviation, cw_norm(beside) / length);
+    if (length > 0) chord->deviation = fmax(chord->deviation, cw_norm(beside) / length - gap);
   }
 }
 

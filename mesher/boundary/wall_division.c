@@ -87,17 +87,19 @@ typedef struct {
   int32_t count, *curve; // wall curves to divide: the first of each image set
 } Curves;
 
-// Whether some edge between the points of a division cuts off a bend of the curve.
-static int cuts_bend(const CwCurve *curve, int32_t count, const CwCurvePoint *point) {
+// Whether some edge between the points of a division cuts off a bend of the curve. Ends beside left-out faces are none.
+static int cuts_bend(const CwNetwork *network, const CwCurve *curve, int32_t count, const CwCurvePoint *point) {
   int32_t i = 1;
   for (int32_t k = 0; k + 1 < count; k++) {
-    double along[3], from[3], beside[3];
+    double along[3], from[3], beside[3], gap = 0;
+    if (k == 0) gap += cw_curve_end_gap(network, curve, 0);
+    if (k + 2 == count) gap += cw_curve_end_gap(network, curve, 1);
     cw_sub(point[k + 1].x, point[k].x, along);
     double length = cw_unit(along);
     for (; i + 1 < curve->fine_count && curve->fine_length[i] < point[k + 1].place; i++) {
       cw_sub(curve->fine_x[i], point[k].x, from);
       cw_cross(along, from, beside);
-      if (cw_norm(beside) > MOST_BESIDE * length) return 1;
+      if (cw_norm(beside) > MOST_BESIDE * length + gap) return 1;
     }
   }
   return 0;
@@ -122,7 +124,7 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
       point[k].place = place[k];
       cw_curve_point(in->network, curve, place[k], point[k].x, point[k].parameter);
     }
-    if (given || count > MOST_FOR_BENDS || !cuts_bend(curve, count, point)) break;
+    if (given || count > MOST_FOR_BENDS || !cuts_bend(in->network, curve, count, point)) break;
     least = count; // one edge more
     free(place);
     free(point);

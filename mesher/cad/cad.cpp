@@ -24,6 +24,7 @@
 #include "mesher/common/vec.h"
 
 static const double least_tolerance = 1e-9; // of the model's unit
+static const double same_parameter = 1e-9;  // of the range of an edge
 enum { BOX_PARTS = 8, SEARCH_PARTS = 12 };  // of an edge; of a face along u and v
 static const double pcurve_tolerance =
     1e-4; // in units of the B-rep: past it the point of an edge is projected onto its face
@@ -35,6 +36,14 @@ double CwCadKnots::snap(double parameter) const {
   if (next != knot.end() && *next - parameter < tolerance) return *next;
   if (next != knot.begin() && parameter - *(next - 1) < tolerance) return *(next - 1);
   return parameter;
+}
+
+double CwCadReplaced::parameter(double share) const {
+  size_t steps = t.size() - 1;
+  double at = std::clamp(share, 0.0, 1.0) * (double)steps;
+  size_t i = std::min((size_t)at, steps - 1);
+  double s = at - (double)i;
+  return s == 1 ? t[i + 1] : t[i] + s * (t[i + 1] - t[i]);
 }
 
 gp_Pnt CwCadFace::point(const double uv[2]) const {
@@ -331,6 +340,14 @@ void cw_cad_edge_faces(const CwCad *cad, int edge, int face[2]) {
   face[1] = cad->edge[edge].face[1];
 }
 
+// The end of an edge that lies at t, if it was brought to another vertex; else -1.
+static int moved_end(const CwCadEdge &e, double t) {
+  for (int end = 0; end < 2; end++) {
+    if (e.moved[end].is && std::fabs(t - e.range[end]) <= same_parameter * (e.range[1] - e.range[0])) return end;
+  }
+  return -1;
+}
+
 void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double xt[3]) {
   const CwCadEdge &e = cad->edge[edge];
   gp_Pnt p;
@@ -341,28 +358,45 @@ void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double
   } else {
     e.curve.D0(e.knots.snap(t), p);
   }
+  int end = moved_end(e, t);
+  if (end >= 0) p = cad->vertex[e.vertex[end]];
   to_metres(cad, p.XYZ(), x);
 }
 
-void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]) {
-  const CwCadEdge &e = cad->edge[edge];
-  int side = e.face[0] == face ? 0 : 1;
+// (u,v) of an edge on a face that it lies on; `moved`: an end that was brought to another vertex, or -1.
+static void uv_on_face(const CwCad *cad, const CwCadEdge &e, int side, double t, int moved, double uv[2]) {
+  const int face = e.face[side];
   gp_Pnt2d p;
+  gp_Pnt at;
   e.pcurve[side].D0(e.pcurve_knots[side].snap(t), p);
   uv[0] = p.X();
   uv[1] = p.Y();
   if (cad->face[face].pole.is) cad->face[face].pole.to_plane(uv);
+  e.curve.D0(e.knots.snap(t), at);
+  if (moved >= 0 && e.moved[moved].slides[side]) at = cad->vertex[e.vertex[moved]];
   double on_edge[3], on_face[3];
-  cw_cad_edge_point(cad, edge, t, on_edge, nullptr);
+  to_metres(cad, at.XYZ(), on_edge);
   cw_cad_face_point(cad, face, uv, on_face, nullptr, nullptr);
   double off = std::hypot(on_edge[0] - on_face[0], on_edge[1] - on_face[1], on_edge[2] - on_face[2]);
   if (off > pcurve_tolerance * cad->unit) cw_cad_face_project(cad, face, on_edge, uv);
 }
 
+void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]) {
+  const CwCadEdge &e = cad->edge[edge];
+  int side = e.face[0] == face ? 0 : 1;
+  if (e.replaced && e.replaced->side == side) {
+    const CwCadEdge &other = *e.replaced->edge;
+    uv_on_face(cad, other, other.face[0] == face ? 0 : 1,
+               e.replaced->parameter((t - e.range[0]) / (e.range[1] - e.range[0])), -1, uv);
+  } else {
+    uv_on_face(cad, e, side, t, moved_end(e, t), uv);
+  }
+}
+
 int cw_cad_vertex_count(const CwCad *cad) {
-  return cad->vertex_map.Extent();
+  return (int)cad->vertex.size();
 }
 
 void cw_cad_vertex_point(const CwCad *cad, int vertex, double x[3]) {
-  to_metres(cad, BRep_Tool::Pnt(TopoDS::Vertex(cad->vertex_map(vertex + 1))).XYZ(), x);
+  to_metres(cad, cad->vertex[vertex].XYZ(), x);
 }

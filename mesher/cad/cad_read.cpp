@@ -156,6 +156,9 @@ CwStatus cw_cad_read_parts(const char *path, CwCad *cad) {
     if (status != CW_OK) return status;
   }
 
+  cad->vertex.clear();
+  for (int v = 1; v <= cad->vertex_map.Extent(); v++)
+    cad->vertex.push_back(BRep_Tool::Pnt(TopoDS::Vertex(cad->vertex_map(v))));
   TopTools_IndexedDataMapOfShapeListOfShape edge_faces;
   TopExp::MapShapesAndAncestors(cad->solid, TopAbs_EDGE, TopAbs_FACE, edge_faces);
   cad->edge.resize(cad->edge_map.Extent());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, cad_scale.cpp,
-// background_tessellate.cpp).
+// Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, cad_scale.cpp, cad_strips.cpp,
+// cad_leave_out.cpp, background_tessellate.cpp).
 // Lengths in here are in the unit of the B-rep; only the C functions speak metres, or the unit of the model.
 #ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
 #define CUTWATER_MESHER_CAD_CAD_SHAPE_H
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <GeomAdaptor_Surface.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
+#include <gp_Pnt.hxx>
 
 #include "mesher/cad/cad_pole.h"
 #include "mesher/cad/face_table.h"
@@ -32,11 +34,32 @@ struct CwCadFace {
   double u_range[2], v_range[2]; // of the surface; infinite where it is unbounded or periodic
   CwCadPole pole;                // (u,v) below and behind cad.h are the plane's where it is one
   int reversed;
-  bool bare; // a wall without layers
+  bool bare;           // a wall without layers
+  double left_out = 0; // greatest width, in the unit of the B-rep, of a narrow face that no mesh shows; 0: of no such
 
   gp_Pnt point(const double uv[2]) const;
   void derive(const double uv[2], gp_Pnt &p, gp_Vec first[2], CwCadSecond *second) const; // second: may be null
-  void clamp(double uv[2]) const; // into the ranges
+  void clamp(double uv[2]) const;                                                         // into the ranges
+};
+
+struct CwCadEdge;
+
+// What an edge has on the face that it bounds in place of a left-out one: the (u,v) of the edge that bounded it.
+struct CwCadReplaced {
+  int strip;                             // the face left out between the two edges
+  int side;                              // of the edge that stays: the face on which it stands for the other
+  double gap;                            // greatest distance of the two, in the unit of the B-rep
+  std::vector<double> t;                 // parameter of the other at even steps of its own
+  std::shared_ptr<const CwCadEdge> edge; // the other
+
+  double parameter(double share) const; // of the other at a share of the edge's range
+};
+
+// An end of an edge that was brought to another vertex.
+struct CwCadMovedEnd {
+  bool is = false;
+  double gap = 0;                  // from where it was, in the unit of the B-rep
+  bool slides[2] = {false, false}; // on face[0], face[1]: the vertex lies on that face, elsewhere
 };
 
 struct CwCadEdge {
@@ -47,6 +70,8 @@ struct CwCadEdge {
   int face[2];
   Geom2dAdaptor_Curve pcurve[2]; // on face[0], face[1], with the parameter of the curve
   CwCadKnots pcurve_knots[2];
+  std::shared_ptr<const CwCadReplaced> replaced; // null: of no left-out face
+  CwCadMovedEnd moved[2];                        // at range[0], range[1]
 };
 
 struct CwCad {
@@ -56,6 +81,7 @@ struct CwCad {
   TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based
   std::vector<CwCadFace> face;
   std::vector<CwCadEdge> edge;
+  std::vector<gp_Pnt> vertex;
   bool inside_out; // faces of the file point into the solid (cw_cad_turn)
   CwFaceTable table;
 };

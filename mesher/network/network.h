@@ -74,6 +74,9 @@ void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double lengt
 // Arc length of the place of the curve nearest to x.
 double cw_curve_nearest(const CwCurve *curve, const double x[3]);
 
+// How far an end (0 or 1) of a curve lies beside it, m: more than 0 beside a face that was left out.
+double cw_curve_end_gap(const CwNetwork *network, const CwCurve *curve, int end);
+
 // Moves (u,v) on a face along the shortest way onto a plane; returns the distance left, m.
 double cw_face_onto_plane(const CwCad *cad, int32_t face, const CwPlane *plane, double uv[2], double x[3]);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
 
@@ -74,6 +75,16 @@ void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double lengt
     cw_lerp(curve->fine_x[low], curve->fine_x[high], s, x);
     break;
   }
+}
+
+double cw_curve_end_gap(const CwNetwork *network, const CwCurve *curve, int end) {
+  const CwCorner *corner = &network->corner[curve->corner[end]];
+  if (curve->kind == CW_CURVE_CUT)
+    return corner->edge >= 0 ? cw_cad_edge_gap(network->cad, corner->edge, curve->face[0]) : 0;
+  if (curve->kind != CW_CURVE_EDGE || corner->vertex < 0) return 0;
+  double range[2], t = curve->fine_parameter[end ? curve->fine_count - 1 : 0][0];
+  cw_cad_edge_range(network->cad, curve->edge, range);
+  return cw_cad_edge_end_gap(network->cad, curve->edge, t > (range[0] + range[1]) / 2);
 }
 
 double cw_curve_nearest(const CwCurve *curve, const double x[3]) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
 
@@ -119,6 +120,34 @@ done:
   return status;
 }
 
+// Beside a left-out face, traces on the faces of an edge must meet in the same corners. A plane that leaves the strip
+// between them through an end, or touches it, has a trace on one side alone.
+static CwStatus check_both_sides(const CwNetwork *network, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  int32_t(*count)[2] = NULL; // cuts that end at a corner, by face of its edge
+  CW_NEW(count, network->corner_count);
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    const CwCurve *curve = &network->curve[i];
+    for (int end = 0; end < 2 && curve->kind == CW_CURVE_CUT; end++) {
+      int32_t corner = curve->corner[end], edge = network->corner[corner].edge;
+      int face[2];
+      if (edge < 0) continue;
+      cw_cad_edge_faces(network->cad, edge, face);
+      count[corner][face[1] == curve->face[0]]++;
+    }
+  }
+  for (int32_t i = 0; i < network->corner_count; i++) {
+    const CwCorner *corner = &network->corner[i];
+    int off = corner->edge >= 0 && cw_cad_edge_stands_for(network->cad, corner->edge, NULL) >= 0 &&
+              count[i][0] != count[i][1];
+    CW_END_UNLESS(!off, outcome, CW_OUTCOME_REPLAN, corner->x, "partition plane %d grazes a face that is left out",
+                  corner->plane[0]);
+  }
+done:
+  free(count);
+  return status;
+}
+
 CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
                          const CwInside *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome) {
   CwStatus status = CW_OK;
@@ -133,6 +162,7 @@ CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBac
     CW_REQUIRE(cw_network_corner(network, &corner, 0) == v, CW_ERR_MEMORY, "out of memory: %d corners", v);
   }
   CW_TRY_STAGE(cw_network_trace_all(context, network, background, outcome), outcome);
+  CW_TRY_STAGE(check_both_sides(network, outcome), outcome);
 
   // Three planes meet only where one is above the two others: cells side by side touch on a plane above both alone.
   CW_NEW(below, plan->node_count);

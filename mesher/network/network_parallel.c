@@ -91,6 +91,7 @@ static CwStatus join(CwNetwork *network, const void *bytes, CwOutcome *outcome) 
   Head head;
   int32_t *corner = NULL;
   memcpy(&head, bytes, sizeof head);
+  head.outcome.domain = outcome->domain; // which the trace does not know
   *outcome = head.outcome;
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
   const CwCorner *corners = (const CwCorner *)((const char *)bytes + sizeof head);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
 
@@ -117,7 +118,33 @@ static double nearest_sample(const CwCad *cad, int32_t edge, const double x[3], 
   return best;
 }
 
-// The corner where the plane crosses the CAD edge that the background edge of `key` belongs to.
+// Whether the edge borders both faces, one of them perhaps in place of a left-out one.
+static int is_border(const CwCad *cad, int32_t edge, int32_t f, int32_t g) {
+  int faces[2], strip = cw_cad_edge_stands_for(cad, edge, NULL);
+  cw_cad_edge_faces(cad, edge, faces);
+  if ((faces[0] == f && faces[1] == g) || (faces[0] == g && faces[1] == f)) return 1;
+  if (strip < 0 || (strip != f && strip != g)) return 0;
+  int32_t other = strip == f ? g : f;
+  return faces[0] == other || faces[1] == other;
+}
+
+// Moves a place along an edge onto a plane; returns the distance left.
+static double edge_onto_plane(const CwCad *cad, const CwPlane *plane, int32_t edge, double *t, double x[3]) {
+  double range[2], distance = INFINITY;
+  cw_cad_edge_range(cad, edge, range);
+  for (int step = 0; step < 50; step++) {
+    double tangent[3];
+    cw_cad_edge_point(cad, edge, *t, x, tangent);
+    distance = cw_plane_distance(plane, x);
+    double slope = cw_dot(plane->normal, tangent);
+    if (fabs(distance) < 1e-13 || slope == 0) break;
+    *t = fmin(fmax(*t - distance / slope, range[0]), range[1]);
+  }
+  return fabs(distance);
+}
+
+// The corner where the plane crosses the CAD edge that the background edge of `key` belongs to. Where that bounded a
+// left-out face, it is the edge in its place, and the same corner from either side.
 static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found, int32_t key, int32_t node,
                                CwCorner *corner, CwOutcome *outcome) {
   CwStatus status = CW_OK;
@@ -125,33 +152,26 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
   const CwBackground *background = found->background;
   int32_t f = background->face[found->crossing[2 * key].triangle];
   int32_t g = background->face[found->crossing[2 * key + 1].triangle];
-  double uv[2], guess[3], best = INFINITY, range[2];
+  double uv[2], guess[3], best = INFINITY, beside = 0;
   crossing_on_face(found, key, found->crossing[2 * key].triangle, uv, guess);
   *corner = (CwCorner){{0}, -1, -1, 0, -1, {node, -1, -1}, 0};
   for (int32_t e = 0; e < cw_cad_edge_count(cad); e++) {
-    int faces[2];
-    double t = 0;
-    cw_cad_edge_faces(cad, e, faces);
-    if (!(faces[0] == f && faces[1] == g) && !(faces[0] == g && faces[1] == f)) continue;
+    double t = 0, gap, x[3];
+    if (!is_border(cad, e, f, g)) continue;
     double distance = nearest_sample(cad, e, guess, &t);
-    if (distance < best) best = distance, corner->edge = e, corner->t = t;
+    if (cw_cad_edge_stands_for(cad, e, &gap) >= 0) { // of several, one that the plane crosses
+      if (edge_onto_plane(cad, found->plane, e, &t, x) >= FOUND) continue;
+      distance = cw_distance(x, guess);
+    }
+    if (distance < best) best = distance, beside = gap, corner->edge = e, corner->t = t;
   }
   CW_END_UNLESS(corner->edge >= 0, outcome, CW_OUTCOME_REPLAN, guess, "no CAD edge between faces %s and %s",
                 cw_cad_face_name(cad, f), cw_cad_face_name(cad, g));
-  cw_cad_edge_range(cad, corner->edge, range);
-  double distance = INFINITY;
-  for (int step = 0; step < 50; step++) {
-    double tangent[3];
-    cw_cad_edge_point(cad, corner->edge, corner->t, corner->x, tangent);
-    distance = cw_plane_distance(found->plane, corner->x);
-    double slope = cw_dot(found->plane->normal, tangent);
-    if (fabs(distance) < 1e-13 || slope == 0) break;
-    corner->t = fmin(fmax(corner->t - distance / slope, range[0]), range[1]);
-  }
+  double distance = edge_onto_plane(cad, found->plane, corner->edge, &corner->t, corner->x);
   double length = cw_distance(background->x[found->crossing[2 * key].a], background->x[found->crossing[2 * key].b]);
-  CW_END_UNLESS(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + BESIDE, outcome, CW_OUTCOME_REPLAN,
-                guess, "partition plane %d grazes the edge between faces %s and %s", node, cw_cad_face_name(cad, f),
-                cw_cad_face_name(cad, g));
+  CW_END_UNLESS(distance < FOUND && cw_distance(corner->x, guess) < length + BESIDE + 2 * beside, outcome,
+                CW_OUTCOME_REPLAN, guess, "partition plane %d grazes the edge between faces %s and %s", node,
+                cw_cad_face_name(cad, f), cw_cad_face_name(cad, g));
 done:
   return status;
 }
@@ -321,6 +341,8 @@ CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, in
   Trace trace = {0};
   CW_TRY(find_crossings(&found));
   CW_NEW(seen, background->triangle_count);
+  for (int32_t t = 0; t < background->triangle_count; t++)
+    seen[t] = (uint8_t)cw_cad_face_is_left_out(network->cad, background->face[t]);
   // Open traces first, from their ends on the borders of faces; what is left are closed loops inside one face.
   for (int pass = 0; pass < 2; pass++) {
     for (int32_t i = 0; i < 2 * found.key_count; i++) {

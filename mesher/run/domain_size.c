@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
@@ -33,6 +34,12 @@ static CwStatus find_line(void *context, int32_t line, void *out) {
   return CW_OK;
 }
 
+// Whether a background triangle lies on a wall that is meshed.
+static int is_wall(const CwDomain *domain, int32_t t) {
+  int face = domain->background.face[t];
+  return cw_cad_face_is_wall(domain->cad, face) && !cw_cad_face_is_left_out(domain->cad, face);
+}
+
 // What a face is to have in triangles, and of walls pieces of one patch and nearly one size together.
 static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CwStatus status = CW_OK;
@@ -42,7 +49,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(domain->face_triangles, cw_cad_face_count(domain->cad));
   for (int32_t t = 0; t < background->triangle_count; t++) {
     domain->face_triangles[background->face[t]] += piece[t].area / (piece[t].size * piece[t].size);
-    if (!cw_cad_face_is_wall(domain->cad, background->face[t])) continue;
+    if (!is_wall(domain, t)) continue;
     least = fmin(least, piece[t].size);
     greatest = fmax(greatest, piece[t].size);
   }
@@ -51,7 +58,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(sample, (size_t)patches * (size_t)steps);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     double h = piece[t].size;
-    if (!cw_cad_face_is_wall(domain->cad, background->face[t])) continue;
+    if (!is_wall(domain, t)) continue;
     int patch = cw_cad_face_patch(domain->cad, background->face[t]);
     CwLayerSample *of = &sample[patch * steps + (int)(log(h / least) / log(SAMPLE_STEP))];
     domain->prism_integral += piece[t].area / (h * h);
@@ -201,6 +208,7 @@ CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain, void **
   CwStatus status = CW_OK;
   CwSize *open_edges = NULL;
   cw_size_seeds_free(&domain->seeds);
+  cw_size_free(&domain->size);
   CW_TRY(cw_size_unpack(&bytes[0], &domain->size));
   CW_TRY(cw_size_unpack(&bytes[1], &open_edges));
   cw_size_join(domain->size, &open_edges);

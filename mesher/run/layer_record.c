@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
@@ -91,12 +92,48 @@ static void add_fitted(const CwPatchTarget *target, const char *patch, const cha
     add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus);
 }
 
+// Two digits, rounded up.
+static double round_up(double value) {
+  double tenth = pow(10, floor(log10(value)) - 1);
+  return ceil(value / tenth) * tenth;
+}
+
+void cw_warn_of_left_out(CwLog *log, const CwDomain *domain, double edge, double cells, json_t *headlines) {
+  List names = {{0}, 0};
+  int faces = 0, named = -1;
+  double widest = 0;
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    for (int f = 0; f < cw_cad_face_count(domain->cad); f++) {
+      if (cw_cad_face_patch(domain->cad, f) != p || !cw_cad_face_is_left_out(domain->cad, f)) continue;
+      widest = fmax(widest, cw_cad_face_left_out_width(domain->cad, f));
+      faces++;
+      if (named != p) add(&names, "%s%.40s", names.length ? ", " : "", cw_cad_patch_name(domain->cad, p));
+      named = p;
+    }
+  }
+  tell(
+      log, headlines,
+      "%s: %d narrow faces of %s are left out, up to %.2g mm wide: edges there are %.2g mm long; mesh.cells %.0f shows "
+      "them",
+      domain->name, faces, names.text, cw_mm(widest), cw_mm(edge), round_up(cells));
+}
+
+void cw_put_left_out(const CwDomain *domain, json_t *result) {
+  int faces = 0;
+  double widest = 0;
+  for (int f = 0; f < cw_cad_face_count(domain->cad); f++) {
+    faces += cw_cad_face_is_left_out(domain->cad, f);
+    widest = fmax(widest, cw_cad_face_left_out_width(domain->cad, f));
+  }
+  json_object_set_new(result, "left_out",
+                      json_pack("{s:i, s:o}", "faces", faces, "widest_m", cw_json_number(widest * cw_model_unit())));
+}
+
 void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, double cells, json_t *headlines) {
-  double tenth = pow(10, floor(log10(cells)) - 1);
   tell(log, headlines,
        "%s: %d of the %d layers that lead from the first height to the size of the tetrahedra: with more the edges on "
        "narrow faces would be too long; mesh.cells %.0f has room for all",
-       domain->name, domain->layer_count, needed, ceil(cells / tenth) * tenth);
+       domain->name, domain->layer_count, needed, round_up(cells));
 }
 
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {

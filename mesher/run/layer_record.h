@@ -22,6 +22,11 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
 // And, where the number of layers is open, of a domain that has fewer than `needed`, for which about `cells` have room.
 void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, double cells, json_t *headlines);
 
+// And of faces of a domain that are left out of it: edges there are `edge` long, and about `cells` show them.
+void cw_warn_of_left_out(CwLog *log, const CwDomain *domain, double edge, double cells, json_t *headlines);
+// Adds how many these are, and the width of the widest, to the entry of the domain.
+void cw_put_left_out(const CwDomain *domain, json_t *result);
+
 // Warns where less than 90 % of the wall faces of `coverage` (the domain's layer_coverage) have their first height.
 void cw_warn_of_missed(CwLog *log, const char *domain, const json_t *coverage, json_t *headlines);
 

@@ -14,6 +14,7 @@
 #include "mesher/run/domain_size.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
+#include "mesher/run/narrow_faces.h"
 #include "mesher/run/run_step.h"
 #include "mesher/size/size_audit.h"
 #include "pipeline/case_schema.h"
@@ -240,6 +241,23 @@ static void tell_layers(CwMeshRun *run) {
   }
 }
 
+// Once the sizes tell which faces are too narrow for the mesh: the same without them.
+static CwStatus leave_out_narrow(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  int left;
+  cw_profiler_part(&run->context, "narrow faces");
+  CW_TRY(cw_leave_out_narrow(run, &left));
+  if (left == 0) goto done;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
+    cw_symmetry_free(&run->domain[d].symmetry);
+  }
+  CW_TRY(find_symmetry(run));
+  CW_TRY(make_sizes(run));
+done:
+  return status;
+}
+
 CwStatus cw_mesh_open(CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096];
@@ -264,6 +282,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
     cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
+  CW_TRY(leave_out_narrow(run));
   tell_layers(run);
 done:
   return status;

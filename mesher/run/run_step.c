@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
 
@@ -87,7 +88,7 @@ CwStatus cw_face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTa
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
-      if (cw_cad_face_is_wall(domain->cad, f) != walls) continue;
+      if (cw_cad_face_is_wall(domain->cad, f) != walls || cw_cad_face_is_left_out(domain->cad, f)) continue;
       if (domain->symmetry && domain->symmetry->face.first[f] != f) continue;
       (*tasks)[(*count)++] = (CwMeshTask){d, f, domain->face_triangles[f]};
     }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/cad/rays.h"
 #include "mesher/common/box.h"
 #include "mesher/common/cubes.h"
@@ -306,7 +307,8 @@ done:
 CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count) {
   int32_t from[3], to[3];
   for (int32_t i = 0; i < surface->input.background->point_count; i++) surface->curvature[i] = -1;
-  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++)
+  int seeded = !cw_cad_face_is_left_out(surface->input.cad, face);
+  for (int32_t i = surface->face_start[face]; seeded && i < surface->face_start[face + 1]; i++)
     seed_triangle(surface, surface->face_triangle[i]);
   box_of_face(surface, face, from, to);
   return pack_seeds(&surface->grid, from, to, bytes, byte_count);

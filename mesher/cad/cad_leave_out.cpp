@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/cad/cad_leave_out.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <new>
+#include <set>
+
+#include "mesher/cad/cad_strips.h"
+#include "mesher/common/vec.h"
+
+namespace {
+
+const int STEPS = 256;        // of an edge, between the places that are told
+const double BY_LENGTH = 0.1; // of a place, by its share of the length: two never fall together
+typedef std::array<double, 3> Point;
+
+// What leaving out a chain does to the solid.
+struct Change {
+  std::map<int, int> vertex;           // that goes, and the one in its place
+  std::map<int, std::set<int>> slides; // faces on which a vertex that goes has slid to the other
+  std::set<int> edges;                 // that go
+};
+
+int beyond(const CwCad *cad, int edge, int face) {
+  const CwCadEdge &e = cad->edge[edge];
+  return e.face[0] == face ? e.face[1] : e.face[0];
+}
+
+double at_share(const CwCad *cad, const CwCadUse &use, double share) {
+  const double *range = cad->edge[use.edge].range;
+  return use.reversed ? range[1] + share * (range[0] - range[1]) : range[0] + share * (range[1] - range[0]);
+}
+
+std::vector<Point> sample(const CwCad *cad, const CwCadUse &use, bool backwards) {
+  std::vector<Point> made(STEPS + 1);
+  for (int i = 0; i <= STEPS; i++) {
+    double share = (double)i / STEPS;
+    cw_cad_edge_point(cad, use.edge, at_share(cad, use, backwards ? 1 - share : share), made[i].data(), nullptr);
+  }
+  return made;
+}
+
+// Lengths from the beginning, over the whole.
+std::vector<double> length_shares(const std::vector<Point> &x) {
+  std::vector<double> made(x.size(), 0);
+  for (size_t i = 1; i < x.size(); i++) made[i] = made[i - 1] + cw_distance(x[i - 1].data(), x[i].data());
+  for (double &share : made) share /= made.back();
+  return made;
+}
+
+// The place, as a share of its parameter, of a polyline nearest to x.
+double nearest_share(const std::vector<Point> &line, const double x[3]) {
+  double best = INFINITY, share = 0;
+  for (size_t i = 0; i + 1 < line.size(); i++) {
+    double along[3], from[3], p[3];
+    cw_sub(line[i + 1].data(), line[i].data(), along);
+    cw_sub(x, line[i].data(), from);
+    double square = cw_dot(along, along), s = square > 0 ? std::clamp(cw_dot(from, along) / square, 0.0, 1.0) : 0;
+    cw_lerp(line[i].data(), line[i + 1].data(), s, p);
+    double distance = cw_distance(p, x);
+    if (distance >= best) continue;
+    best = distance;
+    share = ((double)i + s) / STEPS;
+  }
+  return share;
+}
+
+double share_at_length(const std::vector<double> &length, double want) {
+  size_t i = std::upper_bound(length.begin(), length.end(), want) - length.begin();
+  if (i >= length.size()) return 1;
+  double span = length[i] - length[i - 1];
+  return ((double)(i - 1) + (span > 0 ? (want - length[i - 1]) / span : 0)) / STEPS;
+}
+
+// Places of the side that goes, as shares from its beginning as the other side runs, for all samples of that side.
+std::vector<double> places_beside(const std::vector<Point> &stays, const std::vector<Point> &goes) {
+  std::vector<double> made, own = length_shares(stays), other = length_shares(goes);
+  double nearest = 0;
+  for (size_t i = 0; i < stays.size(); i++) {
+    nearest = std::max(nearest, nearest_share(goes, stays[i].data()));
+    made.push_back((1 - BY_LENGTH) * nearest + BY_LENGTH * share_at_length(other, own[i]));
+  }
+  made.front() = 0;
+  made.back() = 1;
+  return made;
+}
+
+// Gives the edges of the side that stays what they have on the face beyond the other side.
+void replace_side(CwCad *cad, const CwCadChainStrip &strip, Change &change) {
+  const std::vector<CwCadUse> &stays = strip.side[strip.stays];
+  const CwCadUse goes = strip.side[1 - strip.stays][0];
+  const auto other = std::make_shared<const CwCadEdge>(cad->edge[goes.edge]);
+  const int face = beyond(cad, goes.edge, strip.face);
+  std::vector<Point> along, line = sample(cad, goes, true);
+  for (const CwCadUse &use : stays) {
+    std::vector<Point> more = sample(cad, use, false);
+    along.insert(along.end(), more.begin() + (along.empty() ? 0 : 1), more.end());
+  }
+  std::vector<double> place = places_beside(along, line);
+  for (size_t k = 0; k < stays.size(); k++) {
+    CwCadEdge &edge = cad->edge[stays[k].edge];
+    auto made = std::make_shared<CwCadReplaced>();
+    made->strip = strip.face;
+    made->side = edge.face[0] == strip.face ? 0 : 1;
+    made->edge = other;
+    made->gap = 0;
+    for (int i = 0; i <= STEPS; i++) {
+      size_t at = k * STEPS + (size_t)(stays[k].reversed ? STEPS - i : i);
+      double x[3], t = at_share(cad, goes, 1 - place[at]);
+      made->t.push_back(t);
+      cw_cad_edge_point(cad, goes.edge, t, x, nullptr);
+      made->gap = std::max(made->gap, cw_distance(x, along[at].data()) / cad->unit);
+    }
+    edge.face[made->side] = face;
+    edge.replaced = made;
+  }
+  change.edges.insert(goes.edge);
+}
+
+bool ends_in(const CwCad *cad, const std::vector<CwCadUse> &side, int vertex) {
+  return cw_cad_use_vertex(cad, side.front(), 0) == vertex || cw_cad_use_vertex(cad, side.back(), 1) == vertex;
+}
+
+// Whether the chain can go beside what went before; fills what goes with it but for its sides.
+bool plan_change(const CwCad *cad, const CwCadChain &chain, std::set<int> &touched, std::vector<int> &left_in_patch,
+                 Change &change) {
+  std::set<int> faces, own;
+  for (const CwCadChainStrip &strip : chain) faces.insert(strip.face);
+  for (const CwCadChainStrip &strip : chain) {
+    for (const CwCadUse &end : strip.end) {
+      int a = cw_cad_use_vertex(cad, end, 0), b = cw_cad_use_vertex(cad, end, 1),
+          other = beyond(cad, end.edge, strip.face);
+      if (!ends_in(cad, strip.side[strip.stays], a)) std::swap(a, b);
+      if (change.vertex.count(b) && change.vertex[b] != a) return false;
+      change.vertex[b] = a;
+      change.edges.insert(end.edge);
+      if (!faces.count(other)) change.slides[b].insert(other);
+    }
+    for (const auto &side : strip.side) {
+      for (const CwCadUse &use : side) {
+        own.insert(cad->edge[use.edge].vertex[0]);
+        own.insert(cad->edge[use.edge].vertex[1]);
+        int other = beyond(cad, use.edge, strip.face);
+        if (faces.count(other) || cad->face[other].left_out > 0) return false;
+      }
+    }
+  }
+  for (auto &moved : change.vertex)
+    if (change.vertex.count(moved.second)) return false;
+  for (int v : own)
+    if (touched.count(v)) return false;
+  std::map<int, int> of_patch;
+  for (int f : faces) of_patch[cw_cad_face_patch(cad, f)]++;
+  for (auto &patch : of_patch)
+    if (patch.second >= left_in_patch[patch.first]) return false;
+  for (auto &patch : of_patch) left_in_patch[patch.first] -= patch.second;
+  touched.insert(own.begin(), own.end());
+  return true;
+}
+
+// Brings the edges that ended at vertices which go to those in their place.
+void move_ends(CwCad *cad, const Change &change) {
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    CwCadEdge &edge = cad->edge[e];
+    for (int end = 0; end < 2 && !change.edges.count(e); end++) {
+      auto to = change.vertex.find(edge.vertex[end]);
+      if (to == change.vertex.end()) continue;
+      CwCadMovedEnd &moved = edge.moved[end];
+      moved.is = true;
+      moved.gap = cad->vertex[to->first].Distance(cad->vertex[to->second]);
+      auto slides = change.slides.find(to->first);
+      for (int side = 0; side < 2 && slides != change.slides.end(); side++)
+        moved.slides[side] = slides->second.count(edge.face[side]) > 0;
+      edge.vertex[end] = to->second;
+    }
+  }
+}
+
+// Takes out the edges and vertices that went, and numbers the others anew.
+void number_anew(CwCad *cad, const std::set<int> &edges, const std::set<int> &vertices) {
+  std::vector<CwCadEdge> edge;
+  std::vector<gp_Pnt> vertex;
+  std::vector<int> number(cad->vertex.size(), -1);
+  for (size_t v = 0; v < cad->vertex.size(); v++) {
+    if (vertices.count((int)v)) continue;
+    number[v] = (int)vertex.size();
+    vertex.push_back(cad->vertex[v]);
+  }
+  for (size_t e = 0; e < cad->edge.size(); e++) {
+    if (edges.count((int)e)) continue;
+    edge.push_back(cad->edge[e]);
+    for (int &v : edge.back().vertex) v = number[v];
+  }
+  for (CwCadFace &face : cad->face)
+    if (face.pole.vertex >= 0) face.pole.vertex = number[face.pole.vertex];
+  cad->edge.swap(edge);
+  cad->vertex.swap(vertex);
+}
+
+int leave_out(CwCad *cad, int chain_count, const int *number) {
+  const std::vector<CwCadChain> chains = cw_cad_chains(cad);
+  std::vector<int> left_in_patch(cw_cad_patch_count(cad), 0);
+  std::set<int> touched, edges, vertices;
+  int faces = 0;
+  for (int f = 0; f < cw_cad_face_count(cad); f++) left_in_patch[cw_cad_face_patch(cad, f)]++;
+  for (int i = 0; i < chain_count; i++) {
+    const CwCadChain &chain = chains[number[i]];
+    Change change;
+    if (!plan_change(cad, chain, touched, left_in_patch, change)) continue;
+    for (const CwCadChainStrip &strip : chain) {
+      replace_side(cad, strip, change);
+      cad->face[strip.face].left_out = *std::max_element(strip.width, strip.width + CW_CAD_STRIP_SAMPLES) / cad->unit;
+    }
+    move_ends(cad, change);
+    edges.insert(change.edges.begin(), change.edges.end());
+    for (auto &moved : change.vertex) vertices.insert(moved.first);
+    faces += (int)chain.size();
+  }
+  number_anew(cad, edges, vertices);
+  return faces;
+}
+
+CwCadStrip measures_of(const CwCadChainStrip &strip, int chain) {
+  static_assert((int)CW_STRIP_SAMPLES == (int)CW_CAD_STRIP_SAMPLES);
+  CwCadStrip made = {};
+  made.face = strip.face;
+  made.chain = chain;
+  made.length = strip.length;
+  std::copy(strip.width, strip.width + CW_STRIP_SAMPLES, made.width);
+  std::copy(&strip.x[0][0], &strip.x[0][0] + 3 * CW_STRIP_SAMPLES, &made.x[0][0]);
+  return made;
+}
+
+} // namespace
+
+CwStatus cw_cad_strips_find(const CwCad *cad, int *count, CwCadStrip **strips) {
+  CwStatus status = CW_OK;
+  *count = 0;
+  *strips = nullptr;
+  try {
+    const std::vector<CwCadChain> chains = cw_cad_chains(cad);
+    size_t all = 0;
+    for (const CwCadChain &chain : chains) all += chain.size();
+    CwCadStrip *made = (CwCadStrip *)calloc(all ? all : 1, sizeof *made);
+    if (!made) throw std::bad_alloc();
+    for (size_t c = 0; c < chains.size(); c++)
+      for (const CwCadChainStrip &strip : chains[c]) made[(*count)++] = measures_of(strip, (int)c);
+    *strips = made;
+  } catch (const std::bad_alloc &) {
+    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: narrow faces of %d", cw_cad_face_count(cad));
+  }
+  return status;
+}
+
+CwStatus cw_cad_leave_out(CwCad *cad, int chain_count, const int *chain, int *faces) {
+  CwStatus status = CW_OK;
+  try {
+    *faces = leave_out(cad, chain_count, chain);
+  } catch (const std::bad_alloc &) {
+    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d chains of narrow faces", chain_count);
+  }
+  return status;
+}
+
+int cw_cad_face_is_left_out(const CwCad *cad, int face) {
+  return cad->face[face].left_out > 0;
+}
+
+double cw_cad_face_left_out_width(const CwCad *cad, int face) {
+  return cad->face[face].left_out * cad->unit;
+}
+
+int cw_cad_edge_stands_for(const CwCad *cad, int edge, double *gap) {
+  const CwCadEdge &e = cad->edge[edge];
+  if (gap) *gap = e.replaced ? e.replaced->gap * cad->unit : 0;
+  return e.replaced ? e.replaced->strip : -1;
+}
+
+double cw_cad_edge_gap(const CwCad *cad, int edge, int face) {
+  const CwCadEdge &e = cad->edge[edge];
+  return e.replaced && e.face[e.replaced->side] == face ? e.replaced->gap * cad->unit : 0;
+}
+
+double cw_cad_edge_end_gap(const CwCad *cad, int edge, int end) {
+  const CwCadEdge &e = cad->edge[edge];
+  return e.moved[end].is ? e.moved[end].gap * cad->unit : 0;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Chains of narrow faces: what cad_leave_out.h can leave out. In C++ for the bridge only.
+#ifndef CUTWATER_MESHER_CAD_CAD_STRIPS_H
+#define CUTWATER_MESHER_CAD_CAD_STRIPS_H
+
+#include <vector>
+
+#include "mesher/cad/cad.h"
+#include "mesher/cad/cad_shape.h"
+
+enum { CW_CAD_STRIP_SAMPLES = 9 };
+
+// An edge in the sense in which a loop of a face runs through it.
+struct CwCadUse {
+  int edge;
+  bool reversed;
+};
+
+// Sides and ends in the order of the loop: side[0], end[0], side[1], end[1].
+struct CwCadChainStrip {
+  int face;
+  std::vector<CwCadUse> side[2];
+  CwCadUse end[2];
+  int stays;                          // side of the row that stays
+  bool broken;                        // what would follow in its chain cannot go
+  double length;                      // of the longer side, m
+  double width[CW_CAD_STRIP_SAMPLES]; // from side to side at even steps along it, m
+  double x[CW_CAD_STRIP_SAMPLES][3];  // middles there
+};
+
+typedef std::vector<CwCadChainStrip> CwCadChain;
+
+// Length of a side, in metres or the unit of the model.
+double cw_cad_side_length(const CwCad *cad, const std::vector<CwCadUse> &side);
+// The vertex at which the use of an edge begins (end: 0) or ends (1).
+int cw_cad_use_vertex(const CwCad *cad, const CwCadUse &use, int end);
+
+std::vector<CwCadChain> cw_cad_chains(const CwCad *cad);
+
+#endif
