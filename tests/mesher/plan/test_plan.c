@@ -327,8 +327,9 @@ static int layers_needed(const CwMeshRun *run, int d) {
   return cw_layer_count_for(needing);
 }
 
-// Where y+ is given the number of layers is what the faces of a domain need. Where it is left open that is so up to the
-// usual number; then that is kept, and y+ grows until it is enough.
+// Where y+ is given the number of layers is what the faces of a domain need; with too few cells for that, as many as
+// leave narrow faces their edges, but no fewer than usual, and cells are told that have room. Where y+ is left open
+// that is so up to the usual number; then that is kept, and y+ grows until it is enough.
 static void layers_grow_in_number_before_y_plus(void **state) {
   static const double cells[] = {1e4, 1e5, 3e5, 2e6};
   const CwCase paper = table;
@@ -345,11 +346,16 @@ static void layers_grow_in_number_before_y_plus(void **state) {
     assert_int_equal(run.y_plus_auto > CW_LOG_LAYER_Y_PLUS, i % 2 && most > CW_LAYER_COUNT_USUAL);
     assert_true(fabs(cw_predicted_off(&run)) < 1e-9);
     if (i % 2 == 0) most = 0;
+    int needed[CW_DOMAINS_MOST], few = run.scale >= cw_size_scale_fine() && i % 2 == 0;
+    double room = cw_layers_short(&run, needed);
+    assert_true(room == 0 || (few && room > cells[i / 2]));
     for (int d = 0; d < model.domain_count; d++) {
-      int count = run.domain[d].layer_count;
-      assert_in_range(layers_needed(&run, d), i % 2 ? 1 : count, count);
+      int count = run.domain[d].layer_count, need = layers_needed(&run, d);
+      if (room > 0) assert_int_equal(needed[d], need);
+      if (few && need > count) assert_true(count >= CW_LAYER_COUNT_USUAL && room > 0);
+      if (!few) assert_in_range(need, i % 2 ? 1 : count, count);
       if (i % 2) assert_true(count <= CW_LAYER_COUNT_USUAL);
-      if (i % 2 == 0 && count > most) most = count;
+      if (i % 2 == 0 && need > most) most = need;
       free(run.domain[d].patch_target);
       free(run.domain[d].relative_size);
       free(run.domain[d].patch_layers);

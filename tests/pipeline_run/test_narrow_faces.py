@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""The paper's pump with root fillets, at few cells: fillets narrower than half an edge are left out, which log, record
+and headline tell, and the mesh is as sound as without them. Cells enough show them."""
+import json
+import re
+import unittest
+
+from cutwater import PAPER, command, done, execute, fresh, record
+
+COARSE = 120000
+RADIUS = 0.5  # mm
+
+
+class NarrowFaces(unittest.TestCase):
+    def pump(self, name):
+        folder = fresh(name)
+        case = folder / "case.yaml"
+        case.write_text(PAPER.read_text().replace("  blade_count: 6 ", f"  root_fillet_radius_mm: {RADIUS}\n"
+                                                  "  blade_count: 6 ", 1))
+        done(self, "geometry", folder, case=case)
+        return folder, case
+
+    def test_few_cells_leave_fillets_out(self):
+        folder, case = self.pump("narrow-faces")
+        told = done(self, "mesh", folder, case=case, cells=COARSE).stdout
+        results = record(folder, "mesh")["results"]
+        rotor, stator = results["domains"]
+        self.assertGreater(rotor["left_out"]["faces"], 0)
+        self.assertEqual(rotor["left_out"]["faces"] % rotor["equal_passages"], 0)
+        self.assertEqual(rotor["equal_passages"], 6)
+        self.assertEqual(stator["left_out"], {"faces": 0, "widest_m": 0})
+        # The arc between walls at 60 to 120 degrees: between a half and twice the radius.
+        self.assertGreater(rotor["left_out"]["widest_m"], 0.5e-3 * RADIUS)
+        self.assertLess(rotor["left_out"]["widest_m"], 3e-3 * RADIUS)
+        headline = [text for text in results["headlines"] if "are left out" in text]
+        self.assertEqual(len(headline), 1, results["headlines"])
+        self.assertIn(f"rotor: {rotor['left_out']['faces']} narrow faces of blade_", headline[0])
+        self.assertIn(headline[0], told)
+        self.assertGreater(min(domain["least_dihedral_deg"] for domain in results["domains"]), 12)
+        self.assertLess(abs(results["cells"] / COARSE - 1), 0.02)
+        for domain in results["domains"]:
+            self.assertLess(abs(domain["volume_error"]), 0.03)
+        done(self, "export", folder, case=case)
+
+        digests = [json.loads((folder / "mesh/manifest.json").read_text())["domains"]]
+        other, _ = self.pump("narrow-faces-ranks")
+        done(self, "mesh", other, case=case, cells=COARSE, ranks=2)
+        digests.append(json.loads((other / "mesh/manifest.json").read_text())["domains"])
+        self.assertEqual(*digests)
+
+    def test_as_many_cells_as_told_show_them(self):
+        folder, case = self.pump("shown-faces")
+        told = execute(command("mesh", folder, case=case, cells=COARSE) + ["--stop-after", "size"]).stdout
+        enough = int(re.search(r"left out.* mesh.cells (\d+) shows them", told).group(1))
+        self.assertGreater(enough, COARSE)
+        told = execute(command("mesh", folder, case=case, cells=enough) + ["--stop-after", "size"])
+        self.assertEqual(told.returncode, 0, told.stdout)
+        self.assertNotIn("left out", told.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
