@@ -32,8 +32,7 @@ static int32_t first_of(const CwBoundaryInput *in, int32_t curve) {
 // Whether the face is meshed, and not a copy.
 static int is_meshed(const CwBoundaryInput *in, int32_t face) {
   const CwSymmetry *symmetry = in->images->symmetry;
-  return cw_cad_face_is_wall(in->cad, face) && !cw_cad_face_is_left_out(in->cad, face) &&
-         (!symmetry || !symmetry->face.turns[face]);
+  return cw_cad_face_is_meshed_wall(in->cad, face) && (!symmetry || !symmetry->face.turns[face]);
 }
 
 static int bounds(const CwCurve *curve, int32_t face) {

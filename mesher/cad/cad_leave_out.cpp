@@ -25,21 +25,11 @@ struct Change {
   std::set<int> edges;                 // that go
 };
 
-int beyond(const CwCad *cad, int edge, int face) {
-  const CwCadEdge &e = cad->edge[edge];
-  return e.face[0] == face ? e.face[1] : e.face[0];
-}
-
-double at_share(const CwCad *cad, const CwCadUse &use, double share) {
-  const double *range = cad->edge[use.edge].range;
-  return use.reversed ? range[1] + share * (range[0] - range[1]) : range[0] + share * (range[1] - range[0]);
-}
-
 std::vector<Point> sample(const CwCad *cad, const CwCadUse &use, bool backwards) {
   std::vector<Point> made(STEPS + 1);
   for (int i = 0; i <= STEPS; i++) {
     double share = (double)i / STEPS;
-    cw_cad_edge_point(cad, use.edge, at_share(cad, use, backwards ? 1 - share : share), made[i].data(), nullptr);
+    cw_cad_edge_point(cad, use.edge, cw_cad_use_at(cad, use, backwards ? 1 - share : share), made[i].data(), nullptr);
   }
   return made;
 }
@@ -94,7 +84,7 @@ void replace_side(CwCad *cad, const CwCadChainStrip &strip, Change &change) {
   const std::vector<CwCadUse> &stays = strip.side[strip.stays];
   const CwCadUse goes = strip.side[1 - strip.stays][0];
   const auto other = std::make_shared<const CwCadEdge>(cad->edge[goes.edge]);
-  const int face = beyond(cad, goes.edge, strip.face);
+  const int face = cw_cad_beyond(cad, goes.edge, strip.face);
   std::vector<Point> along, line = sample(cad, goes, true);
   for (const CwCadUse &use : stays) {
     std::vector<Point> more = sample(cad, use, false);
@@ -110,7 +100,7 @@ void replace_side(CwCad *cad, const CwCadChainStrip &strip, Change &change) {
     made->gap = 0;
     for (int i = 0; i <= STEPS; i++) {
       size_t at = k * STEPS + (size_t)(stays[k].reversed ? STEPS - i : i);
-      double x[3], t = at_share(cad, goes, 1 - place[at]);
+      double x[3], t = cw_cad_use_at(cad, goes, 1 - place[at]);
       made->t.push_back(t);
       cw_cad_edge_point(cad, goes.edge, t, x, nullptr);
       made->gap = std::max(made->gap, cw_distance(x, along[at].data()) / cad->unit);
@@ -133,7 +123,7 @@ bool plan_change(const CwCad *cad, const CwCadChain &chain, std::set<int> &touch
   for (const CwCadChainStrip &strip : chain) {
     for (const CwCadUse &end : strip.end) {
       int a = cw_cad_use_vertex(cad, end, 0), b = cw_cad_use_vertex(cad, end, 1),
-          other = beyond(cad, end.edge, strip.face);
+          other = cw_cad_beyond(cad, end.edge, strip.face);
       if (!ends_in(cad, strip.side[strip.stays], a)) std::swap(a, b);
       if (change.vertex.count(b) && change.vertex[b] != a) return false;
       change.vertex[b] = a;
@@ -144,7 +134,7 @@ bool plan_change(const CwCad *cad, const CwCadChain &chain, std::set<int> &touch
       for (const CwCadUse &use : side) {
         own.insert(cad->edge[use.edge].vertex[0]);
         own.insert(cad->edge[use.edge].vertex[1]);
-        int other = beyond(cad, use.edge, strip.face);
+        int other = cw_cad_beyond(cad, use.edge, strip.face);
         if (faces.count(other) || cad->face[other].left_out > 0) return false;
       }
     }
@@ -268,6 +258,10 @@ CwStatus cw_cad_leave_out(CwCad *cad, int chain_count, const int *chain, int *fa
 
 int cw_cad_face_is_left_out(const CwCad *cad, int face) {
   return cad->face[face].left_out > 0;
+}
+
+int cw_cad_face_is_meshed_wall(const CwCad *cad, int face) {
+  return cw_cad_face_is_wall(cad, face) && !cw_cad_face_is_left_out(cad, face);
 }
 
 double cw_cad_face_left_out_width(const CwCad *cad, int face) {

@@ -40,6 +40,8 @@ CwStatus cw_cad_leave_out(CwCad *cad, int chain_count, const int *chain, int *fa
 
 // Whether a face was left out: it is a wall still, but is not meshed.
 int cw_cad_face_is_left_out(const CwCad *cad, int face);
+// Whether layers grow on the face (cw_cad_face_is_wall) and it is meshed.
+int cw_cad_face_is_meshed_wall(const CwCad *cad, int face);
 // Greatest width of a face that was left out, m; 0 for others.
 double cw_cad_face_left_out_width(const CwCad *cad, int face);
 // The left-out face that the edge borders in place of the face behind it, or -1; *gap (NULL: not wanted): how far the

@@ -21,24 +21,14 @@ const double SAME_LENGTH = 1e-6;    // relative: rows of one length
 typedef std::vector<CwCadUse> Side;
 typedef std::array<Side, 4> Quad; // the four sides of a face, in the order of its loop
 
-double at_share(const CwCad *cad, const CwCadUse &use, double share) {
-  const double *range = cad->edge[use.edge].range;
-  return use.reversed ? range[1] + share * (range[0] - range[1]) : range[0] + share * (range[1] - range[0]);
-}
-
 double use_length(const CwCad *cad, const CwCadUse &use) {
   double before[3], x[3], length = 0;
   for (int i = 0; i <= LENGTH_PARTS; i++) {
-    cw_cad_edge_point(cad, use.edge, at_share(cad, use, (double)i / LENGTH_PARTS), x, nullptr);
+    cw_cad_edge_point(cad, use.edge, cw_cad_use_at(cad, use, (double)i / LENGTH_PARTS), x, nullptr);
     if (i > 0) length += cw_distance(before, x);
     cw_copy(x, before);
   }
   return length;
-}
-
-int beyond(const CwCad *cad, int edge, int face) {
-  const CwCadEdge &e = cad->edge[edge];
-  return e.face[0] == face ? e.face[1] : e.face[0];
 }
 
 // The loop of a face; empty where it has more than one, or touches itself.
@@ -62,8 +52,8 @@ Side loop_of(const CwCad *cad, const std::vector<int> &edges) {
 // Cosine of the angle by which the loop turns where `next` follows `use`.
 double turn_cosine(const CwCad *cad, const CwCadUse &use, const CwCadUse &next) {
   double x[3], in[3], out[3];
-  cw_cad_edge_point(cad, use.edge, at_share(cad, use, 1), x, in);
-  cw_cad_edge_point(cad, next.edge, at_share(cad, next, 0), x, out);
+  cw_cad_edge_point(cad, use.edge, cw_cad_use_at(cad, use, 1), x, in);
+  cw_cad_edge_point(cad, next.edge, cw_cad_use_at(cad, next, 0), x, out);
   cw_unit(in);
   cw_unit(out);
   return cw_dot(in, out) * (use.reversed == next.reversed ? 1 : -1);
@@ -107,8 +97,8 @@ int elongated(const CwCad *cad, const Quad &quad) {
 void beyond_side(const CwCad *cad, const Side &side, int face, double share, double x[3], double n[3]) {
   double uv[2], along = share * (double)side.size();
   size_t i = std::min((size_t)along, side.size() - 1);
-  int other = beyond(cad, side[i].edge, face);
-  double t = at_share(cad, side[i], along - (double)i);
+  int other = cw_cad_beyond(cad, side[i].edge, face);
+  double t = cw_cad_use_at(cad, side[i], along - (double)i);
   cw_cad_edge_point(cad, side[i].edge, t, x, nullptr);
   cw_cad_edge_uv(cad, side[i].edge, other, t, uv);
   cw_cad_face_normal(cad, other, uv, n);
@@ -121,7 +111,7 @@ std::vector<std::array<double, 3>> places(const CwCad *cad, const Side &side, in
   for (const CwCadUse &use : side) {
     for (int i = 0; i <= 2 * LENGTH_PARTS; i++) {
       std::array<double, 3> x;
-      cw_cad_edge_point(cad, use.edge, at_share(cad, use, i / (2.0 * LENGTH_PARTS)), x.data(), nullptr);
+      cw_cad_edge_point(cad, use.edge, cw_cad_use_at(cad, use, i / (2.0 * LENGTH_PARTS)), x.data(), nullptr);
       length.push_back(fine.empty() ? 0 : length.back() + cw_distance(fine.back().data(), x.data()));
       fine.push_back(x);
     }
@@ -144,10 +134,10 @@ std::vector<std::array<double, 3>> places(const CwCad *cad, const Side &side, in
 bool sides_fit(const CwCad *cad, int face, const Side &a, const Side &b) {
   for (const Side *side : {&a, &b})
     for (const CwCadUse &use : *side)
-      if (!cw_cad_face_is_wall(cad, beyond(cad, use.edge, face))) return false;
+      if (!cw_cad_face_is_wall(cad, cw_cad_beyond(cad, use.edge, face))) return false;
   for (const CwCadUse &p : a)
     for (const CwCadUse &q : b)
-      if (beyond(cad, p.edge, face) == beyond(cad, q.edge, face)) return false;
+      if (cw_cad_beyond(cad, p.edge, face) == cw_cad_beyond(cad, q.edge, face)) return false;
   for (int i = 0; i < CW_CAD_STRIP_SAMPLES; i++) {
     double s = (i + 0.5) / CW_CAD_STRIP_SAMPLES, x[3], y[3], across[3], n[3], m[3];
     beyond_side(cad, a, face, s, x, n);
@@ -187,7 +177,7 @@ void settle_sides(const CwCad *cad, std::vector<Candidate> &candidates, const st
   for (size_t done = 0; done < queue.size(); done++) {
     const Candidate from = candidates[queue[done]];
     for (int k = 1 - from.odd; k < 4; k += 2) {
-      int edge = from.quad[k][0].edge, other = of_face[beyond(cad, edge, from.face)], odd = -1;
+      int edge = from.quad[k][0].edge, other = of_face[cw_cad_beyond(cad, edge, from.face)], odd = -1;
       if (other < 0) continue;
       Candidate &to = candidates[other];
       for (int j = 0; j < 4; j++)
@@ -214,7 +204,8 @@ bool beside_narrower(const CwCad *cad, const std::vector<CwCadChainStrip> &strip
   for (const Side &side : strip.side)
     for (const CwCadUse &use : side)
       for (const CwCadChainStrip &other : strips)
-        if (other.face == beyond(cad, use.edge, strip.face) && mean_width(other) < mean_width(strip)) return true;
+        if (other.face == cw_cad_beyond(cad, use.edge, strip.face) && mean_width(other) < mean_width(strip))
+          return true;
   return false;
 }
 
@@ -270,7 +261,7 @@ CwCadChain chain_from(const CwCad *cad, std::vector<CwCadChainStrip> &strips, co
   for (size_t done = 0; done < queue.size(); done++) {
     const CwCadChainStrip from = strips[queue[done]];
     for (const CwCadUse &end : from.end) {
-      int next = of_face[beyond(cad, end.edge, from.face)];
+      int next = of_face[cw_cad_beyond(cad, end.edge, from.face)];
       if (next < 0) continue;
       CwCadChainStrip &to = strips[next];
       if (to.end[0].edge != end.edge && to.end[1].edge != end.edge) continue; // its side: it does not follow
@@ -296,7 +287,7 @@ int least_patch(const CwCad *cad, const CwCadChain &chain, int row) {
   int least = cw_cad_patch_count(cad);
   for (const CwCadChainStrip &strip : chain)
     for (const CwCadUse &use : strip.side[row])
-      least = std::min(least, cw_cad_face_patch(cad, beyond(cad, use.edge, strip.face)));
+      least = std::min(least, cw_cad_face_patch(cad, cw_cad_beyond(cad, use.edge, strip.face)));
   return least;
 }
 
@@ -318,6 +309,16 @@ bool settle_row(const CwCad *cad, CwCadChain &chain) {
 }
 
 } // namespace
+
+int cw_cad_beyond(const CwCad *cad, int edge, int face) {
+  const CwCadEdge &e = cad->edge[edge];
+  return e.face[0] == face ? e.face[1] : e.face[0];
+}
+
+double cw_cad_use_at(const CwCad *cad, const CwCadUse &use, double share) {
+  const double *range = cad->edge[use.edge].range;
+  return use.reversed ? range[1] + share * (range[0] - range[1]) : range[0] + share * (range[1] - range[0]);
+}
 
 double cw_cad_side_length(const CwCad *cad, const std::vector<CwCadUse> &side) {
   double length = 0;

@@ -343,8 +343,7 @@ static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, Cw
   CW_NEW_UNSET(model->thickness, background->triangle_count);
   CW_NEW_UNSET(model->normal, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    int face = background->face[t];
-    model->wall[t] = cw_cad_face_is_wall(cad, face) && !cw_cad_face_is_left_out(cad, face);
+    model->wall[t] = cw_cad_face_is_meshed_wall(cad, background->face[t]);
   }
   CW_TRY(cw_parallel_for(model->context, "decomposition", background->triangle_count, sizeof *made, measure,
                          &(Walls){cad, options, model}, made));

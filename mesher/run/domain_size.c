@@ -34,12 +34,6 @@ static CwStatus find_line(void *context, int32_t line, void *out) {
   return CW_OK;
 }
 
-// Whether a background triangle lies on a wall that is meshed.
-static int is_wall(const CwDomain *domain, int32_t t) {
-  int face = domain->background.face[t];
-  return cw_cad_face_is_wall(domain->cad, face) && !cw_cad_face_is_left_out(domain->cad, face);
-}
-
 // What a face is to have in triangles, and of walls pieces of one patch and nearly one size together.
 static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CwStatus status = CW_OK;
@@ -49,7 +43,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(domain->face_triangles, cw_cad_face_count(domain->cad));
   for (int32_t t = 0; t < background->triangle_count; t++) {
     domain->face_triangles[background->face[t]] += piece[t].area / (piece[t].size * piece[t].size);
-    if (!is_wall(domain, t)) continue;
+    if (!cw_cad_face_is_meshed_wall(domain->cad, background->face[t])) continue;
     least = fmin(least, piece[t].size);
     greatest = fmax(greatest, piece[t].size);
   }
@@ -58,7 +52,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(sample, (size_t)patches * (size_t)steps);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     double h = piece[t].size;
-    if (!is_wall(domain, t)) continue;
+    if (!cw_cad_face_is_meshed_wall(domain->cad, background->face[t])) continue;
     int patch = cw_cad_face_patch(domain->cad, background->face[t]);
     CwLayerSample *of = &sample[patch * steps + (int)(log(h / least) / log(SAMPLE_STEP))];
     domain->prism_integral += piece[t].area / (h * h);
