@@ -18,6 +18,7 @@ typedef struct {
   int32_t slot;   // place among the open faces of its region
   int32_t cell;   // of the region
   int32_t reversed;
+  CwFaceKind kind;    // as the cell makes it
   double centroid[3]; // of the cell, m
 } OpenFace;
 
@@ -68,7 +69,7 @@ static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
     CwDomainTotal *t = &a->totals[d];
     const CwMeshDomain *domain = &mesh->domains[d];
     t->points = domain->shared_points;
-    cw_orthogonality_start(&t->orthogonality);
+    cw_face_quality_start(&t->faces);
     for (int r = domain->first_region; r < domain->first_region + domain->region_count; ++r) {
       const CwMeshRegion *line = &mesh->regions[r];
       a->places[r].own_point = t->points;
@@ -162,6 +163,7 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   for (int k = 0; k < count; ++k) wide[k] = data->shared_id[nodes[k]];
   const double *x[6];
   cw_cell_centroid(cw_cell_points(data, face.cell, x), x, face.centroid);
+  face.kind = face.cell >= data->tetrahedron_count + data->pyramid_count ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
   face.reversed = cw_face_loop(wide, count, order);
   for (int k = 0; k < count; ++k) face.loop[k] = wide[order[k]];
   return face;
@@ -268,10 +270,10 @@ static CwStatus fail_at_open_face(const CwAssembly *a, const OpenFace *face, con
 // The face between the cells of x and y, of which x sees it in the order of its loop.
 static void measure_open_face(CwAssembly *a, const OpenFace *x, const OpenFace *y) {
   int domain = a->mesh->regions[x->region].domain, count = x->loop[3] < 0 ? 3 : 4;
-  double points[4][3], area[3];
-  for (int i = 0; i < count; ++i) memcpy(points[i], a->shared[domain][x->loop[i]], sizeof points[i]);
-  cw_face_area((const double(*)[3])points, (const int32_t[4]){0, 1, 2, 3}, count, area);
-  cw_orthogonality_face(area, x->centroid, y->centroid, &a->totals[domain].orthogonality);
+  const double *points[4];
+  for (int i = 0; i < count; ++i) points[i] = a->shared[domain][x->loop[i]];
+  CwFaceKind kind = x->kind == CW_FACE_OF_PRISM ? CW_FACE_OF_PRISM : y->kind;
+  cw_face_quality_face(count, points, x->centroid, y->centroid, kind, &a->totals[domain].faces);
 }
 
 // Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.

@@ -5,7 +5,7 @@
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
-#include "export/orthogonality.h"
+#include "export/face_quality.h"
 #include "pipeline/parallel/ranks.h"
 #include "pipeline/mesh/region_faces.h"
 #include "pipeline/mesh/region_read.h"
@@ -37,9 +37,9 @@ typedef struct {
 typedef struct {
   int64_t first_point; // points of the domains before
   int64_t points, tetrahedra, pyramids, prisms, cells;
-  // Known when all regions have been checked; `orthogonality` holds the faces on partition planes before.
+  // Known when all regions have been checked; `faces` holds the faces on partition planes before.
   double volume, least_volume; // m3
-  CwOrthogonality orthogonality;
+  CwFaceQuality faces;
 } CwDomainTotal;
 
 typedef struct {
@@ -49,7 +49,7 @@ typedef struct {
   CwPatchPart *parts;    // by region, then patch
   CwPatchPart *patches;  // by patch: the sums over the regions
   double (*shared[CW_DOMAINS_MOST])[3];
-  int64_t *across; // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
+  int64_t *across;  // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
   int64_t *partner; // by open face: the same face as an open one of the region on its other side
   int64_t open_count;
   CwInterfaceFace *interface[CW_INTERFACES_MOST][2]; // by interface and side; on rank 0 only, by place

@@ -9,7 +9,7 @@
 static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionFigures *figures) {
   CwStatus status = CW_OK;
   *figures = (CwRegionFigures){.least_volume = INFINITY};
-  cw_orthogonality_start(&figures->orthogonality);
+  cw_face_quality_start(&figures->faces);
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
     const double *x[6];
     int count = cw_cell_points(data, cell, x);
@@ -55,7 +55,7 @@ CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *da
   CW_TRY(check_volumes(path, data, figures));
   CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, faces));
   CW_TRY(check_points(path, data));
-  CW_TRY(cw_orthogonality_region(data, faces, &figures->orthogonality));
+  CW_TRY(cw_face_quality_region(data, faces, &figures->faces));
   CW_REQUIRE(faces->inner_triangles == place->inner_triangles && faces->inner_quads == place->inner_quads &&
                  faces->open_count == open,
              CW_ERR_INPUT, "%s: has other faces than when it was first read", path);
@@ -70,6 +70,6 @@ void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figures, CwAss
     total->least_volume =
         total->volume > 0 ? fmin(total->least_volume, figures[r].least_volume) : figures[r].least_volume;
     total->volume += figures[r].volume;
-    cw_orthogonality_add(&figures[r].orthogonality, &total->orthogonality);
+    cw_face_quality_add(&figures[r].faces, &total->faces);
   }
 }

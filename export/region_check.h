@@ -6,8 +6,8 @@
 #include "export/assembly.h"
 
 typedef struct {
-  double volume, least_volume;   // m3, of its cells
-  CwOrthogonality orthogonality; // of the faces between its cells
+  double volume, least_volume; // m3, of its cells
+  CwFaceQuality faces;         // between its cells and on patches
 } CwRegionFigures;
 
 // Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and measures its cells. Fails

@@ -128,12 +128,17 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
     const CwDomainTotal *t = &a->totals[d];
     cells += t->cells;
     CW_TRY(cw_record_json(record, a->mesh->domains[d].name,
-                          json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "points", (json_int_t)t->points,
-                                    "tetrahedra", (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids,
-                                    "prisms", (json_int_t)t->prisms, "volume_m3", t->volume, "solid_volume_m3",
-                                    a->mesh->domains[d].solid_volume, "least_cell_volume_m3", t->least_volume,
-                                    "greatest_non_orthogonality_deg", cw_non_orthogonality_greatest(&t->orthogonality),
-                                    "mean_non_orthogonality_deg", cw_non_orthogonality_mean(&t->orthogonality))));
+                          json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I}", "points",
+                                    (json_int_t)t->points, "tetrahedra", (json_int_t)t->tetrahedra, "pyramids",
+                                    (json_int_t)t->pyramids, "prisms", (json_int_t)t->prisms, "volume_m3", t->volume,
+                                    "solid_volume_m3", a->mesh->domains[d].solid_volume, "least_cell_volume_m3",
+                                    t->least_volume, "greatest_non_orthogonality_deg",
+                                    cw_non_orthogonality_greatest(&t->faces), "mean_non_orthogonality_deg",
+                                    cw_non_orthogonality_mean(&t->faces), "skew_faces_of_prisms",
+                                    (json_int_t)t->faces.skew[CW_FACE_OF_PRISM], "other_skew_faces",
+                                    (json_int_t)t->faces.skew[CW_FACE_OTHER], "small_weight_faces_of_prisms",
+                                    (json_int_t)t->faces.light[CW_FACE_OF_PRISM], "other_small_weight_faces",
+                                    (json_int_t)t->faces.light[CW_FACE_OTHER])));
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
@@ -143,9 +148,26 @@ done:
   return status;
 }
 
+// Counts as checkMesh does what it calls a failed check.
+static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *faces) {
+  int64_t skew = faces->skew[CW_FACE_OF_PRISM], other_skew = faces->skew[CW_FACE_OTHER];
+  int64_t light = faces->light[CW_FACE_OF_PRISM], other_light = faces->light[CW_FACE_OTHER];
+  if (skew + other_skew > 0)
+    cw_log_warn(log,
+                "domain %s: %lld faces of prisms and %lld others have a skewness above %g: layers are thin for the "
+                "bend of their wall; less mesh.curvature_angle_deg, more mesh.cells or thicker layers make it less",
+                domain, (long long)skew, (long long)other_skew, CW_SKEWNESS_MOST);
+  if (light + other_light > 0)
+    cw_log_warn(log,
+                "domain %s: %lld faces of prisms and %lld others have an interpolation weight under %g: the last layer "
+                "is thin for the tetrahedra on it; more walls.layer_count or mesh.cells make it less",
+                domain, (long long)light, (long long)other_light, CW_WEIGHT_LEAST);
+}
+
 // Worth a word, though the mesh can be used.
 static void warn(CwLog *log, const CwAssembly *a, const CwInterface *interfaces) {
   for (int d = 0; d < a->mesh->domain_count; ++d) {
+    warn_of_faces(log, a->mesh->domains[d].name, &a->totals[d].faces);
     double solid = a->mesh->domains[d].solid_volume, off = a->totals[d].volume / solid - 1;
     if (fabs(off) > 0.02)
       cw_log_warn(log, "domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%", a->mesh->domains[d].name,

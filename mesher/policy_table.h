@@ -97,11 +97,14 @@ NUMBER(double, interface_sphere, 1.05, none, "1",
        "radius over that of the circumscribed circle, kept free by the rule of region numbers")
 NUMBER(double, interface_least_distance, 0.62, 0, "h",
        "of new points there: as far apart as lattice points keep from the boundary")
-NUMBER(double, thinner, 0.7, none, "1", "that layers keep about a failed region, or about flat tetrahedra")
+NUMBER(double, thinner, 0.7, none, "1", "that layers keep about a failed region")
 
 // Runs (run/).
 NUMBER(double, flat_angle, 12, 0, "degrees",
-       "of tetrahedra about which layers are thinned where the boundary allows more: what counts as good")
+       "of tetrahedra about which edges become shorter where the boundary allows more: what counts as good")
+NUMBER(double, flat_rare, 5e7, none, "cells",
+       "for each region with flat tetrahedra, from which on the mesh is not made anew for them: at 1,000 million cells "
+       "two such regions doubled the time")
 NUMBER(double, thin_reach, 4, none, "h", "about a failure in which layers are thinned; doubled each time")
 
 // Layers (layers/, boundary/).

@@ -58,7 +58,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     CW_TRY(cw_layers_grade(&work, NULL));
   }
   cw_profiler_part(input->context, "layers: repair");
-  CW_TRY(cw_layers_repair(&work, &tree, layers->top, &layers->repair_rounds));
+  CW_TRY_STAGE(cw_layers_repair(&work, &tree, layers->top, &layers->repair_rounds, outcome), outcome);
   CW_TRY(cw_parallel_for(input->context, "layers: thicknesses", work.n, sizeof *layers->thickness, find_thickness,
                          &(Columns){&work, layers}, layers->thickness));
   for (int32_t v = 0; v < work.n; v++) {

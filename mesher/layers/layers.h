@@ -38,11 +38,12 @@ typedef struct {
   int32_t thinned_count; // columns below 0.99 of the target
 } CwLayers;
 
-// Fails with CW_ERR_MESH (place in mm) where no valid envelope is found: the wall crosses itself, an edge leaves no
-// direction that sees all faces, or 40 rounds of repair do not do, or a constraint that stays leaves none; with
-// CW_ERR_INPUT on wrong input (triangles without area, points without triangles, thicknesses not above 0). Outcome:
-// CW_OUTCOME_REPLAN where another constraint leaves none. Every column has a thickness > 0. Equal input gives equal
-// bits. Collective.
+// Outcome where no valid envelope is found: CW_OUTCOME_FINER with the place where the wall crosses itself, an edge
+// leaves no direction that sees all faces, layers cross however thin they are, or the rounds of repair do not do;
+// CW_OUTCOME_REPLAN where a partition plane holds the column there, or leaves it no direction. Fails with CW_ERR_MESH
+// (place in mm) where a constraint that stays leaves none, with CW_ERR_INPUT on wrong input (triangles without area,
+// points without triangles, thicknesses not above 0). Every column has a thickness > 0. Equal input gives equal bits.
+// Collective.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
 void cw_layers_free(CwLayers *layers);
 

@@ -154,20 +154,14 @@ typedef struct {
 
 static CwStatus find_direction(void *context, int32_t v, void *out) {
   const CwLayerWork *work = context;
-  CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   const double none[2][3] = {{0}}, *x = in->x[v];
   Direction *made = out;
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
   int count = cw_layers_distinct_normals(work, v, normal);
-  double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g);
-  CW_REQUIRE(c > CW_LAYERS_LEAST_COSINE, CW_ERR_MESH,
-             "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
-             "least %.2f needed): the wall is folded or has an edge too sharp there",
-             CW_MM(x), c, CW_LAYERS_LEAST_COSINE);
+  double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g), most = -1;
   made->normal_cos = c;
-  if (c >= BENT) goto done;
-  double most = -1;
+  if (c >= BENT) return CW_OK;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     double e[3];
     cw_sub(in->x[work->near[k]], x, e);
@@ -180,8 +174,7 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   } else if (c < SHARP) {
     made->crease = CW_CREASE_CONVEX;
   }
-done:
-  return status;
+  return CW_OK;
 }
 
 // What the few vertices on creases and in constraints have besides.
@@ -214,6 +207,11 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
   return CW_OK;
 }
 
+CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v) {
+  int stays = work->in->constraint_stays && work->in->constraint_stays[v];
+  return constraints_at(work, v) > 0 && !stays ? CW_OUTCOME_REPLAN : CW_OUTCOME_FINER;
+}
+
 // Whether a column of this cosine leaves the wall inside what holds it at vertex v. Not in a block: all ranks fail
 // alike, and may go on with other planes, but not with other open patches.
 static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, CwOutcome *outcome) {
@@ -241,6 +239,10 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
   CW_NEW_UNSET(special.vertex, work->n);
   CW_TRY(cw_parallel_for(work->in->context, "layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
+    CW_END_UNLESS(made[v].normal_cos > CW_LAYERS_LEAST_COSINE, outcome, cw_layers_kind_at(work, v), work->in->x[v],
+                  "the wall faces see no common direction (best cosine %.3f, at least %.2f needed): the wall is "
+                  "folded or has an edge too sharp there",
+                  made[v].normal_cos, CW_LAYERS_LEAST_COSINE);
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
     work->normal_cos[v] = work->base_cos[v] = made[v].normal_cos;

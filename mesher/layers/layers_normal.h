@@ -14,8 +14,12 @@
 // normal to it, with two on the line of both. Returns the least cosine; negative where no direction sees all faces.
 double cw_layers_most_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
                              double g[3]);
-// Directions and creases of all vertices. Collective. CW_ERR_MESH where the faces around a vertex see no
-// common direction or a constraint that stays holds none; outcome CW_OUTCOME_REPLAN where other constraints hold none.
+// What may help where no column can stand at vertex v: another plan where a partition plane holds it, else shorter
+// edges.
+CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v);
+// Directions and creases of all vertices. Collective. CW_ERR_MESH where a constraint that stays holds no direction;
+// outcome: that of cw_layers_kind_at where the faces around a vertex see no common one, CW_OUTCOME_REPLAN where other
+// constraints hold none.
 CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
 // Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
 enum { CW_LAYER_NORMALS = 48 };

@@ -16,7 +16,7 @@
 #include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
 
-enum { ROUNDS = 40, TURNS = 4, RESMOOTH = 3 };
+enum { ROUNDS = 120, TURNS = 4, RESMOOTH = 3 };
 enum { TOGETHER = 16 };                 // columns at least that are turned in one task
 enum { MANY = 2048 };                   // prisms that are worth handing round the ranks
 enum { FOR_SHAPE = 1, FOR_SOUNDNESS };  // what a column is turned and thinned for
@@ -158,7 +158,7 @@ done:
 }
 
 // Marks the columns of crossing layer top triangles; *crossing: pairs that matter.
-static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
+static CwStatus find_crossings(Repair *repair, int32_t *crossing, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   const CwLayerInput *in = work->in;
@@ -169,10 +169,8 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
   for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
     const CwLayerPair *pair = &repair->crossing.pair[i];
     const double *x = in->x[in->triangle[pair->f][0]];
-    CW_REQUIRE(pair->kind_f == 0, CW_ERR_MESH,
-               "layers: the wall itself crosses or touches itself near "
-               "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)",
-               CW_MM(x), pair->f, pair->g);
+    const CwOutcomeKind kind = cw_layers_kind_at(work, in->triangle[pair->f][0]);
+    CW_END_UNLESS(pair->kind_f == 0, outcome, kind, x, "the wall crosses or touches itself");
     double share = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = in->triangle[pair->f][k];
@@ -184,14 +182,10 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
         share = fmax(share, work->t[v] / in->target[v]);
       }
     }
-    CW_REQUIRE(
-        share > LEAST_SHARE, CW_ERR_MESH,
-        "layers: near (%.4f, %.4f, %.4f) mm the layer top crosses %s however thin the layers are made; ask for more "
-        "cells",
-        CW_MM(x),
-        pair->kind_g == 0   ? "itself"
-        : pair->kind_g == 1 ? "the wall"
-                            : "an open patch");
+    CW_END_UNLESS(share > LEAST_SHARE, outcome, kind, x, "the layer top crosses %s however thin the layers are made",
+                  pair->kind_g == 0   ? "itself"
+                  : pair->kind_g == 1 ? "the wall"
+                                      : "an open patch");
   }
 done:
   return status;
@@ -397,20 +391,18 @@ done:
   return status;
 }
 
-static CwStatus not_repaired(Repair *repair, int32_t crossing) {
+static CwStatus not_repaired(Repair *repair, int32_t crossing, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   int32_t last = 0;
   CW_TRY(find_bad(repair));
+  if (repair->bad_count == 0) CW_TRY_STAGE(find_crossings(repair, &crossing, outcome), outcome);
   for (int32_t v = 0; v < work->n; v++) {
     if (repair->mark[v]) last = v;
   }
-  const double *x = work->in->x[last];
-  status =
-      CW_FAIL(CW_ERR_MESH,
-              "layers: no valid layer top after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
-              "(%.4f, %.4f, %.4f) mm",
-              ROUNDS, repair->bad_count, crossing, CW_MM(x));
+  cw_outcome_set(outcome, cw_layers_kind_at(work, last), work->in->x[last],
+                 "no valid layer top after %d rounds: %d prisms without positive volume, %d pairs crossing", ROUNDS,
+                 repair->bad_count, crossing);
 done:
   return status;
 }
@@ -427,7 +419,7 @@ static void repair_free(Repair *repair) {
   cw_layers_crossing_free(&repair->crossing);
 }
 
-CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds) {
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Repair repair = {.work = work, .top = top};
   int32_t crossing = 0;
@@ -441,7 +433,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
       CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
     } else {
-      CW_TRY(find_crossings(&repair, &crossing));
+      CW_TRY_STAGE(find_crossings(&repair, &crossing, outcome), outcome);
       if (crossing == 0) {
         int turned = 0;
         if (!once_more++) CW_TRY(turn_kept(&repair, &turned));
@@ -454,7 +446,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
     // columns are lost by it, and only thinning is sure to come to an end.
     if (*rounds == RESMOOTH) CW_TRY(smoothing_again(&repair));
   }
-  status = not_repaired(&repair, crossing);
+  CW_TRY(not_repaired(&repair, crossing, outcome));
 done:
   repair_free(&repair);
   return status;

@@ -5,10 +5,11 @@
 
 #include "mesher/common/box_tree.h"
 #include "mesher/layers/layer_columns.h"
+#include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
 // Makes prisms and layer top valid; fills `top`. *rounds: how many that took. Takes the tree of walls
-// and obstacles over. CW_ERR_MESH with the place where 40 rounds do not do.
-CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds);
+// and obstacles over. Outcome: that of cw_layers_kind_at with the place where no rounds do. Collective.
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds, CwOutcome *outcome);
 
 #endif

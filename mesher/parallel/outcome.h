@@ -18,6 +18,7 @@ typedef enum {
   CW_OUTCOME_DONE,
   CW_OUTCOME_REPLAN,     // the partition planes do not fit the domain: others may
   CW_OUTCOME_ASYMMETRIC, // its passages do not come out alike: it may be meshed whole
+  CW_OUTCOME_FINER,      // no layers stand where edges are so long: shorter ones may
   CW_OUTCOME_THIN        // the layers leave no room: thinner ones may
 } CwOutcomeKind;
 

@@ -54,15 +54,14 @@ done:
 }
 
 void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwRegionFailure *failure, double reach,
-                            const double *least, double *most) {
+                            double *most) {
   double distance = reach * from->in->size_at(from->in->size, failure->at);
   for (int32_t t = 0; t < from->surface->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t v = from->layers->triangle[t][k];
       int near = failure->everywhere ? from->surface->region[t] == region
                                      : cw_distance(from->layers->top[v], failure->at) < distance;
-      double kept = cw_policy.thinner * from->layers->thickness[v];
-      if (near) most[v] = fmin(most[v], least ? fmax(kept, least[v]) : kept);
+      if (near) most[v] = fmin(most[v], cw_policy.thinner * from->layers->thickness[v]);
     }
   }
 }

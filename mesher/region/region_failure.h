@@ -20,9 +20,8 @@ CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, co
                                    CwRegionFailure *failure);
 
 // Lowers the greatest thicknesses `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they
-// are now, but not below `least` (of each too; NULL: 0): those whose layer top is nearer to it than `reach` wanted
-// lengths, or all of the region.
+// are now: those whose layer top is nearer to it than `reach` wanted lengths, or all of the region.
 void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwRegionFailure *failure, double reach,
-                            const double *least, double *most);
+                            double *most);
 
 #endif

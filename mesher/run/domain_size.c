@@ -176,7 +176,8 @@ void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, d
 }
 
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
-                             void *const *seeds, int part, void **bytes, int64_t *byte_count) {
+                             int32_t point_count, const CwSizePoint *point, void *const *seeds, int part, void **bytes,
+                             int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwMeshTable mesh = table->mesh;
   mesh.gradation = gradation;
@@ -189,7 +190,7 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double
     open_edge[p] = cw_policy.prism_longest_open * domain->patch_layers[p].first_height;
     if (wall) wall[p] = cw_domain_longest_edge(domain, p) / wall_scale;
   }
-  CwSizeLimits limits = {open_edge, wall, table->mesh.gradation / gradation};
+  CwSizeLimits limits = {open_edge, wall, table->mesh.gradation / gradation, point_count, point};
   CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, domain->base_size, &limits, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:

@@ -14,9 +14,10 @@ CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **
 int cw_domain_size_parts(const CwDomain *domain);
 void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
 // Its growth at scale 1 is `gradation`; edges on walls are no longer at the scale `wall_scale`, if that is not 0, than
-// their layers allow.
+// their layers allow, and about the points than these ask.
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
-                             void *const *seeds, int part, void **bytes, int64_t *byte_count);
+                             int32_t point_count, const CwSizePoint *point, void *const *seeds, int part, void **bytes,
+                             int64_t *byte_count);
 CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain,
                              void **bytes); // takes them over (cw_size_unpack); collective
 // The same for part CW_SIZE_SEEDS made once more, for about this scale.

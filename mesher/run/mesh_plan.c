@@ -288,6 +288,18 @@ done:
   return status;
 }
 
+CwStatus cw_mesh_resize(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  run->prisms = run->tets = (CwCellLaw){0}; // as when the sizes were first made
+  for (int d = 0; d < run->model.domain_count; d++) {
+    cw_domain_clear(&run->domain[d]);
+    run->domain[d].layer_share = CW_LAYER_SHARE;
+  }
+  CW_TRY(make_sizes(run));
+done:
+  return status;
+}
+
 // Collective. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
 static CwStatus plan_domain(const CwContext *context, CwMeshRun *run, int d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
@@ -394,6 +406,10 @@ static void warn_of_few_cells(const CwMeshRun *run, int d) {
               run->domain[d].name, asked, least, cells);
 }
 
+void cw_warn_of_few_cells(const CwMeshRun *run) {
+  for (int d = 0; d < run->model.domain_count; d++) warn_of_few_cells(run, d);
+}
+
 static CwStatus plan_item(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   return plan_domain(context, given, d, outcome);
 }
@@ -439,7 +455,6 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   cw_progress_end(run->context.log);
   for (int d = 0; d < run->model.domain_count; d++) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
-    warn_of_few_cells(run, d);
     log_plan(run, d);
   }
   if (run->rank == 0) {

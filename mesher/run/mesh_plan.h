@@ -10,8 +10,13 @@
 // Opens all domains: geometry, background, symmetry, size field and its first scale.
 CwStatus cw_mesh_open(CwMeshRun *run);
 
+// Makes the size fields anew, finer at the places of `run`; what followed from the old ones is gone.
+CwStatus cw_mesh_resize(CwMeshRun *run);
+
 // Regions for each domain by its share of the predicted cells, at the present scale and factors.
 CwStatus cw_mesh_plan(CwMeshRun *run);
+// Warns of domains that have fewer regions than the case asks for.
+void cw_warn_of_few_cells(const CwMeshRun *run);
 
 // Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole. reason: for the log.
 CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason);

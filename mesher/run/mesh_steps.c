@@ -23,8 +23,15 @@ CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 }
 
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_make_size(&run->domain[task.domain], run->table, run->gradation, run->wall_scale,
-                             run->seeds[task.domain], task.index, bytes, size);
+  CwStatus status = CW_OK;
+  CwSizePoint *point = NULL;
+  int32_t points;
+  CW_TRY(cw_finer_places_of(&run->finer, task.domain, &points, &point));
+  CW_TRY(cw_domain_make_size(&run->domain[task.domain], run->table, run->gradation, run->wall_scale, points, point,
+                             run->seeds[task.domain], task.index, bytes, size));
+done:
+  free(point);
+  return status;
 }
 
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {

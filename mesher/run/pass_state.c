@@ -72,22 +72,58 @@ static json_t *law_packed(const CwCellLaw *law) {
   return json_pack("{s:f, s:f, s:f}", "factor", law->factor, "scale", law->scale, "exponent", law->exponent);
 }
 
-void cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {
+static CwStatus places_in(const json_t *file, CwFinerPlaces *places) {
+  CwStatus status = CW_OK;
+  size_t count = json_array_size(file);
+  CW_GROW(places->place, places->space, (int32_t)count);
+  for (size_t i = 0; i < count; i++) {
+    const json_t *of = json_array_get(file, i);
+    double value[5];
+    for (size_t k = 0; k < 5; k++) value[k] = json_number_value(json_array_get(of, k));
+    places->place[places->count++] = (CwFinerPlace){(int32_t)value[0], {{value[1], value[2], value[3]}, value[4]}};
+  }
+done:
+  return status;
+}
+
+static json_t *places_packed(const CwFinerPlaces *places) {
+  json_t *file = json_array();
+  for (int32_t i = 0; i < places->count; i++) {
+    const CwSizePoint *point = &places->place[i].point;
+    json_array_append_new(file, json_pack("[i, f, f, f, f]", places->place[i].domain, point->x[0], point->x[1],
+                                          point->x[2], point->size));
+  }
+  return file;
+}
+
+static int int_in(const json_t *file, const char *key) {
+  return (int)json_integer_value(json_object_get(file, key));
+}
+
+CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {
+  CwStatus status = CW_OK;
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   json_t *file = NULL;
   if (access(path, F_OK) == 0 && cw_sealed_json_read(path, &file) != CW_OK)
     cw_log_warn(log, "%s; the passes begin anew", cw_fail_message());
   const char *of = json_string_value(json_object_get(file, "fingerprint"));
-  json_int_t pass = json_integer_value(json_object_get(file, "pass"));
   CwCellLaw prisms = law_in(json_object_get(file, "prisms")), tets = law_in(json_object_get(file, "tetrahedra"));
-  if (of && !strcmp(of, fingerprint) && pass > 1 && prisms.factor > 0 && tets.factor > 0) {
-    *state = (CwPassState){(int)pass, prisms, tets, json_is_true(json_object_get(file, "whole")), {0}};
-    for (size_t d = 0; d < CW_DOMAINS_MOST; d++) {
-      state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
-    }
-  }
+  if (!of || strcmp(of, fingerprint) || int_in(file, "pass") < 1 || prisms.factor <= 0 || tets.factor <= 0) goto done;
+  *state = (CwPassState){.pass = int_in(file, "pass"),
+                         .prisms = prisms,
+                         .tets = tets,
+                         .whole = json_is_true(json_object_get(file, "whole")),
+                         .finer_rounds = int_in(file, "finer_rounds"),
+                         .flat_rounds = int_in(file, "flat_rounds"),
+                         .flat_least = json_number_value(json_object_get(file, "flat_least")),
+                         .flat_places = int_in(file, "flat_places")};
+  for (size_t d = 0; d < CW_DOMAINS_MOST; d++)
+    state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
+  CW_TRY(places_in(json_object_get(file, "finer"), &state->finer));
+done:
   json_decref(file);
+  return status;
 }
 
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
@@ -95,9 +131,11 @@ CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, cons
   char path[PATH_SIZE];
   json_t *more = json_array(), *file = NULL;
   for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
-  file = json_pack("{s:s, s:i, s:o, s:o, s:b, s:o}", "fingerprint", fingerprint, "pass", state->pass, "prisms",
-                   law_packed(&state->prisms), "tetrahedra", law_packed(&state->tets), "whole", state->whole,
-                   "more_regions", more);
+  file = json_pack("{s:s, s:i, s:o, s:o, s:b, s:o, s:i, s:i, s:f, s:i, s:o}", "fingerprint", fingerprint, "pass",
+                   state->pass, "prisms", law_packed(&state->prisms), "tetrahedra", law_packed(&state->tets), "whole",
+                   state->whole, "more_regions", more, "finer_rounds", state->finer_rounds, "flat_rounds",
+                   state->flat_rounds, "flat_least", state->flat_least, "flat_places", state->flat_places, "finer",
+                   places_packed(&state->finer));
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_sealed_json_write(file, path));

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the mesher knows after a pass that missed the asked count: kept in RUN/mesh/pass.json, so that a killed run goes
-// on with the same pass, finds its region files current, and ends in the same bytes.
+// What the mesher knows when it begins a pass, or anew with shorter edges: kept in RUN/mesh/pass.json, so that a killed
+// run goes on with the same pass, finds its region files current, and ends in the same bytes.
 #ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
 #define CUTWATER_MESHER_RUN_PASS_STATE_H
 
 #include "mesher/run/cell_law.h"
+#include "mesher/run/finer_places.h"
 #include "pipeline/hash.h"
 #include "pipeline/log.h"
 #include "pipeline/model.h"
 
 typedef struct {
-  int pass;                              // the pass to run, from 1
+  int pass;                              // the pass to run, from 1; 0: none
   CwCellLaw prisms, tets;                // as learned
   int whole;                             // 1: the symmetry of the impeller was given up
   int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
+  int finer_rounds, flat_rounds;         // of shorter edges: for layers, and for flat tetrahedra
+  double flat_least;                     // the least that these were short of their angles after a round, and the
+  int32_t flat_places;                   // number of places then
+  CwFinerPlaces finer;
 } CwPassState;
 
 // Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.
@@ -21,8 +26,8 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
                              char fingerprint[CW_HASH_TEXT]);
 
 // Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise, with a
-// warning where it is damaged. Never fails.
-void cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state);
+// warning where it is damaged. Caller frees the places. CW_ERR_MEMORY alone.
+CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state);
 
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state);
 

@@ -11,6 +11,7 @@
 #include "mesher/region/region_failure.h"
 #include "mesher/run/cell_law.h"
 #include "mesher/run/domain.h"
+#include "mesher/run/finer_places.h"
 #include "mesher/run/layer_coverage.h"
 #include "pipeline/model.h"
 #include "pipeline/record.h"
@@ -69,6 +70,7 @@ typedef struct {
   double scale;                            // of the size field
   double gradation;                        // of the size field at scale 1
   double wall_scale;                       // at which walls limit its edges; 0: they do not
+  CwFinerPlaces finer;                     // where the fields are to be finer than the case asks
   double *most_thickness[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
   // With which the domains were planned.
   CwCellLaw planned_prisms, planned_tets;

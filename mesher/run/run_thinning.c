@@ -77,28 +77,6 @@ done:
   return status;
 }
 
-// A flat tetrahedron between layers touches columns that are no farther away than its edges are long.
-static const double FLAT_REACH = 1; // h
-
-CwStatus cw_thin_places_flat(const CwMeshRun *run, CwThinPlaces *places, double *deficit) {
-  CwStatus status = CW_OK;
-  *deficit = 0;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    const CwDomain *domain = &run->domain[d];
-    for (int32_t r = 0; r < domain->plan.region_count; r++) {
-      const CwRegionSummary *made = &run->summary[d][r];
-      double wanted = fmin(cw_policy.flat_angle, made->dihedral_allowed), least = made->quality.dihedral_least;
-      if (cw_image_region_first(&domain->images, &domain->plan, r) != r || !(least < wanted)) continue;
-      CwRegionFailure failure = {0};
-      memcpy(failure.at, made->quality.flattest_at, sizeof failure.at);
-      CW_TRY(add_place(d, r, &failure, places));
-      *deficit += 1 - least / wanted;
-    }
-  }
-done:
-  return status;
-}
-
 // "rotor region 3, at shroud, (x, y, z) mm: message".
 static void describe(const CwMeshRun *run, const CwThinPlace *place, size_t size, char *text) {
   const CwRegionFailure *failure = &place->failure;
@@ -124,31 +102,13 @@ static int is_told(const CwThinPlaces *places, int32_t i) {
   return i == 0 || place->region >= 0 || place[-1].region >= 0 || place[-1].domain != place->domain;
 }
 
-// Lowers the columns about a place within `reach` times h, to `least` (NULL: without a limit) at the lowest.
-static CwStatus lower(CwMeshRun *run, const CwThinPlace *place, double reach, const double *least) {
+// Lowers the columns about a place within `reach` times h.
+static CwStatus lower(CwMeshRun *run, const CwThinPlace *place, double reach) {
   CwStatus status = CW_OK;
   int d = place->domain;
   CW_TRY(start_thinning(run, d));
   const CwRegionInput from = cw_domain_region_input(&run->domain[d], NULL);
-  cw_region_failure_thin(&from, place->region, &place->failure, reach, least, run->most_thickness[d]);
-done:
-  return status;
-}
-
-static void lowered(CwMeshRun *run) {
-  for (int d = 0; d < run->model.domain_count; d++) {
-    if (run->most_thickness[d]) thin_alike(&run->domain[d], run->most_thickness[d]);
-  }
-  run->retries++;
-}
-
-CwStatus cw_thin_flat(CwMeshRun *run, const CwThinPlaces *places) {
-  CwStatus status = CW_OK;
-  for (int32_t i = 0; i < places->count; i++) {
-    const CwThinPlace *place = &places->place[i];
-    CW_TRY(lower(run, place, FLAT_REACH, run->domain[place->domain].targets.least));
-  }
-  lowered(run);
+  cw_region_failure_thin(&from, place->region, &place->failure, reach, run->most_thickness[d]);
 done:
   return status;
 }
@@ -166,31 +126,14 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
                   text, ATTEMPTS, file);
     if (run->rank == 0 && is_told(places, i))
       cw_log_warn(run->context.log, "%s; tried again with thinner layers there", text);
-    CW_TRY(lower(run, place, cw_policy.thin_reach * (double)(1 << attempt), NULL));
+    CW_TRY(lower(run, place, cw_policy.thin_reach * (double)(1 << attempt)));
   }
-  lowered(run);
-done:
-  return status;
-}
-
-CwStatus cw_thinning_copy(const CwMeshRun *run, double *copy[CW_DOMAINS_MOST]) {
-  CwStatus status = CW_OK;
   for (int d = 0; d < run->model.domain_count; d++) {
-    size_t count = (size_t)run->domain[d].surface.vertex_count;
-    free(copy[d]);
-    copy[d] = NULL;
-    if (!run->most_thickness[d]) continue;
-    CW_NEW_UNSET(copy[d], count);
-    memcpy(copy[d], run->most_thickness[d], count * sizeof *copy[d]);
+    if (run->most_thickness[d]) thin_alike(&run->domain[d], run->most_thickness[d]);
   }
+  run->retries++;
 done:
   return status;
-}
-
-void cw_thinning_take_back(CwMeshRun *run, double *copy[CW_DOMAINS_MOST]) {
-  cw_end_thinning(run);
-  memcpy(run->most_thickness, copy, sizeof run->most_thickness);
-  memset(copy, 0, sizeof run->most_thickness);
 }
 
 void cw_end_thinning(CwMeshRun *run) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Thinner layers about the places where a pass has failed or made flat tetrahedra, for the next attempt. Each of three
-// attempts on a plan reaches twice as far as the one before.
+// Thinner layers about the places where a pass has failed, for the next attempt. Each of three attempts on a plan
+// reaches twice as far as the one before.
 #ifndef CUTWATER_MESHER_RUN_RUN_THINNING_H
 #define CUTWATER_MESHER_RUN_RUN_THINNING_H
 
@@ -23,20 +23,9 @@ void cw_thin_places_free(CwThinPlaces *places);
 CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places);
 CwStatus cw_thin_places_in_regions(const CwMeshRun *run, CwThinPlaces *places);
 
-// Adds the flattest tetrahedron of each region that has one below flat_angle and below what its boundary allows.
-// Returns in *deficit the sum of what they lack, by what they should have: less is better.
-CwStatus cw_thin_places_flat(const CwMeshRun *run, CwThinPlaces *places, double *deficit);
-
 // Lowers the columns about these places; attempt: from 0. Outcome: CW_OUTCOME_REPLAN of the domain of the first place
 // where there were three.
 CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutcome *outcome);
-
-// The same about flat tetrahedra, no farther than these touch; columns keep their first heights.
-CwStatus cw_thin_flat(CwMeshRun *run, const CwThinPlaces *places);
-
-// What columns are thinned to, copied, or taken back from the copy, which is empty then.
-CwStatus cw_thinning_copy(const CwMeshRun *run, double *copy[CW_DOMAINS_MOST]);
-void cw_thinning_take_back(CwMeshRun *run, double *copy[CW_DOMAINS_MOST]);
 
 // Forgets what columns were thinned to.
 void cw_end_thinning(CwMeshRun *run);

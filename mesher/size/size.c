@@ -245,6 +245,8 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   cw_size_grid_clear(&grid);
   for (int i = 0; i < lists; i++)
     cw_size_take_seeds(&grid, seeds[i], share_of(cad, limits, i), base_size, longest_of(cad, limits, i));
+  for (int32_t i = 0; limits && i < limits->point_count; i++)
+    cw_size_grid_seed(&grid, limits->point[i].x, limits->point[i].size);
   CW_TRY(mark_inside(&grid, &lines, &within));
   if (part == CW_SIZE_SEEDS) {
     memcpy(made.lines.start, lines.start, head.starts * sizeof *lines.start);
@@ -302,6 +304,10 @@ double cw_size_scale_fine(void) {
 
 void cw_size_set_scale(CwSize *size, double scale) {
   size->scale = scale;
+}
+
+double cw_size_scale(const CwSize *size) {
+  return size->scale;
 }
 
 // The least share of the wanted length that open edges are granted.

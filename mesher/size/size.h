@@ -32,12 +32,19 @@ int cw_size_seed_parts(const CwCad *cad);
 CwStatus cw_size_seeds_part(CwSizeSeeds *seeds, int part, void **bytes, int64_t *byte_count);
 void cw_size_seeds_free(CwSizeSeeds **seeds);
 
+// What one point asks for, at scale 1.
+typedef struct {
+  double x[3], size; // m
+} CwSizePoint;
+
 // Longest edges (m, by patch; only those of walls count): what is left to hold a flat prism falls with the fourth power
 // of height over length.
 typedef struct {
   const double *open_edge; // where a wall meets an open face, and prisms have a side on the boundary; at any scale
   const double *wall;      // all over the walls, at scale 1; NULL: any
   double scale;            // that the field is made for: narrow faces get no edges above twice their width; 0: any
+  int32_t point_count;     // edges about these are no longer than they ask, whatever the limits of other sizes
+  const CwSizePoint *point;
 } CwSizeLimits;
 
 // The field that spreads from all parts of the seeds (seeds[part]) through the domain, within the limits, if given.
@@ -59,6 +66,7 @@ double cw_size_scale_fine(void);
 
 // The factor in front of the whole field; 1 at first.
 void cw_size_set_scale(CwSize *size, double scale);
+double cw_size_scale(const CwSize *size);
 
 // Edge length at x, m. Fast (trilinear); any x. Signature fits CwSizeAt of patch_mesh.h and fill.h, with the
 // field as context.

@@ -100,20 +100,19 @@ static inline void cross(const double a[3], const double b[3], double c[3]) {
   c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// Centre of a face, the mean of its triangles weighed by their areas, and twice its area vector. The triangles of a
-// quadrilateral are four about the mean of its nodes.
-static void face_centre(const double *const *x, const signed char face[4], double centre[3], double twice[3]) {
-  const double *a = x[face[0]], *b = x[face[1]], *c = x[face[2]], *d = face[3] < 0 ? a : x[face[3]];
+// The mean of the triangles of a face, weighed by their areas.
+static inline void face_centre(int count, const double *const *x, double centre[3], double twice[3]) {
+  const double *a = x[0], *b = x[1], *c = x[2], *d = count == 3 ? a : x[3];
   const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
   cross(u, v, twice);
-  if (face[3] < 0) {
+  if (count == 3) {
     for (int k = 0; k < 3; ++k) centre[k] = (a[k] + b[k] + c[k]) / 3;
     return;
   }
   double area = 0, moment[3] = {0}, to[4][3];
   for (int k = 0; k < 3; ++k) {
     centre[k] = (a[k] + b[k] + c[k] + d[k]) / 4;
-    for (int i = 0; i < 4; ++i) to[i][k] = x[face[i]][k] - centre[k];
+    for (int i = 0; i < 4; ++i) to[i][k] = x[i][k] - centre[k];
   }
   for (int i = 0; i < 4; ++i) {
     const double *from = to[i], *next = to[(i + 1) % 4];
@@ -126,6 +125,10 @@ static void face_centre(const double *const *x, const signed char face[4], doubl
   for (int k = 0; k < 3; ++k) centre[k] += moment[k] / (3 * area);
 }
 
+void cw_face_centre(int count, const double *const *x, double centre[3], double twice[3]) {
+  face_centre(count, x, centre, twice);
+}
+
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
   double centre[CW_CELL_FACES][3], twice[CW_CELL_FACES][3], apex[3] = {0}, volume = 0, moment[3] = {0};
   if (count == 4) {
@@ -133,7 +136,11 @@ void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
     return;
   }
   for (int f = 0; f < CW_CELL_FACES; ++f) {
-    face_centre(x, cw_cell_face_table(count)[f], centre[f], twice[f]);
+    const signed char *face = cw_cell_face_table(count)[f];
+    const double *corner[4];
+    int corners = face[3] < 0 ? 3 : 4;
+    for (int i = 0; i < corners; ++i) corner[i] = x[face[i]];
+    face_centre(corners, corner, centre[f], twice[f]);
     for (int k = 0; k < 3; ++k) apex[k] += centre[f][k] / CW_CELL_FACES;
   }
   for (int f = 0; f < CW_CELL_FACES; ++f) {

@@ -29,6 +29,10 @@ int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nod
 // that both cells at a face and both sides of a sum see the same surface.
 void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, double area[3]);
 
+// Centre (m) of a face with `count` (3 or 4) nodes at `x` as OpenFOAM reckons it, the mean of its triangles weighed by
+// their areas, and twice its area vector (m2). The triangles of a quadrilateral are four about the mean of its nodes.
+void cw_face_centre(int count, const double *const *x, double centre[3], double twice[3]);
+
 // Signed volume in m3 of a cell with so many nodes at `x`, by the divergence theorem over its faces as cw_face_area()
 // takes them: volumes of cells add up to the volume enclosed, without gaps.
 double cw_cell_volume(int count, const double *const *x);

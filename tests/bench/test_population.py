@@ -28,6 +28,15 @@ class Population(unittest.TestCase):
                          for n in (3, 14))
         self.assertEqual(first, second)
 
+    def test_prisms_explain_what_the_exporter_counted(self):
+        zones = [{"skew_faces_of_prisms": 3, "small_weight_faces_of_prisms": 0},
+                 {"skew_faces_of_prisms": 4, "small_weight_faces_of_prisms": 12}]
+        weight = "Faces with small interpolation weight (< 0.05) found, number of faces: {}"
+        skew = "Max skewness = 9.1, {} highly skew faces detected which may impair the quality of the results"
+        for line, told in ((weight.format(12), True), (weight.format(13), False), (skew.format(7), True),
+                           (skew.format(3), False), ("Concave cells found, number of cells: 7", False)):
+            self.assertEqual(population.prisms_explain(line, zones), told, line)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -44,6 +44,12 @@ class OpenFoam(unittest.TestCase):
         results = record(RUN, "export")["results"]
         greatest = max(results[domain]["greatest_non_orthogonality_deg"] for domain in ("rotor", "stator"))
         self.assertAlmostEqual(greatest, told, delta=1e-4 * told)
+        counts = {kind: sum(results[domain][f"{kind}_of_prisms"] + results[domain][f"other_{kind}"]
+                            for domain in ("rotor", "stator")) for kind in ("skew_faces", "small_weight_faces")}
+        skew = re.search(r"(\d+) highly skew faces", self.check)
+        light = re.search(r"small interpolation weight \(< 0\.05\) found, number of faces: (\d+)", self.check)
+        self.assertEqual(counts, {"skew_faces": int(skew[1]) if skew else 0,
+                                  "small_weight_faces": int(light[1]) if light else 0})
 
     def test_3_every_face_of_the_interface_meets_the_other_side(self):
         weights = re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", self.check)

@@ -417,9 +417,7 @@ static void check_failure_file(const DomainSurfaces &boundary, const std::string
 static void check_thinning(const DomainSurfaces &boundary, CwRegionFailure failure) {
   const CwRegionInput from = boundary.regions();
   std::vector<double> most(boundary.surface.vertex_count, INFINITY);
-  cw_region_failure_thin(&from, 0, &failure, 4, boundary.layers.thickness, most.data());
-  for (size_t v = 0; v < most.size(); v++) assert_true(most[v] >= boundary.layers.thickness[v]); // the least given
-  cw_region_failure_thin(&from, 0, &failure, 4, nullptr, most.data());
+  cw_region_failure_thin(&from, 0, &failure, 4, most.data());
   int thinned = 0;
   for (int v = 0; v < boundary.surface.vertex_count; v++) {
     if (cw_distance(boundary.layers.top[v], failure.at) < 4 * 2.5e-3) {
@@ -431,7 +429,7 @@ static void check_thinning(const DomainSurfaces &boundary, CwRegionFailure failu
   }
   assert_true(thinned > 3 && thinned < boundary.surface.vertex_count / 2);
   failure.everywhere = 1;
-  cw_region_failure_thin(&from, 0, &failure, 4, nullptr, most.data());
+  cw_region_failure_thin(&from, 0, &failure, 4, most.data());
   for (int t = 0; t < boundary.surface.triangle_count; t++) {
     for (int v : boundary.layers.triangle[t]) {
       if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);

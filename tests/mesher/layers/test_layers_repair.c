@@ -41,7 +41,7 @@ static void leaning_column(void **state) {
     memcpy(work.column[centre], leaning, sizeof leaning);
     for (int after = 0; after < 2; after++) {
       double prism = 1, shape = 1, thickness = INFINITY;
-      if (after) assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds), CW_OK);
+      if (after) assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
       for (int32_t v = 0; v < n; v++) {
         if (!after) cw_layers_place(&work, v, top[v]);
         thickness = fmin(thickness, top[v][2]);
@@ -90,7 +90,7 @@ static void sheared_prism(void **state) {
       work.t[v] = c.target;
       memcpy(work.column[v], lean, sizeof lean);
     }
-    assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds), CW_OK);
+    assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
     const int32_t *corner = c.wall.triangle[0];
     const double *wall[3], *end[3], whole[3] = {1, 1, 1};
     for (int k = 0; k < 3; k++) {

@@ -62,7 +62,7 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
   field = calloc((size_t)parts, sizeof *field);
   assert_non_null(field);
   for (int i = 0; i < parts; i++)
-    check(cw_domain_make_size(made, &table, table.mesh.gradation, 0, seed, i, &field[i], &size));
+    check(cw_domain_make_size(made, &table, table.mesh.gradation, 0, 0, NULL, seed, i, &field[i], &size));
   check(cw_domain_take_size(NULL, made, field));
   for (int i = 0; i < seeds; i++) free(seed[i]);
   free(seed);

@@ -69,15 +69,35 @@ static void state_comes_back_as_written(void **unused) {
   cw_case_defaults(&table);
   char fingerprint[33];
   assert_int_equal(cw_pass_fingerprint(&table, run, &domains, fingerprint), CW_OK);
-  const CwPassState written = {3, {12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 1, {0, 2}};
+  CwFinerPlace place[2] = {{0, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, {{1, 2, 3}, 0.1 / 3}}};
+  const CwPassState written = {.pass = 3,
+                               .prisms = {12.2450980392, 1.2, 0.1},
+                               .tets = {10.8712345678, 1.3, -0.5},
+                               .whole = 1,
+                               .more_regions = {0, 2},
+                               .finer_rounds = 1,
+                               .flat_rounds = 4,
+                               .flat_least = 2. / 3,
+                               .flat_places = 1,
+                               .finer = {.count = 2, .place = place}};
   assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
-  CwPassState read = {.pass = 1};
-  cw_pass_state_read(NULL, run, fingerprint, &read);
+  CwPassState read = {0};
+  assert_int_equal(cw_pass_state_read(NULL, run, fingerprint, &read), CW_OK);
   assert_int_equal(read.pass, 3);
   assert_int_equal(read.whole, 1);
   assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
   assert_memory_equal(&read.prisms, &written.prisms, sizeof read.prisms);
   assert_memory_equal(&read.tets, &written.tets, sizeof read.tets);
+  assert_int_equal(read.finer_rounds, 1);
+  assert_int_equal(read.flat_rounds, 4);
+  assert_float_equal(read.flat_least, written.flat_least, 0);
+  assert_int_equal(read.flat_places, 1);
+  assert_int_equal(read.finer.count, 2);
+  for (int i = 0; i < 2; i++) { // to the last bit
+    assert_int_equal(read.finer.place[i].domain, place[i].domain);
+    assert_memory_equal(&read.finer.place[i].point, &place[i].point, sizeof place[i].point);
+  }
+  cw_finer_places_free(&read.finer);
 }
 
 static void another_case_or_geometry_starts_anew(void **unused) {
@@ -88,9 +108,9 @@ static void another_case_or_geometry_starts_anew(void **unused) {
   table.mesh.cells++;
   assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
   assert_string_not_equal(before, after);
-  CwPassState read = {.pass = 1};
-  cw_pass_state_read(NULL, run, after, &read);
-  assert_int_equal(read.pass, 1);
+  CwPassState read = {0};
+  assert_int_equal(cw_pass_state_read(NULL, run, after, &read), CW_OK);
+  assert_int_equal(read.pass, 0);
   table.mesh.cells--;
   write_file("geometry/faces.csv", "changed");
   assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
@@ -99,9 +119,9 @@ static void another_case_or_geometry_starts_anew(void **unused) {
 
 static void broken_state_is_left_aside(void **unused) {
   write_file("mesh/pass.json", "{\"fingerprint\": \"x\", \"pass\": 2");
-  CwPassState read = {.pass = 1};
-  cw_pass_state_read(NULL, run, "x", &read);
-  assert_int_equal(read.pass, 1);
+  CwPassState read = {0};
+  assert_int_equal(cw_pass_state_read(NULL, run, "x", &read), CW_OK);
+  assert_int_equal(read.pass, 0);
 }
 
 static void missing_geometry_is_named(void **unused) {

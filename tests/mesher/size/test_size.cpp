@@ -33,7 +33,8 @@ struct Model {
 
   Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
         std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall,
-        const std::vector<double> &open_edge_size = {}, const std::vector<double> &wall_size = {}, double scale = 0)
+        const std::vector<double> &open_edge_size = {}, const std::vector<double> &wall_size = {}, double scale = 0,
+        const std::vector<CwSizePoint> &point = {})
       : cad(open_solid(solid, patch_of)) {
     CwMeshTable table = {};
     table.gradation = gradation;
@@ -48,7 +49,8 @@ struct Model {
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
     for (int i = (int)parts.size() - 1; i >= 0; i--) check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
     cw_size_seeds_free(&seeds);
-    const CwSizeLimits limits = {open_edge_size.data(), wall_size.empty() ? nullptr : wall_size.data(), scale};
+    const CwSizeLimits limits = {open_edge_size.data(), wall_size.empty() ? nullptr : wall_size.data(), scale,
+                                 (int32_t)point.size(), point.data()};
     const CwSizeLimits *open_edge = open_edge_size.empty() ? nullptr : &limits;
     check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, open_edge, parts.data(),
                        CW_SIZE_SEEDS, &block, &bytes));
@@ -266,6 +268,21 @@ static void walls_hold_their_edges(void **state) {
   assert_near(held.at(15, 15, 0), 4, 1e-5);
 }
 
+// h grows from the point by the gradation, whatever the walls want; far from it, it is what it was.
+static void points_hold_their_edges(void **state) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
+  const PatchOfFace all = [](const TopoDS_Face &) { return std::string("rest,wall"); };
+  const CwSizePoint point = {{15e-3, 15e-3, 0}, 0.5e-3};
+  const Model held(box, 3, 0.5, 1, {1}, all, {1}, {}, 0, {point});
+  assert_true(held.at(15, 15, 0) <= 0.5 + 1e-6);
+  for (double away : {4.0, 8.0}) {
+    const double wanted = 0.5 + gradation * away, spacing = 3; // of the grid: nodes about the point have its size
+    assert_true(held.at(15 + away, 15, 0) <= wanted + 1e-6);
+    assert_true(held.at(15 + away, 15, 0) >= wanted - gradation * std::sqrt(3) * spacing);
+  }
+  assert_near(held.at(30, 30, 30), 3, 1e-5);
+}
+
 static void wrong_input_is_refused(void **state) {
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
   CwBackground background;
@@ -301,6 +318,7 @@ int main(void) {
       cmocka_unit_test(two_runs_are_the_same),
       cmocka_unit_test(rims_hold_at_any_scale),
       cmocka_unit_test(walls_hold_their_edges),
+      cmocka_unit_test(points_hold_their_edges),
       cmocka_unit_test(wrong_input_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

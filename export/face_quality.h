@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What OpenFOAM's checkMesh says of faces: how far the line from cell to cell leans to the face between them, how far
+// from its centre it meets it (skewness), and how unevenly the face parts it (interpolation weight). As in
+// primitiveMeshTools of OpenFOAM v1912.
+#ifndef CUTWATER_EXPORT_FACE_QUALITY_H
+#define CUTWATER_EXPORT_FACE_QUALITY_H
+
+#include "pipeline/mesh/region_faces.h"
+
+// What checkMesh tells of: more skewness, less weight.
+#define CW_SKEWNESS_MOST 4.0
+#define CW_WEIGHT_LEAST 0.05
+
+// Layers that are thin for the bend of their wall have skew sides; those of other faces are faults of the tetrahedra.
+typedef enum { CW_FACE_OF_PRISM, CW_FACE_OTHER, CW_FACE_KINDS } CwFaceKind;
+
+typedef struct {
+  // Cosines of the angles between the area vector of a face and the line from the centroid of its cell to that of the
+  // other.
+  double least, sum;
+  int64_t count;
+  int64_t skew[CW_FACE_KINDS], light[CW_FACE_KINDS]; // faces beyond the limits above
+} CwFaceQuality;
+
+void cw_face_quality_start(CwFaceQuality *q);
+
+// Adds a face with `count` (3 or 4) nodes at `x`, whose normal points out of the cell with centroid `from`, to that
+// with centroid `to`; NULL where it lies on a patch, which asks for skewness alone.
+void cw_face_quality_face(int count, const double *const *x, const double from[3], const double *to, CwFaceKind kind,
+                          CwFaceQuality *q);
+void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum);
+
+// Adds the faces between two cells of a region, and those on patches. CW_ERR_MEMORY.
+CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, CwFaceQuality *q);
+
+// In degrees; 0 without faces. The mean is the angle of the mean cosine.
+double cw_non_orthogonality_greatest(const CwFaceQuality *q);
+double cw_non_orthogonality_mean(const CwFaceQuality *q);
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Places where edges have to be shorter than the case asks: where no layers stand on a wall, or tetrahedra are flat.
+// They are points of the size fields (CwSizePoint), from which all is made anew.
+#ifndef CUTWATER_MESHER_RUN_FINER_PLACES_H
+#define CUTWATER_MESHER_RUN_FINER_PLACES_H
+
+#include <stdint.h>
+
+#include "mesher/run/domain.h"
+#include "mesher/size/size.h"
+#include "pipeline/status.h"
+
+typedef struct {
+  int32_t domain;
+  CwSizePoint point;
+} CwFinerPlace;
+
+// Zeroed: none. Those of a later round follow those of an earlier one, also where they ask at the same place again.
+typedef struct {
+  int32_t count, space;
+  CwFinerPlace *place;
+} CwFinerPlaces;
+
+// Adds the place x of a domain, and its periodic images: edges there are to be half as long as now.
+CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const double x[3], CwFinerPlaces *places);
+// The points of one domain; *point is allocated, caller frees.
+CwStatus cw_finer_places_of(const CwFinerPlaces *places, int32_t domain, int32_t *count, CwSizePoint **point);
+void cw_finer_places_free(CwFinerPlaces *places);
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/face_quality.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <cmocka.h>
+
+// A tetrahedron on the triangle 0-1-2 with its tip at `tip`, and a right prism below.
+static void two_cells(const double tip[3], CwFaceQuality *o) {
+  double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, 0, -2}, {3, 0, -2}, {0, 3, -2}};
+  int32_t tetrahedra[][4] = {{0, 1, 2, 3}}, prisms[][6] = {{4, 5, 6, 0, 1, 2}};
+  memcpy(points[3], tip, sizeof points[3]);
+  CwRegionData data = {.points = points,
+                       .point_count = 7,
+                       .shared_count = 7,
+                       .tetrahedra = tetrahedra,
+                       .tetrahedron_count = 1,
+                       .prisms = prisms,
+                       .prism_count = 1};
+  CwRegionFaces faces = {0};
+  assert_int_equal(cw_region_faces("rotor", CW_ERR_INPUT, &data, &faces), CW_OK);
+  cw_face_quality_start(o);
+  assert_int_equal(cw_face_quality_region(&data, &faces, o), CW_OK);
+  cw_region_faces_free(&faces);
+  assert_int_equal(o->count, 1);
+}
+
+static void the_angle_is_that_of_the_centroids(void **state) {
+  (void)state;
+  CwFaceQuality straight, leaning;
+  // The prism's centroid is (1, 1, -1), the tetrahedron's a quarter of the way from (1, 1, 0) to the tip.
+  two_cells((double[3]){1, 1, 4}, &straight);
+  assert_float_equal(cw_non_orthogonality_greatest(&straight), 0, 1e-6);
+  two_cells((double[3]){9, 1, 4}, &leaning);
+  assert_float_equal(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
+  cw_face_quality_add(&straight, &leaning);
+  assert_int_equal(leaning.count, 2);
+  assert_float_equal(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
+  assert_float_equal(cw_non_orthogonality_mean(&leaning), acos((1 + sqrt(0.5)) / 2) * 180 / M_PI, 1e-9);
+}
+
+// A triangle in the plane z = 0 with its centre at (off, 0, 0), that reaches over 0.1 m towards x.
+static CwFaceQuality face_at(double off, const double from[3], const double *to, CwFaceKind kind) {
+  const double node[3][3] = {{off + 0.1, 0, 0}, {off - 0.05, 0.05, 0}, {off - 0.05, -0.05, 0}};
+  CwFaceQuality q;
+  cw_face_quality_start(&q);
+  cw_face_quality_face(3, (const double *const[3]){node[0], node[1], node[2]}, from, to, kind, &q);
+  return q;
+}
+
+// The line from cell to cell meets the plane at the origin: the skewness is off over the greatest of 0.1 m and a fifth
+// of the line.
+static void skewness_by_hand(void **state) {
+  (void)state;
+  const double low[2][3] = {{0, 0, -0.1}, {0, 0, -1}}, high[2][3] = {{0, 0, 0.1}, {0, 0, 1}}, extent[2] = {0.1, 0.4};
+  for (int i = 0; i < 2; ++i) {
+    for (int kind = 0; kind < CW_FACE_KINDS; ++kind) {
+      assert_int_equal(face_at(4.01 * extent[i], low[i], high[i], kind).skew[kind], 1);
+      assert_int_equal(face_at(4.01 * extent[i], low[i], high[i], kind).skew[!kind], 0);
+      assert_int_equal(face_at(3.99 * extent[i], low[i], high[i], kind).skew[kind], 0);
+    }
+  }
+  // On a patch the line is the normal through the centroid, and two fifths of it count.
+  assert_int_equal(face_at(4.01 * 0.4, low[1], NULL, CW_FACE_OTHER).skew[CW_FACE_OTHER], 1);
+  assert_int_equal(face_at(3.99 * 0.4, low[1], NULL, CW_FACE_OTHER).skew[CW_FACE_OTHER], 0);
+  assert_int_equal(face_at(3, low[1], NULL, CW_FACE_OTHER).count, 0);
+}
+
+static void weights_by_hand(void **state) {
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    const double below = i < 2 ? 0.049 : 0.051, low[3] = {0, 0, i % 2 ? below - 1 : -below},
+                 high[3] = {0, 0, i % 2 ? below : 1 - below};
+    CwFaceQuality q = face_at(0, low, high, CW_FACE_OF_PRISM);
+    assert_int_equal(q.light[CW_FACE_OF_PRISM], i < 2);
+    assert_int_equal(q.light[CW_FACE_OTHER], 0);
+    cw_face_quality_add(&q, &q);
+    assert_int_equal(q.light[CW_FACE_OF_PRISM], i < 2 ? 2 : 0);
+  }
+}
+
+static void no_face_is_at_no_angle(void **state) {
+  (void)state;
+  CwFaceQuality o;
+  cw_face_quality_start(&o);
+  assert_float_equal(cw_non_orthogonality_greatest(&o), 0, 0);
+  assert_float_equal(cw_non_orthogonality_mean(&o), 0, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_angle_is_that_of_the_centroids),
+      cmocka_unit_test(skewness_by_hand),
+      cmocka_unit_test(weights_by_hand),
+      cmocka_unit_test(no_face_is_at_no_angle),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
