@@ -102,9 +102,11 @@ NUMBER(double, thinner, 0.7, none, "1", "that layers keep about a failed region"
 // Runs (run/).
 NUMBER(double, flat_angle, 12, 0, "degrees",
        "of tetrahedra about which edges become shorter where the boundary allows more: what counts as good")
-NUMBER(double, flat_rare, 5e7, none, "cells",
+NUMBER(double, poor_rare, 5e7, none, "cells",
        "for each region with flat tetrahedra, from which on the mesh is not made anew for them: at 1,000 million cells "
        "two such regions doubled the time")
+NUMBER(double, missed_share, 0.01, 1, "1",
+       "of the wall faces that may miss a first height for which there is room: what counts as good")
 NUMBER(double, thin_reach, 4, none, "h", "about a failure in which layers are thinned; doubled each time")
 
 // Layers (layers/, boundary/).

@@ -27,9 +27,16 @@ static void count_thin(const CwDomain *domain, int32_t t, CwLayerCoverage *of) {
   }
 }
 
-void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
+int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
   const CwColumnTargets *targets = &domain->targets;
   double fraction[CW_LAYERS_MOST + 1];
+  double first = cw_layer_fractions(domain->layers.thickness[vertex], targets->first_made[vertex], targets->layer_count,
+                                    targets->growth[vertex], fraction);
+  return fabs(first / targets->first_height[vertex] - 1) <= FIRST_HEIGHT_TOLERANCE;
+}
+
+void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
+  const CwColumnTargets *targets = &domain->targets;
   for (int32_t i = domain->surface.region_start[region]; i < domain->surface.region_start[region + 1]; i++) {
     int32_t t = domain->surface.region_triangle[i];
     int patch = cw_cad_face_patch(domain->cad, domain->surface.face[t]);
@@ -39,11 +46,8 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
     for (int k = 0; k < 3; k++) {
       int32_t v = domain->layers.triangle[t][k];
       double thickness = domain->layers.thickness[v];
-      double wanted = targets->first_height[v];
-      double first =
-          cw_layer_fractions(thickness, targets->first_made[v], targets->layer_count, targets->growth[v], fraction);
       full &= thickness >= 0.99 * targets->target[v];
-      met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;
+      met &= cw_domain_first_is_met(domain, v);
       if (domain->layers.reason[v] > worst) worst = domain->layers.reason[v];
       of->thickness += thickness / 3;
       of->least = of->faces == 0 && k == 0 ? thickness : fmin(of->least, thickness);

@@ -16,6 +16,9 @@ typedef struct {
   double thin_wanted;               // how many times as tall the thinnest would have to be
   double thin_at[3];                // and a corner of its wall triangle, m
 } CwLayerCoverage;
+// Whether the first layer at a wall vertex is as high as asked, within a tenth.
+int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex);
+
 // Of the patches up to `patches`, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
 

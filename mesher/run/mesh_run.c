@@ -9,7 +9,7 @@
 #include "mesher/parallel/profiler.h"
 #include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
-#include "mesher/run/flat_places.h"
+#include "mesher/run/poor_places.h"
 #include "mesher/run/manifest.h"
 #include "mesher/run/mesh_plan.h"
 #include "mesher/run/pass_state.h"
@@ -22,8 +22,8 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-// Passes, and rounds of shorter edges for layers and for flat tetrahedra.
-enum { PASSES_MOST = 4, FINER_MOST = 6, FLAT_MOST = 4 };
+// Passes with the same places; rounds of shorter edges for layers, and for quality.
+enum { PASSES_MOST = 4, FINER_MOST = 6, POOR_MOST = 4 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
 // The stages of one attempt, in their order. After the one that the run is to end with it is done.
@@ -47,15 +47,15 @@ done:
 // One pass at the present scale. Where equal passages do not come out equal, the impeller is meshed whole; a domain
 // with a plane that grazes a wall, or on which no column leaves one, gets other planes; surfaces and regions that fail
 // are tried again with thinner layers, and with other planes where these do not do. Outcome: CW_OUTCOME_FINER where
-// no layers stand.
-static CwStatus mesh_pass(CwMeshRun *run, CwOutcome *outcome) {
+// no layers stand; where `optional`, that of any attempt for which layers would have to be thinner or planes others.
+static CwStatus mesh_pass(CwMeshRun *run, int optional, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwThinPlaces places = {0};
   for (int attempt = 0;;) {
     *outcome = (CwOutcome){0};
     places.count = 0;
     CW_TRY(mesh_attempt(run, &places, outcome));
-    if (outcome->kind == CW_OUTCOME_DONE || outcome->kind == CW_OUTCOME_FINER) break;
+    if (optional || outcome->kind == CW_OUTCOME_DONE || outcome->kind == CW_OUTCOME_FINER) break;
     if (outcome->kind == CW_OUTCOME_THIN) {
       *outcome = (CwOutcome){0};
       CW_TRY(cw_thin(run, &places, attempt++, outcome));
@@ -81,20 +81,27 @@ static CwCellLaw rounded_law(const CwCellLaw *law) {
   return (CwCellLaw){rounded(law->factor), rounded(law->scale), rounded(law->exponent)};
 }
 
-// What a run that goes on from here has to know, with as many digits as the file keeps.
-static CwStatus keep_state(CwMeshRun *run, int pass, const char *fingerprint, CwPassState *state) {
+// What a run that goes on from here has to know.
+static CwStatus keep_state(CwMeshRun *run, const char *fingerprint, CwPassState *state) {
   CwStatus status = CW_OK;
-  run->prisms = rounded_law(&run->prisms);
-  run->tets = rounded_law(&run->tets);
-  state->pass = pass;
-  state->prisms = run->prisms;
-  state->tets = run->tets;
+  state->pass = run->passes;
   state->whole = run->whole;
   state->finer = run->finer;
   for (int d = 0; d < run->model.domain_count; d++) state->more_regions[d] = run->domain[d].more_regions;
   if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, state));
 done:
   return status;
+}
+
+// What the next mesh follows from, with as many digits as the file keeps.
+static CwPassStart start_of(const CwMeshRun *run) {
+  return (CwPassStart){rounded_law(&run->prisms), rounded_law(&run->tets), run->finer.count};
+}
+
+static void take_laws(CwMeshRun *run, const CwPassStart *start) {
+  run->prisms = start->prisms;
+  run->tets = start->tets;
+  cw_mesh_solve_scale(run);
 }
 
 // From the size fields to the plan, then the factors and the scale of the state. `again`: the fields are not those that
@@ -107,10 +114,8 @@ static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   cw_start_factors(run);
   CW_TRY(cw_mesh_plan(run));
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
-  if (run->stopped || state->pass == 0) goto done;
-  run->prisms = state->prisms;
-  run->tets = state->tets;
-  cw_mesh_solve_scale(run);
+  if (run->stopped) goto done;
+  if (state->start.prisms.factor > 0) take_laws(run, &state->start);
   if (state->whole) CW_TRY(cw_mesh_plan_whole(run, "as in the run that this one goes on from"));
 done:
   return status;
@@ -132,32 +137,54 @@ done:
   return status;
 }
 
-// Asks for shorter edges about flat tetrahedra, some times as long as there are any: cells as large as passages are
-// wide leave no room for better ones. Where the last round was not the best, that one is made again. *again: 1 where
-// there is anything to make.
-static CwStatus shorten_for_flat(CwMeshRun *run, CwPassState *state, int *again) {
+// Asks for shorter edges about flat tetrahedra and missed first heights, as long as these become fewer: where edges are
+// as long as a passage is wide no filling is better. After a second round that did not help the best mesh is made
+// again. met: whether there is a mesh of as many cells as asked; *again: 1 where there is anything to make.
+static CwStatus shorten_for_quality(CwMeshRun *run, CwPassState *state, int met, int *again) {
   CwStatus status = CW_OK;
-  int32_t flat;
-  double deficit = cw_flat_deficit(run, &flat);
-  int best = state->flat_rounds == 0 || deficit < state->flat_least;
-  int more = flat > 0 && (double)run->cells < flat * cw_policy.flat_rare && state->flat_rounds < FLAT_MOST;
-  *again = state->flat_rounds <= FLAT_MOST && (more || !best);
+  int32_t poor = 0;
+  double deficit = met ? cw_poor_deficit(run, &poor) : INFINITY;
+  int best = met && (state->poor_rounds == 0 || deficit < state->least_deficit);
+  int more = met && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare && state->poor_rounds < POOR_MOST &&
+             (best || state->poor_rounds == state->best_round + 1);
+  *again = more || (!best && state->poor_rounds <= POOR_MOST);
   if (best) {
-    state->flat_least = deficit;
-    state->flat_places = run->finer.count;
+    state->best = state->start;
+    state->best_round = state->poor_rounds;
+    state->least_deficit = deficit;
   }
   if (!*again) goto done;
-  state->flat_rounds = more ? state->flat_rounds + 1 : FLAT_MOST + 1;
+  state->poor_rounds = more ? state->poor_rounds + 1 : POOR_MOST + 1;
   if (more) {
-    cw_log(run->context.log, "%d regions have tetrahedra below %.0f degrees; made again with shorter edges there", flat,
-           cw_policy.flat_angle);
-    CW_TRY(cw_finer_at_flat(run));
-    run->retries++;
+    cw_log(run->context.log,
+           "tetrahedra below %.0f degrees in regions, or first heights missed: %d; made again with "
+           "shorter edges there",
+           cw_policy.flat_angle, poor);
+    CW_TRY(cw_finer_at_poor(run));
+    state->start = start_of(run);
   } else {
-    cw_log(run->context.log, "shorter edges did not help the last tetrahedra below %.0f degrees; taken back",
-           cw_policy.flat_angle);
-    run->finer.count = state->flat_places;
+    cw_log(run->context.log, "the last shorter edges did not help; the best mesh is made again");
+    state->start = state->best;
+    run->finer.count = state->best.places;
   }
+  run->retries++;
+done:
+  return status;
+}
+
+// After a pass that has ended with layers: whether it was the last, or one *again with other places.
+static CwStatus judge_pass(CwMeshRun *run, CwPassState *state, int *last, int *again) {
+  CwStatus status = CW_OK;
+  double asked = (double)run->table->mesh.cells, off = (double)run->cells / asked - 1;
+  int met = fabs(off) <= COUNT_TOLERANCE;
+  cw_log(run->context.log, "pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells,
+         100 * off, asked);
+  cw_learn_tets(run);
+  *last = met || run->passes - state->first_pass + 1 >= PASSES_MOST;
+  if (met || (*last && state->poor_rounds > 0)) CW_TRY(shorten_for_quality(run, state, met, again));
+  if (*last && !*again && !met)
+    cw_log_warn(run->context.log, "%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells,
+                100 * off, asked, PASSES_MOST);
 done:
   return status;
 }
@@ -165,38 +192,35 @@ done:
 // Passes until the asked number of cells is met, and no edges have to be shorter.
 static CwStatus run_passes(CwMeshRun *run, const char *fingerprint, CwPassState *state) {
   CwStatus status = CW_OK;
-  double asked = (double)run->table->mesh.cells;
   for (;;) {
     CwOutcome outcome;
-    int pass = run->passes, again = 0;
-    CW_TRY(mesh_pass(run, &outcome));
+    int last = 0, again = 0, optional = state->poor_rounds > 0 && state->poor_rounds <= POOR_MOST;
+    CwStatus made = mesh_pass(run, optional, &outcome);
+    if (made != CW_ERR_MESH || !optional) CW_TRY(made);
     if (run->stopped) break;
-    if (outcome.kind == CW_OUTCOME_FINER) {
+    if (optional && (made != CW_OK || outcome.kind != CW_OUTCOME_DONE)) {
+      cw_log(run->context.log, "no mesh with these: %s", made == CW_OK ? outcome.reason : cw_fail_message());
+      CW_TRY(shorten_for_quality(run, state, 0, &again));
+    } else if (outcome.kind == CW_OUTCOME_FINER) {
       CW_TRY(shorten_for_layers(run, &outcome, state));
+      state->start = start_of(run);
       again = 1;
     } else {
-      double off = (double)run->cells / asked - 1;
-      cw_log(run->context.log, "pass %d: %lld cells, %.2f %% off the asked %.0f", pass, (long long)run->cells,
-             100 * off, asked);
-      cw_learn_tets(run);
-      if (fabs(off) <= COUNT_TOLERANCE) {
-        CW_TRY(shorten_for_flat(run, state, &again));
-        if (!again) break;
-      } else if (pass == PASSES_MOST) {
-        cw_log_warn(run->context.log, "%lld cells made, %.1f %% off the asked %.0f after %d passes",
-                    (long long)run->cells, 100 * off, asked, pass);
-        break;
-      }
+      CW_TRY(judge_pass(run, state, &last, &again));
     }
-    run->passes += !again;
-    CW_TRY(keep_state(run, run->passes, fingerprint, state));
+    if (last && !again) break;
     if (again) {
+      state->first_pass = run->passes;
+      CW_TRY(keep_state(run, fingerprint, state));
       CW_TRY(begin(run, state, 1));
       if (run->stopped) break;
       continue;
     }
+    run->passes++;
+    state->start = start_of(run);
+    CW_TRY(keep_state(run, fingerprint, state));
     for (int d = 0; d < run->model.domain_count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
-    cw_mesh_solve_scale(run);
+    take_laws(run, &state->start);
   }
 done:
   return status;
@@ -218,6 +242,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   if (run->stopped) goto done;
   cw_warn_of_few_cells(run);
   run->passes = state.pass > 0 ? state.pass : 1;
+  if (state.pass == 0) state.first_pass = 1;
   CW_TRY(run_passes(run, fingerprint, &state));
   if (run->stopped) goto done;
   cw_profiler_part(&run->context, "manifest");

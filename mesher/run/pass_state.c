@@ -100,6 +100,16 @@ static int int_in(const json_t *file, const char *key) {
   return (int)json_integer_value(json_object_get(file, key));
 }
 
+static CwPassStart start_in(const json_t *file) {
+  return (CwPassStart){law_in(json_object_get(file, "prisms")), law_in(json_object_get(file, "tetrahedra")),
+                       int_in(file, "places")};
+}
+
+static json_t *start_packed(const CwPassStart *start) {
+  return json_pack("{s:o, s:o, s:i}", "prisms", law_packed(&start->prisms), "tetrahedra", law_packed(&start->tets),
+                   "places", start->places);
+}
+
 CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
@@ -108,16 +118,16 @@ CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *finger
   if (access(path, F_OK) == 0 && cw_sealed_json_read(path, &file) != CW_OK)
     cw_log_warn(log, "%s; the passes begin anew", cw_fail_message());
   const char *of = json_string_value(json_object_get(file, "fingerprint"));
-  CwCellLaw prisms = law_in(json_object_get(file, "prisms")), tets = law_in(json_object_get(file, "tetrahedra"));
-  if (!of || strcmp(of, fingerprint) || int_in(file, "pass") < 1 || prisms.factor <= 0 || tets.factor <= 0) goto done;
+  if (!of || strcmp(of, fingerprint) || int_in(file, "pass") < 1) goto done;
   *state = (CwPassState){.pass = int_in(file, "pass"),
-                         .prisms = prisms,
-                         .tets = tets,
+                         .first_pass = int_in(file, "first_pass"),
+                         .start = start_in(json_object_get(file, "start")),
                          .whole = json_is_true(json_object_get(file, "whole")),
                          .finer_rounds = int_in(file, "finer_rounds"),
-                         .flat_rounds = int_in(file, "flat_rounds"),
-                         .flat_least = json_number_value(json_object_get(file, "flat_least")),
-                         .flat_places = int_in(file, "flat_places")};
+                         .poor_rounds = int_in(file, "poor_rounds"),
+                         .best = start_in(json_object_get(file, "best")),
+                         .least_deficit = json_number_value(json_object_get(file, "least_deficit")),
+                         .best_round = int_in(file, "best_round")};
   for (size_t d = 0; d < CW_DOMAINS_MOST; d++)
     state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
   CW_TRY(places_in(json_object_get(file, "finer"), &state->finer));
@@ -131,11 +141,11 @@ CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, cons
   char path[PATH_SIZE];
   json_t *more = json_array(), *file = NULL;
   for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
-  file = json_pack("{s:s, s:i, s:o, s:o, s:b, s:o, s:i, s:i, s:f, s:i, s:o}", "fingerprint", fingerprint, "pass",
-                   state->pass, "prisms", law_packed(&state->prisms), "tetrahedra", law_packed(&state->tets), "whole",
-                   state->whole, "more_regions", more, "finer_rounds", state->finer_rounds, "flat_rounds",
-                   state->flat_rounds, "flat_least", state->flat_least, "flat_places", state->flat_places, "finer",
-                   places_packed(&state->finer));
+  file = json_pack("{s:s, s:i, s:i, s:o, s:b, s:o, s:i, s:i, s:o, s:f, s:i, s:o}", "fingerprint", fingerprint, "pass",
+                   state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start), "whole",
+                   state->whole, "more_regions", more, "finer_rounds", state->finer_rounds, "poor_rounds",
+                   state->poor_rounds, "best", start_packed(&state->best), "least_deficit", state->least_deficit,
+                   "best_round", state->best_round, "finer", places_packed(&state->finer));
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_sealed_json_write(file, path));

@@ -10,14 +10,22 @@
 #include "pipeline/log.h"
 #include "pipeline/model.h"
 
+// What a mesh follows from, beside the case and its geometry.
 typedef struct {
-  int pass;                              // the pass to run, from 1; 0: none
-  CwCellLaw prisms, tets;                // as learned
+  CwCellLaw prisms, tets; // as learned; factor 0: not yet
+  int32_t places;         // of `finer` that its size fields have
+} CwPassStart;
+
+typedef struct {
+  int pass;       // the pass to run, from 1; 0: none
+  int first_pass; // of those with these places
+  CwPassStart start;
   int whole;                             // 1: the symmetry of the impeller was given up
   int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
-  int finer_rounds, flat_rounds;         // of shorter edges: for layers, and for flat tetrahedra
-  double flat_least;                     // the least that these were short of their angles after a round, and the
-  int32_t flat_places;                   // number of places then
+  int finer_rounds, poor_rounds;         // of shorter edges: for layers, and for quality
+  CwPassStart best;                      // of the mesh with the least deficit (poor_places)
+  double least_deficit;
+  int best_round; // of poor_rounds
   CwFinerPlaces finer;
 } CwPassState;
 

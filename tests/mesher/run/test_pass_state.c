@@ -64,6 +64,12 @@ static int remove_run(void **state) {
   return rmdir(run);
 }
 
+static void check_start(const CwPassStart *read, const CwPassStart *written) {
+  assert_memory_equal(&read->prisms, &written->prisms, sizeof read->prisms);
+  assert_memory_equal(&read->tets, &written->tets, sizeof read->tets);
+  assert_int_equal(read->places, written->places);
+}
+
 static void state_comes_back_as_written(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
@@ -71,14 +77,15 @@ static void state_comes_back_as_written(void **unused) {
   assert_int_equal(cw_pass_fingerprint(&table, run, &domains, fingerprint), CW_OK);
   CwFinerPlace place[2] = {{0, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, {{1, 2, 3}, 0.1 / 3}}};
   const CwPassState written = {.pass = 3,
-                               .prisms = {12.2450980392, 1.2, 0.1},
-                               .tets = {10.8712345678, 1.3, -0.5},
+                               .first_pass = 2,
+                               .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 2},
                                .whole = 1,
                                .more_regions = {0, 2},
                                .finer_rounds = 1,
-                               .flat_rounds = 4,
-                               .flat_least = 2. / 3,
-                               .flat_places = 1,
+                               .poor_rounds = 4,
+                               .best = {{11.5, 1.1, 0}, {10.25, 1.1, 0}, 1},
+                               .least_deficit = 2. / 3,
+                               .best_round = 3,
                                .finer = {.count = 2, .place = place}};
   assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
   CwPassState read = {0};
@@ -86,12 +93,13 @@ static void state_comes_back_as_written(void **unused) {
   assert_int_equal(read.pass, 3);
   assert_int_equal(read.whole, 1);
   assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
-  assert_memory_equal(&read.prisms, &written.prisms, sizeof read.prisms);
-  assert_memory_equal(&read.tets, &written.tets, sizeof read.tets);
+  assert_int_equal(read.first_pass, 2);
+  check_start(&read.start, &written.start);
+  check_start(&read.best, &written.best);
   assert_int_equal(read.finer_rounds, 1);
-  assert_int_equal(read.flat_rounds, 4);
-  assert_float_equal(read.flat_least, written.flat_least, 0);
-  assert_int_equal(read.flat_places, 1);
+  assert_int_equal(read.poor_rounds, 4);
+  assert_float_equal(read.least_deficit, written.least_deficit, 0);
+  assert_int_equal(read.best_round, 3);
   assert_int_equal(read.finer.count, 2);
   for (int i = 0; i < 2; i++) { // to the last bit
     assert_int_equal(read.finer.place[i].domain, place[i].domain);

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "mesher/run/flat_places.h"
+#include "mesher/run/poor_places.h"
 
 // Of five regions one has half of the 12 degrees that are asked, one a third of the 9 that its boundary allows; one is
 // as flat as its boundary asks, two have what is asked.
@@ -22,11 +22,11 @@ static void what_lacks_angle_counts(void **state) {
   }
   run.domain[0].plan.region_count = 5;
   run.summary[0] = made;
-  assert_float_equal(cw_flat_deficit(&run, &count), 1. / 2 + 2. / 3, 1e-12);
+  assert_float_equal(cw_poor_deficit(&run, &count), 1. / 2 + 2. / 3, 1e-12);
   assert_int_equal(count, 2);
   made[1].quality.dihedral_least = 12;
   made[4].dihedral_allowed = 3;
-  assert_float_equal(cw_flat_deficit(&run, &count), 0, 0);
+  assert_float_equal(cw_poor_deficit(&run, &count), 0, 0);
   assert_int_equal(count, 0);
 }
 
