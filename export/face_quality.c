@@ -14,36 +14,75 @@ void cw_face_quality_start(CwFaceQuality *q) {
   *q = (CwFaceQuality){.least = 1};
 }
 
-static double dot(const double a[3], const double b[3]) {
+static inline double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Whether a face is skew whose centre lies `off` from where the line meets it, of which `extent` is free.
-static int is_skew(int count, const double *const *x, const double centre[3], const double off[3], double extent) {
-  double length = sqrt(dot(off, off)), most = extent;
-  if (length <= CW_SKEWNESS_MOST * extent) return 0;
+// The line of a face from centroid to centroid, on a patch to the foot of the centroid.
+typedef struct {
+  double squares, along, own; // of the area vector with itself, with the line, with the way to the centre
+  double off[3], off_squares; // the centre from where the line meets the face
+  double line_squares;
+} Line;
+
+static inline Line line_of(const double area[3], const double centre[3], const double from[3], const double *to) {
+  Line line;
+  double d[3];
+  const double c[3] = {centre[0] - from[0], centre[1] - from[1], centre[2] - from[2]};
+  line.own = dot(area, c);
+  line.squares = dot(area, area);
+  if (to) {
+    for (int k = 0; k < 3; ++k) d[k] = to[k] - from[k];
+  } else {
+    for (int k = 0; k < 3; ++k) d[k] = line.squares > 0 ? line.own / line.squares * area[k] : 0;
+  }
+  line.along = dot(area, d);
+  double share = line.along != 0 ? line.own / line.along : 0;
+  for (int k = 0; k < 3; ++k) line.off[k] = c[k] - share * d[k];
+  line.off_squares = dot(line.off, line.off);
+  line.line_squares = dot(d, d);
+  return line;
+}
+
+// Whether the face parts the line as unevenly as `least`.
+static inline int is_light(const Line *line, double least) {
+  double near = fabs(line->own), far = fabs(line->along - line->own), least_part = least * (near + far);
+  return near < least_part || far < least_part;
+}
+
+// Whether a face is skew, of which `extent` of the line is free.
+static int is_skew(int count, const double *const *x, const double centre[3], const Line *line, double extent) {
+  double length = sqrt(line->off_squares), most = extent * sqrt(line->line_squares);
   for (int i = 0; i < count; ++i) {
     const double to[3] = {x[i][0] - centre[0], x[i][1] - centre[1], x[i][2] - centre[2]};
-    most = fmax(most, fabs(dot(off, to)) / length);
+    most = fmax(most, fabs(dot(line->off, to)) / length);
   }
   return length > CW_SKEWNESS_MOST * most;
 }
 
 void cw_face_quality_face(int count, const double *const *x, const double from[3], const double *to, CwFaceKind kind,
                           CwFaceQuality *q) {
-  double centre[3], area[3], d[3], off[3];
-  cw_face_centre(count, x, centre, area);
-  const double c[3] = {centre[0] - from[0], centre[1] - from[1], centre[2] - from[2]};
-  double own = dot(area, c), squares = dot(area, area);
-  for (int k = 0; k < 3; ++k) d[k] = to ? to[k] - from[k] : squares > 0 ? own / squares * area[k] : 0;
-  double along = dot(area, d), share = along != 0 ? own / along : 0;
-  for (int k = 0; k < 3; ++k) off[k] = c[k] - share * d[k];
-  double distance = sqrt(dot(d, d));
-  q->skew[kind] += is_skew(count, x, centre, off, (to ? LEAST_EXTENT : LEAST_EXTENT_ON_PATCH) * distance);
+  const double *a = x[0], *b = x[1], *c = x[2], *d = count == 3 ? a : x[3];
+  const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
+  double area[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}, centre[3];
+  double extent = to ? LEAST_EXTENT : LEAST_EXTENT_ON_PATCH, limit = CW_SKEWNESS_MOST * extent;
+  for (int k = 0; k < 3; ++k) centre[k] = count == 3 ? (a[k] + b[k] + c[k]) / 3 : (a[k] + b[k] + c[k] + d[k]) / 4;
+  Line line = line_of(area, centre, from, to);
+  // The centre of a quadrilateral is off the mean of its nodes by a third of what that is off where its diagonals
+  // cross: less than a sixth of the longer one. Only what may matter is measured so.
+  double near_limit = count == 3 ? limit : limit / 2;
+  int may_matter =
+      line.off_squares > near_limit * near_limit * line.line_squares || (to && is_light(&line, 2 * CW_WEIGHT_LEAST));
+  if (may_matter && count == 4) {
+    cw_face_centre(count, x, centre, area);
+    line = line_of(area, centre, from, to);
+  }
+  if (may_matter && line.off_squares > limit * limit * line.line_squares)
+    q->skew[kind] += is_skew(count, x, centre, &line, extent);
   if (!to) return;
-  double near = fabs(own), far = fabs(along - own);
-  q->light[kind] += fmin(near, far) < CW_WEIGHT_LEAST * (near + far);
-  double cosine = squares > 0 && distance > 0 ? along / (sqrt(squares) * distance) : 0;
+  if (may_matter) q->light[kind] += is_light(&line, CW_WEIGHT_LEAST);
+  double product = line.squares * line.line_squares;
+  double cosine = product > 0 ? line.along / sqrt(product) : 0;
   q->least = cosine < q->least ? cosine : q->least;
   q->sum += cosine;
   ++q->count;

@@ -96,10 +96,15 @@ static CwStatus write_inner(const Writer *w, const CwFaceStretch *all, const CwL
   const CwDivision *v = &w->mesh->division;
   const int32_t *corner = all->corner;
   const int64_t number = cw_face_count(w->mesh->layout.region[w->region]) + 1;
-  const int mine = w->files->part;
+  const int mine = w->files->part, whole = !cw_foam_is_divided(w->mesh);
+  const int64_t first_cell = w->mesh->assembly->places[w->region].cell;
   CW_TRY(stretch_new(count, before, &s));
   for (int64_t f = 0; f < all->faces; corner += all->sides[f++]) {
     int there;
+    if (whole) { // one part, whose cells are numbered as those of all regions
+      stretch_add(&s, w, corner, all->sides[f], first_cell + all->cell[f], all->across[f], number + f);
+      continue;
+    }
     const int here = v->pieces[v->first_piece[w->region] + w->piece_of[all->cell[f]]].part;
     const int64_t own = w->cell[all->cell[f]], other = other_cell(w, all, f, &there);
     if (!link && here == mine && there == mine)

@@ -57,9 +57,10 @@ CwStatus cw_wall_curves_make(const CwContext *context, const CwBoundaryInput *in
 // with edges of `largest` (m; 0: none) are halved.
 CwStatus cw_surface_mesh_face(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face, double largest,
                               void **bytes, int64_t *size);
-// Joins the meshes of all wall faces (bytes[face]; NULL for open patches). Collective.
+// Joins the meshes of all wall faces (bytes[face]; NULL for open patches). Collective. Outcome: that of the first face
+// without a mesh; CW_OUTCOME_REPLAN where a triangle reaches over a partition plane.
 CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *in, const CwWallCurves *curves,
-                              void *const *bytes, CwSurfaceMesh *surface);
+                              void *const *bytes, CwSurfaceMesh *surface, CwOutcome *outcome);
 
 // Grows the layer envelope to `target` thicknesses (m, per wall vertex) and sets the layer top; for its shape columns
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
@@ -75,14 +76,15 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
 CwStatus cw_free_curves_make(const CwBoundaryInput *in, const CwWallCurves *curves, const CwSurfaceMesh *surface,
                              const CwLayers *layers, CwFreeCurves *free_curves, CwOutcome *outcome);
 
-// Meshes an open patch, or the polygon of outline `index` (any rank); results for cw_interfaces_make.
+// Meshes an open patch, or the polygon of outline `index` (any rank); results for cw_interfaces_make. Outcome: that of
+// the first open patch without a mesh, or CW_OUTCOME_REPLAN where an interface has none.
 CwStatus cw_interfaces_open_patch(const CwBoundaryInput *in, const CwWallCurves *curves,
                                   const CwFreeCurves *free_curves, int32_t face, void **bytes, int64_t *size);
 CwStatus cw_interfaces_polygon(const CwBoundaryInput *in, const CwFreeCurves *free_curves, int32_t index, void **bytes,
                                int64_t *size);
 // Joins these. Takes nodes and outlines over: free_curves is empty after.
 CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves, void *const *open_patch_bytes,
-                            void *const *interface_bytes, CwInterfaces *interfaces);
+                            void *const *interface_bytes, CwInterfaces *interfaces, CwOutcome *outcome);
 
 // Brings x to the nearest point of what holds the column of a wall vertex: a plane, an open patch, a curve. `uv`: where
 // on the open patch the search begins; else not read.

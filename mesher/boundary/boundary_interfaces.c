@@ -354,7 +354,7 @@ static void take_over(CwFreeCurves *free_curves, CwInterfaces *interfaces) {
 }
 
 CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves, void *const *open_patch_bytes,
-                            void *const *interface_bytes, CwInterfaces *interfaces) {
+                            void *const *interface_bytes, CwInterfaces *interfaces, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPatchBlock block;
   const CwPeriodicImages *images = in->images;
@@ -363,11 +363,16 @@ CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves
   for (int32_t f = 0; f < faces; f++) {
     if (!open_patch_bytes[f]) continue;
     cw_patch_block(open_patch_bytes[f], &block);
+    *outcome = block.outcome;
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     open_patches += block.triangle_count * cw_image_face_copies(images, f);
   }
   for (int32_t i = 0; i < interfaces->outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
+    *outcome = block.outcome;
+    if (outcome->kind != CW_OUTCOME_DONE) outcome->kind = CW_OUTCOME_REPLAN; // it lies on a plane
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     on_planes += block.triangle_count * cw_image_copies(images, &interfaces->outline_images, i);
   }
   CW_NEW(interfaces->open_patch.triangle, open_patches);

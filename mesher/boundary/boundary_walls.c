@@ -88,27 +88,28 @@ typedef struct {
 
 // No triangle may reach over a partition plane: then a cut curve is missing. Periodic images are as their first.
 static CwStatus check_triangle(void *context, int32_t t, void *out) {
-  CwStatus status = CW_OK;
   const Made *made = context;
   const CwBoundaryInput *in = made->in;
   const CwSurfaceMesh *surface = made->surface;
-  if (surface->source[t] != t) goto done;
-  for (int k = 0; k < 3; k++) {
-    const double *x = surface->x[surface->triangle[t][k]];
-    CW_REQUIRE(cw_plan_in_region(in->plan, surface->region[t], x, ON_PLANE), CW_ERR_MESH,
-               "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
-               cw_cad_face_name(in->cad, surface->face[t]), CW_MM(x), surface->region[t] + 1);
-  }
   *(uint8_t *)out = 1;
-done:
-  return status;
+  for (int k = 0; surface->source[t] == t && k < 3; k++) {
+    const double *x = surface->x[surface->triangle[t][k]];
+    if (!cw_plan_in_region(in->plan, surface->region[t], x, ON_PLANE)) *(uint8_t *)out = 0;
+  }
+  return CW_OK;
 }
 
-static CwStatus check_regions(const CwContext *context, Made *made) {
+static CwStatus check_regions(const CwContext *context, Made *made, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  const CwSurfaceMesh *surface = made->surface;
   uint8_t *checked = NULL;
   CW_NEW(checked, made->surface->triangle_count);
   CW_TRY(cw_parallel_for(context, "walls checked", made->surface->triangle_count, 1, check_triangle, made, checked));
+  for (int32_t t = 0; t < surface->triangle_count; t++) {
+    CW_END_UNLESS(checked[t], outcome, CW_OUTCOME_REPLAN, surface->x[surface->triangle[t][0]],
+                  "a triangle of face %s reaches out of region %d: a cut curve is missing",
+                  cw_cad_face_name(made->in->cad, surface->face[t]), surface->region[t] + 1);
+  }
 done:
   free(checked);
   return status;
@@ -196,7 +197,7 @@ done:
 }
 
 CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *in, const CwWallCurves *curves,
-                              void *const *bytes, CwSurfaceMesh *surface) {
+                              void *const *bytes, CwSurfaceMesh *surface, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int32_t faces = cw_cad_face_count(in->cad), total = 0, vertices = curves->vertex_count;
   CwPatchBlock block;
@@ -205,6 +206,8 @@ CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *i
     if (!bytes[f]) continue;
     int32_t copies = cw_image_face_copies(in->images, f);
     cw_patch_block(bytes[f], &block);
+    *outcome = block.outcome;
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     total += block.triangle_count * copies;
     vertices += block.point_count * copies;
   }
@@ -214,7 +217,7 @@ CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *i
     cw_patch_block(bytes[f], &block);
     CW_TRY(merge_wall(in, f, &block, surface));
   }
-  CW_TRY(check_regions(context, &(Made){in, surface}));
+  CW_TRY_STAGE(check_regions(context, &(Made){in, surface}, outcome), outcome);
   CW_TRY(list_regions(surface, in->plan->region_count));
 done:
   return status;

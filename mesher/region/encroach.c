@@ -196,6 +196,7 @@ CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, C
   Growing growing = {.input = *patch, .room = patch->point_count};
   const double scale[2] = {1, 1};
   int32_t encroached = 0, added = 0;
+  CwOutcome outcome = {0};
   *refined = (CwEncroachRefined){0};
   CW_NEW(growing.uv, patch->point_count);
   CW_NEW(growing.x, patch->point_count);
@@ -205,7 +206,8 @@ CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, C
   growing.input.x = (const double(*)[3])growing.x;
   for (;; refined->rounds++) {
     cw_cdt_free(&cdt);
-    CW_TRY(cw_cdt_make(&growing.input, scale, &cdt));
+    CW_TRY(cw_cdt_make(&growing.input, scale, &cdt, &outcome));
+    CW_REQUIRE(outcome.kind == CW_OUTCOME_DONE, CW_ERR_MESH, "%s", outcome.reason);
     if (refined->rounds == ROUNDS) break;
     CW_TRY(add_centres(&growing, &cdt, beside, &encroached, &added));
     if (refined->rounds == 0) refined->encroached = encroached;

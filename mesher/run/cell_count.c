@@ -22,17 +22,17 @@ static double prisms_per_layer(double asked) {
 // Tetrahedra for each volume of h^3, likewise. A lattice is 8.2; those that fit it to the layer top come on top. In
 // coarse meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the layer top:
 // sizes change within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells,
-// within 5 % in others). In fine ones the share of the surfaces falls with the scale (measured in the paper's: 12.9 at
-// scale 0.70, 11.75 at 0.505, 10.89 at 0.357, 9.74 at 0.204, 9.65 at 0.180 and 9.48 at 0.094, which are 3 to 1000
-// million cells; within 1.2 %).
+// within 5 % in others). In fine ones the share of the surfaces falls with the scale (measured in the paper's: 12.95 at
+// scale 0.760, 11.48 at 0.509, 10.66 at 0.358, 9.74 at 0.204, 9.65 at 0.180 and 9.26 at 0.094, which are 3 to 1000
+// million cells; within 0.6 %).
 static double tets_per_volume(const CwMeshRun *run, double scale) {
   double walls = 0, volume = 0;
-  if (scale <= 1) return 8.45 + 6.4 * scale + 0.0033 / (scale * scale);
+  if (scale <= 1) return 8.605 + 5.71 * scale + 0.001 / (scale * scale);
   for (int d = 0; d < run->model.domain_count; d++) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);
   }
-  return 8.2 + 1.33 * log(fmin((double)run->table->mesh.cells, 1.5e6) / 1e6) + 4.65 * scale * walls / volume;
+  return 8.65 + 1.7 * log(fmin((double)run->table->mesh.cells, 1.5e6) / 1e6) + 4.65 * scale * walls / volume;
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
@@ -67,19 +67,39 @@ void cw_mesh_set_scale(CwMeshRun *run, double scale) {
   for (int d = 0; d < run->model.domain_count; d++) cw_size_set_scale(run->domain[d].size, scale);
 }
 
-// By secants in the logarithms, the first of a slope of -2.7, about which cells go with the scale.
-void cw_mesh_solve_scale(CwMeshRun *run) {
-  double asked = (double)run->table->mesh.cells, slope = -2.7, before = 0, step = 0;
-  run->scale = 1; // the same bits, whatever scale was before
+// The scale at which there are as many cells as asked, by secants in the logarithms from `start` on, the first of a
+// slope about which cells go with the scale.
+static double solve_scale(const CwMeshRun *run, double (*cells)(const CwMeshRun *, double), double start,
+                          double slope) {
+  double asked = (double)run->table->mesh.cells, before = 0, step = 0, scale = start;
   for (int i = 0; i < SCALE_STEPS; i++) {
-    double off = log(all_cells_at(run, run->scale) / asked);
+    double off = log(cells(run, scale) / asked);
     if (fabs(off) < 1e-12) break;
     if (i > 0 && off != before) slope = fmin(fmax((off - before) / step, -6), -1);
     step = fmin(fmax(-off / slope, -1), 1);
     before = off;
-    run->scale *= exp(step);
+    scale *= exp(step);
   }
-  cw_mesh_set_scale(run, run->scale);
+  return scale;
+}
+
+void cw_mesh_solve_scale(CwMeshRun *run) {
+  // From 1, to the same bits whatever scale was before.
+  cw_mesh_set_scale(run, solve_scale(run, all_cells_at, 1, -2.7));
+}
+
+static double cells_on_walls(const CwMeshRun *run, double scale) {
+  double cells = 0;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    cells += (double)domain->layer_count * domain->surface.triangle_count +
+             cw_cell_law_at(&run->tets, scale) * cw_domain_tet_integral(domain, scale) / (scale * scale * scale);
+  }
+  return cells;
+}
+
+void cw_mesh_fit_volume(CwMeshRun *run) {
+  cw_mesh_set_scale(run, solve_scale(run, cells_on_walls, run->scale, -2));
 }
 
 static void set_layers(CwMeshRun *run, const int *count, double y_plus_auto) {

@@ -14,6 +14,8 @@ double cw_predicted_cells(const CwMeshRun *run, int domain);
 // Sets the scale of the size fields of all domains; or that with which the predicted count is the asked one.
 void cw_mesh_set_scale(CwMeshRun *run, double scale);
 void cw_mesh_solve_scale(CwMeshRun *run);
+// Once the walls are meshed: the scale with which the tetrahedra make up for what their triangles are off.
+void cw_mesh_fit_volume(CwMeshRun *run);
 // Sets the layers with which that starts: as many as the case gives, or the fewest. A y+ that it leaves open is the
 // least that it gives anywhere, so that walls are resolved, or not, together; where it gives none, of the log layer.
 void cw_start_layers(CwMeshRun *run);

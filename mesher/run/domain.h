@@ -13,7 +13,8 @@
 #include "mesher/thickness/wall_targets.h"
 #include "pipeline/log.h"
 
-#define CW_LAYER_SHARE 1.0 // before the walls are known
+// Before the walls are known; 0.95 to 1 in the domains of the paper's pump.
+#define CW_LAYER_SHARE 0.98
 
 // The layers over a piece of wall, where h is nearly one.
 typedef struct {

@@ -20,8 +20,7 @@ static double lacks_angle(const CwMeshRun *run, int d, int32_t r) {
 
 // Of a patch that is not told of beforehand.
 static int is_judged(const CwDomain *domain, int patch) {
-  return cw_cad_patch_kind(domain->cad, patch) == CW_PATCH_WALL &&
-         domain->patch_target[patch].first.source != CW_FIRST_FITTED;
+  return domain->patch[patch].kind == CW_PATCH_WALL && domain->patch_target[patch].first.source != CW_FIRST_FITTED;
 }
 
 // How many times missed_share of the faces miss their first height beyond the first time.
@@ -29,7 +28,7 @@ static double lacks_first_heights(const CwMeshRun *run) {
   double faces = 0, missed = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
-    for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    for (int p = 0; p < run->model.domain[d].patch_count; p++) {
       for (int32_t r = 0; is_judged(domain, p) && r < domain->plan.region_count; r++) {
         faces += run->summary[d][r].coverage[p].faces;
         missed += run->summary[d][r].coverage[p].faces - run->summary[d][r].coverage[p].first_met;

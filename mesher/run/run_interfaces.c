@@ -52,7 +52,9 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   cw_profiler_part(&run->context, "inner surfaces merged");
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_interfaces_make(&run->domain[d].input, &run->domain[d].free_curves, results.bytes[d],
-                              results.bytes[d] + faces[d], &run->domain[d].interfaces));
+                              results.bytes[d] + faces[d], &run->domain[d].interfaces, outcome));
+    outcome->domain = d;
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     CW_AUDIT(cw_interfaces_audit(&run->domain[d].interfaces, run->domain[d].plan.region_count));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }

@@ -68,6 +68,7 @@ typedef struct {
   double y_plus_auto;                      // where the case leaves it open
   CwCellLaw prisms, tets;                  // prisms of a layer, tetrahedra: as the passes learn them
   double scale;                            // of the size field
+  double surface_scale;                    // with which the walls were meshed
   double gradation;                        // of the size field at scale 1
   double wall_scale;                       // at which walls limit its edges; 0: they do not
   CwFinerPlaces finer;                     // where the fields are to be finer than the case asks

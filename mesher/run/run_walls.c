@@ -15,7 +15,7 @@
 #include "pipeline/log.h"
 
 enum { WALL_PASSES = 3 };
-static const double WALL_TOLERANCE = 0.01; // of the asked number of cells, before the volume is filled
+static const double WALL_TOLERANCE = 0.03; // of the asked number of cells, that tetrahedra can make up for
 
 // Boundaries with all wall curves, those along interfaces divided alike on both sides. Outcome: that of
 // cw_domain_start.
@@ -48,6 +48,7 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwMeshTask *task = NULL;
   int32_t count, faces[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++) again |= run->most_thickness[d] != NULL;
+  if (again) cw_mesh_set_scale(run, run->surface_scale);
   CW_TRY(cw_face_tasks(run, 1, &count, &task));
   cw_face_counts(run, faces);
   for (int pass = 0;; pass++) {
@@ -61,7 +62,9 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     cw_profiler_part(&run->context, "walls merged");
     for (int d = 0; d < run->model.domain_count; d++) {
       CW_TRY(cw_surface_mesh_make(&run->context, &run->domain[d].input, &run->domain[d].wall_curves, results.bytes[d],
-                                  &run->domain[d].surface));
+                                  &run->domain[d].surface, outcome));
+      outcome->domain = d;
+      if (outcome->kind != CW_OUTCOME_DONE) goto done;
       CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].surface, run->domain[d].plan.region_count));
     }
     CW_TRY(cw_run_thickness(run));
@@ -78,6 +81,9 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
     cw_mesh_solve_scale(run);
   }
+  if (run->stopped) goto done;
+  run->surface_scale = run->scale;
+  if (fabs(cw_predicted_off(run)) <= WALL_TOLERANCE) cw_mesh_fit_volume(run);
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     for (int32_t v = 0; run->most_thickness[d] && v < domain->surface.vertex_count; v++) {

@@ -47,8 +47,6 @@ Pair sorted_pair(int32_t a, int32_t b) {
 
 // The place of a point for messages: mm, and (u,v).
 #define PLACE "(%.6g, %.6g, %.6g) mm, (u,v) = (%.9g, %.9g)"
-// What helps where edges are too long for what they go round, or cuts leave the layers no room.
-#define ADVICE "; ask for more cells, for fewer regions or for thinner layers"
 #define PLACE_OF(p) CW_MM(input->x[p]), input->uv[p][0], input->uv[p][1]
 
 CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {
@@ -87,13 +85,14 @@ done:
 
 // Names the given edge that crosses or touches edge e. Only called once something is wrong, so a plain search
 // does.
-CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &vertex, int32_t e) {
+void tell_crossing(const CwPatchInput *input, const std::vector<Vertex> &vertex, int32_t e, CwOutcome *outcome) {
   int32_t a = input->edge[e][0], b = input->edge[e][1];
   auto at = [&](int32_t p) { return vertex[size_t(p)]->point(); };
   for (int32_t p = 0; p < input->point_count; p++)
     if (p != a && p != b && CGAL::are_strictly_ordered_along_line(at(a), at(p), at(b)))
-      return CW_FAIL(CW_ERR_MESH, "patch %s: point %d at " PLACE " lies on edge %d (points %d and %d)" ADVICE,
-                     input->name, p, PLACE_OF(p), e, a, b);
+      return cw_outcome_set(outcome, CW_OUTCOME_FINER, input->x[p],
+                            "patch %s: point %d at (u,v) = (%.9g, %.9g) lies on edge %d (points %d and %d)",
+                            input->name, p, input->uv[p][0], input->uv[p][1], e, a, b);
   for (int32_t f = 0; f < input->edge_count; f++) {
     int32_t c = input->edge[f][0], d = input->edge[f][1];
     if (f == e || c == a || c == b || d == a || d == b) continue;
@@ -102,19 +101,19 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
         CGAL::orientation(at(a), at(b), at(c)) == CGAL::orientation(at(a), at(b), at(d)))
       continue;
     double t = ca == cb ? 0.5 : ca / (ca - cb), x[3], uv[2];
-    for (int k = 0; k < 3; k++) x[k] = cw_mm((1 - t) * input->x[a][k] + t * input->x[b][k]);
+    for (int k = 0; k < 3; k++) x[k] = (1 - t) * input->x[a][k] + t * input->x[b][k];
     for (int k = 0; k < 2; k++) uv[k] = (1 - t) * input->uv[a][k] + t * input->uv[b][k];
-    return CW_FAIL(CW_ERR_MESH,
-                   "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE ADVICE,
-                   input->name, e, a, b, f, c, d, x[0], x[1], x[2], uv[0], uv[1]);
+    return cw_outcome_set(outcome, CW_OUTCOME_FINER, x,
+                          "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at (u,v) = (%.9g, "
+                          "%.9g)",
+                          input->name, e, a, b, f, c, d, uv[0], uv[1]);
   }
-  return CW_FAIL(CW_ERR_MESH, "patch %s: edge %d (points %d and %d) crosses another near " PLACE ADVICE, input->name, e,
-                 a, b, PLACE_OF(a));
+  cw_outcome_set(outcome, CW_OUTCOME_FINER, input->x[a], "patch %s: edge %d (points %d and %d) crosses another",
+                 input->name, e, a, b);
 }
 
-CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangulation &mesh,
-                       std::vector<Vertex> &vertex) {
-  CwStatus status = CW_OK;
+void insert_points(const CwPatchInput *input, const double scale[2], Triangulation &mesh, std::vector<Vertex> &vertex,
+                   CwOutcome *outcome) {
   std::vector<std::pair<Point, int32_t>> points(size_t(input->point_count));
   for (int32_t p = 0; p < input->point_count; p++)
     points[size_t(p)] = {Point(scale[0] * input->uv[p][0], scale[1] * input->uv[p][1]), p};
@@ -122,28 +121,28 @@ CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangu
   vertex.assign(points.size(), Vertex());
   for (Vertex v : mesh.finite_vertex_handles()) vertex[size_t(v->info())] = v;
   for (int32_t p = 0; p < input->point_count; p++)
-    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_MESH,
-               "patch %s: point %d at " PLACE " coincides with another" ADVICE, input->name, p, PLACE_OF(p));
-done:
-  return status;
+    if (vertex[size_t(p)] == Vertex())
+      return cw_outcome_set(outcome, CW_OUTCOME_FINER, input->x[p],
+                            "patch %s: point %d at (u,v) = (%.9g, %.9g) coincides with another", input->name, p,
+                            input->uv[p][0], input->uv[p][1]);
 }
 
-CwStatus insert_edges(const CwPatchInput *input, Triangulation &mesh, const std::vector<Vertex> &vertex) {
-  CwStatus status = CW_OK;
+void insert_edges(const CwPatchInput *input, Triangulation &mesh, const std::vector<Vertex> &vertex,
+                  CwOutcome *outcome) {
   std::vector<std::pair<Pair, int32_t>> pairs(size_t(input->edge_count));
   for (int32_t e = 0; e < input->edge_count; e++)
     pairs[size_t(e)] = {sorted_pair(input->edge[e][0], input->edge[e][1]), e};
   std::sort(pairs.begin(), pairs.end());
   for (size_t k = 1; k < pairs.size(); k++)
-    CW_REQUIRE(pairs[k].first != pairs[k - 1].first, CW_ERR_MESH,
-               "patch %s: the edge of points %d and %d at " PLACE " is given twice (%d and %d)" ADVICE, input->name,
-               pairs[k].first.first, pairs[k].first.second, PLACE_OF(pairs[k].first.first), pairs[k - 1].second,
-               pairs[k].second);
+    if (pairs[k].first == pairs[k - 1].first)
+      return cw_outcome_set(outcome, CW_OUTCOME_FINER, input->x[pairs[k].first.first],
+                            "patch %s: the edge of points %d and %d is given twice (%d and %d)", input->name,
+                            pairs[k].first.first, pairs[k].first.second, pairs[k - 1].second, pairs[k].second);
   for (int32_t e = 0; e < input->edge_count; e++) {
     try {
       mesh.insert_constraint(vertex[size_t(input->edge[e][0])], vertex[size_t(input->edge[e][1])]);
     } catch (const Triangulation::Intersection_of_constraints_exception &) {
-      return fail_crossing(input, vertex, e);
+      return tell_crossing(input, vertex, e, outcome);
     }
   }
   for (int32_t e = 0; e < input->edge_count; e++) {
@@ -151,10 +150,8 @@ CwStatus insert_edges(const CwPatchInput *input, Triangulation &mesh, const std:
     int side = 0;
     // An edge through a point has been cut there and is not there as a whole.
     if (!mesh.is_edge(vertex[size_t(input->edge[e][0])], vertex[size_t(input->edge[e][1])], face, side))
-      return fail_crossing(input, vertex, e);
+      return tell_crossing(input, vertex, e, outcome);
   }
-done:
-  return status;
 }
 
 // Floods from the infinite face; each boundary edge on the way turns the parity.
@@ -238,7 +235,7 @@ void find_components(CwCdt *cdt) {
 
 } // namespace
 
-CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cdt) {
+CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cdt, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   *cdt = CwCdt();
   // No exception may pass into C.
@@ -247,8 +244,9 @@ CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cd
     std::vector<Vertex> vertex;
     CW_TRY(check_numbers(input, scale));
     CW_TRY(check_closed(input));
-    CW_TRY(insert_points(input, scale, mesh, vertex));
-    CW_TRY(insert_edges(input, mesh, vertex));
+    insert_points(input, scale, mesh, vertex, outcome);
+    if (outcome->kind == CW_OUTCOME_DONE) insert_edges(input, mesh, vertex, outcome);
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     find_parity(input, mesh);
     CW_TRY(take_inside(input, mesh, cdt));
     find_components(cdt);

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/outcome.h"
 #include "mesher/surface/patch_input.h"
 #include "pipeline/status.h"
 
@@ -24,9 +25,10 @@ typedef struct {
 
 // Triangulates the plane of (scale[0] u, scale[1] v) (both scales above 0) and keeps the triangles that lie
 // inside by parity through the boundary edges, cut into components by all given edges. Fails with
-// CW_ERR_MESH and the place where an index or a number is wrong, points coincide, an edge is given twice,
-// edges cross or a point lies on an edge, the boundary is open, or nothing is inside.
-CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cdt);
+// CW_ERR_MESH and the place where an index or a number is wrong, the boundary is open, or nothing is inside. Outcome:
+// CW_OUTCOME_FINER with the place where points coincide, an edge is given twice, edges cross or a point lies on an
+// edge: shorter edges may keep apart what they go round.
+CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cdt, CwOutcome *outcome);
 void cw_cdt_free(CwCdt *cdt);
 
 #ifdef __cplusplus

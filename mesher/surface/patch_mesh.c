@@ -54,7 +54,7 @@ done:
   return status;
 }
 
-CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh) {
+CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwCdt cdt = {0};
   CwPatchWork work = {0};
@@ -64,7 +64,7 @@ CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh) {
              "patch %s: %d points and %d edges bound nothing: at least 3 of each are needed", input->name,
              input->point_count, input->edge_count);
   find_scale(input, scale);
-  CW_TRY(cw_cdt_make(input, scale, &cdt));
+  CW_TRY_STAGE(cw_cdt_make(input, scale, &cdt, outcome), outcome);
   CW_TRY(cw_patch_work_open(input, &cdt, &work));
   cw_patch_delaunay(&work, 0);
   CW_TRY(cw_patch_front(&work));

@@ -12,6 +12,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/outcome.h"
 #include "mesher/surface/patch_input.h"
 #include "pipeline/status.h"
 
@@ -33,9 +34,9 @@ typedef struct {
   double folded_at[3];
 } CwPatchMesh;
 
-// Fails with CW_ERR_MESH where edges cross or the boundary is open, naming the patch and the coordinates.
-// Deterministic: equal input gives equal bits.
-CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh);
+// Fails with CW_ERR_MESH where the boundary is open, naming the patch and the coordinates. Outcome: that of
+// cw_cdt_make where edges cross. Deterministic: equal input gives equal bits.
+CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh, CwOutcome *outcome);
 void cw_patch_mesh_free(CwPatchMesh *mesh);
 
 #ifdef __cplusplus

@@ -107,15 +107,16 @@ done:
   return status;
 }
 
-// The packed form: counts of outline points, new points and triangles; then coordinates, nodes of the outline,
-// triangles, labels.
-enum { HEADER = 16 };
+// The packed form: counts of outline points, new points and triangles, and the outcome; then coordinates, nodes of the
+// outline, triangles, labels.
+enum { COUNTS = 16, HEADER = COUNTS + sizeof(CwOutcome) };
 
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
                        const void *size_context, double largest, int turned, CwLabelAt label, const void *label_context,
                        const char *name, void **bytes, int64_t *size_of_bytes) {
   CwStatus status = CW_OK;
   CwPatchMesh mesh = {0};
+  CwOutcome outcome = {0};
   int32_t *labels = NULL;
   char *block = NULL;
   CwPatchInput input = {.surface = surface,
@@ -130,17 +131,18 @@ CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const
                         .boundary = outline->boundary,
                         .name = name,
                         .largest = largest};
-  CW_TRY(cw_patch_mesh(&input, &mesh));
+  CW_TRY(cw_patch_mesh(&input, &mesh, &outcome));
   CW_NEW(labels, mesh.component_count);
   CW_TRY(component_labels(&mesh, surface, surface_context, label, label_context, labels));
-  int32_t fresh = mesh.point_count - outline->point_count;
+  int32_t fresh = outcome.kind == CW_OUTCOME_DONE ? mesh.point_count - outline->point_count : 0;
   size_t nodes = (size_t)outline->point_count * sizeof *outline->node;
   size_t total = HEADER + (size_t)fresh * 24 + nodes + (size_t)mesh.triangle_count * 16;
   CW_NEW(block, total);
   int32_t header[3] = {outline->point_count, fresh, mesh.triangle_count};
   memcpy(block, header, sizeof header);
+  memcpy(block + COUNTS, &outcome, sizeof outcome);
   char *at = block + HEADER;
-  memcpy(at, mesh.x + outline->point_count, (size_t)fresh * 24);
+  if (fresh > 0) memcpy(at, mesh.x + outline->point_count, (size_t)fresh * 24);
   at += (size_t)fresh * 24;
   memcpy(at, outline->node, nodes);
   at += nodes;
@@ -162,6 +164,7 @@ done:
 void cw_patch_block(const void *bytes, CwPatchBlock *block) {
   int32_t header[3];
   memcpy(header, bytes, sizeof header);
+  memcpy(&block->outcome, (const char *)bytes + COUNTS, sizeof block->outcome);
   block->outline_points = header[0];
   block->point_count = header[1];
   block->triangle_count = header[2];

@@ -28,6 +28,7 @@ void cw_outline_free(CwPatchOutline *outline);
 // A patch mesh in one block: what the caller adds to its own arrays. Points are the new ones only; triangles count
 // the outline's points first, then the new ones.
 typedef struct {
+  CwOutcome outcome; // else no mesh
   int32_t outline_points, point_count, triangle_count;
   const double (*x)[3];
   const int32_t *outline_node; // of the caller
@@ -35,7 +36,8 @@ typedef struct {
   const int32_t *label; // of each triangle: region, say
 } CwPatchBlock;
 
-// Meshes and packs. `largest`: as in CwPatchInput. `label` is called with each component's representative point and
+// Meshes and packs, with the outcome of cw_patch_mesh; unless that is done, without points or triangles. `largest`: as
+// in CwPatchInput. `label` is called with each component's representative point and
 // gives its label. `turned` turns the triangles round.
 typedef int32_t (*CwLabelAt)(const void *context, const double x[3]);
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,

@@ -9,9 +9,9 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
-// Rays start on the centres of equal parts of a triangle, edges of which are no longer than this share of the width;
-// at most so many along an edge.
-static const double SPACING = 0.25;
+// Rays start on the centres of equal parts of a triangle, edges of which are no longer than this share of the width,
+// and so short that a patch has some hundred rays; at most so many along an edge. Small triangles share one.
+static const double SPACING = 0.5, LEAST_RAYS = 200;
 enum { PARTS_MOST = 24 };
 
 enum { BINS = 200 }; // of a patch's distances, over its width
@@ -28,13 +28,14 @@ typedef struct {
   const CwRays *rays;
   const double *width;
   const int32_t *first;    // ray of each triangle; last: of all
+  const double *area;      // that the rays of each triangle stand for
   const int32_t *triangle; // of each ray
 } Look;
 
-static int32_t parts_along(const Look *look, int32_t t) {
+// 0: no rays.
+static int32_t parts_along(const Look *look, int32_t t, double step) {
   const CwBackground *b = look->background;
-  int patch = cw_cad_face_patch(look->cad, b->face[t]);
-  double longest = 0, step = SPACING * look->width[patch];
+  double longest = 0;
   if (!cw_cad_face_is_wall(look->cad, b->face[t]) || !(step > 0) || isinf(step)) return 0;
   for (int k = 0; k < 3; k++)
     longest = fmax(longest, cw_distance(b->x[b->triangle[t][k]], b->x[b->triangle[t][(k + 1) % 3]]));
@@ -53,11 +54,11 @@ static void centre_of_part(const Look *look, int32_t t, int32_t n, int32_t i, do
 static CwStatus look_across(void *context, int32_t ray, void *out) {
   const Look *look = context;
   const CwBackground *b = look->background;
-  int32_t t = look->triangle[ray], n = parts_along(look, t);
+  int32_t t = look->triangle[ray], rays = look->first[t + 1] - look->first[t], n = (int32_t)lround(sqrt(rays));
   int patch = cw_cad_face_patch(look->cad, b->face[t]);
   double x[3], normal[3], met[3], distance, width = look->width[patch];
   Seen *seen = out;
-  *seen = (Seen){.patch = patch, .bin = BINS, .area = cw_background_area(b, t, x) / ((double)n * n)};
+  *seen = (Seen){.patch = patch, .bin = BINS, .area = look->area[t] / rays};
   centre_of_part(look, t, n, ray - look->first[t], x);
   cw_background_normal(b, t, normal);
   const double inward[3] = {-normal[0], -normal[1], -normal[2]};
@@ -84,14 +85,27 @@ CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwB
   CwRays *rays = NULL;
   Seen *seen = NULL;
   int32_t *first = NULL, *triangle = NULL, triangles = background->triangle_count;
-  double(*area)[BINS + 1] = NULL;
-  Look look = {cad, background, NULL, width, NULL, NULL};
+  double(*area)[BINS + 1] = NULL, *stands_for = NULL, *waiting = NULL, *step = NULL, centre[3];
+  Look look = {cad, background, NULL, width, NULL, NULL, NULL};
   int patches = cw_cad_patch_count(cad);
   CW_NEW(first, (size_t)triangles + 1);
   CW_NEW(area, patches);
+  CW_NEW(waiting, patches);
+  CW_NEW(step, patches);
+  CW_NEW(stands_for, triangles);
+  for (int32_t t = 0; t < triangles; t++)
+    step[cw_cad_face_patch(cad, background->face[t])] += cw_background_area(background, t, centre);
+  for (int p = 0; p < patches; p++)
+    step[p] = isinf(width[p]) ? INFINITY : fmin(SPACING * width[p], sqrt(2 * step[p] / LEAST_RAYS));
   for (int32_t t = 0; t < triangles; t++) {
-    int32_t n = parts_along(&look, t);
+    int patch = cw_cad_face_patch(cad, background->face[t]);
+    int32_t n = parts_along(&look, t, step[patch]);
+    waiting[patch] += n > 0 ? cw_background_area(background, t, centre) : 0;
+    if (n == 1 && waiting[patch] < step[patch] * step[patch] / 2) n = 0; // of the next one
     first[t + 1] = first[t] + n * n;
+    if (n == 0) continue;
+    stands_for[t] = waiting[patch];
+    waiting[patch] = 0;
   }
   CW_NEW_UNSET(triangle, first[triangles]);
   CW_NEW_UNSET(seen, first[triangles]);
@@ -99,7 +113,7 @@ CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwB
     for (int32_t i = first[t]; i < first[t + 1]; i++) triangle[i] = t;
   }
   CW_TRY(cw_rays_make(background, &rays));
-  look = (Look){cad, background, rays, width, first, triangle};
+  look = (Look){cad, background, rays, width, first, stands_for, triangle};
   CW_TRY(cw_parallel_for(context, "passage widths", first[triangles], sizeof *seen, look_across, &look, seen));
   for (int32_t i = 0; i < first[triangles]; i++) area[seen[i].patch][seen[i].bin] += seen[i].area;
   for (int p = 0; p < patches; p++) {
@@ -108,6 +122,9 @@ CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwB
 done:
   cw_rays_free(&rays);
   free(first);
+  free(stands_for);
+  free(waiting);
+  free(step);
   free(triangle);
   free(seen);
   free(area);

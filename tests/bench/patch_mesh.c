@@ -65,7 +65,7 @@ int main(int argc, char **argv) {
                         .name = "square"};
   CwPatchMesh mesh;
   double start = now();
-  CwStatus status = cw_patch_mesh(&input, &mesh);
+  CwStatus status = cw_patch_mesh(&input, &mesh, &(CwOutcome){0});
   double seconds = now() - start;
   if (status != CW_OK) return fprintf(stderr, "%s\n", cw_fail_message()), (int)status;
   double *angle = calloc((size_t)mesh.triangle_count, sizeof *angle), mean = 0;

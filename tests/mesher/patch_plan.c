@@ -225,13 +225,13 @@ static Figures measure(const Plan *plan, const CwPatchMesh *mesh) {
 }
 
 Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int euler, int components,
-                              int32_t *triangle_count) {
+                       int32_t *triangle_count) {
   CwPatchMesh mesh, again;
-  if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s: %s", title, cw_fail_message());
+  if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s: %s", title, cw_fail_message());
   double clearance = check_topology(plan, &mesh, euler);
   check_places(plan, &mesh, uv_area);
   assert_int_equal(mesh.component_count, components);
-  assert_int_equal(cw_patch_mesh(&plan->input, &again), CW_OK);
+  assert_int_equal(cw_patch_mesh(&plan->input, &again, &(CwOutcome){0}), CW_OK);
   assert_int_equal(again.point_count, mesh.point_count);
   assert_int_equal(again.triangle_count, mesh.triangle_count);
   assert_memory_equal(again.x, mesh.x, sizeof mesh.x[0] * (size_t)mesh.point_count);

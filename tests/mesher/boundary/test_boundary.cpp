@@ -211,7 +211,9 @@ static void make_walls(Box &box) {
     if (cw_cad_face_is_wall(box.cad, f))
       Box::check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  Box::check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
+  Box::check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
+                                  &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   for (void *bytes : walls) free(bytes);
 }
@@ -315,7 +317,8 @@ static void make_surfaces(Box &box) {
     Box::check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
   }
   Box::check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
-                                &boundary.interfaces));
+                                &boundary.interfaces, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   Box::check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
   for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);

@@ -28,7 +28,9 @@ static void make_surfaces(Tank &tank, bool divided) {
     if (cw_cad_face_is_wall(tank.cad, f))
       check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface));
+  check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
+                             &tank.outcome));
+  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
   check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &tank.background, target.data(), nullptr, nullptr,
@@ -50,7 +52,8 @@ static void make_surfaces(Tank &tank, bool divided) {
       check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
   }
   check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
-                           &boundary.interfaces));
+                           &boundary.interfaces, &tank.outcome));
+  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   check(cw_interfaces_audit(&boundary.interfaces, tank.plan.region_count));
   for (int v = 0; v < boundary.surface.vertex_count; v++) {
     const int next = cw_image_node(&boundary.surface.images, v, 1);

@@ -85,7 +85,7 @@ static void a_diagonal_cuts_a_square_in_two(void **state) {
   CwCdt cdt;
   add_square(&plan, 0, 1);
   add_edge(&plan, 3, 1, 0);
-  assert_int_equal(cw_cdt_make(&plan.input, unit, &cdt), CW_OK);
+  assert_int_equal(cw_cdt_make(&plan.input, unit, &cdt, &(CwOutcome){0}), CW_OK);
   const int32_t expected[2][3] = {{0, 1, 3}, {1, 2, 3}};
   assert_int_equal(cdt.triangle_count, 2);
   assert_memory_equal(cdt.triangle, expected, sizeof expected);
@@ -102,7 +102,7 @@ static void nested_loops_alternate(void **state) {
   add_square(&plan, 0, 10);
   add_square(&plan, 2, 8);
   add_square(&plan, 4, 6);
-  assert_int_equal(cw_cdt_make(&plan.input, unit, &cdt), CW_OK);
+  assert_int_equal(cw_cdt_make(&plan.input, unit, &cdt, &(CwOutcome){0}), CW_OK);
   // 100 - 36 + 4; the ring has 8 triangles, the island 2.
   assert_float_equal(area(&plan, &cdt), 68, 1e-12);
   assert_int_equal(cdt.triangle_count, 10);
@@ -121,7 +121,7 @@ static void boundary_may_touch_itself_at_a_point(void **state) {
   add_edge(&plan, 0, q, 1);
   add_edge(&plan, q, q + 1, 1);
   add_edge(&plan, q + 1, 0, 1);
-  assert_int_equal(cw_cdt_make(&plan.input, unit, &cdt), CW_OK);
+  assert_int_equal(cw_cdt_make(&plan.input, unit, &cdt, &(CwOutcome){0}), CW_OK);
   assert_float_equal(area(&plan, &cdt), 4 - 0.375, 1e-12);
   check_neighbours(&cdt);
   cw_cdt_free(&cdt);
@@ -135,20 +135,24 @@ static void scale_decides_the_diagonal(void **state) {
   const double kite[4][2] = {{-1, 0}, {0, -1}, {1, 0.01}, {0, 1}};
   for (int k = 0; k < 4; k++) add_point(&plan, kite[k][0], kite[k][1]);
   for (int k = 0; k < 4; k++) add_edge(&plan, k, (k + 1) % 4, 1);
-  assert_int_equal(cw_cdt_make(&plan.input, tall, &cdt), CW_OK);
+  assert_int_equal(cw_cdt_make(&plan.input, tall, &cdt, &(CwOutcome){0}), CW_OK);
   assert_int_equal(cdt.triangle[0][2], 2); // 0 1 2: joined across
   cw_cdt_free(&cdt);
-  assert_int_equal(cw_cdt_make(&plan.input, flat, &cdt), CW_OK);
+  assert_int_equal(cw_cdt_make(&plan.input, flat, &cdt, &(CwOutcome){0}), CW_OK);
   assert_int_equal(cdt.triangle[0][2], 3); // 0 1 3: joined upright
   cw_cdt_free(&cdt);
 }
 
 static void expect_refusal(const Plan *plan, const char *text, const char *place) {
   CwCdt cdt;
+  CwOutcome outcome = {0};
+  char told[CW_OUTCOME_TEXT_SIZE];
   cw_fail_clear();
-  assert_int_equal(cw_cdt_make(&plan->input, unit, &cdt), CW_ERR_MESH);
-  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) || !strstr(cw_fail_message(), place))
-    fail_msg("unexpected message: %s", cw_fail_message());
+  CwStatus status = cw_cdt_make(&plan->input, unit, &cdt, &outcome);
+  assert_int_equal(status, outcome.kind == CW_OUTCOME_FINER ? CW_OK : CW_ERR_MESH);
+  const char *message = status == CW_OK ? cw_outcome_text(&outcome, 1e3, told) : cw_fail_message();
+  if (!strstr(message, "patch lid") || !strstr(message, text) || !strstr(message, place))
+    fail_msg("unexpected message: %s", message);
   assert_null(cdt.triangle);
 }
 
@@ -159,7 +163,7 @@ static void crossing_edges_are_refused_with_their_place(void **state) {
   add_point(&plan, 0, 1);
   add_point(&plan, 1, 1);
   for (int k = 0; k < 4; k++) add_edge(&plan, k, (k + 1) % 4, 1);
-  expect_refusal(&plan, "cross", "(500, 500, 250) mm, (u,v) = (0.5, 0.5)");
+  expect_refusal(&plan, "cross", "(u,v) = (0.5, 0.5) at (500.000, 500.000, 250.000) mm");
 }
 
 static void points_on_edges_are_refused(void **state) {

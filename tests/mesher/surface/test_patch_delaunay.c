@@ -43,7 +43,7 @@ static int64_t flips_of_rhombus(double factor, int on_chords, int *across) {
                               .edge = edge,
                               .boundary = boundary,
                               .name = "rhombus"};
-  assert_int_equal(cw_cdt_make(&input, same, &cdt), CW_OK);
+  assert_int_equal(cw_cdt_make(&input, same, &cdt, &(CwOutcome){0}), CW_OK);
   assert_int_equal(cw_patch_work_open(&input, &cdt, &work), CW_OK);
   const int64_t flips = cw_patch_delaunay(&work, on_chords);
   assert_int_equal(cw_patch_delaunay(&work, on_chords), 0);

@@ -184,7 +184,7 @@ static void triangles_follow_a_narrow_nose(void **state) {
     for (int k = parts; k > 0; k--) add_point(plan, 0, 1.2 * k / parts);
     int32_t count = plan->input.point_count;
     for (int32_t p = 0; p < count; p++) add_edge(plan, p, (p + 1) % count, 1);
-    if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
+    if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s", cw_fail_message());
     check_topology(plan, &mesh, 1);
     check_places(plan, &mesh, 1.2 * M_PI);
     check_not_steep(&mesh);
@@ -211,7 +211,7 @@ static void no_triangle_lies_in_a_cut(void **state) {
       last = p;
     }
     add_edge(plan, last, 10, 0);
-    if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
+    if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s", cw_fail_message());
     check_topology(plan, &mesh, 1);
     check_places(plan, &mesh, M_PI);
     check_not_steep(&mesh);
@@ -252,7 +252,7 @@ static void large_triangles_are_halved(void **state) {
     add_rectangle(plan, -1, 0, 1, 1);
     plan->input.largest = i % 2 ? largest : 0;
     CwPatchMesh mesh;
-    if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
+    if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s", cw_fail_message());
     check_topology(plan, &mesh, 1);
     check_places(plan, &mesh, 2);
     count[i % 2] += mesh.triangle_count;
@@ -297,7 +297,7 @@ static void folds_are_counted(void **state) {
   const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
   add_loop(plan, 3, corner);
   for (int k = 0; k < 3; k++) plan->x[k][0] = -plan->x[k][0];
-  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_OK);
+  assert_int_equal(cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}), CW_OK);
   assert_int_equal(mesh.triangle_count, 1);
   assert_int_equal(mesh.folded_count, 1);
   assert_float_equal(mesh.folded_at[0], -1.0 / 3, 1e-12);
@@ -331,10 +331,14 @@ static void random_stars(void **state) {
 
 static void expect_refusal(Plan *plan, const char *text, const char *place) {
   CwPatchMesh mesh;
+  CwOutcome outcome = {0};
+  char told[CW_OUTCOME_TEXT_SIZE];
   cw_fail_clear();
-  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_ERR_MESH);
-  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) || !strstr(cw_fail_message(), place))
-    fail_msg("unexpected message: %s", cw_fail_message());
+  CwStatus status = cw_patch_mesh(&plan->input, &mesh, &outcome);
+  assert_int_equal(status, outcome.kind == CW_OUTCOME_FINER ? CW_OK : CW_ERR_MESH);
+  const char *message = status == CW_OK ? cw_outcome_text(&outcome, 1e3, told) : cw_fail_message();
+  if (!strstr(message, "patch lid") || !strstr(message, text) || !strstr(message, place))
+    fail_msg("unexpected message: %s", message);
   assert_null(mesh.triangle);
   free(plan);
 }
@@ -343,7 +347,7 @@ static void wrong_input_is_refused_with_its_place(void **state) {
   Plan *plan = new_plan(PLANE, 2);
   const double bow_tie[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   add_loop(plan, 4, bow_tie);
-  expect_refusal(plan, "cross", "(500, 500, 0) mm");
+  expect_refusal(plan, "cross", "(500.000, 500.000, 0.000) mm");
   plan = new_plan(PLANE, 0.5);
   add_rectangle(plan, 0, 0, 1, 1);
   plan->input.edge_count--;
