@@ -32,7 +32,8 @@ static double tets_per_volume(const CwMeshRun *run, double scale) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);
   }
-  return 8.65 + 1.7 * log(fmin((double)run->table->mesh.cells, 1.5e6) / 1e6) + 4.65 * scale * walls / volume;
+  double finer = log(fmin((double)run->table->mesh.cells, 1.5e6) / 3e5); // than 300,000 cells
+  return 6.6 + 1.33 * finer + 0.37 * fmax(finer, 0) + 4.65 * scale * walls / volume;
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {

@@ -9,19 +9,19 @@
 #include "mesher/thickness/layer_thickness.h"
 
 double cw_column_room(const CwWallFlow *flow) {
-  return cw_policy.gap_share * (flow->before > 0 ? fmin(flow->width, flow->before) : flow->width);
+  double across = cw_policy.gap_share * flow->width;
+  return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
 }
 
 static double even_layers(double room, int layer_count) {
   return room / (cw_policy.even_layers * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
 }
 
-static double before_open(const CwWallFlow *flow, int layer_count) {
-  return flow->before > 0 ? even_layers(cw_policy.gap_share * flow->before, layer_count) : INFINITY;
-}
-
-double cw_first_height_fitting(const CwWallFlow *flow, int given, int layer_count) {
-  return fmin(even_layers(cw_policy.fit_share * flow->width, given), before_open(flow, layer_count));
+double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
+  double across = even_layers(cw_policy.fit_share * flow->width, layer_count);
+  if (flow->before == 0) return across;
+  int count = layer_count > 0 ? layer_count : CW_LAYERS_LEAST;
+  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_policy.least_growth));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
@@ -30,7 +30,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
   double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
-  double fitting = cw_first_height_fitting(flow, walls->layer_count, layer_count);
+  double fitting = cw_first_height_fitting(flow, walls->layer_count);
   CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
   if (cw_case_given(group->first_height)) {
     first.asked = group->first_height;
@@ -39,13 +39,15 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   } else {
     double roomy =
         cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, cw_policy.growth_auto);
-    first.asked = fmin(fmin(unit * y_plus_auto, roomy), before_open(flow, layer_count));
+    first.asked = fmin(unit * y_plus_auto, roomy);
+    if (flow->before > 0) first.asked = fmin(first.asked, even_layers(cw_column_room(flow), layer_count));
     first.source = CW_FIRST_AUTO;
   }
   int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;
   first.height = first.asked;
   if (laminar && !cw_case_given(group->first_height)) {
-    first.height = fmin(CW_LAMINAR_SHARE * flow->width, before_open(flow, layer_count));
+    first.height = CW_LAMINAR_SHARE * flow->width;
+    if (flow->before > 0) first.height = fmin(first.height, even_layers(cw_column_room(flow), layer_count));
     first.source = CW_FIRST_LAMINAR;
   }
   if (first.height > fitting) {

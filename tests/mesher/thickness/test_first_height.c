@@ -70,23 +70,26 @@ static void what_does_not_fit_becomes_what_fits(void **state) {
   assert_int_equal(choose(&table, 30).source, CW_FIRST_ASKED);
 }
 
-// A trailing edge before the interface: even layers in 0.35 of the way, as in a passage.
+// A trailing edge before the interface: six even layers in 0.6 of the way where the height is open; a given one stays
+// as long as layers that fall by 0.6 fit there.
 static void an_open_face_before_the_wall_leaves_less_room(void **state) {
   CwCase table = water();
   CwWallFlow flow = FLOW;
   flow.before = 0.0002;
   NEAR(cw_column_room(&FLOW), 0.35 * 0.008);
-  NEAR(cw_column_room(&flow), 0.35 * 0.0002);
+  NEAR(cw_column_room(&flow), 0.6 * 0.0002);
   CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
-  NEAR(first.height, 0.35 * 0.0002 / (6 * 1.05));
+  NEAR(first.height, 0.6 * 0.0002 / (6 * 1.05));
   assert_int_equal(first.source, CW_FIRST_AUTO);
-  table.walls.layer_count = 6;
+  table.walls.layer_count = 4;
   table.walls.blade.y_plus = 30; // 0.07 mm
-  flow.before = 1.001 * 30 * UNIT * 6 * 1.05 / 0.35;
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  double falling = 1 + 0.6 + 0.36 + 0.216;
+  flow.before = 1.001 * 30 * UNIT * falling / 0.6;
   first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
   NEAR(first.height, 30 * UNIT);
   assert_int_equal(first.source, CW_FIRST_ASKED);
-  flow.before = 0.5 * 30 * UNIT * 6 * 1.05 / 0.35;
+  flow.before = 0.5 * 30 * UNIT * falling / 0.6;
   first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
   NEAR(first.height, 0.5 * 30 * UNIT);
   assert_int_equal(first.source, CW_FIRST_FITTED);
@@ -108,7 +111,7 @@ static void laminar_flow_takes_a_share_of_the_passage(void **state) {
   NEAR(1 - shear, 0.01);
   CwWallFlow end = FLOW;
   end.before = 0.0008; // a trailing edge: four even layers fit before the interface
-  NEAR(cw_first_height_choose(&table, &table.walls.blade, &end, 30, 4).height, 0.35 * 0.0008 / (4 * 1.05));
+  NEAR(cw_first_height_choose(&table, &table.walls.blade, &end, 30, 4).height, 0.6 * 0.0008 / (4 * 1.05));
   table.walls.blade.first_height = 2e-4; // is taken
   assert_int_equal(choose(&table, 30).source, CW_FIRST_ASKED);
   table.walls.blade.first_height = NAN;
