@@ -15,7 +15,13 @@
 #include "pipeline/log.h"
 
 enum { WALL_PASSES = 3 };
-static const double WALL_TOLERANCE = 0.03; // of the asked number of cells, that tetrahedra can make up for
+// Of the asked number of cells, that walls may be off. In fine meshes, at scales up to 1, tetrahedra make up for it; in
+// coarse ones most of these stand on the walls, and there are as many as wall triangles ask.
+static const double TOLERANCE_FINE = 0.03, TOLERANCE_COARSE = 0.01;
+
+static double tolerance(const CwMeshRun *run) {
+  return run->scale <= 1 ? TOLERANCE_FINE : TOLERANCE_COARSE;
+}
 
 // Boundaries with all wall curves, those along interfaces divided alike on both sides. Outcome: that of
 // cw_domain_start.
@@ -78,12 +84,12 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     double off = cw_predicted_off(run);
     cw_log(run->context.log, "surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted",
            (long long)triangles, run->scale, 100 * off);
-    if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
+    if (again || fabs(off) <= tolerance(run) || pass + 1 == WALL_PASSES) break;
     cw_mesh_solve_scale(run);
   }
   if (run->stopped) goto done;
   run->surface_scale = run->scale;
-  if (fabs(cw_predicted_off(run)) <= WALL_TOLERANCE) cw_mesh_fit_volume(run);
+  if (run->scale <= 1 && fabs(cw_predicted_off(run)) <= TOLERANCE_FINE) cw_mesh_fit_volume(run);
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
     for (int32_t v = 0; run->most_thickness[d] && v < domain->surface.vertex_count; v++) {
