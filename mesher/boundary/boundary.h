@@ -76,13 +76,13 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
 CwStatus cw_free_curves_make(const CwBoundaryInput *in, const CwWallCurves *curves, const CwSurfaceMesh *surface,
                              const CwLayers *layers, CwFreeCurves *free_curves, CwOutcome *outcome);
 
-// Meshes an open patch, or the polygon of outline `index` (any rank); results for cw_interfaces_make. Outcome: that of
-// the first open patch without a mesh, or CW_OUTCOME_REPLAN where an interface has none.
+// Meshes an open patch, or the polygon of outline `index` (any rank); results for cw_interfaces_make.
 CwStatus cw_interfaces_open_patch(const CwBoundaryInput *in, const CwWallCurves *curves,
                                   const CwFreeCurves *free_curves, int32_t face, void **bytes, int64_t *size);
 CwStatus cw_interfaces_polygon(const CwBoundaryInput *in, const CwFreeCurves *free_curves, int32_t index, void **bytes,
                                int64_t *size);
-// Joins these. Takes nodes and outlines over: free_curves is empty after.
+// Joins these. Takes nodes and outlines over: free_curves is empty after. Outcome: that of the first open patch without
+// a mesh, or CW_OUTCOME_REPLAN where an interface has none.
 CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves, void *const *open_patch_bytes,
                             void *const *interface_bytes, CwInterfaces *interfaces, CwOutcome *outcome);
 

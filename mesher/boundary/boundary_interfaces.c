@@ -370,9 +370,11 @@ CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves
   for (int32_t i = 0; i < interfaces->outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
-    *outcome = block.outcome;
-    if (outcome->kind != CW_OUTCOME_DONE) outcome->kind = CW_OUTCOME_REPLAN; // it lies on a plane
-    if (outcome->kind != CW_OUTCOME_DONE) goto done;
+    if (block.outcome.kind != CW_OUTCOME_DONE) {
+      *outcome = block.outcome;
+      outcome->kind = CW_OUTCOME_REPLAN; // it lies on a plane
+      goto done;
+    }
     on_planes += block.triangle_count * cw_image_copies(images, &interfaces->outline_images, i);
   }
   CW_NEW(interfaces->open_patch.triangle, open_patches);

@@ -9,10 +9,10 @@
 #include "mesher/parallel/profiler.h"
 #include "mesher/policy.h"
 #include "mesher/run/cell_count.h"
-#include "mesher/run/poor_places.h"
 #include "mesher/run/manifest.h"
 #include "mesher/run/mesh_plan.h"
 #include "mesher/run/pass_state.h"
+#include "mesher/run/poor_places.h"
 #include "mesher/run/run_interfaces.h"
 #include "mesher/run/run_layers.h"
 #include "mesher/run/run_regions.h"
@@ -195,11 +195,10 @@ static CwStatus run_passes(CwMeshRun *run, const char *fingerprint, CwPassState 
   for (;;) {
     CwOutcome outcome;
     int last = 0, again = 0, optional = state->poor_rounds > 0 && state->poor_rounds <= POOR_MOST;
-    CwStatus made = mesh_pass(run, optional, &outcome);
-    if (made != CW_ERR_MESH || !optional) CW_TRY(made);
+    CW_TRY(mesh_pass(run, optional, &outcome));
     if (run->stopped) break;
-    if (optional && (made != CW_OK || outcome.kind != CW_OUTCOME_DONE)) {
-      cw_log(run->context.log, "no mesh with these: %s", made == CW_OK ? outcome.reason : cw_fail_message());
+    if (optional && outcome.kind != CW_OUTCOME_DONE) {
+      cw_log(run->context.log, "no mesh with these: %s", outcome.reason);
       CW_TRY(shorten_for_quality(run, state, 0, &again));
     } else if (outcome.kind == CW_OUTCOME_FINER) {
       CW_TRY(shorten_for_layers(run, &outcome, state));
