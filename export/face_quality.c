@@ -10,6 +10,8 @@
 // where the face itself is smaller.
 static const double LEAST_EXTENT = 0.2, LEAST_EXTENT_ON_PATCH = 0.4;
 
+enum { AHEAD = 8 }; // cells
+
 void cw_face_quality_start(CwFaceQuality *q) {
   *q = (CwFaceQuality){.least = 1};
 }
@@ -60,32 +62,49 @@ static int is_skew(int count, const double *const *x, const double centre[3], co
   return length > CW_SKEWNESS_MOST * most;
 }
 
-void cw_face_quality_face(int count, const double *const *x, const double from[3], const double *to, CwFaceKind kind,
-                          CwFaceQuality *q) {
+// Counts a face that may be skew or light, measured as checkMesh does.
+static void measure(int count, const double *const *x, const double from[3], const double *to, CwFaceKind kind,
+                    CwFaceQuality *q) {
+  double area[3], centre[3], extent = to ? LEAST_EXTENT : LEAST_EXTENT_ON_PATCH, limit = CW_SKEWNESS_MOST * extent;
+  cw_face_centre(count, x, centre, area);
+  Line line = line_of(area, centre, from, to);
+  if (line.off_squares > limit * limit * line.line_squares) q->skew[kind] += is_skew(count, x, centre, &line, extent);
+  if (to) q->light[kind] += is_light(&line, CW_WEIGHT_LEAST);
+}
+
+// The cosine of the angle between the face and the line; only what may be skew or light is measured. The centre of a
+// quadrilateral is off the mean of its nodes by a third of what that is off where its diagonals cross: less than a
+// sixth of the longer one.
+static inline double cosine_between(int count, const double *const *x, const double from[3], const double to[3],
+                                    CwFaceKind kind, CwFaceQuality *q) {
   const double *a = x[0], *b = x[1], *c = x[2], *d = count == 3 ? a : x[3];
   const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
-  double area[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}, centre[3];
-  double extent = to ? LEAST_EXTENT : LEAST_EXTENT_ON_PATCH, limit = CW_SKEWNESS_MOST * extent;
-  for (int k = 0; k < 3; ++k) centre[k] = count == 3 ? (a[k] + b[k] + c[k]) / 3 : (a[k] + b[k] + c[k] + d[k]) / 4;
-  Line line = line_of(area, centre, from, to);
-  // The centre of a quadrilateral is off the mean of its nodes by a third of what that is off where its diagonals
-  // cross: less than a sixth of the longer one. Only what may matter is measured so.
-  double near_limit = count == 3 ? limit : limit / 2;
-  int may_matter =
-      line.off_squares > near_limit * near_limit * line.line_squares || (to && is_light(&line, 2 * CW_WEIGHT_LEAST));
-  if (may_matter && count == 4) {
-    cw_face_centre(count, x, centre, area);
-    line = line_of(area, centre, from, to);
+  const double area[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  double way[3], line[3];
+  for (int k = 0; k < 3; ++k) {
+    way[k] = (count == 3 ? (a[k] + b[k] + c[k]) * (1.0 / 3) : (a[k] + b[k] + c[k] + d[k]) * 0.25) - from[k];
+    line[k] = to[k] - from[k];
   }
-  if (may_matter && line.off_squares > limit * limit * line.line_squares)
-    q->skew[kind] += is_skew(count, x, centre, &line, extent);
-  if (!to) return;
-  if (may_matter) q->light[kind] += is_light(&line, CW_WEIGHT_LEAST);
-  double product = line.squares * line.line_squares;
-  double cosine = product > 0 ? line.along / sqrt(product) : 0;
-  q->least = cosine < q->least ? cosine : q->least;
+  // The way from where the line meets the face to the centre is way - own / along * line.
+  const double own = dot(area, way), along = dot(area, line), length = dot(line, line);
+  const double off = along * (along * dot(way, way) - 2 * own * dot(way, line)) + own * own * length;
+  const double limit = CW_SKEWNESS_MOST * LEAST_EXTENT * (count == 3 ? 0.99 : 0.5);
+  const double near = fabs(own), far = fabs(along - own), light = 2 * CW_WEIGHT_LEAST * (near + far);
+  if (off > limit * limit * length * along * along || near < light || far < light) measure(count, x, from, to, kind, q);
+  const double product = dot(area, area) * length;
+  return product > 0 ? along / sqrt(product) : 0;
+}
+
+void cw_face_quality_face(int count, const double *const *x, const double from[3], const double to[3], CwFaceKind kind,
+                          CwFaceQuality *q) {
+  const double cosine = count == 3 ? cosine_between(3, x, from, to, kind, q) : cosine_between(4, x, from, to, kind, q);
+  q->least = fmin(q->least, cosine);
   q->sum += cosine;
   ++q->count;
+}
+
+void cw_face_quality_patch(int count, const double *const *x, const double from[3], CwFaceKind kind, CwFaceQuality *q) {
+  measure(count, x, from, NULL, kind, q);
 }
 
 void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum) {
@@ -98,28 +117,58 @@ void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum) {
   }
 }
 
+static void face_on_patch(const CwRegionData *data, int32_t ref, const double (*centroid)[3], int32_t first_prism,
+                          CwFaceQuality *q) {
+  const int32_t cell = ref / CW_CELL_FACES;
+  const double *corner[4];
+  int32_t nodes[4];
+  const int count = cw_cell_face(data, cell, ref % CW_CELL_FACES, nodes);
+  for (int i = 0; i < count; ++i) corner[i] = data->points[nodes[i]];
+  cw_face_quality_patch(count, corner, centroid[cell], cell >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER, q);
+}
+
 CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, CwFaceQuality *q) {
   CwStatus status = CW_OK;
   double(*centroid)[3] = NULL;
   const double *x[6], *corner[4];
-  int32_t cells = cw_region_cell_count(data), first_prism = data->tetrahedron_count + data->pyramid_count;
+  double least = 1, sum = 0;
+  const int32_t cells = cw_region_cell_count(data), first_prism = data->tetrahedron_count + data->pyramid_count;
   CW_NEW_UNSET(centroid, cells);
   for (int32_t cell = 0; cell < cells; ++cell) {
     int count = cw_cell_points(data, cell, x);
     cw_cell_centroid(count, x, centroid[cell]);
   }
   for (int32_t cell = 0; cell < cells; ++cell) {
-    const signed char(*face)[4] = cw_cell_face_table(cw_cell_points(data, cell, x));
+    const int32_t ahead = cell + AHEAD < cells ? cell + AHEAD : cell, *across = faces->across + CW_CELL_FACES * cell;
+    int face[CW_CELL_FACES], count = 0;
     for (int f = 0; f < CW_CELL_FACES; ++f) {
-      int32_t across = faces->across[CW_CELL_FACES * cell + f];
-      if (across <= cell && across != CW_ACROSS_PATCH) // each face once; the values that are no cell lie below 0
-        continue;
-      int count = face[f][3] < 0 ? 3 : 4;
-      for (int i = 0; i < count; ++i) corner[i] = x[face[f][i]];
-      cw_face_quality_face(count, corner, centroid[cell], across < 0 ? NULL : centroid[across],
-                           cell >= first_prism || across >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER, q);
+      // The centroids across stand anywhere in memory: they are asked for before their turn.
+      const int32_t next = faces->across[CW_CELL_FACES * ahead + f];
+      __builtin_prefetch(centroid[next < 0 ? ahead : next]);
+      // Each face once; which of them those are no processor can foresee.
+      face[count] = f;
+      count += across[f] > cell;
     }
+    const signed char(*corners)[4] = cw_cell_face_table(cw_cell_points(data, cell, x));
+    for (int i = 0; i < count; ++i) {
+      const signed char *of = corners[face[i]];
+      const int32_t other = across[face[i]];
+      const CwFaceKind kind = cell >= first_prism || other >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
+      for (int k = 0; k < 3; ++k) corner[k] = x[of[k]];
+      corner[3] = x[of[3] < 0 ? 0 : of[3]];
+      const double cosine = of[3] < 0 ? cosine_between(3, corner, centroid[cell], centroid[other], kind, q)
+                                      : cosine_between(4, corner, centroid[cell], centroid[other], kind, q);
+      least = cosine < least ? cosine : least;
+      sum += cosine;
+    }
+    q->count += count;
   }
+  q->least = fmin(q->least, least);
+  q->sum += sum;
+  for (int32_t i = 0; i < data->triangle_count; ++i)
+    face_on_patch(data, faces->triangle_face[i], (const double(*)[3])centroid, first_prism, q);
+  for (int32_t i = 0; i < data->quad_count; ++i)
+    face_on_patch(data, faces->quad_face[i], (const double(*)[3])centroid, first_prism, q);
 done:
   free(centroid);
   return status;

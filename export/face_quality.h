@@ -25,9 +25,13 @@ typedef struct {
 void cw_face_quality_start(CwFaceQuality *q);
 
 // Adds a face with `count` (3 or 4) nodes at `x`, whose normal points out of the cell with centroid `from`, to that
-// with centroid `to`; NULL where it lies on a patch, which asks for skewness alone.
-void cw_face_quality_face(int count, const double *const *x, const double from[3], const double *to, CwFaceKind kind,
+// with centroid `to`.
+void cw_face_quality_face(int count, const double *const *x, const double from[3], const double to[3], CwFaceKind kind,
                           CwFaceQuality *q);
+
+// Adds one on a patch, which is measured for skewness alone.
+void cw_face_quality_patch(int count, const double *const *x, const double from[3], CwFaceKind kind, CwFaceQuality *q);
+
 void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum);
 
 // Adds the faces between two cells of a region, and those on patches. CW_ERR_MEMORY.

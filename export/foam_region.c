@@ -19,58 +19,61 @@ typedef struct {
   CwFoamFiles *files;
 } Writer;
 
-// Faces in memory.
+// Faces on their way into the files, so many at once that they stay in the processor's cache.
+enum { AT_ONCE = 1 << 12 };
+
 typedef struct {
-  int64_t *offsets, *labels, *owners, *neighbours, *numbers; // numbers: in the whole mesh, from 1; below 0: turned over
-  int64_t faces, labels_used, first_label;
+  const Writer *writer;
+  int64_t faces, label_count;      // in the arrays
+  int64_t first_face, first_label; // before those
+  int64_t offsets[AT_ONCE], labels[4 * AT_ONCE], owners[AT_ONCE], neighbours[AT_ONCE];
+  int64_t numbers[AT_ONCE]; // in the whole mesh, from 1; below 0: turned over
 } Stretch;
 
-static void stretch_free(Stretch *s) {
-  free(s->offsets);
-  free(s->owners);
-  free(s->neighbours);
-  free(s->labels);
-  free(s->numbers);
-  memset(s, 0, sizeof *s);
-}
-
-static CwStatus stretch_new(CwFaceCount count, CwFaceCount before, Stretch *s) {
+static CwStatus stretch_new(const Writer *w, CwFaceCount before, Stretch **s) {
   CwStatus status = CW_OK;
-  const int64_t faces = cw_face_count(count);
-  *s = (Stretch){.first_label = cw_corner_count(before)};
-  CW_NEW_UNSET(s->offsets, faces);
-  CW_NEW_UNSET(s->owners, faces);
-  CW_NEW_UNSET(s->neighbours, faces);
-  CW_NEW_UNSET(s->numbers, faces);
-  CW_NEW_UNSET(s->labels, cw_corner_count(count));
+  CW_NEW_UNSET(*s, 1);
+  (*s)->writer = w;
+  (*s)->faces = (*s)->label_count = 0;
+  (*s)->first_face = cw_face_count(before);
+  (*s)->first_label = cw_corner_count(before);
 done:
   return status;
 }
 
-// Turned over, a face begins with the same node.
-static void stretch_add(Stretch *s, const Writer *w, const int32_t *corner, int sides, int64_t owner, int64_t neighbour,
-                        int64_t number) {
-  s->offsets[s->faces] = s->first_label + s->labels_used;
-  s->owners[s->faces] = owner;
-  s->neighbours[s->faces] = neighbour;
-  s->numbers[s->faces++] = number;
-  for (int i = 0; i < sides; ++i) s->labels[s->labels_used++] = w->point[corner[number > 0 ? i : (sides - i) % sides]];
-}
-
-static CwStatus stretch_write(const Stretch *s, const Writer *w, CwFaceCount before, int is_inner) {
+// Writes what the arrays hold. Faces on patches have no neighbour.
+static CwStatus stretch_write(Stretch *s, int is_inner) {
   CwStatus status = CW_OK;
+  const Writer *w = s->writer;
   const CwFoamPart *part = &w->mesh->parts[w->files->part];
-  const int64_t first = cw_face_count(before);
+  const int64_t first = s->first_face;
   CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->offsets, s->faces, part->start[CW_FOAM_FACES], first));
-  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->labels, s->labels_used, part->label_start, s->first_label));
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->labels, s->label_count, part->label_start, s->first_label));
   CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OWNER, s->owners, s->faces, part->start[CW_FOAM_OWNER], first));
   if (is_inner)
     CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_NEIGHBOUR, s->neighbours, s->faces, part->start[CW_FOAM_NEIGHBOUR],
                               first));
   if (cw_foam_is_divided(w->mesh))
     CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_FACES, s->numbers, s->faces, part->start[CW_FOAM_OF_FACES], first));
+  s->first_face += s->faces;
+  s->first_label += s->label_count;
+  s->faces = s->label_count = 0;
 done:
   return status;
+}
+
+// Turned over, a face begins with the same node. Neighbours below 0: none.
+static inline CwStatus stretch_add(Stretch *s, const int32_t *corner, int sides, int64_t owner, int64_t neighbour,
+                                   int64_t number) {
+  const int64_t *point = s->writer->point, at = s->faces++;
+  int64_t *label = s->labels + s->label_count;
+  s->offsets[at] = s->first_label + s->label_count;
+  s->owners[at] = owner;
+  s->neighbours[at] = neighbour;
+  s->numbers[at] = number;
+  for (int i = 0; i < sides; ++i) label[i] = point[corner[number > 0 ? i : (sides - i) % sides]];
+  s->label_count += sides;
+  return s->faces == AT_ONCE ? stretch_write(s, neighbour >= 0) : CW_OK;
 }
 
 // The other cell of an inner face: its part and its number there.
@@ -89,34 +92,33 @@ static int64_t other_cell(const Writer *w, const CwFaceStretch *s, int64_t f, in
 }
 
 // The inner faces of the region that lie in the writer's part, or between it and the part `link->other`.
-static CwStatus write_inner(const Writer *w, const CwFaceStretch *all, const CwLink *link, CwFaceCount count,
-                            CwFaceCount before) {
+static CwStatus write_inner(const Writer *w, const CwFaceStretch *all, const CwLink *link, CwFaceCount before) {
   CwStatus status = CW_OK;
-  Stretch s = {0};
+  Stretch *s = NULL;
   const CwDivision *v = &w->mesh->division;
   const int32_t *corner = all->corner;
   const int64_t number = cw_face_count(w->mesh->layout.region[w->region]) + 1;
   const int mine = w->files->part, whole = !cw_foam_is_divided(w->mesh);
   const int64_t first_cell = w->mesh->assembly->places[w->region].cell;
-  CW_TRY(stretch_new(count, before, &s));
+  CW_TRY(stretch_new(w, before, &s));
   for (int64_t f = 0; f < all->faces; corner += all->sides[f++]) {
     int there;
     if (whole) { // one part, whose cells are numbered as those of all regions
-      stretch_add(&s, w, corner, all->sides[f], first_cell + all->cell[f], all->across[f], number + f);
+      CW_TRY(stretch_add(s, corner, all->sides[f], first_cell + all->cell[f], all->across[f], number + f));
       continue;
     }
     const int here = v->pieces[v->first_piece[w->region] + w->piece_of[all->cell[f]]].part;
     const int64_t own = w->cell[all->cell[f]], other = other_cell(w, all, f, &there);
     if (!link && here == mine && there == mine)
-      stretch_add(&s, w, corner, all->sides[f], own, other, number + f);
+      CW_TRY(stretch_add(s, corner, all->sides[f], own, other, number + f));
     else if (link && here == mine && there == link->other)
-      stretch_add(&s, w, corner, all->sides[f], own, -1, number + f);
+      CW_TRY(stretch_add(s, corner, all->sides[f], own, -1, number + f));
     else if (link && there == mine && here == link->other)
-      stretch_add(&s, w, corner, all->sides[f], other, -1, -(number + f));
+      CW_TRY(stretch_add(s, corner, all->sides[f], other, -1, -(number + f)));
   }
-  CW_TRY(stretch_write(&s, w, before, !link));
+  CW_TRY(stretch_write(s, !link));
 done:
-  stretch_free(&s);
+  free(s);
   return status;
 }
 
@@ -131,8 +133,7 @@ static CwStatus write_links(const Writer *w, const CwFaceStretch *all) {
   const CwPart *part = &v->parts[w->files->part];
   for (int i = 0; i < part->link_count; ++i) {
     const CwLink *link = &v->links[part->first_link + i];
-    if (link->region == w->region)
-      CW_TRY(write_inner(w, all, link, link->count, w->mesh->parts[w->files->part].link[i]));
+    if (link->region == w->region) CW_TRY(write_inner(w, all, link, w->mesh->parts[w->files->part].link[i]));
   }
 done:
   return status;
@@ -140,7 +141,7 @@ done:
 
 static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch, const CwRegionFaces *faces) {
   CwStatus status = CW_OK;
-  Stretch s = {0};
+  Stretch *s = NULL;
   CwFaceStretch all = {0};
   const CwAssembly *a = w->mesh->assembly;
   const int local = patch - a->mesh->domains[w->data->domain].first_patch;
@@ -148,15 +149,15 @@ static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch, co
   const int64_t number = cw_face_count(cw_face_layout_patch(&w->mesh->layout, a, w->region, patch)) + 1;
   if (cw_face_count(piece->patch[local]) == 0) goto done;
   CW_TRY(cw_face_stretch_patch(a, w->region, patch, w->data, faces, &all));
-  CW_TRY(stretch_new(piece->patch[local], before, &s));
+  CW_TRY(stretch_new(w, before, &s));
   const int32_t *corner = all.corner;
   for (int64_t f = 0; f < all.faces; corner += all.sides[f++])
     if (&w->mesh->division.pieces[w->mesh->division.first_piece[w->region] + w->piece_of[all.cell[f]]] == piece)
-      stretch_add(&s, w, corner, all.sides[f], w->cell[all.cell[f]], -1, number + f);
-  CW_TRY(stretch_write(&s, w, before, 0));
+      CW_TRY(stretch_add(s, corner, all.sides[f], w->cell[all.cell[f]], -1, number + f));
+  CW_TRY(stretch_write(s, 0));
 done:
   cw_face_stretch_free(&all);
-  stretch_free(&s);
+  free(s);
   return status;
 }
 
@@ -221,7 +222,7 @@ static CwStatus write_part(Writer *w, int part, const CwPiece *piece, const CwFa
   // A face to another part may have nodes that no cell of the piece has.
   for (int32_t p = 0; p < w->data->shared_count && cw_foam_is_divided(w->mesh); ++p)
     point[p] = cw_division_shared(v, part, w->data->domain, w->data->shared_id[p]);
-  if (piece) CW_TRY(write_inner(w, inner, NULL, piece->inner, piece->first_inner));
+  if (piece) CW_TRY(write_inner(w, inner, NULL, piece->first_inner));
   for (int p = domain->first_patch; piece && p < domain->first_patch + domain->patch_count; ++p)
     CW_TRY(write_patch(w, piece, p, faces));
   CW_TRY(write_links(w, inner));

@@ -37,6 +37,17 @@ CwStatus cw_folder_sync(const char *path) {
                       : CW_FAIL(CW_ERR_IO, "%s: cannot be brought to the disk: %s", path, strerror(errno));
 }
 
+static int sync_one_begin(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)kind;
+  (void)place;
+  if (S_ISREG(info->st_mode)) cw_sync_begin(path);
+  return 0;
+}
+
+void cw_folder_sync_begin(const char *path) {
+  nftw(path, sync_one_begin, 16, FTW_PHYS); // what fails here cw_folder_sync() tells
+}
+
 CwStatus cw_folder_replace(const char *from, const char *to) {
   CwStatus status = CW_OK;
   char *old = NULL;

@@ -11,6 +11,9 @@ CwStatus cw_folder_remove(const char *path);
 // Brings a folder and what it holds to the disk. CW_ERR_IO.
 CwStatus cw_folder_sync(const char *path);
 
+// Begins that with the files that are there, and does not wait (cw_sync_begin).
+void cw_folder_sync_begin(const char *path);
+
 // Puts the folder or file `from` in the place of `to`, whatever was there before, and that to the disk. CW_ERR_IO.
 CwStatus cw_folder_replace(const char *from, const char *to);
 

@@ -38,10 +38,7 @@ int main(int argc, char **argv) {
   if (!args.finished) CW_TRY(cw_ranks_agree(&ranks, cw_stop_watch(args.run_path, "export", ranks.rank == 0)));
   if (!args.finished) CW_TRY(cw_export_run(&table, args.run_path, usage.reads, &ranks));
 done:;
-  int speaks = cw_ranks_speaks_of(&ranks, status);
-  int code = status == CW_OK ? 0 : speaks ? cw_log_error(args.log, status) : (int)status;
-  // All ranks end with the same code: mpirun passes on the first one it sees.
-  MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, ranks.comm);
+  int code = cw_ranks_end(&ranks, status, args.log);
   cw_log_close(&args.log);
   cw_stop_end();
   if (cw_cgns_stuck()) _exit(code);

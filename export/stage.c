@@ -57,17 +57,22 @@ done:
   return status;
 }
 
+enum { SYNCS = 16 }; // times that what is written is sent to the disk on the way
+
 // The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is
 // collective.
 static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutput *output) {
   CwStatus status = CW_OK;
-  CwRegionFigures *figures = calloc((size_t)assembly->mesh->region_count, sizeof *figures);
-  if (!figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
+  const int regions = assembly->mesh->region_count;
+  CwRegionFigures *figures = calloc((size_t)regions, sizeof *figures);
+  if (!figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", regions);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_output_open(output, ranks);
-  cw_progress_start(ranks->log, "check and write the mesh", assembly->mesh->region_count, "regions");
-  for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
+  cw_progress_start(ranks->log, "check and write the mesh", regions, "regions");
+  for (int r = 0; r < regions && status == CW_OK; ++r) {
     if (cw_ranks_own(ranks, r)) status = write_region(assembly, r, output, &figures[r]);
+    if (ranks->rank == 0 && (int64_t)(r + 1) * SYNCS / regions > (int64_t)r * SYNCS / regions)
+      cw_folder_sync_begin(output->folder);
     cw_progress(ranks->log, r + 1);
   }
   cw_progress_end(ranks->log);

@@ -71,6 +71,17 @@ done:
   return status;
 }
 
+void cw_sync_begin(const char *path) {
+#ifdef SYNC_FILE_RANGE_WRITE
+  int handle = open(path, O_RDONLY | O_CLOEXEC);
+  if (handle < 0) return;
+  sync_file_range(handle, 0, 0, SYNC_FILE_RANGE_WRITE);
+  close(handle);
+#else
+  (void)path;
+#endif
+}
+
 CwStatus cw_sync_folder_of(const char *path) {
   const char *slash = strrchr(path, '/');
   if (!slash) return cw_sync(".");

@@ -51,6 +51,10 @@ CwStatus cw_atomic_file_clear(const char *folder);
 CwStatus cw_sync(const char *path);
 CwStatus cw_sync_folder_of(const char *path);
 
+// Begins to bring a file that is being written to the disk and does not wait for it, so that cw_sync() has little left
+// to do. Does nothing where the system cannot.
+void cw_sync_begin(const char *path);
+
 // Makes the folder `path` and its parents where they are missing. Fine when other ranks do the same.
 // CW_ERR_IO.
 CwStatus cw_make_directory(const char *path);

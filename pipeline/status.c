@@ -7,8 +7,7 @@
 #include <string.h>
 
 // Per thread: a message belongs to the call chain that failed, and bridges may run worker threads.
-static _Thread_local char message[1001];
-static _Thread_local char trace[2000];
+static _Thread_local CwFailure failure;
 
 const char *cw_status_text(CwStatus status) {
   switch (status) {
@@ -28,7 +27,7 @@ static int is_for_memory(CwStatus code) {
 
 CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format, ...) {
   // Formatted aside first: an argument may be the old message itself.
-  char fresh[sizeof message];
+  char fresh[sizeof failure.message];
   int used = 0;
   va_list arguments;
   if (is_for_memory(code)) {
@@ -38,34 +37,39 @@ CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwS
   va_start(arguments, format);
   vsnprintf(fresh + used, sizeof fresh - (size_t)used, format, arguments);
   va_end(arguments);
-  memcpy(message, fresh, sizeof message);
-  trace[0] = '\0';
+  memcpy(failure.message, fresh, sizeof failure.message);
+  failure.trace[0] = '\0';
   cw_fail_passed(source_file, line, function);
   return code;
 }
 
+CwFailure *cw_failure(void) {
+  return &failure;
+}
+
 const char *cw_fail_message(void) {
-  return message;
+  return failure.message;
 }
 
 const char *cw_fail_trace(void) {
-  return trace;
+  return failure.trace;
 }
 
 void cw_fail_passed(const char *source_file, int line, const char *function) {
-  size_t used = strlen(trace);
-  snprintf(trace + used, sizeof trace - used, "%s%s:%d %s", used ? " < " : "", source_file, line, function);
+  size_t used = strlen(failure.trace);
+  snprintf(failure.trace + used, sizeof failure.trace - used, "%s%s:%d %s", used ? " < " : "", source_file, line,
+           function);
 }
 
 void cw_fail_place(const char *place) {
-  char fresh[sizeof message];
+  char fresh[sizeof failure.message];
   snprintf(fresh, sizeof fresh, "%s: ", place);
   size_t used = strlen(fresh);
-  memcpy(fresh + used, message, sizeof fresh - used);
+  memcpy(fresh + used, failure.message, sizeof fresh - used);
   fresh[sizeof fresh - 1] = '\0';
-  memcpy(message, fresh, sizeof message);
+  memcpy(failure.message, fresh, sizeof failure.message);
 }
 
 void cw_fail_clear(void) {
-  message[0] = trace[0] = '\0';
+  failure.message[0] = failure.trace[0] = '\0';
 }

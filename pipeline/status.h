@@ -53,6 +53,13 @@ const char *cw_status_text(CwStatus status);
 CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
+// The last failure in this thread as plain bytes, for a rank that tells it for another one. Never NULL.
+typedef struct {
+  char message[1001];
+  char trace[2000];
+} CwFailure;
+CwFailure *cw_failure(void);
+
 // The message of the last failure in this thread, or "".
 const char *cw_fail_message(void);
 

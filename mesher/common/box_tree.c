@@ -129,9 +129,29 @@ static int visit_leaf(const CwBoxTree *tree, int32_t k, CwBoxVisit visit, void *
   return 0;
 }
 
-void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit visit, void *context) {
-  int32_t stack[DEPTH], depth = 0;
-  if (tree->count) stack[depth++] = 1;
+CwBoxStarts cw_box_tree_starts(const CwBoxTree *tree, const CwBox *box) {
+  CwBoxStarts starts = {.count = tree->count > 0, .node = {1}};
+  for (int end = 0; !end;) {
+    CwBoxStarts next = {0};
+    end = 1;
+    for (int32_t i = 0; i < starts.count; i++) {
+      const int32_t k = starts.node[i], is_leaf = k >= tree->leaves;
+      for (int32_t below = is_leaf ? k : 2 * k; below <= (is_leaf ? k : 2 * k + 1); below++) {
+        if (!cw_boxes_meet(&tree->node[below], box)) continue;
+        if (next.count == CW_BOX_STARTS) return starts;
+        next.node[next.count++] = below;
+      }
+      end &= is_leaf;
+    }
+    starts = next;
+  }
+  return starts;
+}
+
+void cw_box_tree_overlaps_from(const CwBoxTree *tree, const CwBoxStarts *starts, const CwBox *box, CwBoxVisit visit,
+                               void *context) {
+  int32_t stack[CW_BOX_STARTS + DEPTH], depth = 0;
+  while (depth < starts->count) stack[depth] = starts->node[starts->count - 1 - depth], depth++;
   while (depth) {
     int32_t k = stack[--depth];
     if (!cw_boxes_meet(&tree->node[k], box)) continue;
@@ -142,6 +162,11 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
     stack[depth++] = 2 * k + 1;
     stack[depth++] = 2 * k;
   }
+}
+
+void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit visit, void *context) {
+  const CwBoxStarts root = {.count = tree->count > 0, .node = {1}};
+  cw_box_tree_overlaps_from(tree, &root, box, visit, context);
 }
 
 // A hair more than the box, so that rounding lets no ray slip between two; straight on, as rays are many.

@@ -40,6 +40,17 @@ void cw_box_tree_free(CwBoxTree *tree);
 
 // Visits the items of every leaf whose box meets `box`.
 void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit visit, void *context);
+
+// Nodes of a tree, in its order, below which all lies that meets a box: from there walks for many boxes within it go
+// the shorter way.
+enum { CW_BOX_STARTS = 32 };
+typedef struct {
+  int32_t count, node[CW_BOX_STARTS];
+} CwBoxStarts;
+CwBoxStarts cw_box_tree_starts(const CwBoxTree *tree, const CwBox *box);
+void cw_box_tree_overlaps_from(const CwBoxTree *tree, const CwBoxStarts *starts, const CwBox *box, CwBoxVisit visit,
+                               void *context);
+
 // Visits the items of every leaf whose box the ray x + s g, 0 <= s <= *far, meets; the visitor may lower *far.
 void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
                      void *context);

@@ -21,38 +21,39 @@ double cw_tet_volume6_error(const double a[3], const double b[3], const double c
 }
 
 void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
-  double normal[4][3], square[4], longest = 0.0, shortest = INFINITY, squares = 0.0;
+  double normal[4][3], longest = 0.0, shortest = INFINITY, squares = 0.0;
   for (int i = 0; i < 4; i++) {
     double u[3], v[3];
     cw_sub(x[cw_tet_face[i][1]], x[cw_tet_face[i][0]], u);
     cw_sub(x[cw_tet_face[i][2]], x[cw_tet_face[i][0]], v);
     cw_cross(u, v, normal[i]);
-    square[i] = cw_dot(normal[i], normal[i]);
+    double inverse = 1.0 / sqrt(cw_dot(normal[i], normal[i]));
+    for (int k = 0; k < 3; k++) normal[i][k] *= inverse;
     for (int j = i + 1; j < 4; j++) {
       cw_sub(x[j], x[i], u);
       double length = cw_dot(u, u);
       squares += length;
-      longest = fmax(longest, length);
-      shortest = fmin(shortest, length);
+      longest = cw_greater(longest, length);
+      shortest = cw_lesser(shortest, length);
     }
   }
   shape->volume = cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0;
-  double root = cbrt(3.0 * fmax(shape->volume, 0.0));
+  double root = cbrt(3.0 * cw_greater(shape->volume, 0.0));
   shape->mean_ratio = squares > 0.0 ? 12.0 * root * root / squares : 0.0;
   shape->edge_longest = sqrt(longest);
   shape->edge_shortest = sqrt(shortest);
   double most = -1.0, least = 1.0; // cosines
   for (int i = 0; i < 4; i++) {
     for (int j = i + 1; j < 4; j++) {
-      double cosine = -cw_dot(normal[i], normal[j]) / sqrt(square[i] * square[j]);
-      most = fmax(most, cosine);
-      least = fmin(least, cosine);
+      double cosine = -cw_dot(normal[i], normal[j]);
+      most = cw_greater(most, cosine);
+      least = cw_lesser(least, cosine);
     }
   }
   const double degrees = 180.0 / 3.14159265358979323846;
   int flat = !(shape->volume > 0.0);
-  shape->dihedral_least = flat ? 0.0 : acos(fmin(most, 1.0)) * degrees;
-  shape->dihedral_greatest = flat ? 180.0 : acos(fmax(least, -1.0)) * degrees;
+  shape->dihedral_least = flat ? 0.0 : acos(cw_lesser(most, 1.0)) * degrees;
+  shape->dihedral_greatest = flat ? 180.0 : acos(cw_greater(least, -1.0)) * degrees;
 }
 
 double cw_prism_scaled_jacobian(const double *const x[6]) {

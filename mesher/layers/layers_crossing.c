@@ -13,7 +13,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 
-enum { BLOCK = 2048 };
+enum { BLOCK = 2048, GROUP = 16 }; // triangles of a task; neighbours that are looked for together
 static const double CLEAR = 1e-9; // way between plane and triangle, over the longest edge, beyond any rounding
 
 // Corners of triangle f of the kind: 0 layer top, 1 wall, 2 open patches. Points are numbered through: layer top, wall,
@@ -235,23 +235,37 @@ static int is_constrained(const CwLayerInput *in, int32_t f) {
   return 0;
 }
 
+// Triangles that follow one another in the order of the trees lie together.
 static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwLayerCrossing *crossing = context;
   const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t first = block * BLOCK, last = crossing->list_count - first < BLOCK ? crossing->list_count : first + BLOCK;
   Finder finder = {.crossing = crossing};
-  for (int32_t i = first; i < last; i++) {
-    int32_t f = finder.f = crossing->list[i];
-    finder.constrained = is_constrained(crossing->work->in, f);
-    finder.top = box_of(crossing->work, x, 0, f);
-    finder.wall = box_of(crossing->work, x, 1, f);
-    cw_box_tree_overlaps(&crossing->top, &finder.top, visit_top, &finder);
-    CW_TRY(finder.status);
-    cw_box_tree_overlaps(&crossing->fixed, &finder.top, visit_fixed, &finder);
-    CW_TRY(finder.status);
-    if (!crossing->searched) cw_box_tree_overlaps(&crossing->fixed, &finder.wall, visit_wall, &finder);
-    CW_TRY(finder.status);
+  for (int32_t from = first; from < last; from += GROUP) {
+    int32_t to = last - from < GROUP ? last : from + GROUP;
+    CwBox top = cw_box_empty(), wall = cw_box_empty();
+    for (int32_t i = from; i < to; i++) {
+      CwBox one = box_of(crossing->work, x, 0, crossing->list[i]),
+            below = box_of(crossing->work, x, 1, crossing->list[i]);
+      cw_box_add(&top, &one);
+      cw_box_add(&wall, &below);
+    }
+    const CwBoxStarts tops = cw_box_tree_starts(&crossing->top, &top);
+    const CwBoxStarts fixed = cw_box_tree_starts(&crossing->fixed, &top);
+    const CwBoxStarts walls = crossing->searched ? (CwBoxStarts){0} : cw_box_tree_starts(&crossing->fixed, &wall);
+    for (int32_t i = from; i < to; i++) {
+      int32_t f = finder.f = crossing->list[i];
+      finder.constrained = is_constrained(crossing->work->in, f);
+      finder.top = box_of(crossing->work, x, 0, f);
+      finder.wall = box_of(crossing->work, x, 1, f);
+      cw_box_tree_overlaps_from(&crossing->top, &tops, &finder.top, visit_top, &finder);
+      CW_TRY(finder.status);
+      cw_box_tree_overlaps_from(&crossing->fixed, &fixed, &finder.top, visit_fixed, &finder);
+      CW_TRY(finder.status);
+      cw_box_tree_overlaps_from(&crossing->fixed, &walls, &finder.wall, visit_wall, &finder);
+      CW_TRY(finder.status);
+    }
   }
   *bytes = finder.pair;
   *size = (int64_t)(finder.count * sizeof *finder.pair);
@@ -284,12 +298,15 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   for (int32_t f = 0; f < in->triangle_count; f++) {
     const int32_t *v = in->triangle[f];
     crossing->active[f] = moved[v[0]] || moved[v[1]] || moved[v[2]];
-    if (crossing->active[f]) crossing->list[crossing->list_count++] = f;
   }
   if (crossing->searched)
     cw_box_tree_follow(&crossing->top, crossing->active, in->triangle_count, box_of_top, crossing);
   else
     CW_TRY(make_trees(crossing));
+  for (int32_t i = 0; i < crossing->item_count; i++) {
+    int32_t f = crossing->fixed.item[i];
+    if (f < in->triangle_count && crossing->active[f]) crossing->list[crossing->list_count++] = f;
+  }
   drop_active(crossing);
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
   CW_NEW(bytes, blocks);

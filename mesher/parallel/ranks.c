@@ -14,9 +14,9 @@
 #include "pipeline/stop_line.h"
 
 enum { LOOKS = 20 }; // for a message before the first sleep: some microseconds, less than the sleep itself
-// That a rank looks before it sleeps, s, where each has a core of its own: to sleep and wake costs a tenth of that, and
-// steps of all ranks follow one another in milliseconds.
-static const double LOOK_SECONDS = 1e-3;
+// That a rank looks before it sleeps, s, where each has a core of its own: steps of all ranks follow one another in
+// milliseconds, and who sleeps through the end of a wait is late by up to a third of it.
+static const double LOOK_SECONDS = 2e-2;
 // One a process, as MPI is: whether its host has a core for each rank.
 static int own_core;
 

@@ -141,7 +141,10 @@ static CwStatus take_tasks(Work *work, const Order *order) {
   for (;;) {
     CwPlaces places = cw_task_server_next(server, work->schedule->unit ? show_progress : NULL, work->log);
     if (places.count == 0) break;
-    for (int32_t i = 0; i < places.count; i++) CW_TRY(run_task(work, order->task[places.first + i]));
+    for (int32_t i = 0; i < places.count; i++) {
+      cw_task_server_look(server, &places, i);
+      CW_TRY(run_task(work, order->task[places.first + i]));
+    }
   }
   cw_task_server_stop(server);
 done:

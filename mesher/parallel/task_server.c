@@ -7,8 +7,10 @@
 
 #include "mesher/parallel/team.h"
 
-enum { ASK_TAG = 1, GIVE_TAG = 2, PARTS = 4 };
+enum { ASK_TAG = 1, GIVE_TAG = 2, PARTS = 4, EARLY = 2 };
 static const double SHOW_PAUSE = 0.25; // s
+// Of the thread before it looks first, s: a rank that runs short tasks answers between them.
+static const double SERVER_PAUSE = 2e-4;
 
 typedef enum { OPEN, GIVEN, ENDED } PlaceState;
 
@@ -22,9 +24,12 @@ struct CwTaskServer {
   int started;
   unsigned char *state; // of each place, PlaceState
   int32_t first, ended; // no place ahead of `first` is open
-  CwPlaces *held;       // by each rank
+  CwPlaces *held;       // by each rank; another one's may still be run (cw_task_server_look)
   unsigned char *asks;  // ranks that wait for an answer
   int gone;             // ranks that know of the end
+  // On the others: what was asked for, and the answer on its way.
+  MPI_Request answer;
+  CwPlaces next;
 };
 
 static struct timespec after(double seconds) {
@@ -49,8 +54,9 @@ static CwPlaces choose(CwTaskServer *server) {
   for (int32_t place = server->first; place < order->count; place++) {
     int32_t before = order->before ? order->before[place] : -1;
     if (server->state[place] != OPEN || (before >= 0 && server->state[before] != ENDED)) continue;
-    CwPlaces places = {place, order->before ? 1 : part_of(order, server->team->ranks, place)};
+    CwPlaces places = {.first = place, .count = order->before ? 1 : part_of(order, server->team->ranks, place)};
     for (int32_t i = 0; i < places.count; i++) server->state[place + i] = GIVEN;
+    places.left = order->count - place - places.count;
     return places;
   }
   return (CwPlaces){0};
@@ -70,32 +76,49 @@ static void take_up(CwTaskServer *server, int asking) {
     server->asks[rank] = 0;
     server->gone += held[rank].count == 0;
     if (rank > 0)
-      MPI_Send(&held[rank], 2, MPI_INT32_T, rank, GIVE_TAG, server->team->comm);
+      MPI_Send(&held[rank], 3, MPI_INT32_T, rank, GIVE_TAG, server->team->comm);
     else
       pthread_cond_signal(&server->answered);
   }
   if (server->gone == server->team->ranks) pthread_cond_signal(&server->look);
 }
 
+// Answers who has asked; returns whether any had. Under the lock.
+static int answer(CwTaskServer *server) {
+  int there, any = 0;
+  for (MPI_Status message;; any = 1) {
+    MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, server->team->comm, &there, &message);
+    if (!there) return any;
+    MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, server->team->comm, MPI_STATUS_IGNORE);
+    take_up(server, message.MPI_SOURCE);
+  }
+}
+
 static void *serve(void *context) {
   CwTaskServer *server = context;
   pthread_mutex_lock(&server->lock);
-  for (double pause = CW_TEAM_PAUSE; server->gone < server->team->ranks;) {
-    int there;
-    MPI_Status message;
-    MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, server->team->comm, &there, &message);
-    if (there) {
-      MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, server->team->comm, MPI_STATUS_IGNORE);
-      take_up(server, message.MPI_SOURCE);
-      pause = CW_TEAM_PAUSE;
-      continue;
-    }
+  for (double pause = SERVER_PAUSE; server->gone < server->team->ranks;) {
     struct timespec end = after(pause);
     pthread_cond_timedwait(&server->look, &server->lock, &end);
-    pause = cw_team_longer(pause);
+    pause = answer(server) ? SERVER_PAUSE : cw_team_longer(pause);
   }
   pthread_mutex_unlock(&server->lock);
   return NULL;
+}
+
+static void ask(CwTaskServer *server) {
+  MPI_Irecv(&server->next, 3, MPI_INT32_T, 0, GIVE_TAG, server->team->comm, &server->answer);
+  MPI_Send(NULL, 0, MPI_BYTE, 0, ASK_TAG, server->team->comm);
+}
+
+void cw_task_server_look(CwTaskServer *server, const CwPlaces *places, int32_t at) {
+  if (server->team->rank > 0) {
+    if (!server->order.before && at + 1 == places->count && places->left >= EARLY * server->team->ranks) ask(server);
+    return;
+  }
+  pthread_mutex_lock(&server->lock);
+  answer(server);
+  pthread_mutex_unlock(&server->lock);
 }
 
 static CwStatus start_thread(CwTaskServer *server) {
@@ -121,6 +144,7 @@ CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTa
   CW_NEW(*made, 1);
   (*made)->team = team;
   (*made)->order = *order;
+  (*made)->answer = MPI_REQUEST_NULL;
   if (team->rank == 0) CW_TRY(start_thread(*made));
 done:
   return status;
@@ -129,11 +153,9 @@ done:
 CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given) {
   CwPlaces places;
   if (server->team->rank > 0) {
-    MPI_Request request;
-    MPI_Irecv(&places, 2, MPI_INT32_T, 0, GIVE_TAG, server->team->comm, &request);
-    MPI_Send(NULL, 0, MPI_BYTE, 0, ASK_TAG, server->team->comm);
-    cw_team_wait(&request);
-    return places;
+    if (server->answer == MPI_REQUEST_NULL) ask(server);
+    cw_team_wait(&server->answer);
+    return server->next;
   }
   pthread_mutex_lock(&server->lock);
   take_up(server, 0);

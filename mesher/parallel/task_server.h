@@ -17,9 +17,9 @@ typedef struct {
   const int32_t *before; // a place ahead that has to have ended before this one is given, -1: none; NULL: none waits
 } CwTaskOrder;
 
-// The places first .. first + count - 1; count 0: all have ended.
+// The places first .. first + count - 1; count 0: all have ended, or are run by others.
 typedef struct {
-  int32_t first, count;
+  int32_t first, count, left; // left: places behind them
 } CwPlaces;
 
 typedef struct CwTaskServer CwTaskServer;
@@ -33,6 +33,11 @@ CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTa
 // where tasks wait for others. Waits asleep until there is one to be had or all have ended; on the first rank calls
 // `meanwhile` (may be NULL) with `given` and the number that have, before and a few times a second.
 CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given);
+
+// Before place places->first + at is run: the first rank answers who has asked meanwhile, sooner than its thread would;
+// another one asks for more before its last place, so that it need not wait for the answer, unless there is so little
+// left that a rank which has nothing to do should get it, or tasks wait for others.
+void cw_task_server_look(CwTaskServer *server, const CwPlaces *places, int32_t at);
 
 // After count 0 on all ranks. NULL is fine.
 void cw_task_server_stop(CwTaskServer *server);

@@ -11,6 +11,7 @@
 #include "mesher/common/quality.h"
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
+#include "mesher/common/vec.h"
 
 static const char *cell_name(int corners) {
   return corners == 4 ? "tetrahedron" : corners == 5 ? "pyramid" : "prism";
@@ -92,10 +93,10 @@ static int bin_of(double value, double width, int bins) {
 static void add_tet(CwTetFigures *figures, const CwTetShape *shape, double aspect) {
   figures->count++;
   figures->aspect_sum += aspect;
-  figures->aspect_max = fmax(figures->aspect_max, aspect);
+  figures->aspect_max = cw_greater(figures->aspect_max, aspect);
   figures->mean_ratio_sum += shape->mean_ratio;
-  figures->mean_ratio_least = fmin(figures->mean_ratio_least, shape->mean_ratio);
-  figures->dihedral_least = fmin(figures->dihedral_least, shape->dihedral_least);
+  figures->mean_ratio_least = cw_lesser(figures->mean_ratio_least, shape->mean_ratio);
+  figures->dihedral_least = cw_lesser(figures->dihedral_least, shape->dihedral_least);
 }
 
 static void add_figures(CwTetFigures *sum, const CwTetFigures *more) {
@@ -139,7 +140,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
     int corners;
     CW_TRY(check_volume(r, data, c, &corners, x, &volume));
     quality->volume += volume;
-    quality->least_volume = fmin(quality->least_volume, volume);
+    quality->least_volume = cw_lesser(quality->least_volume, volume);
     if (corners == 4) {
       CwTetShape shape;
       cw_tet_shape(x, &shape);
@@ -148,17 +149,17 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       int beside = 0;
       for (int k = 0; k < 4; k++) beside |= r->cells.tetrahedra[c][k] < r->cells.shared_count;
       add_tet(beside ? &quality->beside : &quality->apart, &shape, aspect);
-      quality->aspect_max = fmax(quality->aspect_max, aspect);
+      quality->aspect_max = cw_greater(quality->aspect_max, aspect);
       int class = 0;
       while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
       if (shape.dihedral_least < quality->dihedral_least) cw_cell_centre(data, c, quality->flattest_at);
-      quality->dihedral_least = fmin(quality->dihedral_least, shape.dihedral_least);
-      quality->dihedral_greatest = fmax(quality->dihedral_greatest, shape.dihedral_greatest);
+      quality->dihedral_least = cw_lesser(quality->dihedral_least, shape.dihedral_least);
+      quality->dihedral_greatest = cw_greater(quality->dihedral_greatest, shape.dihedral_greatest);
       quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;
     } else if (corners == 6) {
       double jacobian = cw_prism_scaled_jacobian(x);
-      quality->prism_least_scaled_jacobian = fmin(quality->prism_least_scaled_jacobian, jacobian);
+      quality->prism_least_scaled_jacobian = cw_lesser(quality->prism_least_scaled_jacobian, jacobian);
       quality->prism_jacobian_bin[bin_of(jacobian, 1.0 / CW_QUALITY_BINS, CW_QUALITY_BINS)]++;
     }
   }

@@ -109,20 +109,26 @@ static inline void face_centre(int count, const double *const *x, double centre[
     for (int k = 0; k < 3; ++k) centre[k] = (a[k] + b[k] + c[k]) / 3;
     return;
   }
-  double area = 0, moment[3] = {0}, to[4][3];
+  // By coordinate first, so that four triangles go through the processor together.
+  double area = 0, to[3][5], normal[3][4], one[4];
   for (int k = 0; k < 3; ++k) {
     centre[k] = (a[k] + b[k] + c[k] + d[k]) / 4;
-    for (int i = 0; i < 4; ++i) to[i][k] = x[i][k] - centre[k];
+    for (int i = 0; i < 4; ++i) to[k][i] = x[i][k] - centre[k];
+    to[k][4] = to[k][0];
   }
-  for (int i = 0; i < 4; ++i) {
-    const double *from = to[i], *next = to[(i + 1) % 4];
-    double normal[3];
-    cross(from, next, normal);
-    double one = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    area += one;
-    for (int k = 0; k < 3; ++k) moment[k] += one * (from[k] + next[k]);
+  for (int k = 0; k < 3; ++k) {
+    const double *p = to[(k + 1) % 3], *q = to[(k + 2) % 3];
+    for (int i = 0; i < 4; ++i) normal[k][i] = p[i] * q[i + 1] - q[i] * p[i + 1];
   }
-  for (int k = 0; k < 3; ++k) centre[k] += moment[k] / (3 * area);
+  for (int i = 0; i < 4; ++i)
+    one[i] = sqrt(normal[0][i] * normal[0][i] + normal[1][i] * normal[1][i] + normal[2][i] * normal[2][i]);
+  for (int i = 0; i < 4; ++i) area += one[i];
+  const double share = 1 / (3 * area);
+  for (int k = 0; k < 3; ++k) {
+    double moment = 0;
+    for (int i = 0; i < 4; ++i) moment += one[i] * (to[k][i] + to[k][i + 1]);
+    centre[k] += share * moment;
+  }
 }
 
 void cw_face_centre(int count, const double *const *x, double centre[3], double twice[3]) {
@@ -135,13 +141,14 @@ void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
     for (int k = 0; k < 3; ++k) centroid[k] = (x[0][k] + x[1][k] + x[2][k] + x[3][k]) / 4;
     return;
   }
+  const signed char(*face)[4] = cw_cell_face_table(count);
   for (int f = 0; f < CW_CELL_FACES; ++f) {
-    const signed char *face = cw_cell_face_table(count)[f];
-    const double *corner[4];
-    int corners = face[3] < 0 ? 3 : 4;
-    for (int i = 0; i < corners; ++i) corner[i] = x[face[i]];
-    face_centre(corners, corner, centre[f], twice[f]);
-    for (int k = 0; k < 3; ++k) apex[k] += centre[f][k] / CW_CELL_FACES;
+    const double *corner[4] = {x[face[f][0]], x[face[f][1]], x[face[f][2]], x[face[f][3] < 0 ? 0 : face[f][3]]};
+    if (face[f][3] < 0)
+      face_centre(3, corner, centre[f], twice[f]);
+    else
+      face_centre(4, corner, centre[f], twice[f]);
+    for (int k = 0; k < 3; ++k) apex[k] += centre[f][k] * (1.0 / CW_CELL_FACES);
   }
   for (int f = 0; f < CW_CELL_FACES; ++f) {
     double one = 0;
@@ -149,5 +156,6 @@ void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
     volume += one;
     for (int k = 0; k < 3; ++k) moment[k] += one * (centre[f][k] - apex[k]);
   }
-  for (int k = 0; k < 3; ++k) centroid[k] = apex[k] + 0.75 * moment[k] / volume;
+  const double share = 0.75 / volume;
+  for (int k = 0; k < 3; ++k) centroid[k] = apex[k] + share * moment[k];
 }

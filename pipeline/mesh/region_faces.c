@@ -126,6 +126,7 @@ static inline void add_side(const int32_t *nodes, int count, int32_t ref, int32_
 // < d, the corner of each in the lowest bits) three sides have a as their smallest node, the fourth b.
 static inline void add_tetrahedron(const int32_t *n, int32_t ref, int32_t end, int64_t *start, Side *sides) {
   static const signed char face_opposite[4] = {2, 3, 1, 0};
+  if ((n[0] < end) + (n[1] < end) + (n[2] < end) + (n[3] < end) < 3) return;
   uint64_t p = (uint64_t)n[0] << 2, q = (uint64_t)n[1] << 2 | 1, r = (uint64_t)n[2] << 2 | 2;
   uint64_t s = (uint64_t)n[3] << 2 | 3;
   unsigned odd = (p > q) ^ (p > r) ^ (p > s) ^ (q > r) ^ (q > s) ^ (r > s); // of the permutation that orders them
@@ -135,7 +136,6 @@ static inline void add_tetrahedron(const int32_t *n, int32_t ref, int32_t end, i
   uint64_t b = u < v ? u : v, c = u < v ? v : u;
   int32_t least = (int32_t)(a >> 2), second = (int32_t)(b >> 2);
   int whole = (int32_t)(d >> 2) < end;
-  if ((int32_t)(c >> 2) >= end) return;
   if (!sides) {
     start[least + 1] += whole ? 3 : 1;
     start[second + 1] += whole;

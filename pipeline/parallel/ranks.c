@@ -14,10 +14,13 @@ CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status) {
   return any ? CW_FAIL(CW_ERR_RANK, "another rank failed") : CW_OK;
 }
 
-int cw_ranks_speaks_of(const CwRanks *ranks, CwStatus status) {
-  int mine = status != CW_OK && status != CW_ERR_RANK ? ranks->rank : INT_MAX, first = INT_MAX;
+int cw_ranks_end(const CwRanks *ranks, CwStatus status, CwLog *log) {
+  int mine = status != CW_OK && status != CW_ERR_RANK ? ranks->rank : INT_MAX, first = INT_MAX, code = (int)status;
   MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
-  return first == ranks->rank;
+  if (first == INT_MAX) return (int)status;
+  MPI_Bcast(&code, 1, MPI_INT, first, ranks->comm);
+  MPI_Bcast(cw_failure(), (int)sizeof(CwFailure), MPI_BYTE, first, ranks->comm);
+  return ranks->rank == 0 ? cw_log_error(log, (CwStatus)code) : code;
 }
 
 void cw_ranks_pass(const CwRanks *ranks, void *items, int64_t count, size_t size, int from, int to) {

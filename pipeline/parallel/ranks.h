@@ -24,8 +24,10 @@ static inline int cw_ranks_own(const CwRanks *ranks, int region) {
 // else CW_OK. Collective.
 CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status);
 
-// Whether this rank is the first of those with a failure of their own: the one to print it. Collective.
-int cw_ranks_speaks_of(const CwRanks *ranks, CwStatus status);
+// The end of a run: the first rank with a failure of its own hands its status and its message on to all, and rank 0
+// prints the line, so that it follows all that rank 0 has printed before. Returns the exit status, the same on all
+// ranks: mpirun passes on the first one it sees. Collective.
+int cw_ranks_end(const CwRanks *ranks, CwStatus status, CwLog *log);
 
 // Gathers the `count` items of `size` bytes of each rank on rank 0, in the order of the ranks, into a new array (*all,
 // of *total items; on the other ranks NULL and 0). Fails on all ranks alike. Collective.

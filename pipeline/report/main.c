@@ -98,9 +98,7 @@ int main(int argc, char **argv) {
   if (!args.finished) CW_TRY(cw_ranks_agree(&ranks, cw_stop_watch(args.run_path, "report", ranks.rank == 0)));
   if (!args.finished) CW_TRY(cw_ranks_agree(&ranks, report(&args, &table, &ranks)));
 done:;
-  int speaks = cw_ranks_speaks_of(&ranks, status);
-  int code = status == CW_OK ? 0 : speaks ? cw_log_error(args.log, status) : (int)status;
-  MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, ranks.comm);
+  int code = cw_ranks_end(&ranks, status, args.log);
   cw_log_close(&args.log);
   cw_stop_end();
   H5close();

@@ -47,7 +47,11 @@ static CwFaceQuality face_at(double off, const double from[3], const double *to,
   const double node[3][3] = {{off + 0.1, 0, 0}, {off - 0.05, 0.05, 0}, {off - 0.05, -0.05, 0}};
   CwFaceQuality q;
   cw_face_quality_start(&q);
-  cw_face_quality_face(3, (const double *const[3]){node[0], node[1], node[2]}, from, to, kind, &q);
+  const double *const x[4] = {node[0], node[1], node[2], node[0]};
+  if (to)
+    cw_face_quality_face(3, x, from, to, kind, &q);
+  else
+    cw_face_quality_patch(3, x, from, kind, &q);
   return q;
 }
 

@@ -11,7 +11,7 @@ import unittest
 from cutwater import done, execute, fresh
 
 STEPS = int(os.environ.get("CUTWATER_STEPS", 4))
-CELLS = 20000
+CELLS = 40000
 TURN = 60 / 1450  # s
 BLADES = 6
 

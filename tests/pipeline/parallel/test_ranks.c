@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -65,12 +66,21 @@ static int spread_wrong(const CwRanks *ranks) {
   return wrong;
 }
 
+// All ranks but the first fail; the run ends everywhere with the status of the second, which rank 0 tells.
+static int end_wrong(const CwRanks *ranks) {
+  CwStatus status = CW_OK;
+  if (ranks->rank > 0) status = CW_FAIL(ranks->rank == 1 ? CW_ERR_IO : CW_ERR_MEMORY, "rank %d", ranks->rank);
+  status = cw_ranks_agree(ranks, status);
+  int code = cw_ranks_end(ranks, status, NULL);
+  return code != (ranks->size > 1 ? CW_ERR_IO : CW_OK) || (ranks->size > 1 && strcmp(cw_fail_message(), "rank 1") != 0);
+}
+
 static int be_a_rank(int argc, char **argv) {
   CwRanks ranks = {.comm = MPI_COMM_WORLD};
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(ranks.comm, &ranks.rank);
   MPI_Comm_size(ranks.comm, &ranks.size);
-  int wrong = gather_wrong(&ranks) + spread_wrong(&ranks);
+  int wrong = gather_wrong(&ranks) + spread_wrong(&ranks) + end_wrong(&ranks);
   MPI_Finalize();
   return wrong != 0;
 }
