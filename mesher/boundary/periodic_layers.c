@@ -70,11 +70,9 @@ typedef struct {
 static CwStatus find_near(void *context, int32_t v, void *out) {
   const Reach *reach = context;
   Near near = reach->near;
-  CwBox box;
   near.p = near.x[v];
   near.met = reach->is_first[v];
-  for (int k = 0; k < 3; k++) box.low[k] = near.p[k] - near.reach, box.high[k] = near.p[k] + near.reach;
-  if (!near.met) cw_box_tree_overlaps(reach->tree, &box, meet, &near);
+  if (!near.met) cw_box_tree_near(reach->tree, near.p, near.reach, meet, &near);
   *(uint8_t *)out = (uint8_t)near.met;
   return CW_OK;
 }

@@ -129,6 +129,30 @@ static int visit_leaf(const CwBoxTree *tree, int32_t k, CwBoxVisit visit, void *
   return 0;
 }
 
+static double squared_distance(const CwBox *box, const double p[3]) {
+  double sum = 0;
+  for (int k = 0; k < 3; k++) {
+    double d = cw_greater(0, cw_greater(box->low[k] - p[k], p[k] - box->high[k]));
+    sum += d * d;
+  }
+  return sum;
+}
+
+void cw_box_tree_near(const CwBoxTree *tree, const double p[3], double reach, CwBoxVisit visit, void *context) {
+  int32_t stack[DEPTH], depth = 0;
+  if (tree->count) stack[depth++] = 1;
+  while (depth) {
+    int32_t k = stack[--depth];
+    if (!(squared_distance(&tree->node[k], p) < reach * reach)) continue;
+    if (k >= tree->leaves) {
+      if (visit_leaf(tree, k, visit, context)) return;
+      continue;
+    }
+    stack[depth++] = 2 * k + 1;
+    stack[depth++] = 2 * k;
+  }
+}
+
 CwBoxStarts cw_box_tree_starts(const CwBoxTree *tree, const CwBox *box) {
   CwBoxStarts starts = {.count = tree->count > 0, .node = {1}};
   for (int end = 0; !end;) {

@@ -17,13 +17,14 @@
 #include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
 
-enum { BLOCK = 2048 };
-static const double ROUNDING = 1e-9; // of a length summed along edges
+enum { BLOCKS = 256, LEAST_BLOCK = 2048 }; // blocks at most; vertices of one at least
+static const double ROUNDING = 1e-9;       // of a length summed along edges
 
 typedef struct {
   const CwSmoothing *smoothing;
   CwSmoothingReach *reach; // scratch of a block: of every vertex of the domain; out of reach in between
   int32_t *visited;        // those that are not
+  int32_t block;           // vertices of each but the last
 } Blocks;
 
 // The layer top of the distances in a block.
@@ -82,7 +83,8 @@ static CwStatus find_block(void *context, int32_t block, void **bytes, int64_t *
   Blocks *blocks = context;
   const CwSmoothing *smoothing = blocks->smoothing;
   const CwLayerWork *work = smoothing->work;
-  int32_t first = block * BLOCK, last = work->n - first < BLOCK ? work->n : first + BLOCK;
+  int32_t first = block * blocks->block, left = work->n - first;
+  int32_t last = left < blocks->block ? work->n : first + blocks->block;
   Spread spread = {.blocks = blocks};
   CwSmoothingReach *made = NULL;
   CW_NEW(made, last - first);
@@ -113,8 +115,9 @@ done:
 
 CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   CwStatus status = CW_OK;
-  int32_t n = smoothing->work->n, count = (n + BLOCK - 1) / BLOCK;
-  Blocks blocks = {.smoothing = smoothing};
+  int32_t n = smoothing->work->n, block = n / BLOCKS + 1 > LEAST_BLOCK ? n / BLOCKS + 1 : LEAST_BLOCK;
+  int32_t count = (n + block - 1) / block;
+  Blocks blocks = {.smoothing = smoothing, .block = block};
   int64_t *size = NULL;
   void **bytes = NULL;
   CW_NEW(blocks.reach, n);
@@ -127,7 +130,7 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   CW_TRY(cw_schedule_run(smoothing->work->in->context, &schedule, bytes, size, NULL));
   for (int32_t b = 0; b < count; b++) {
     const CwSmoothingReach *made = bytes[b];
-    int32_t first = b * BLOCK, last = n - first < BLOCK ? n : first + BLOCK;
+    int32_t first = b * block, last = n - first < block ? n : first + block;
     for (int32_t i = first; i < last; i++) smoothing->reach[smoothing->work->curve[i]] = made[i - first];
   }
 done:

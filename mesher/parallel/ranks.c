@@ -20,8 +20,7 @@ static const double LOOK_SECONDS = 2e-2;
 // One a process, as MPI is: whether its host has a core for each rank.
 static int own_core;
 
-const double CW_TEAM_PAUSE = 2e-5;                         // s
-static const double MOST_PAUSE = 2e-3, PAUSE_GROWTH = 1.5; // s
+static const double LEAST_PAUSE = 2e-5, MOST_PAUSE = 2e-3, PAUSE_GROWTH = 1.5; // s
 static const double END_SECONDS = 5; // that a rank which has failed leaves to the one that says why
 
 static const CwTeam ALONE = {.rank = 0, .ranks = 1};
@@ -35,18 +34,19 @@ void cw_team_sleep(double seconds) {
   nanosleep(&pause, NULL);
 }
 
-double cw_team_longer(double pause) {
-  return pause < MOST_PAUSE ? PAUSE_GROWTH * pause : pause;
+CwTeamWait cw_team_wait_begin(void) {
+  return (CwTeamWait){.pause = LEAST_PAUSE, .until = own_core ? cw_seconds() + LOOK_SECONDS : 0};
+}
+
+void cw_team_wait_on(CwTeamWait *wait) {
+  if (wait->looks++ < LOOKS || cw_seconds() < wait->until) return;
+  cw_team_sleep(wait->pause);
+  if (wait->pause < MOST_PAUSE) wait->pause *= PAUSE_GROWTH;
 }
 
 void cw_team_wait(MPI_Request *request) {
-  int done = 0;
-  double pause = CW_TEAM_PAUSE, until = own_core ? cw_seconds() + LOOK_SECONDS : 0;
-  for (int looks = 0; MPI_Test(request, &done, MPI_STATUS_IGNORE), !done; looks++) {
-    if (looks < LOOKS || cw_seconds() < until) continue;
-    cw_team_sleep(pause);
-    pause = cw_team_longer(pause);
-  }
+  CwTeamWait wait = cw_team_wait_begin();
+  for (int done = 0; MPI_Test(request, &done, MPI_STATUS_IGNORE), !done;) cw_team_wait_on(&wait);
 }
 
 void cw_team_barrier(const CwTeam *team) {

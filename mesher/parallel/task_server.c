@@ -8,9 +8,9 @@
 #include "mesher/parallel/team.h"
 
 enum { ASK_TAG = 1, GIVE_TAG = 2, PARTS = 4, EARLY = 2 };
-static const double SHOW_PAUSE = 0.25; // s
-// Of the thread before it looks first, s: a rank that runs short tasks answers between them.
-static const double SERVER_PAUSE = 2e-4;
+// Between two looks of the thread, s: each takes the processor from the first rank's task, which answers between its
+// tasks, and the others ask before they need. Here and there a rank waits for a look near the end.
+static const double SERVER_PAUSE = 4e-3;
 
 typedef enum { OPEN, GIVEN, ENDED } PlaceState;
 
@@ -20,16 +20,17 @@ struct CwTaskServer {
   // On the first rank alone, and under the lock.
   pthread_t thread;
   pthread_mutex_t lock;
-  pthread_cond_t look, answered; // the thread has to look again; the first rank has its answer
+  pthread_cond_t look; // for the thread: all ranks know of the end
   int started;
   unsigned char *state; // of each place, PlaceState
   int32_t first, ended; // no place ahead of `first` is open
   CwPlaces *held;       // by each rank; another one's may still be run (cw_task_server_look)
   unsigned char *asks;  // ranks that wait for an answer
   int gone;             // ranks that know of the end
-  // On the others: what was asked for, and the answer on its way.
-  MPI_Request answer;
+  // On each rank: what it was given, whether it need not ask again, and but on the first the answer on its way.
   CwPlaces next;
+  int last;
+  MPI_Request answer;
 };
 
 static struct timespec after(double seconds) {
@@ -62,6 +63,11 @@ static CwPlaces choose(CwTaskServer *server) {
   return (CwPlaces){0};
 }
 
+// Whether who gets these places need not ask again.
+static int are_last(const CwTaskOrder *order, const CwPlaces *places) {
+  return places->count == 0 || (!order->before && places->left == 0);
+}
+
 // A rank has ended what it held and asks for more; answers all ranks that can be answered.
 static void take_up(CwTaskServer *server, int asking) {
   CwPlaces *held = server->held;
@@ -72,23 +78,20 @@ static void take_up(CwTaskServer *server, int asking) {
   for (int rank = 0; rank < server->team->ranks; rank++) {
     if (!server->asks[rank]) continue;
     held[rank] = choose(server);
-    if (held[rank].count == 0 && server->ended < server->order.count) break; // until others end
+    if (server->order.before && held[rank].count == 0 && server->ended < server->order.count) break; // until others end
     server->asks[rank] = 0;
-    server->gone += held[rank].count == 0;
-    if (rank > 0)
-      MPI_Send(&held[rank], 3, MPI_INT32_T, rank, GIVE_TAG, server->team->comm);
-    else
-      pthread_cond_signal(&server->answered);
+    server->gone += are_last(&server->order, &held[rank]);
+    if (rank > 0) MPI_Send(&held[rank], 3, MPI_INT32_T, rank, GIVE_TAG, server->team->comm);
   }
   if (server->gone == server->team->ranks) pthread_cond_signal(&server->look);
 }
 
-// Answers who has asked; returns whether any had. Under the lock.
-static int answer(CwTaskServer *server) {
-  int there, any = 0;
-  for (MPI_Status message;; any = 1) {
+// Answers who has asked. Under the lock.
+static void answer(CwTaskServer *server) {
+  for (int there = 1; there;) {
+    MPI_Status message;
     MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, server->team->comm, &there, &message);
-    if (!there) return any;
+    if (!there) break;
     MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, server->team->comm, MPI_STATUS_IGNORE);
     take_up(server, message.MPI_SOURCE);
   }
@@ -97,10 +100,10 @@ static int answer(CwTaskServer *server) {
 static void *serve(void *context) {
   CwTaskServer *server = context;
   pthread_mutex_lock(&server->lock);
-  for (double pause = SERVER_PAUSE; server->gone < server->team->ranks;) {
-    struct timespec end = after(pause);
+  while (server->gone < server->team->ranks) {
+    struct timespec end = after(SERVER_PAUSE);
     pthread_cond_timedwait(&server->look, &server->lock, &end);
-    pause = answer(server) ? SERVER_PAUSE : cw_team_longer(pause);
+    answer(server);
   }
   pthread_mutex_unlock(&server->lock);
   return NULL;
@@ -131,7 +134,6 @@ static CwStatus start_thread(CwTaskServer *server) {
   pthread_condattr_init(&clock);
   pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
   pthread_cond_init(&server->look, &clock);
-  pthread_cond_init(&server->answered, &clock);
   pthread_condattr_destroy(&clock);
   server->started = pthread_create(&server->thread, NULL, serve, server) == 0;
   CW_REQUIRE(server->started, CW_ERR_LIBRARY, "the system gives no thread");
@@ -150,29 +152,42 @@ done:
   return status;
 }
 
+// The first rank, which has nothing else to do, answers until it has its own answer, or all ranks know of the end.
+static void attend(CwTaskServer *server, int to_the_end, void (*meanwhile)(void *given, int64_t ended), void *given) {
+  CwTeamWait wait = cw_team_wait_begin();
+  for (;; cw_team_wait_on(&wait)) {
+    pthread_mutex_lock(&server->lock);
+    answer(server);
+    int over = to_the_end ? server->gone == server->team->ranks : !server->asks[0];
+    int64_t ended = server->ended;
+    pthread_mutex_unlock(&server->lock);
+    if (meanwhile) meanwhile(given, ended);
+    if (over) break;
+  }
+}
+
 CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given) {
-  CwPlaces places;
+  if (server->last) return (CwPlaces){0};
   if (server->team->rank > 0) {
     if (server->answer == MPI_REQUEST_NULL) ask(server);
     cw_team_wait(&server->answer);
-    return server->next;
+  } else {
+    pthread_mutex_lock(&server->lock);
+    take_up(server, 0);
+    pthread_mutex_unlock(&server->lock);
+    attend(server, 0, meanwhile, given);
+    server->next = server->held[0];
   }
-  pthread_mutex_lock(&server->lock);
-  take_up(server, 0);
-  for (;;) {
-    if (meanwhile) meanwhile(given, server->ended);
-    if (!server->asks[0]) break;
-    struct timespec end = after(SHOW_PAUSE);
-    pthread_cond_timedwait(&server->answered, &server->lock, &end);
-  }
-  places = server->held[0];
-  pthread_mutex_unlock(&server->lock);
-  return places;
+  server->last = are_last(&server->order, &server->next);
+  return server->next;
 }
 
 void cw_task_server_stop(CwTaskServer *server) {
   if (!server) return;
-  if (server->started) pthread_join(server->thread, NULL);
+  if (server->started) {
+    attend(server, 1, NULL, NULL);
+    pthread_join(server->thread, NULL);
+  }
   free(server->state);
   free(server->held);
   free(server->asks);

@@ -17,7 +17,7 @@ typedef struct {
   const int32_t *before; // a place ahead that has to have ended before this one is given, -1: none; NULL: none waits
 } CwTaskOrder;
 
-// The places first .. first + count - 1; count 0: all have ended, or are run by others.
+// The places first .. first + count - 1; count 0: none is left.
 typedef struct {
   int32_t first, count, left; // left: places behind them
 } CwPlaces;
@@ -30,8 +30,8 @@ CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTa
 
 // The places that this rank had last have ended; returns the next. They are so many that their cost is a quarter of a
 // rank's part of what is left at most, one at least (guided self-scheduling: Polychronopoulos and Kuck 1987), and one
-// where tasks wait for others. Waits asleep until there is one to be had or all have ended; on the first rank calls
-// `meanwhile` (may be NULL) with `given` and the number that have, before and a few times a second.
+// where tasks wait for others. Waits until there is one to be had or none is left; on the first rank calls `meanwhile`
+// (may be NULL) with `given` and the number that are known to have ended.
 CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given);
 
 // Before place places->first + at is run: the first rank answers who has asked meanwhile, sooner than its thread would;

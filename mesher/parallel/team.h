@@ -17,14 +17,18 @@ struct CwTeam {
 // The team of a context; one of this rank alone where it has none.
 const CwTeam *cw_team_of(const CwContext *context);
 
-// Waits for a message asleep: MPI's own wait keeps its core busy, which another rank may need.
+// Waits for a message, at length asleep: MPI's own wait keeps its core busy, which another rank may need.
 void cw_team_wait(MPI_Request *request);
 void cw_team_barrier(const CwTeam *team);
 void cw_team_sleep(double seconds);
 
-// The pause after which one looks again, shorter than a third of the time waited so far: of the first look and of
-// others.
-extern const double CW_TEAM_PAUSE;
-double cw_team_longer(double pause);
+// The same for who looks for something else: after each look in vain cw_team_wait_on(), which sleeps no longer than
+// about a third of the time waited so far.
+typedef struct {
+  double pause, until; // s: of the next sleep; when the first may begin
+  int looks;
+} CwTeamWait;
+CwTeamWait cw_team_wait_begin(void);
+void cw_team_wait_on(CwTeamWait *wait);
 
 #endif

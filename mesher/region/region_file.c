@@ -47,13 +47,12 @@ done:
   return status;
 }
 
-CwStatus cw_region_write(const char *path, CwRegionMesh *region) {
+CwStatus cw_region_write_begin(const char *path, CwRegionMesh *region, CwAtomicFile *temporary) {
   CwStatus status = CW_OK;
   hid_t file = -1;
-  CwAtomicFile temporary = {0};
-  CW_TRY(cw_atomic_file_name(path, &temporary));
+  CW_TRY(cw_atomic_file_name(path, temporary));
   errno = 0;
-  file = cw_region_items_create(temporary.temporary_path);
+  file = cw_region_items_create(temporary->temporary_path);
   CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be made: %s", path, errno ? strerror(errno) : "HDF5 refuses");
   status = write_items(file, region);
   if (status != CW_OK) {
@@ -63,11 +62,17 @@ CwStatus cw_region_write(const char *path, CwRegionMesh *region) {
   herr_t closed = H5Fclose(file);
   file = -1;
   CW_REQUIRE(closed >= 0, CW_ERR_IO, "%s: cannot be written to its end (is the disk full?)", path);
-  CW_TRY(cw_atomic_file_commit(&temporary));
+  cw_sync_begin(temporary->temporary_path);
 done:
   if (file >= 0) H5Fclose(file);
-  cw_atomic_file_abandon(&temporary);
+  if (status != CW_OK) cw_atomic_file_abandon(temporary);
   return status;
+}
+
+CwStatus cw_region_write(const char *path, CwRegionMesh *region) {
+  CwAtomicFile file = {0};
+  CwStatus status = cw_region_write_begin(path, region, &file);
+  return status == CW_OK ? cw_atomic_file_commit(&file) : status;
 }
 
 // Of an open file.

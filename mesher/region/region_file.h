@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "pipeline/atomic_file.h"
 #include "pipeline/status.h"
 
 #include "mesher/fill/fill.h"
@@ -27,6 +28,10 @@ typedef struct {
 
 // Writes under a temporary name and renames. Equal regions give equal bytes. Sets the digest.
 CwStatus cw_region_write(const char *path, CwRegionMesh *region);
+
+// The same up to the commit of `file`, which has less to wait for the longer after it comes. On failure nothing is
+// left.
+CwStatus cw_region_write_begin(const char *path, CwRegionMesh *region, CwAtomicFile *file);
 // Reads and checks digests and ranges; CW_ERR_INPUT with file and item where something does not fit, CW_ERR_IO where
 // the file is damaged or cut short.
 CwStatus cw_region_read(const char *path, CwRegionMesh *region);

@@ -195,6 +195,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   const CwDomain *domain = &run->domain[task.domain];
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
+  CwAtomicFile file = {0};
   char path[4096], boundary_path[4096], fingerprint[CW_HASH_TEXT];
   int taken;
   int32_t first = cw_image_region_first(&domain->images, &domain->plan, task.index);
@@ -205,7 +206,10 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   cw_region_fingerprint(&domain->context, task.index, fingerprint);
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
   CwStatus made = taken ? CW_OK : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
-  if (made == CW_OK && !taken) made = cw_audit_region(&mesh, &summary->quality);
+  if (made == CW_OK && !taken) { // on its way to the disk while it is looked at
+    CW_TRY(cw_region_write_begin(path, &mesh, &file));
+    made = cw_audit_region(&mesh, &summary->quality);
+  }
   if (made == CW_ERR_MESH) {
     CW_TRY(cw_region_failure_examine(&domain->context.from, task.index, cw_fail_message(), boundary_path,
                                      &summary->failure));
@@ -213,16 +217,17 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   } else {
     CW_TRY(made);
     remove(boundary_path); // of an earlier attempt
-    if (!taken) CW_TRY(cw_region_write(path, &mesh));
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
     cw_domain_coverage(domain, task.index, CW_PATCHES_MOST, summary->coverage);
     CW_TRY(cw_layer_ratio(&mesh, domain->layer_count, CW_PATCHES_MOST, summary->ratio));
+    if (!taken) CW_TRY(cw_atomic_file_commit(&file));
   }
   *bytes = summary;
   *size = sizeof *summary;
   summary = NULL;
 done:
+  cw_atomic_file_abandon(&file);
   cw_region_free(&mesh);
   free(summary);
   return status;

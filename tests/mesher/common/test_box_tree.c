@@ -61,6 +61,59 @@ static void finds_all_that_meet(void **state) {
   free(box);
 }
 
+// From the starts of a box around several, a walk visits the same items in the same order as from the root.
+static int list(void *context, int32_t item) {
+  int32_t *order = context;
+  order[1 + order[0]++] = item;
+  return 0;
+}
+
+static void starts_lead_to_the_same(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree;
+  random_boxes(6, box);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  for (int i = 0; i + 4 < COUNT; i += 4) {
+    CwBox around = cw_box_empty();
+    const int32_t *near = &tree.item[i];
+    int group = i % 3 ? 4 : 1;
+    for (int j = 0; j < group; j++) cw_box_add(&around, &box[near[j]]);
+    const CwBoxStarts starts = cw_box_tree_starts(&tree, &around);
+    for (int j = 0; j < group; j++) {
+      int32_t all[COUNT + 1] = {0}, some[COUNT + 1] = {0};
+      cw_box_tree_overlaps(&tree, &box[near[j]], list, all);
+      cw_box_tree_overlaps_from(&tree, &starts, &box[near[j]], list, some);
+      assert_memory_equal(all, some, sizeof all);
+    }
+  }
+  const CwBox far = {{5, 5, 5}, {6, 6, 6}};
+  assert_int_equal(cw_box_tree_starts(&tree, &far).count, 0);
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
+static void finds_all_that_are_near(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree;
+  random_boxes(7, box);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  int visits = 0;
+  for (int i = 0; i < COUNT; i++) {
+    const double *p = box[i].low, reach = 0.001 * i / COUNT * 100;
+    uint8_t seen[COUNT] = {0};
+    cw_box_tree_near(&tree, p, reach, mark, seen);
+    for (int j = 0; j < COUNT; j++) {
+      double square = 0;
+      for (int k = 0; k < 3; k++) square += pow(fmax(0, fmax(box[j].low[k] - p[k], p[k] - box[j].high[k])), 2);
+      if (sqrt(square) < reach) assert_true(seen[j]);
+      visits += seen[j];
+    }
+  }
+  assert_true(visits < COUNT * COUNT / 8);
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
 static void follows_those_that_move(void **state) {
   CwBox *box = calloc(COUNT, sizeof *box);
   CwBoxTree tree, before, whole;
@@ -138,8 +191,10 @@ static void empty_and_stopped(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(finds_all_that_meet), cmocka_unit_test(follows_those_that_move),
-                                     cmocka_unit_test(passes_by_most), cmocka_unit_test(rays_meet_what_lies_on_them),
-                                     cmocka_unit_test(empty_and_stopped)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(finds_all_that_meet),     cmocka_unit_test(starts_lead_to_the_same),
+      cmocka_unit_test(finds_all_that_are_near), cmocka_unit_test(follows_those_that_move),
+      cmocka_unit_test(passes_by_most),          cmocka_unit_test(rays_meet_what_lies_on_them),
+      cmocka_unit_test(empty_and_stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
