@@ -399,7 +399,10 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
   cw_progress_start(ranks->log, "number the mesh", mesh->region_count, "regions");
   for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r)) status = collect_region(mesh, r, a, &c);
+    if (cw_ranks_own(ranks, r)) {
+      cw_mesh_region_ahead(mesh, r + ranks->size);
+      status = collect_region(mesh, r, a, &c);
+    }
     cw_progress(ranks->log, r + 1);
   }
   cw_progress_end(ranks->log);

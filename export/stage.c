@@ -70,7 +70,10 @@ static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutp
   status = cw_output_open(output, ranks);
   cw_progress_start(ranks->log, "check and write the mesh", regions, "regions");
   for (int r = 0; r < regions && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r)) status = write_region(assembly, r, output, &figures[r]);
+    if (cw_ranks_own(ranks, r)) {
+      cw_mesh_region_ahead(assembly->mesh, r + ranks->size);
+      status = write_region(assembly, r, output, &figures[r]);
+    }
     if (ranks->rank == 0 && (int64_t)(r + 1) * SYNCS / regions > (int64_t)r * SYNCS / regions)
       cw_folder_sync_begin(output->folder);
     cw_progress(ranks->log, r + 1);

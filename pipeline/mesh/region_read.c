@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/mesh/region_read.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void cw_mesh_region_free(CwRegionData *data) {
   free(data->points);
@@ -17,6 +19,14 @@ void cw_mesh_region_free(CwRegionData *data) {
   free(data->quad_patch);
   free(data->quad_cell);
   memset(data, 0, sizeof *data);
+}
+
+void cw_mesh_region_ahead(const CwMesh *mesh, int region) {
+  if (region >= mesh->region_count) return;
+  const int handle = open(mesh->regions[region].path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (handle < 0) return; // reading it tells
+  posix_fadvise(handle, 0, 0, POSIX_FADV_WILLNEED);
+  close(handle);
 }
 
 CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, CwRegionData *r) {

@@ -10,6 +10,9 @@
 // every index is in range and every coordinate finite. CW_ERR_IO or CW_ERR_INPUT. Zeroed `data` on entry;
 // free it with cw_mesh_region_free, also after a failure.
 CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, CwRegionData *data);
+
+// Has the system read the file of a region that is wanted soon, while this one is worked on; nothing past the last.
+void cw_mesh_region_ahead(const CwMesh *mesh, int region);
 void cw_mesh_region_free(CwRegionData *data);
 
 #endif

@@ -264,11 +264,15 @@ static CwStatus draw_cut(CwDrawing *drawing, const CwMesh *mesh, int region, con
                          const CwRegionData *cells) {
   CwStatus status = CW_OK;
   int d = cells->domain, solved = cw_picture_is_of_flow(drawing->spec);
-  double *distance = NULL;
+  double *distance = NULL, least = INFINITY, most = -INFINITY;
   CW_NEW(distance, cells->point_count);
-  for (int32_t i = 0; i < cells->point_count; i++)
+  for (int32_t i = 0; i < cells->point_count; i++) {
     distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
                                                             : cw_cut_distance(&drawing->plane, cells->points[i]);
+    least = distance[i] < least ? distance[i] : least;
+    most = distance[i] > most ? distance[i] : most;
+  }
+  if (least >= 0 || most < 0) goto done; // the region lies on one side
   const struct {
     int32_t count;
     int corners;
@@ -291,8 +295,8 @@ done:
   return status;
 }
 
-CwStatus cw_drawing_add(CwDrawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey,
-                        const CwFlow *flow, const CwRegionData *cells, double *const share[2]) {
+CwStatus cw_drawing_add(CwDrawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey, const CwFlow *flow,
+                        const CwRegionData *cells, double *const share[2]) {
   CwStatus status = CW_OK;
   if (!(drawing->spec->sees & drawing->part[cells->domain]) || drawing->lacking) goto done;
   if (drawing->spec->plane == CW_PLANE_NONE)

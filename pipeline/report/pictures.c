@@ -143,7 +143,7 @@ static CwStatus survey_own(Board *board, int64_t *faces) {
     int64_t *of = faces + board->mesh->domains[cells.domain].first_patch;
     for (int32_t t = 0; t < cells.triangle_count; t++) of[cells.triangle_patch[t]]++;
     for (int32_t q = 0; q < cells.quad_count; q++) of[cells.quad_patch[q]]++;
-    cw_survey_add(board->survey, board->mesh, &cells);
+    CW_TRY(cw_survey_add(board->survey, board->mesh, &cells));
     for (int k = 0; k < cw_picture_list_count; k++) cw_drawing_reach(&board->drawing[k], &cells);
     cw_mesh_region_free(&cells);
   }
@@ -194,6 +194,7 @@ static CwStatus draw_own(const Board *board, CwFlow *flow, CwView *view) {
   double *share[2] = {NULL, NULL};
   CwRegionData cells = {0};
   for (int r = board->first; r < board->last; r++) {
+    if (r + 1 < board->last) cw_mesh_region_ahead(board->mesh, r + 1);
     CW_TRY(cw_mesh_region_read(board->mesh, r, CW_REGION_WHOLE, &cells));
     if (flow->present) CW_TRY(cw_flow_faces(flow, board->mesh, r, &cells, share));
     CW_TRY(cw_view_add(view, board->mesh, &cells, share));
@@ -204,8 +205,8 @@ static CwStatus draw_own(const Board *board, CwFlow *flow, CwView *view) {
       free(share[q]);
       share[q] = NULL;
     }
-    cw_progress(board->ranks->log, (int64_t)(r + 1 - board->first) * board->mesh->region_count /
-                                       (board->last - board->first));
+    cw_progress(board->ranks->log,
+                (int64_t)(r + 1 - board->first) * board->mesh->region_count / (board->last - board->first));
   }
 done:
   cw_mesh_region_free(&cells);

@@ -77,6 +77,7 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
   // Sample (i, j) has its centre at (i + 0.5, j + 0.5).
   int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
   int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
+  if (first > last || up > down) return; // between samples, as most faces of a fine mesh
   touch(canvas, up, down);
   // weight[k] is 1 at corner k and 0 on the edge k+1, k+2 opposite to it; reach[k] is the height over that
   // edge.
@@ -87,7 +88,7 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
     gx[k] = -dy / area;
     gy[k] = dx / area;
     at[k] = (dx * (up + 0.5 - y[a]) - dy * (first + 0.5 - x[a])) / area;
-    reach[k] = fabs(area) / fmax(hypot(dx, dy), 1e-30);
+    reach[k] = paint->edge_strength > 0 ? fabs(area) / fmax(hypot(dx, dy), 1e-30) : 0;
   }
   double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
   for (int j = up; j <= down; j++) {

@@ -2,6 +2,7 @@
 #include "pipeline/report/survey.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "pipeline/report/exact_sum.h"
@@ -44,20 +45,35 @@ static double face_area(const double a[3], const double b[3], const double c[3])
                     pow(u[0] * v[1] - u[1] * v[0], 2));
 }
 
-void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells) {
+// The points of all faces, each once.
+static CwStatus add_points(CwSurvey *survey, const CwRegionData *cells) {
+  CwStatus status = CW_OK;
+  unsigned char *is_seen = NULL;
+  CW_NEW(is_seen, cells->point_count);
+  for (int32_t t = 0; t < cells->triangle_count; t++)
+    for (int k = 0; k < 3; k++) is_seen[cells->triangles[t][k]] = 1;
+  for (int32_t q = 0; q < cells->quad_count; q++)
+    for (int k = 0; k < 4; k++) is_seen[cells->quads[q][k]] = 1;
+  for (int32_t p = 0; p < cells->point_count; p++)
+    if (is_seen[p]) add_point(survey, cells->points[p]);
+done:
+  free(is_seen);
+  return status;
+}
+
+CwStatus cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells) {
+  CwStatus status = CW_OK;
   // Patches of a region are counted from the first one of its domain; those of another domain get a number no face has.
   int first = mesh->domains[cells->domain].first_patch, wall[CW_WALL_COUNT];
   int patch[CW_PLACE_COUNT];
   for (int k = 0; k < CW_PLACE_COUNT; k++) patch[k] = cw_mesh_patch_find(mesh, place_patch[k]) - first;
   for (int k = 0; k < CW_WALL_COUNT; k++) wall[k] = cw_mesh_patch_find(mesh, wall_patch[k]) - first;
+  CW_TRY(add_points(survey, cells));
   for (int32_t t = 0; t < cells->triangle_count; t++) {
     const double *a = cells->points[cells->triangles[t][0]], *b = cells->points[cells->triangles[t][1]],
                  *c = cells->points[cells->triangles[t][2]];
     double middle[3], area = face_area(a, b, c);
     for (int i = 0; i < 3; i++) middle[i] = (a[i] + b[i] + c[i]) / 3;
-    add_point(survey, a);
-    add_point(survey, b);
-    add_point(survey, c);
     add_point(survey, middle);
     for (int k = 0; k < CW_PLACE_COUNT; k++) {
       if (patch[k] != cells->triangle_patch[t]) continue;
@@ -73,9 +89,8 @@ void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cel
       survey->wall_sum[k][bin][1] += cw_exact_term(area * middle[2], survey->moment_unit);
     }
   }
-  for (int32_t q = 0; q < cells->quad_count; q++) {
-    for (int k = 0; k < 4; k++) add_point(survey, cells->points[cells->quads[q][k]]);
-  }
+done:
+  return status;
 }
 
 void cw_survey_join(CwSurvey *survey, const CwRanks *ranks) {

@@ -243,7 +243,7 @@ static void survey_finds_places(void **state) {
   cw_survey_start(survey, &sizes);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 0);
   assert_int_equal(cw_survey_wall(survey, CW_WALL_SHROUD, 0.02, &z), 0);
-  cw_survey_add(survey, &mesh, &cells);
+  assert_int_equal(cw_survey_add(survey, &mesh, &cells), CW_OK);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle),
                    1); // one blade, not the mean of both
   assert_near(fabs(middle[0]), 0.1, 1e-9);
@@ -263,7 +263,7 @@ static void survey_finds_places(void **state) {
   assert_true(isnan(cw_survey_mid_span(survey, (double[]){0.01, 0.01, 0}))); // no hub yet
   for (int k = 9; k < 12; k++) x[k][2] = 0.02;
   snprintf(names[2].name, sizeof names[2].name, "hub");
-  cw_survey_add(survey, &mesh, &cells);
+  assert_int_equal(cw_survey_add(survey, &mesh, &cells), CW_OK);
   assert_true(cw_survey_has_mid_span(survey));
   assert_near(cw_survey_mid_span(survey, (double[]){0, 0.05 / 3, 0.03}), 0.025, 1e-12);
   assert_true(isnan(cw_survey_mid_span(survey, (double[]){0.09, 0, 0})));
@@ -272,7 +272,7 @@ static void survey_finds_places(void **state) {
   x[0][0] = 0.04;
   x[1][0] = x[2][0] = 0.041;
   cw_survey_start(survey, &sizes);
-  cw_survey_add(survey, &mesh, &cells);
+  assert_int_equal(cw_survey_add(survey, &mesh, &cells), CW_OK);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_LEADING_EDGE, middle), 1);
   assert_near(middle[0], 0.122 / 3, 1e-9);
   free(survey);
