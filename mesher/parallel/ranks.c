@@ -17,8 +17,13 @@ enum { LOOKS = 20 }; // for a message before the first sleep: some microseconds,
 // That a rank looks before it sleeps, s, where each has a core of its own: steps of all ranks follow one another in
 // milliseconds, and who sleeps through the end of a wait is late by up to a third of it.
 static const double LOOK_SECONDS = 2e-2;
-// One a process, as MPI is: whether its host has a core for each rank.
+// A look that comes so much later than the one before, s, found the core with another program: for a while no rank that
+// waits here looks on, s.
+static const double LATE = 1e-3, CROWDED = 1;
+// One a process, as MPI is: whether its host has a core for each rank, and until when it is known to be taken by
+// others.
 static int own_core;
+static double crowded_until;
 
 static const double LEAST_PAUSE = 2e-5, MOST_PAUSE = 2e-3, PAUSE_GROWTH = 1.5; // s
 static const double END_SECONDS = 5; // that a rank which has failed leaves to the one that says why
@@ -35,13 +40,18 @@ void cw_team_sleep(double seconds) {
 }
 
 CwTeamWait cw_team_wait_begin(void) {
-  return (CwTeamWait){.pause = LEAST_PAUSE, .until = own_core ? cw_seconds() + LOOK_SECONDS : 0};
+  double now = cw_seconds();
+  return (CwTeamWait){.pause = LEAST_PAUSE, .until = own_core ? now + LOOK_SECONDS : 0, .seen = now};
 }
 
 void cw_team_wait_on(CwTeamWait *wait) {
-  if (wait->looks++ < LOOKS || cw_seconds() < wait->until) return;
+  double now = cw_seconds();
+  if (now < wait->until && now - wait->seen > LATE) crowded_until = now + CROWDED;
+  wait->seen = now;
+  if (wait->looks++ < LOOKS || (now < wait->until && now >= crowded_until)) return;
   cw_team_sleep(wait->pause);
   if (wait->pause < MOST_PAUSE) wait->pause *= PAUSE_GROWTH;
+  wait->seen = cw_seconds();
 }
 
 void cw_team_wait(MPI_Request *request) {
