@@ -172,7 +172,7 @@ class Failures(unittest.TestCase):
     def test_a_second_stage_in_the_folder(self):
         """It ends in one line that names the holder, whose files, log and end stay as they would have been."""
         run = with_geometry("locked")
-        holder = start("mesh", run, cells="2M", ranks=2)
+        holder = start("mesh", run, cells="20M", ranks=2)
         for line in holder.stderr:
             if "size field" in line:
                 break
