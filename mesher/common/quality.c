@@ -46,8 +46,8 @@ void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
   for (int i = 0; i < 4; i++) {
     for (int j = i + 1; j < 4; j++) {
       double cosine = -cw_dot(normal[i], normal[j]);
-      most = cw_greater(most, cosine);
-      least = cw_lesser(least, cosine);
+      most = cw_greater(most, cosine); // a face without area has none, and leaves both as they are
+      least = cw_lesser(cosine, least);
     }
   }
   const double degrees = 180.0 / 3.14159265358979323846;

@@ -192,8 +192,10 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   CW_TRY(
       cw_profiler_tasks(context, schedule->step, count, schedule->cost, schedule->after, time, work.seconds, gathered));
   if (seconds) memcpy(seconds, time, (size_t)count * sizeof *time);
-  if (schedule->unit) cw_progress(work.log, count);
-  if (schedule->unit) cw_progress_end(work.log);
+  if (schedule->unit) {
+    cw_progress(work.log, count);
+    cw_progress_end(work.log);
+  }
   cw_profiler_part(context, part);
 done:
   free(time);

@@ -9,9 +9,9 @@
 #include "mesher/common/mix.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
-#include "mesher/common/vec.h"
 
 static const char *cell_name(int corners) {
   return corners == 4 ? "tetrahedron" : corners == 5 ? "pyramid" : "prism";
