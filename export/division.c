@@ -248,16 +248,17 @@ static CwStatus count_inner(const CwDivision *v, int region, const CwRegionData 
   CwFaceStretch s = {0};
   CwPiece *pieces = &v->pieces[v->first_piece[region]];
   const int64_t before = found->link_count;
-  CW_TRY(cw_face_stretch_inner(v->assembly, region, data, faces, &s));
-  for (int64_t f = 0; f < s.faces; ++f) {
-    if (s.open[f] >= 0) continue;
-    const int32_t here = piece_of[s.cell[f]], there = piece_of[s.across[f] - v->assembly->places[region].cell];
-    if (here == there)
-      add(&pieces[here].inner, (CwFaceCount){s.sides[f] == 3, s.sides[f] == 4});
-    else
-      CW_TRY(add_link(&found->links, &found->link_count, &found->link_room, pieces[here].part, pieces[there].part,
-                      region, s.sides[f]));
-  }
+  CW_TRY(cw_face_stretch_new(CW_FACES_AT_ONCE, &s));
+  while (cw_face_stretch_inner(v->assembly, region, data, faces, &s))
+    for (int64_t f = 0; f < s.faces; ++f) {
+      if (s.open[f] >= 0) continue;
+      const int32_t here = piece_of[s.cell[f]], there = piece_of[s.across[f] - v->assembly->places[region].cell];
+      if (here == there)
+        add(&pieces[here].inner, (CwFaceCount){s.sides[f] == 3, s.sides[f] == 4});
+      else
+        CW_TRY(add_link(&found->links, &found->link_count, &found->link_room, pieces[here].part, pieces[there].part,
+                        region, s.sides[f]));
+    }
   int64_t own = found->link_count - before;
   merge_links(found->links + before, &own);
   found->link_count = before + own;

@@ -47,14 +47,14 @@ CwFaceCount cw_face_layout_patch(const CwFaceLayout *layout, const CwAssembly *a
   return before;
 }
 
-static CwStatus stretch_new(int64_t triangles, int64_t quads, CwFaceStretch *s) {
+CwStatus cw_face_stretch_new(int64_t most, CwFaceStretch *s) {
   CwStatus status = CW_OK;
-  *s = (CwFaceStretch){.count = {triangles, quads}};
-  CW_NEW_UNSET(s->cell, triangles + quads);
-  CW_NEW_UNSET(s->across, triangles + quads);
-  CW_NEW_UNSET(s->open, triangles + quads);
-  CW_NEW_UNSET(s->sides, triangles + quads);
-  CW_NEW_UNSET(s->corner, 3 * triangles + 4 * quads + 1); // of a triangle too four places are written
+  *s = (CwFaceStretch){.most = most};
+  CW_NEW_UNSET(s->cell, most);
+  CW_NEW_UNSET(s->across, most);
+  CW_NEW_UNSET(s->open, most);
+  CW_NEW_UNSET(s->sides, most);
+  CW_NEW_UNSET(s->corner, 4 * most);
 done:
   return status;
 }
@@ -112,38 +112,35 @@ static inline int faces_onward(int64_t cell, const int64_t across[CW_CELL_FACES]
   return count;
 }
 
-CwStatus cw_face_stretch_inner(const CwAssembly *a, int region, const CwRegionData *data, const CwRegionFaces *faces,
-                               CwFaceStretch *s) {
-  CwStatus status = CW_OK;
+int cw_face_stretch_inner(const CwAssembly *a, int region, const CwRegionData *data, const CwRegionFaces *faces,
+                          CwFaceStretch *s) {
   const CwRegionPlace *place = &a->places[region];
-  int64_t next_open = place->open;
-  CW_TRY(stretch_new(place->inner_triangles + place->outer_triangles, place->inner_quads + place->outer_quads, s));
-  for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
+  const int32_t cells = cw_region_cell_count(data);
+  s->faces = s->corners = 0;
+  for (; s->next < cells && s->faces + CW_CELL_FACES <= s->most; ++s->next) {
+    const int32_t cell = (int32_t)s->next;
     int64_t across[CW_CELL_FACES], open[CW_CELL_FACES], key[CW_CELL_FACES];
     for (int f = 0; f < CW_CELL_FACES; ++f) {
       const int32_t local = faces->across[CW_CELL_FACES * cell + f];
-      open[f] = local == CW_ACROSS_OPEN ? next_open++ : -1;
+      open[f] = local == CW_ACROSS_OPEN ? place->open + s->next_open++ : -1;
       across[f] = open[f] >= 0 ? a->across[open[f]] : local >= 0 ? place->cell + local : -1;
     }
     const int count = faces_onward(place->cell + cell, across, key);
     for (int i = 0; i < count; ++i) stretch_add(s, data, cell, key[i] & 7, key[i] >> 3, open[key[i] & 7]);
   }
-done:
-  return status;
+  return s->faces > 0;
 }
 
-CwStatus cw_face_stretch_patch(const CwAssembly *a, int region, int patch, const CwRegionData *data,
-                               const CwRegionFaces *faces, CwFaceStretch *s) {
-  CwStatus status = CW_OK;
-  const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
+int cw_face_stretch_patch(const CwAssembly *a, int patch, const CwRegionData *data, const CwRegionFaces *faces,
+                          CwFaceStretch *s) {
   const int local = patch - a->mesh->domains[data->domain].first_patch;
-  CW_TRY(stretch_new(part->triangles, part->quads, s));
-  for (int32_t i = 0; i < data->triangle_count && part->triangles; ++i)
-    if (data->triangle_patch[i] == local)
-      stretch_add(s, data, faces->triangle_face[i] / CW_CELL_FACES, faces->triangle_face[i] % CW_CELL_FACES, -1, -1);
-  for (int32_t i = 0; i < data->quad_count && part->quads; ++i)
-    if (data->quad_patch[i] == local)
-      stretch_add(s, data, faces->quad_face[i] / CW_CELL_FACES, faces->quad_face[i] % CW_CELL_FACES, -1, -1);
-done:
-  return status;
+  const int64_t triangles = data->triangle_count, count = triangles + data->quad_count;
+  s->faces = s->corners = 0;
+  for (; s->next < count && s->faces < s->most; ++s->next) {
+    const int64_t quad = s->next - triangles;
+    if ((quad < 0 ? data->triangle_patch[s->next] : data->quad_patch[quad]) != local) continue;
+    const int32_t face = quad < 0 ? faces->triangle_face[s->next] : faces->quad_face[quad];
+    stretch_add(s, data, face / CW_CELL_FACES, face % CW_CELL_FACES, -1, -1);
+  }
+  return s->faces > 0;
 }

@@ -33,22 +33,34 @@ void cw_face_layout_free(CwFaceLayout *layout);
 // The faces before those of a region on a patch.
 CwFaceCount cw_face_layout_patch(const CwFaceLayout *layout, const CwAssembly *assembly, int region, int patch);
 
-// Some faces of a region, in their order. Nodes are points of the region; the normal points out of `cell`.
+// Faces of a region, so many at once that what is made of them stays in the processor's cache. Nodes are points of the
+// region; the normal points out of `cell`.
 typedef struct {
-  CwFaceCount count;
-  int64_t faces, corners; // in the arrays
-  int32_t *cell;          // of the region
-  int64_t *across;        // the other cell, as CwRegionPlace.cell counts; -1 on a patch
-  int64_t *open;          // on a partition plane: the face's place in CwAssembly.across; else -1
-  int8_t *sides;          // 3 or 4
-  int32_t *corner;        // of one face after the other
+  int64_t most;            // faces that there is room for
+  int64_t faces, corners;  // in the arrays
+  int32_t *cell;           // of the region
+  int64_t *across;         // the other cell, as CwRegionPlace.cell counts; -1 on a patch
+  int64_t *open;           // on a partition plane: the face's place in CwAssembly.across; else -1
+  int8_t *sides;           // 3 or 4
+  int32_t *corner;         // of one face after the other
+  int64_t next, next_open; // where the next ones begin: a cell or a face of the boundary, and an open face
 } CwFaceStretch;
 
-// The inner faces that belong to the region, or its faces on a patch, into new memory.
-CwStatus cw_face_stretch_inner(const CwAssembly *assembly, int region, const CwRegionData *data,
-                               const CwRegionFaces *faces, CwFaceStretch *stretch);
-CwStatus cw_face_stretch_patch(const CwAssembly *assembly, int region, int patch, const CwRegionData *data,
-                               const CwRegionFaces *faces, CwFaceStretch *stretch);
+enum { CW_FACES_AT_ONCE = 1 << 12 };
+
+// Room for `most` faces, CW_CELL_FACES at least; freed by cw_face_stretch_free().
+CwStatus cw_face_stretch_new(int64_t most, CwFaceStretch *stretch);
 void cw_face_stretch_free(CwFaceStretch *stretch);
+
+// The next of the inner faces that belong to the region, or of its faces on a patch. Returns 0 after the last.
+int cw_face_stretch_inner(const CwAssembly *assembly, int region, const CwRegionData *data, const CwRegionFaces *faces,
+                          CwFaceStretch *stretch);
+int cw_face_stretch_patch(const CwAssembly *assembly, int patch, const CwRegionData *data, const CwRegionFaces *faces,
+                          CwFaceStretch *stretch);
+
+// Before the faces of another region or patch.
+static inline void cw_face_stretch_start(CwFaceStretch *stretch) {
+  stretch->next = stretch->next_open = 0;
+}
 
 #endif

@@ -229,13 +229,13 @@ static char *put_hex(char *at, int64_t number) {
 // The right-hand rule over the nodes points to the first cell. Of an inner face that is the one of the larger number,
 // as the nodes are those of the other; the nodes of a face on a patch are turned over.
 static CwStatus put_faces(const CwFluentMesh *mesh, int region, const CwRegionData *data, const CwFaceStretch *s,
-                          int64_t at) {
+                          int64_t *at) {
   CwStatus status = CW_OK;
   const CwAssembly *a = mesh->assembly;
-  const int64_t points_before = a->totals[data->domain].first_point, size = face_bytes(s->count);
+  const int64_t points_before = a->totals[data->domain].first_point;
   const int32_t *corner = s->corner;
   char *text = NULL, *to;
-  CW_NEW_UNSET(text, size);
+  CW_NEW_UNSET(text, s->faces * face_bytes((CwFaceCount){.quads = 1}));
   to = text;
   for (int64_t f = 0; f < s->faces; ++f) {
     const int sides = s->sides[f], inner = s->across[f] >= 0;
@@ -248,7 +248,8 @@ static CwStatus put_faces(const CwFluentMesh *mesh, int region, const CwRegionDa
     *to++ = '\n';
     corner += sides;
   }
-  CW_TRY(cw_place_file_put(&mesh->file, text, size, at));
+  CW_TRY(cw_place_file_put(&mesh->file, text, to - text, *at));
+  *at += to - text;
 done:
   free(text);
   return status;
@@ -263,16 +264,15 @@ CwStatus cw_fluent_mesh_write_region(const CwFluentMesh *mesh, int region, const
   CW_TRY(put_points(mesh, (const double(*)[3])data->points + data->shared_count, data->point_count - data->shared_count,
                     a->totals[data->domain].first_point + a->places[region].own_point));
   CW_TRY(put_cells(mesh, region, data));
-  CW_TRY(cw_face_stretch_inner(a, region, data, faces, &s));
-  CW_TRY(put_faces(mesh, region, data, &s,
-                   mesh->face_start[data->domain] +
-                       face_bytes(less(mesh->layout.region[region], before_domain(mesh, data->domain)))));
+  CW_TRY(cw_face_stretch_new(CW_FACES_AT_ONCE, &s));
+  int64_t at =
+      mesh->face_start[data->domain] + face_bytes(less(mesh->layout.region[region], before_domain(mesh, data->domain)));
+  while (cw_face_stretch_inner(a, region, data, faces, &s)) CW_TRY(put_faces(mesh, region, data, &s, &at));
   for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p) {
-    cw_face_stretch_free(&s);
-    CW_TRY(cw_face_stretch_patch(a, region, p, data, faces, &s));
-    CW_TRY(put_faces(mesh, region, data, &s,
-                     mesh->patch_start[p] +
-                         face_bytes(less(cw_face_layout_patch(&mesh->layout, a, region, p), mesh->layout.patch[p]))));
+    at = mesh->patch_start[p] +
+         face_bytes(less(cw_face_layout_patch(&mesh->layout, a, region, p), mesh->layout.patch[p]));
+    cw_face_stretch_start(&s);
+    while (cw_face_stretch_patch(a, p, data, faces, &s)) CW_TRY(put_faces(mesh, region, data, &s, &at));
   }
 done:
   cw_face_stretch_free(&s);

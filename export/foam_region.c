@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "export/foam_files.h"
+#include "pipeline/mesh/cell.h"
 
 enum { POINT_SIZE = 24 };
 
@@ -17,10 +18,12 @@ typedef struct {
   const int64_t *cell;     // by cell: its number in its part
   const int64_t *point;    // by point: its number in the part, or -1
   CwFoamFiles *files;
+  const CwRegionFaces *of;
+  CwFaceStretch *inner; // of several parts: all inner faces of the region
 } Writer;
 
-// Faces on their way into the files, so many at once that they stay in the processor's cache.
-enum { AT_ONCE = 1 << 12 };
+// Faces on their way into the files.
+enum { AT_ONCE = CW_FACES_AT_ONCE };
 
 typedef struct {
   const Writer *writer;
@@ -84,29 +87,41 @@ static int64_t other_cell(const Writer *w, const CwFaceStretch *s, int64_t f, in
     *part = v->pieces[v->first_piece[w->region] + w->piece_of[local]].part;
     return w->cell[local];
   }
-  *part = 0;
-  if (!cw_foam_is_divided(w->mesh)) return s->across[f];
   const int64_t there = w->mesh->assembly->partner[s->open[f]];
   *part = v->open_part[there];
   return v->open_cell[there];
 }
 
-// The inner faces of the region that lie in the writer's part, or between it and the part `link->other`.
-static CwStatus write_inner(const Writer *w, const CwFaceStretch *all, const CwLink *link, CwFaceCount before) {
+// The inner faces of the region where there is one part, whose cells are numbered as those of all regions.
+static CwStatus write_inner_whole(const Writer *w, CwFaceCount before) {
   CwStatus status = CW_OK;
   Stretch *s = NULL;
+  CwFaceStretch *faces = w->inner;
+  const int64_t first_cell = w->mesh->assembly->places[w->region].cell;
+  CW_TRY(stretch_new(w, before, &s));
+  while (cw_face_stretch_inner(w->mesh->assembly, w->region, w->data, w->of, faces)) {
+    const int32_t *corner = faces->corner;
+    for (int64_t f = 0; f < faces->faces; corner += faces->sides[f++])
+      CW_TRY(stretch_add(s, corner, faces->sides[f], first_cell + faces->cell[f], faces->across[f], 1));
+  }
+  CW_TRY(stretch_write(s, 1));
+done:
+  free(s);
+  return status;
+}
+
+// The inner faces of the region that lie in the writer's part, or between it and the part `link->other`.
+static CwStatus write_inner(const Writer *w, const CwLink *link, CwFaceCount before) {
+  CwStatus status = CW_OK;
+  Stretch *s = NULL;
+  const CwFaceStretch *all = w->inner;
   const CwDivision *v = &w->mesh->division;
   const int32_t *corner = all->corner;
   const int64_t number = cw_face_count(w->mesh->layout.region[w->region]) + 1;
-  const int mine = w->files->part, whole = !cw_foam_is_divided(w->mesh);
-  const int64_t first_cell = w->mesh->assembly->places[w->region].cell;
+  const int mine = w->files->part;
   CW_TRY(stretch_new(w, before, &s));
   for (int64_t f = 0; f < all->faces; corner += all->sides[f++]) {
     int there;
-    if (whole) { // one part, whose cells are numbered as those of all regions
-      CW_TRY(stretch_add(s, corner, all->sides[f], first_cell + all->cell[f], all->across[f], number + f));
-      continue;
-    }
     const int here = v->pieces[v->first_piece[w->region] + w->piece_of[all->cell[f]]].part;
     const int64_t own = w->cell[all->cell[f]], other = other_cell(w, all, f, &there);
     if (!link && here == mine && there == mine)
@@ -127,36 +142,38 @@ static CwFaceCount plus(CwFaceCount a, CwFaceCount b) {
 }
 
 // The faces of the region to other parts. A part that has no cell of the region may lie beyond a partition plane.
-static CwStatus write_links(const Writer *w, const CwFaceStretch *all) {
+static CwStatus write_links(const Writer *w) {
   CwStatus status = CW_OK;
   const CwDivision *v = &w->mesh->division;
   const CwPart *part = &v->parts[w->files->part];
   for (int i = 0; i < part->link_count; ++i) {
     const CwLink *link = &v->links[part->first_link + i];
-    if (link->region == w->region) CW_TRY(write_inner(w, all, link, w->mesh->parts[w->files->part].link[i]));
+    if (link->region == w->region) CW_TRY(write_inner(w, link, w->mesh->parts[w->files->part].link[i]));
   }
 done:
   return status;
 }
 
-static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch, const CwRegionFaces *faces) {
+static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch) {
   CwStatus status = CW_OK;
   Stretch *s = NULL;
-  CwFaceStretch all = {0};
+  CwFaceStretch faces = {0};
   const CwAssembly *a = w->mesh->assembly;
   const int local = patch - a->mesh->domains[w->data->domain].first_patch;
   const CwFaceCount before = plus(w->mesh->parts[piece->part].patch[patch], piece->first_patch[local]);
-  const int64_t number = cw_face_count(cw_face_layout_patch(&w->mesh->layout, a, w->region, patch)) + 1;
+  int64_t number = cw_face_count(cw_face_layout_patch(&w->mesh->layout, a, w->region, patch)) + 1;
   if (cw_face_count(piece->patch[local]) == 0) goto done;
-  CW_TRY(cw_face_stretch_patch(a, w->region, patch, w->data, faces, &all));
   CW_TRY(stretch_new(w, before, &s));
-  const int32_t *corner = all.corner;
-  for (int64_t f = 0; f < all.faces; corner += all.sides[f++])
-    if (&w->mesh->division.pieces[w->mesh->division.first_piece[w->region] + w->piece_of[all.cell[f]]] == piece)
-      CW_TRY(stretch_add(s, corner, all.sides[f], w->cell[all.cell[f]], -1, number + f));
+  CW_TRY(cw_face_stretch_new(CW_FACES_AT_ONCE, &faces));
+  for (; cw_face_stretch_patch(a, patch, w->data, w->of, &faces); number += faces.faces) {
+    const int32_t *corner = faces.corner;
+    for (int64_t f = 0; f < faces.faces; corner += faces.sides[f++])
+      if (&w->mesh->division.pieces[w->mesh->division.first_piece[w->region] + w->piece_of[faces.cell[f]]] == piece)
+        CW_TRY(stretch_add(s, corner, faces.sides[f], w->cell[faces.cell[f]], -1, number + f));
+  }
   CW_TRY(stretch_write(s, 0));
 done:
-  cw_face_stretch_free(&all);
+  cw_face_stretch_free(&faces);
   free(s);
   return status;
 }
@@ -204,8 +221,7 @@ done:
 
 // What the region gives to a part: to one of its pieces or, where `piece` is NULL, to one beyond a partition plane that
 // has the other cells of some of its faces.
-static CwStatus write_part(Writer *w, int part, const CwPiece *piece, const CwFaceStretch *inner,
-                           const CwRegionFaces *faces, int64_t *point) {
+static CwStatus write_part(Writer *w, int part, const CwPiece *piece, int64_t *point) {
   CwStatus status = CW_OK;
   CwFoamFiles files = {0};
   const CwDivision *v = &w->mesh->division;
@@ -222,10 +238,13 @@ static CwStatus write_part(Writer *w, int part, const CwPiece *piece, const CwFa
   // A face to another part may have nodes that no cell of the piece has.
   for (int32_t p = 0; p < w->data->shared_count && cw_foam_is_divided(w->mesh); ++p)
     point[p] = cw_division_shared(v, part, w->data->domain, w->data->shared_id[p]);
-  if (piece) CW_TRY(write_inner(w, inner, NULL, piece->first_inner));
+  if (piece && cw_foam_is_divided(w->mesh))
+    CW_TRY(write_inner(w, NULL, piece->first_inner));
+  else if (piece)
+    CW_TRY(write_inner_whole(w, piece->first_inner));
   for (int p = domain->first_patch; piece && p < domain->first_patch + domain->patch_count; ++p)
-    CW_TRY(write_patch(w, piece, p, faces));
-  CW_TRY(write_links(w, inner));
+    CW_TRY(write_patch(w, piece, p));
+  CW_TRY(write_links(w));
 done:
   return cw_foam_files_close(&files, status);
 }
@@ -236,20 +255,24 @@ CwStatus cw_foam_region_write(const CwFoamMesh *mesh, int region, const CwRegion
   const CwDivision *v = &mesh->division;
   const CwPiece *pieces = &v->pieces[v->first_piece[region]];
   const int count = v->first_piece[region + 1] - v->first_piece[region];
+  const CwRegionPlace *place = &mesh->assembly->places[region];
+  const int64_t all = place->inner_triangles + place->outer_triangles + place->inner_quads + place->outer_quads;
   CwFaceStretch inner = {0};
   int32_t *piece_of = NULL;
   int64_t *cell = NULL, *point = NULL;
-  CW_NEW(piece_of, cw_region_cell_count(data));
-  CW_NEW(cell, cw_region_cell_count(data));
-  CW_NEW(point, data->point_count);
+  CW_NEW_UNSET(piece_of, cw_region_cell_count(data));
+  CW_NEW_UNSET(cell, cw_region_cell_count(data));
+  CW_NEW_UNSET(point, data->point_count);
   Writer w = {.mesh = mesh, .region = region, .data = data, .piece_of = piece_of, .cell = cell};
+  w.of = faces, w.inner = &inner;
   CW_TRY(cw_division_cells(v, region, data, piece_of, cell));
-  CW_TRY(cw_face_stretch_inner(mesh->assembly, region, data, faces, &inner));
-  for (int k = 0; k < count; ++k) CW_TRY(write_part(&w, pieces[k].part, &pieces[k], &inner, faces, point));
+  CW_TRY(cw_face_stretch_new(cw_foam_is_divided(mesh) ? all + CW_CELL_FACES : CW_FACES_AT_ONCE, &inner));
+  if (cw_foam_is_divided(mesh)) cw_face_stretch_inner(mesh->assembly, region, data, faces, &inner);
+  for (int k = 0; k < count; ++k) CW_TRY(write_part(&w, pieces[k].part, &pieces[k], point));
   for (int i = 0, last = -1; i < v->link_count; ++i) {
     const int part = v->links[i].part, is_own = part >= pieces[0].part && part <= pieces[count - 1].part;
     if (v->links[i].region != region || is_own || part == last) continue;
-    CW_TRY(write_part(&w, part, NULL, &inner, faces, point));
+    CW_TRY(write_part(&w, part, NULL, point));
     last = part;
   }
 done:
