@@ -18,8 +18,8 @@ typedef struct {
   int32_t slot;   // place among the open faces of its region
   int32_t cell;   // of the region
   int32_t reversed;
-  CwFaceKind kind;    // as the cell makes it
-  double centroid[3]; // of the cell, m
+  CwFaceKind kind; // as the cell makes it
+  CwMiddle middle; // of the cell
 } OpenFace;
 
 // What one rank collects over its regions.
@@ -162,7 +162,9 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   int order[4], count = cw_cell_face(data, face.cell, ref % CW_CELL_FACES, nodes);
   for (int k = 0; k < count; ++k) wide[k] = data->shared_id[nodes[k]];
   const double *x[6];
-  cw_cell_centroid(cw_cell_points(data, face.cell, x), x, face.centroid);
+  const int corners = cw_cell_points(data, face.cell, x);
+  face.middle.volume = cw_cell_volume(corners, x);
+  cw_cell_centroid(corners, x, face.middle.at);
   face.kind = face.cell >= data->tetrahedron_count + data->pyramid_count ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
   face.reversed = cw_face_loop(wide, count, order);
   for (int k = 0; k < count; ++k) face.loop[k] = wide[order[k]];
@@ -273,7 +275,7 @@ static void measure_open_face(CwAssembly *a, const OpenFace *x, const OpenFace *
   const double *points[4];
   for (int i = 0; i < count; ++i) points[i] = a->shared[domain][x->loop[i]];
   CwFaceKind kind = x->kind == CW_FACE_OF_PRISM ? CW_FACE_OF_PRISM : y->kind;
-  cw_face_quality_face(count, points, x->centroid, y->centroid, kind, &a->totals[domain].faces);
+  cw_face_quality_face(count, points, &x->middle, &y->middle, kind, &a->totals[domain].faces);
 }
 
 // Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.

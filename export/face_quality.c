@@ -2,7 +2,6 @@
 #include "export/face_quality.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "pipeline/mesh/cell.h"
 
@@ -95,9 +94,15 @@ static inline double cosine_between(int count, const double *const *x, const dou
   return product > 0 ? along / sqrt(product) : 0;
 }
 
-void cw_face_quality_face(int count, const double *const *x, const double from[3], const double to[3], CwFaceKind kind,
+static inline int is_uneven(const CwMiddle *a, const CwMiddle *b) {
+  return (a->volume < CW_VOLUME_RATIO_LEAST * b->volume) | (b->volume < CW_VOLUME_RATIO_LEAST * a->volume);
+}
+
+void cw_face_quality_face(int count, const double *const *x, const CwMiddle *from, const CwMiddle *to, CwFaceKind kind,
                           CwFaceQuality *q) {
-  const double cosine = count == 3 ? cosine_between(3, x, from, to, kind, q) : cosine_between(4, x, from, to, kind, q);
+  const double cosine =
+      count == 3 ? cosine_between(3, x, from->at, to->at, kind, q) : cosine_between(4, x, from->at, to->at, kind, q);
+  q->uneven[kind] += is_uneven(from, to);
   q->least = fmin(q->least, cosine);
   q->sum += cosine;
   ++q->count;
@@ -114,37 +119,62 @@ void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum) {
   for (int kind = 0; kind < CW_FACE_KINDS; ++kind) {
     sum->skew[kind] += more->skew[kind];
     sum->light[kind] += more->light[kind];
+    sum->uneven[kind] += more->uneven[kind];
+    sum->open[kind] += more->open[kind];
   }
+  sum->slender += more->slender;
 }
 
-static void face_on_patch(const CwRegionData *data, int32_t ref, const double (*centroid)[3], int32_t first_prism,
+static void face_on_patch(const CwRegionData *data, int32_t ref, const CwMiddle *middle, int32_t first_prism,
                           CwFaceQuality *q) {
   const int32_t cell = ref / CW_CELL_FACES;
   const double *corner[4];
   int32_t nodes[4];
   const int count = cw_cell_face(data, cell, ref % CW_CELL_FACES, nodes);
   for (int i = 0; i < count; ++i) corner[i] = data->points[nodes[i]];
-  cw_face_quality_patch(count, corner, centroid[cell], cell >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER, q);
+  cw_face_quality_patch(count, corner, middle[cell].at, cell >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER, q);
 }
 
-CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, CwFaceQuality *q) {
-  CwStatus status = CW_OK;
-  double(*centroid)[3] = NULL;
+static inline double squared_distance(const double a[3], const double b[3]) {
+  const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  return dot(d, d);
+}
+
+// Counts a cell of a small determinant, or a prism of a great aspect ratio. These are about the length of its edges
+// over its height and the fourth power of the inverse: few cells are flat enough to be measured, or have a face on a
+// patch beside the wall at the base of a prism, without which the determinant is less.
+static inline void judge_cell(int count, const double *const *x, double volume, const int32_t *across,
+                              CwFaceQuality *q) {
+  static const double FLAT = 20; // cube of the longest edge over the volume; 8.5 of a regular tetrahedron
+  const CwFaceKind kind = count == 6 ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
+  const int base = count == 6 ? 3 : count;
+  double squares = 0;
+  unsigned inner = 0;
+  int on_patches = 0;
+  for (int i = 0; i < base; ++i)
+    for (int k = 0; k < i; ++k) squares = fmax(squares, squared_distance(x[i], x[k]));
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    inner |= (unsigned)(across[f] != CW_ACROSS_PATCH) << f;
+    on_patches += across[f] == CW_ACROSS_PATCH && (count < 6 || f < 3);
+  }
+  const int is_flat = squares * sqrt(squares) > FLAT * volume;
+  if (!is_flat && on_patches < (count == 6 ? 1 : 2)) return;
+  q->slender += count == 6 && is_flat && cw_cell_aspect(6, x) > CW_ASPECT_MOST;
+  q->open[kind] += cw_cell_determinant(count, x, inner) < CW_DETERMINANT_LEAST;
+}
+
+void cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,
+                            CwFaceQuality *q) {
   const double *x[6], *corner[4];
   double least = 1, sum = 0;
   const int32_t cells = cw_region_cell_count(data), first_prism = data->tetrahedron_count + data->pyramid_count;
-  CW_NEW_UNSET(centroid, cells);
-  for (int32_t cell = 0; cell < cells; ++cell) {
-    int count = cw_cell_points(data, cell, x);
-    cw_cell_centroid(count, x, centroid[cell]);
-  }
   for (int32_t cell = 0; cell < cells; ++cell) {
     const int32_t ahead = cell + AHEAD < cells ? cell + AHEAD : cell, *across = faces->across + CW_CELL_FACES * cell;
     int face[CW_CELL_FACES], count = 0;
     for (int f = 0; f < CW_CELL_FACES; ++f) {
-      // The centroids across stand anywhere in memory: they are asked for before their turn.
+      // The cells across stand anywhere in memory: they are asked for before their turn.
       const int32_t next = faces->across[CW_CELL_FACES * ahead + f];
-      __builtin_prefetch(centroid[next < 0 ? ahead : next]);
+      __builtin_prefetch(&middle[next < 0 ? ahead : next]);
       // Each face once; which of them those are no processor can foresee.
       face[count] = f;
       count += across[f] > cell;
@@ -152,26 +182,24 @@ CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *f
     const signed char(*corners)[4] = cw_cell_face_table(cw_cell_points(data, cell, x));
     for (int i = 0; i < count; ++i) {
       const signed char *of = corners[face[i]];
-      const int32_t other = across[face[i]];
-      const CwFaceKind kind = cell >= first_prism || other >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
+      const CwMiddle *here = &middle[cell], *there = &middle[across[face[i]]];
+      const CwFaceKind kind = cell >= first_prism || across[face[i]] >= first_prism ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
       for (int k = 0; k < 3; ++k) corner[k] = x[of[k]];
       corner[3] = x[of[3] < 0 ? 0 : of[3]];
-      const double cosine = of[3] < 0 ? cosine_between(3, corner, centroid[cell], centroid[other], kind, q)
-                                      : cosine_between(4, corner, centroid[cell], centroid[other], kind, q);
+      const double cosine = of[3] < 0 ? cosine_between(3, corner, here->at, there->at, kind, q)
+                                      : cosine_between(4, corner, here->at, there->at, kind, q);
+      q->uneven[kind] += is_uneven(here, there);
       least = cosine < least ? cosine : least;
       sum += cosine;
     }
     q->count += count;
+    judge_cell(cell >= first_prism ? 6 : cell >= data->tetrahedron_count ? 5 : 4, x, middle[cell].volume, across, q);
   }
   q->least = fmin(q->least, least);
   q->sum += sum;
   for (int32_t i = 0; i < data->triangle_count; ++i)
-    face_on_patch(data, faces->triangle_face[i], (const double(*)[3])centroid, first_prism, q);
-  for (int32_t i = 0; i < data->quad_count; ++i)
-    face_on_patch(data, faces->quad_face[i], (const double(*)[3])centroid, first_prism, q);
-done:
-  free(centroid);
-  return status;
+    face_on_patch(data, faces->triangle_face[i], middle, first_prism, q);
+  for (int32_t i = 0; i < data->quad_count; ++i) face_on_patch(data, faces->quad_face[i], middle, first_prism, q);
 }
 
 static double degrees(double cosine) {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What OpenFOAM's checkMesh says of faces: how far the line from cell to cell leans to the face between them, how far
-// from its centre it meets it (skewness), and how unevenly the face parts it (interpolation weight). As in
-// primitiveMeshTools of OpenFOAM v1912.
+// from its centre it meets it (skewness), and how unevenly the face parts it (interpolation weight); and of prisms that
+// are long for their height. As in primitiveMeshTools and polyMeshTools of OpenFOAM v1912.
 #ifndef CUTWATER_EXPORT_FACE_QUALITY_H
 #define CUTWATER_EXPORT_FACE_QUALITY_H
 
 #include "pipeline/mesh/region_faces.h"
 
-// What checkMesh tells of: more skewness, less weight.
+// What checkMesh tells of: more skewness or aspect ratio, less weight, determinant or ratio of the volumes of two
+// cells.
 #define CW_SKEWNESS_MOST 4.0
 #define CW_WEIGHT_LEAST 0.05
+#define CW_VOLUME_RATIO_LEAST 0.01
+#define CW_ASPECT_MOST 1000.0
+#define CW_DETERMINANT_LEAST 0.001
 
 // Layers that are thin for the bend of their wall have skew sides; those of other faces are faults of the tetrahedra.
 typedef enum { CW_FACE_OF_PRISM, CW_FACE_OTHER, CW_FACE_KINDS } CwFaceKind;
@@ -19,14 +23,20 @@ typedef struct {
   // other.
   double least, sum;
   int64_t count;
-  int64_t skew[CW_FACE_KINDS], light[CW_FACE_KINDS]; // faces beyond the limits above
+  // Beyond the limits above: faces by skewness, weight and volume ratio, prisms and other cells by determinant, prisms
+  // by aspect ratio.
+  int64_t skew[CW_FACE_KINDS], light[CW_FACE_KINDS], uneven[CW_FACE_KINDS], open[CW_FACE_KINDS], slender;
 } CwFaceQuality;
+
+// Centroid (m) and volume (m3) of a cell.
+typedef struct {
+  double at[3], volume;
+} CwMiddle;
 
 void cw_face_quality_start(CwFaceQuality *q);
 
-// Adds a face with `count` (3 or 4) nodes at `x`, whose normal points out of the cell with centroid `from`, to that
-// with centroid `to`.
-void cw_face_quality_face(int count, const double *const *x, const double from[3], const double to[3], CwFaceKind kind,
+// Adds a face with `count` (3 or 4) nodes at `x`, whose normal points out of the cell `from`, to `to`.
+void cw_face_quality_face(int count, const double *const *x, const CwMiddle *from, const CwMiddle *to, CwFaceKind kind,
                           CwFaceQuality *q);
 
 // Adds one on a patch, which is measured for skewness alone.
@@ -34,8 +44,9 @@ void cw_face_quality_patch(int count, const double *const *x, const double from[
 
 void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum);
 
-// Adds the faces between two cells of a region, and those on patches. CW_ERR_MEMORY.
-CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, CwFaceQuality *q);
+// Adds the faces between two cells of a region, those on patches, and the prisms. `middle`: of each cell.
+void cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,
+                            CwFaceQuality *q);
 
 // In degrees; 0 without faces. The mean is the angle of the mean cosine.
 double cw_non_orthogonality_greatest(const CwFaceQuality *q);

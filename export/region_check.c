@@ -6,7 +6,7 @@
 
 #include "pipeline/mesh/cell.h"
 
-static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionFigures *figures) {
+static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionFigures *figures, CwMiddle *middle) {
   CwStatus status = CW_OK;
   *figures = (CwRegionFigures){.least_volume = INFINITY};
   cw_face_quality_start(&figures->faces);
@@ -20,6 +20,8 @@ static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegi
       CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
                  path, cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * one);
     }
+    cw_cell_centroid(count, x, middle[cell].at);
+    middle[cell].volume = one;
     figures->volume += one;
     figures->least_volume = one < figures->least_volume ? one : figures->least_volume;
   }
@@ -52,14 +54,17 @@ CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *da
   const CwRegionPlace *place = &a->places[region];
   const char *path = a->mesh->regions[region].path;
   int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
-  CW_TRY(check_volumes(path, data, figures));
+  CwMiddle *middle = NULL;
+  CW_NEW_UNSET(middle, cw_region_cell_count(data));
+  CW_TRY(check_volumes(path, data, figures, middle));
   CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, faces));
   CW_TRY(check_points(path, data));
-  CW_TRY(cw_face_quality_region(data, faces, &figures->faces));
+  cw_face_quality_region(data, faces, middle, &figures->faces);
   CW_REQUIRE(faces->inner_triangles == place->inner_triangles && faces->inner_quads == place->inner_quads &&
                  faces->open_count == open,
              CW_ERR_INPUT, "%s: has other faces than when it was first read", path);
 done:
+  free(middle);
   return status;
 }
 

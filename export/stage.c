@@ -129,24 +129,38 @@ done:
   return status;
 }
 
+// What checkMesh would tell of.
+static void put_counts(const CwFaceQuality *faces, json_t *figures) {
+  const struct {
+    const char *name;
+    int64_t count;
+  } counts[] = {{"skew_faces_of_prisms", faces->skew[CW_FACE_OF_PRISM]},
+                {"other_skew_faces", faces->skew[CW_FACE_OTHER]},
+                {"small_weight_faces_of_prisms", faces->light[CW_FACE_OF_PRISM]},
+                {"other_small_weight_faces", faces->light[CW_FACE_OTHER]},
+                {"small_volume_ratio_faces_of_prisms", faces->uneven[CW_FACE_OF_PRISM]},
+                {"other_small_volume_ratio_faces", faces->uneven[CW_FACE_OTHER]},
+                {"high_aspect_ratio_prisms", faces->slender},
+                {"small_determinant_prisms", faces->open[CW_FACE_OF_PRISM]},
+                {"other_small_determinant_cells", faces->open[CW_FACE_OTHER]}};
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i)
+    json_object_set_new(figures, counts[i].name, json_integer((json_int_t)counts[i].count));
+}
+
 static CwStatus record_results(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {
   CwStatus status = CW_OK;
   int64_t cells = 0;
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     const CwDomainTotal *t = &a->totals[d];
     cells += t->cells;
-    CW_TRY(cw_record_json(record, a->mesh->domains[d].name,
-                          json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I}", "points",
-                                    (json_int_t)t->points, "tetrahedra", (json_int_t)t->tetrahedra, "pyramids",
-                                    (json_int_t)t->pyramids, "prisms", (json_int_t)t->prisms, "volume_m3", t->volume,
-                                    "solid_volume_m3", a->mesh->domains[d].solid_volume, "least_cell_volume_m3",
-                                    t->least_volume, "greatest_non_orthogonality_deg",
-                                    cw_non_orthogonality_greatest(&t->faces), "mean_non_orthogonality_deg",
-                                    cw_non_orthogonality_mean(&t->faces), "skew_faces_of_prisms",
-                                    (json_int_t)t->faces.skew[CW_FACE_OF_PRISM], "other_skew_faces",
-                                    (json_int_t)t->faces.skew[CW_FACE_OTHER], "small_weight_faces_of_prisms",
-                                    (json_int_t)t->faces.light[CW_FACE_OF_PRISM], "other_small_weight_faces",
-                                    (json_int_t)t->faces.light[CW_FACE_OTHER])));
+    json_t *figures =
+        json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "points", (json_int_t)t->points, "tetrahedra",
+                  (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids, "prisms", (json_int_t)t->prisms,
+                  "volume_m3", t->volume, "solid_volume_m3", a->mesh->domains[d].solid_volume, "least_cell_volume_m3",
+                  t->least_volume, "greatest_non_orthogonality_deg", cw_non_orthogonality_greatest(&t->faces),
+                  "mean_non_orthogonality_deg", cw_non_orthogonality_mean(&t->faces));
+    put_counts(&t->faces, figures);
+    CW_TRY(cw_record_json(record, a->mesh->domains[d].name, figures));
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
@@ -160,6 +174,8 @@ done:
 static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *faces) {
   int64_t skew = faces->skew[CW_FACE_OF_PRISM], other_skew = faces->skew[CW_FACE_OTHER];
   int64_t light = faces->light[CW_FACE_OF_PRISM], other_light = faces->light[CW_FACE_OTHER];
+  int64_t open = faces->open[CW_FACE_OF_PRISM], other_open = faces->open[CW_FACE_OTHER];
+  int64_t uneven = faces->uneven[CW_FACE_OF_PRISM], other_uneven = faces->uneven[CW_FACE_OTHER];
   if (skew + other_skew > 0)
     cw_log_warn(log,
                 "domain %s: %lld faces of prisms and %lld others have a skewness above %g: layers are thin for the "
@@ -170,6 +186,23 @@ static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *f
                 "domain %s: %lld faces of prisms and %lld others have an interpolation weight under %g: the last layer "
                 "is thin for the tetrahedra on it; more walls.layer_count or mesh.cells make it less",
                 domain, (long long)light, (long long)other_light, CW_WEIGHT_LEAST);
+  if (uneven + other_uneven > 0)
+    cw_log_warn(
+        log,
+        "domain %s: %lld faces of prisms and %lld others lie between cells of which one has more than %g times the "
+        "volume of the other; walls.layer_count auto leads layers to the size of the tetrahedra",
+        domain, (long long)uneven, (long long)other_uneven, 1 / CW_VOLUME_RATIO_LEAST);
+  if (faces->slender + open > 0)
+    cw_log_warn(
+        log,
+        "domain %s: %lld prisms have an aspect ratio above %g and %lld a determinant under %g, as thin as the case "
+        "asks or at edges of open patches; a greater y+ or more mesh.cells make it less",
+        domain, (long long)faces->slender, CW_ASPECT_MOST, (long long)open, CW_DETERMINANT_LEAST);
+  if (other_open > 0)
+    cw_log_warn(log,
+                "domain %s: %lld other cells have a determinant under %g: flat ones, or such with two faces on "
+                "patches; with more mesh.cells there are fewer",
+                domain, (long long)other_open, CW_DETERMINANT_LEAST);
 }
 
 // Worth a word, though the mesh can be used.

@@ -6,6 +6,7 @@
 #include "mesher/policy.h"
 #include "mesher/run/domain_size.h"
 #include "mesher/thickness/layer_count.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "pipeline/log.h"
 #include "pipeline/wall_group.h"
 
@@ -191,6 +192,15 @@ double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]) {
   set_layers(run, roomy, y_plus);
   double cells = all_cells_at(run, fine);
   set_layers(run, made, y_plus);
+  cw_mesh_set_scale(run, scale);
+  return cells;
+}
+
+double cw_layers_crowd(CwMeshRun *run) {
+  double scale = run->scale, fine = cw_size_scale_fine();
+  if (run->table->walls.layer_count == 0 || scale <= fine) return 0;
+  cw_mesh_set_scale(run, fine);
+  double cells = all_cells_at(run, fine);
   cw_mesh_set_scale(run, scale);
   return cells;
 }

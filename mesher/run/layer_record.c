@@ -136,6 +136,13 @@ void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, doubl
        domain->name, domain->layer_count, needed, round_up(cells));
 }
 
+void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, json_t *headlines) {
+  tell(log, headlines,
+       "walls.layer_count %d leaves edges %.2g times as long as the shape of the walls asks, between which tetrahedra "
+       "are flat; mesh.cells %.0f has room for it, and walls.layer_count auto takes as many as there is room for",
+       given, scale, round_up(cells));
+}
+
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {
   List laminar = {{0}, 0}, fitted = {{0}, 0};
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {

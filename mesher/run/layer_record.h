@@ -22,6 +22,10 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
 // And, where the number of layers is open, of a domain that has fewer than `needed`, for which about `cells` have room.
 void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, double cells, json_t *headlines);
 
+// And, where the case gives it, of a number of layers that leaves edges of walls too long: what cw_layers_crowd()
+// finds.
+void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, json_t *headlines);
+
 // And of faces of a domain that are left out of it: edges there are `edge` long, and about `cells` show them.
 void cw_warn_of_left_out(CwLog *log, const CwDomain *domain, double edge, double cells, json_t *headlines);
 // Adds how many these are, and the width of the widest, to the entry of the domain.

@@ -229,9 +229,11 @@ static const char *y_plus_text(const CwMeshRun *run) {
 }
 
 static void tell_layers(CwMeshRun *run) {
-  int needed[CW_DOMAINS_MOST];
-  double cells = cw_layers_short(run, needed);
-  for (int d = 0; run->table->walls.layer_count == 0 && d < run->model.domain_count; d++) {
+  int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count;
+  double cells = cw_layers_crowd(run);
+  if (cells > 0) cw_warn_of_many_layers(run->context.log, given, run->scale, cells, run->headlines);
+  cells = cw_layers_short(run, needed);
+  for (int d = 0; given == 0 && d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     if (cells > 0 && needed[d] > domain->layer_count)
       cw_warn_of_few_layers(run->context.log, domain, needed[d], cells, run->headlines);

@@ -12,7 +12,7 @@
 static const double LEAST = 1.05 * CW_SMALL_DETERMINANT;   // asked for
 static const double ENOUGH = 1.005 * CW_SMALL_DETERMINANT; // of columns as even as they may become
 static const double STEP = 0.05;                           // of a first height, in a round
-static const double MORE = 1.09; // of the first height asked, at most: within the tenth that counts as met
+static const double LESS = 0.91, MORE = 1.09; // of the first height asked, within the tenth that counts as met
 static const double LEAN = 20;   // a right prism of so many times LEAST: columns do not lean so much that it is small
 
 // First height of the column as divided, m; fraction: of its layers.
@@ -47,11 +47,13 @@ typedef struct {
   const int32_t *triangle; // to judge; NULL: all
 } Columns;
 
-// First height of the column as even as it may become.
+// First height of the column as even as it may become: where the column has room for the one asked, within the tenth
+// that counts as met.
 static double even_first(const Columns *columns, int32_t v) {
   const CwColumnTargets *targets = columns->targets;
   double even = columns->layers->thickness[v] / targets->layer_count, asked = targets->first_height[v];
-  return even < asked ? even : fmin(even, MORE * asked);
+  double fraction[CW_LAYERS_MOST + 1], made = divide(targets, columns->layers, v, asked, fraction);
+  return fmin(made < LESS * asked ? even : fmax(even, LESS * asked), MORE * asked);
 }
 
 // Least determinant of the prisms over a wall triangle whose columns have these first heights.

@@ -21,7 +21,7 @@ double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
   double across = even_layers(cw_policy.fit_share * flow->width, layer_count);
   if (flow->before == 0) return across;
   int count = layer_count > 0 ? layer_count : CW_LAYERS_LEAST;
-  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_policy.least_growth));
+  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_layer_growth_least(count)));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,

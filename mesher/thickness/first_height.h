@@ -43,7 +43,8 @@ typedef struct {
 double cw_column_room(const CwWallFlow *flow);
 
 // The greatest first height that fits: of `layer_count` even layers in fit_share of the passage, and before an open
-// patch, where one end of a wall is short of room, of layers that fall by least_growth. 0 layers: CW_LAYERS_LEAST.
+// patch, where one end of a wall is short of room, of layers that fall by cw_layer_growth_least(). 0 layers:
+// CW_LAYERS_LEAST.
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
 
 // y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as

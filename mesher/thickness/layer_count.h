@@ -19,9 +19,6 @@ extern "C" {
 #define CW_REGULAR_HEIGHT 0.81649658092772603273 // of a regular tetrahedron over its edge: sqrt(2/3)
 
 enum { CW_LAYER_COUNT_MOST = 40 }; // that the case file allows
-// Policy: of an automatic y+ and an automatic number of layers the number grows first, up to this, then y+ up to the
-// end of the log layer, then the number again.
-enum { CW_LAYER_COUNT_USUAL = 6 };
 
 // The least number of layers, from 1 to CW_LAYER_COUNT_MOST, of which the last is tall enough where edges are `size`
 // long; the first is `first` tall (m) and each of the others up to `growth` times as tall as the one before.

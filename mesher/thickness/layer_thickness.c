@@ -46,8 +46,12 @@ static double solve_growth(int count, double wanted, double low, double high) {
   return growth;
 }
 
+double cw_layer_growth_least(int count) {
+  return pow(cw_policy.least_growth, (CW_LAYER_COUNT_USUAL - 1.0) / fmax(CW_LAYER_COUNT_USUAL - 1, count - 1));
+}
+
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction) {
-  double growth = fmax(growth_max, 1.0), least = cw_policy.least_growth;
+  double growth = fmax(growth_max, 1.0), least = cw_layer_growth_least(count);
   double most_sum = geometric_sum(count, growth, NULL), least_sum = geometric_sum(count, least, NULL);
   double start = first;
   if (thickness >= first * most_sum) {

@@ -16,11 +16,18 @@ double cw_first_height(double y_plus, double velocity, double length, double kin
 double cw_layer_thickness(double first, int count, double growth);
 
 enum { CW_LAYERS_MOST = 200 }; // count of layers
+// Policy: of an automatic y+ and an automatic number of layers the number grows first, up to this, then y+ up to the
+// end of the log layer, then the number again.
+enum { CW_LAYER_COUNT_USUAL = 6 };
+
+// The least growth ratio of `count` layers, in columns too short for even ones: least_growth, or more where there are
+// more than the usual number, whose last layer is no smaller a part of the first than among so many.
+double cw_layer_growth_least(int count);
 
 // Fractions f[0] = 0 < f[1] < ... < f[count] = 1 of a column of thickness `thickness`. Holds `first` and solves the
 // growth ratio: in columns too short for even layers it is below 1, the outer layers give way. Where it would exceed
-// `growth_max`, or fall below least_growth, it stays there and the first height follows the column. Returns the
-// first height it came to, m.
+// `growth_max`, or fall below cw_layer_growth_least(), it stays there and the first height follows the column. Returns
+// the first height it came to, m.
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction);
 
 #ifdef __cplusplus

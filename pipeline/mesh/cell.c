@@ -159,3 +159,41 @@ void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
   const double share = 0.75 / volume;
   for (int k = 0; k < 3; ++k) centroid[k] = apex[k] + share * moment[k];
 }
+
+// The area vector of face `f`, m2; 0 of the fifth of a tetrahedron.
+static void face_vector(int count, const double *const *x, int f, double area[3]) {
+  memset(area, 0, 3 * sizeof *area);
+  if (count == 4 && f == 4) return;
+  const signed char *n = cw_cell_face_table(count)[f];
+  const double *a = x[n[0]], *b = x[n[1]], *c = x[n[2]], *d = n[3] < 0 ? a : x[n[3]];
+  const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
+  cross(u, v, area);
+  for (int k = 0; k < 3; ++k) area[k] /= 2;
+}
+
+double cw_cell_aspect(int count, const double *const *x) {
+  double sum[3] = {0}, area[3];
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    face_vector(count, x, f, area);
+    for (int k = 0; k < 3; ++k) sum[k] += fabs(area[k]);
+  }
+  const double most = fmax(fmax(sum[0], sum[1]), sum[2]), least = fmin(fmin(sum[0], sum[1]), sum[2]);
+  return fmax(most / least, (sum[0] + sum[1] + sum[2]) / 6 / pow(cw_cell_volume(count, x), 2.0 / 3));
+}
+
+double cw_cell_determinant(int count, const double *const *x, unsigned inner) {
+  double sum[3][3] = {{0}}, area[3], minor[3], mean = 0;
+  int faces = 0;
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    if (!(inner >> f & 1)) continue;
+    face_vector(count, x, f, area);
+    mean += sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    faces += f < 4 || count > 4;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) sum[i][j] += area[i] * area[j];
+  }
+  if (mean == 0) return 0;
+  mean /= faces;
+  cross(sum[1], sum[2], minor);
+  return fabs(sum[0][0] * minor[0] + sum[0][1] * minor[1] + sum[0][2] * minor[2]) / 8 / pow(mean, 6);
+}

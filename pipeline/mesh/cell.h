@@ -42,6 +42,16 @@ double cw_cell_volume(int count, const double *const *x);
 // weighed by volume. That is the true centroid where the faces are flat.
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]);
 
+// The aspect ratio that checkMesh tells of (primitiveMeshTools::cellClosedness): of the sums over the faces of the
+// components of the area vectors without their signs the greatest over the least, or a sixth of all three over the
+// volume to the power 2/3, whichever is more. Of a cell of positive volume.
+double cw_cell_aspect(int count, const double *const *x);
+
+// The determinant that checkMesh tells of (primitiveMeshTools::cellDeterminant): an eighth of that of the sum of the
+// area vectors' squares over the square of their mean, of the faces with a bit in `inner`, those to another cell. 1 of
+// a cube, near 0 of a cell whose faces leave a direction open.
+double cw_cell_determinant(int count, const double *const *x, unsigned inner);
+
 // The places of the nodes of a cell; returns their number.
 static inline int cw_cell_points(const CwRegionData *region, int32_t cell, const double *x[6]) {
   int count;

@@ -62,7 +62,7 @@ def table_row(run, cells):
         return " / ".join(form.format(domain[key]) for domain in domains)
 
     balance = " / ".join(f"{d['region_balance_least']:.2f}-{d['region_balance']:.2f}" for d in domains)
-    print(f"{cells:>8}{results['cells']:>13,}{results['passes']:>7}{mesh['seconds']:>9.1f}{export['seconds']:>9.1f}"
+    print(f"{cells:>8}{results['cells']:>15,}{results['passes']:>7}{mesh['seconds']:>9.1f}{export['seconds']:>9.1f}"
           f"{mesh['peak_memory_bytes'] / 2**30:>9.2f}{export['peak_memory_bytes'] / 2**30:>9.2f}"
           f"  {of_domains('regions', '{}'):>11} {balance:>23} {of_domains('least_dihedral_deg', '{:.1f}'):>14}"
           f" {of_domains('tetrahedron_aspect_mean', '{:.2f}'):>14}", flush=True)
@@ -138,7 +138,7 @@ def main():
     print(f"{options.ranks} ranks on {os.cpu_count()} cores; seconds of the mesher and the exporter, peak memory of "
           "all ranks in GiB; regions, cells of a region over their mean, least dihedral angle in degrees, mean aspect: "
           "rotor / stator")
-    print(f"{'asked':>8}{'made':>13}{'passes':>7}{'mesher':>9}{'export':>9}{'mesher':>9}{'export':>9}  {'regions':>11} "
+    print(f"{'asked':>8}{'made':>15}{'passes':>7}{'mesher':>9}{'export':>9}{'mesher':>9}{'export':>9}  {'regions':>11} "
           f"{'balance':>23} {'least dihedral':>14} {'aspect':>14}")
     for cells in options.cells:
         options.work and options.work.mkdir(parents=True, exist_ok=True)

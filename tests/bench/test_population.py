@@ -29,13 +29,18 @@ class Population(unittest.TestCase):
         self.assertEqual(first, second)
 
     def test_prisms_explain_what_the_exporter_counted(self):
-        zones = [{"skew_faces_of_prisms": 3, "small_weight_faces_of_prisms": 0},
-                 {"skew_faces_of_prisms": 4, "small_weight_faces_of_prisms": 12}]
-        weight = "Faces with small interpolation weight (< 0.05) found, number of faces: {}"
-        skew = "Max skewness = 9.1, {} highly skew faces detected which may impair the quality of the results"
-        for line, told in ((weight.format(12), True), (weight.format(13), False), (skew.format(7), True),
-                           (skew.format(3), False), ("Concave cells found, number of cells: 7", False)):
-            self.assertEqual(population.prisms_explain(line, zones), told, line)
+        names = ("skew_faces_of_prisms", "small_weight_faces_of_prisms", "small_volume_ratio_faces_of_prisms",
+                 "high_aspect_ratio_prisms", "small_determinant_prisms")
+        zones = [dict(zip(names, counts)) for counts in ((3, 0, 5, 0, 24), (4, 12, 1, 9, 0))]
+        lines = (("Max skewness = 9.1, {} highly skew faces detected which may impair the quality of the results", 7),
+                 ("Faces with small interpolation weight (< 0.05) found, number of faces: {}", 12),
+                 ("Faces with small volume ratio (< 0.01) found, number of faces: {}", 6),
+                 ("High aspect ratio cells found, Max aspect ratio: 6050.8319, number of cells {}", 9),
+                 ("Cells with small determinant (< 0.001) found, number of cells: {}", 24))
+        for line, count in lines:
+            self.assertTrue(population.prisms_explain(line.format(count), zones), line)
+            self.assertFalse(population.prisms_explain(line.format(count + 1), zones), line)
+        self.assertFalse(population.prisms_explain("Concave cells found, number of cells: 7", zones))
 
 
 if __name__ == "__main__":

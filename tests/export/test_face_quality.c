@@ -8,9 +8,11 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "pipeline/mesh/cell.h"
+
 // A tetrahedron on the triangle 0-1-2 with its tip at `tip`, and a right prism below.
-static void two_cells(const double tip[3], CwFaceQuality *o) {
-  double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, 0, -2}, {3, 0, -2}, {0, 3, -2}};
+static void two_cells(const double tip[3], double height, CwFaceQuality *o) {
+  double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, 0, -height}, {3, 0, -height}, {0, 3, -height}};
   int32_t tetrahedra[][4] = {{0, 1, 2, 3}}, prisms[][6] = {{4, 5, 6, 0, 1, 2}};
   memcpy(points[3], tip, sizeof points[3]);
   CwRegionData data = {.points = points,
@@ -23,7 +25,14 @@ static void two_cells(const double tip[3], CwFaceQuality *o) {
   CwRegionFaces faces = {0};
   assert_int_equal(cw_region_faces("rotor", CW_ERR_INPUT, &data, &faces), CW_OK);
   cw_face_quality_start(o);
-  assert_int_equal(cw_face_quality_region(&data, &faces, o), CW_OK);
+  CwMiddle middle[2];
+  for (int cell = 0; cell < 2; ++cell) {
+    const double *x[6];
+    int count = cw_cell_points(&data, cell, x);
+    cw_cell_centroid(count, x, middle[cell].at);
+    middle[cell].volume = cw_cell_volume(count, x);
+  }
+  cw_face_quality_region(&data, &faces, middle, o);
   cw_region_faces_free(&faces);
   assert_int_equal(o->count, 1);
 }
@@ -32,9 +41,9 @@ static void the_angle_is_that_of_the_centroids(void **state) {
   (void)state;
   CwFaceQuality straight, leaning;
   // The prism's centroid is (1, 1, -1), the tetrahedron's a quarter of the way from (1, 1, 0) to the tip.
-  two_cells((double[3]){1, 1, 4}, &straight);
+  two_cells((double[3]){1, 1, 4}, 2, &straight);
   assert_float_equal(cw_non_orthogonality_greatest(&straight), 0, 1e-6);
-  two_cells((double[3]){9, 1, 4}, &leaning);
+  two_cells((double[3]){9, 1, 4}, 2, &leaning);
   assert_float_equal(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
   cw_face_quality_add(&straight, &leaning);
   assert_int_equal(leaning.count, 2);
@@ -49,7 +58,8 @@ static CwFaceQuality face_at(double off, const double from[3], const double *to,
   cw_face_quality_start(&q);
   const double *const x[4] = {node[0], node[1], node[2], node[0]};
   if (to)
-    cw_face_quality_face(3, x, from, to, kind, &q);
+    cw_face_quality_face(3, x, &(CwMiddle){{from[0], from[1], from[2]}, 1}, &(CwMiddle){{to[0], to[1], to[2]}, 1}, kind,
+                         &q);
   else
     cw_face_quality_patch(3, x, from, kind, &q);
   return q;
@@ -86,6 +96,37 @@ static void weights_by_hand(void **state) {
   }
 }
 
+// The prism has a volume of 9 m3, the tetrahedron of half its height.
+static void volumes_by_hand(void **state) {
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    CwFaceQuality q;
+    two_cells((double[3]){1, 1, i ? 0.0599 : 0.0601}, 2, &q);
+    assert_int_equal(q.uneven[CW_FACE_OF_PRISM], i);
+    assert_int_equal(q.uneven[CW_FACE_OTHER], 0);
+    assert_int_equal(q.slender, 0);
+    cw_face_quality_add(&q, &q);
+    assert_int_equal(q.uneven[CW_FACE_OF_PRISM], 2 * i);
+  }
+}
+
+// With legs of 3 m the area vectors of the prism sum to 9 m2 upwards and 6 h to either side.
+static void aspects_by_hand(void **state) {
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    CwFaceQuality q;
+    two_cells((double[3]){1, 1, 1.5e-3}, 1.5e-3 * (i ? 0.999 : 1.001), &q);
+    assert_int_equal(q.slender, i);
+    for (int kind = 0; kind < CW_FACE_KINDS; ++kind) assert_int_equal(q.open[kind], 1);
+    cw_face_quality_add(&q, &q);
+    assert_int_equal(q.slender, 2 * i);
+    for (int kind = 0; kind < CW_FACE_KINDS; ++kind) assert_int_equal(q.open[kind], 2);
+    two_cells((double[3]){1, 1, 4}, 2, &q);
+    assert_int_equal(q.slender, 0);
+    for (int kind = 0; kind < CW_FACE_KINDS; ++kind) assert_int_equal(q.open[kind], 0);
+  }
+}
+
 static void no_face_is_at_no_angle(void **state) {
   (void)state;
   CwFaceQuality o;
@@ -99,6 +140,8 @@ int main(void) {
       cmocka_unit_test(the_angle_is_that_of_the_centroids),
       cmocka_unit_test(skewness_by_hand),
       cmocka_unit_test(weights_by_hand),
+      cmocka_unit_test(volumes_by_hand),
+      cmocka_unit_test(aspects_by_hand),
       cmocka_unit_test(no_face_is_at_no_angle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

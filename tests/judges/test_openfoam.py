@@ -50,6 +50,14 @@ class OpenFoam(unittest.TestCase):
         light = re.search(r"small interpolation weight \(< 0\.05\) found, number of faces: (\d+)", self.check)
         self.assertEqual(counts, {"skew_faces": int(skew[1]) if skew else 0,
                                   "small_weight_faces": int(light[1]) if light else 0})
+        for keys, words in ((("small_volume_ratio_faces_of_prisms", "other_small_volume_ratio_faces"),
+                             r"small volume ratio .*number of faces: (\d+)"),
+                            (("small_determinant_prisms", "other_small_determinant_cells"),
+                             r"small determinant .*number of cells: (\d+)"),
+                            (("high_aspect_ratio_prisms",), r"High aspect ratio cells .*number of cells (\d+)")):
+            told = re.search(words, self.check)
+            self.assertEqual(sum(results[domain][key] for domain in ("rotor", "stator") for key in keys),
+                             int(told[1]) if told else 0, keys)
 
     def test_3_every_face_of_the_interface_meets_the_other_side(self):
         weights = re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", self.check)

@@ -89,12 +89,33 @@ static void faces_look_outward_and_close(void **state) {
   }
 }
 
+// A prism on a right angle with legs of 1 and a height h has the components 2 h, 2 h and 1.
+static void aspects_and_determinants_by_hand(void **state) {
+  (void)state;
+  for (int i = 1; i <= 3; ++i) {
+    const double h = pow(0.1, i), p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, h}, {1, 0, h}, {0, 1, h}};
+    const double *prism[6] = {p[0], p[1], p[2], p[3], p[4], p[5]};
+    assert_float_equal(cw_cell_aspect(6, prism), fmax(1 / (2 * h), (1 + 4 * h) / 6 / pow(h / 2, 2.0 / 3)), 1e-9);
+    // The sums of squares: sides h along y, h along x and (h, h); base and top 1 / 2 along z.
+    const double mean = (2 * 0.5 + (2 + sqrt(2)) * h) / 5, all = (4 - 1) * pow(h, 4) * 0.5 / 8 / pow(mean, 6);
+    assert_float_equal(cw_cell_determinant(6, prism, 31) / all, 1, 1e-12);
+    // Without the wall at its base, and with one side to another cell alone.
+    const double near = (0.5 + (2 + sqrt(2)) * h) / 4;
+    assert_float_equal(cw_cell_determinant(6, prism, 23) / (3 * pow(h, 4) * 0.25 / 8 / pow(near, 6)), 1, 1e-12);
+    assert_float_equal(cw_cell_determinant(6, prism, 25), 0, 1e-12);
+  }
+  const double *regular[4] = {points[0], points[1], points[3], points[4]};
+  assert_true(cw_cell_determinant(4, regular, 15) > 0.1 && cw_cell_aspect(4, regular) < 10);
+  assert_float_equal(cw_cell_determinant(4, regular, 0), 0, 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(volumes_of_the_three_shapes),
       cmocka_unit_test(an_inverted_tetrahedron_has_a_negative_volume),
       cmocka_unit_test(centroids_of_the_three_shapes),
       cmocka_unit_test(faces_look_outward_and_close),
+      cmocka_unit_test(aspects_and_determinants_by_hand),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,6 +57,11 @@ static int is_refused(const char *name) {
   return 0;
 }
 
+// Whether a fault is a refusal in one line, with the region and the place.
+static int is_told(const char *fault, const char *region) {
+  return fault && !strncmp(fault, region, strlen(region)) && strstr(fault, " mm");
+}
+
 // Fills it; gives NULL or what is wrong.
 static const char *fill_one(const Surface *s, const char *name, double size, Count *count) {
   CwFillInput input = fill_input(s, &size);
@@ -85,9 +90,8 @@ static void library(void **unused) {
     CwFillInput input = fill_input(&s, &size);
     if (cw_boundary_check_crossing(&input) != CW_OK) fail_msg("%s: no boundary: %s", name, cw_fail_message());
     fault = fill_one(&s, name, size, &count);
-    if (is_refused(name)) { // in one line, with the region and the place
-      int told = fault && !strncmp(fault, input.name, strlen(input.name)) && strstr(fault, " mm");
-      fault = told ? NULL : "was not refused with its place";
+    if (is_refused(name)) {
+      fault = is_told(fault, input.name) ? NULL : "was not refused with its place";
     }
     if (fault) print_error("%s: %s\n", name, fault);
     faults += fault != NULL;
@@ -98,11 +102,12 @@ static void library(void **unused) {
   assert_int_equal(faults, 0);
 }
 
-// Those that cross themselves or have triangles without area do not count, but must be refused with a place.
+// Those that cross themselves or have triangles without area do not count, but must be refused with a place; and so may
+// one of a hundred of the others be, of which nobody knows whether they can be filled without points on the boundary.
 static void random_ones(void **unused) {
   Count count = {0};
-  int faults = 0, crossing = 0;
-  for (uint64_t seed = first_seed; count.filled + faults < random_count; seed += seed_step) {
+  int faults = 0, crossing = 0, told = 0;
+  for (uint64_t seed = first_seed; count.filled + told + faults < random_count; seed += seed_step) {
     Surface s;
     double size;
     char name[32];
@@ -119,12 +124,18 @@ static void random_ones(void **unused) {
       cw_fill_free(&fill);
     } else {
       fault = fill_one(&s, name, size, &count);
+      if (is_told(fault, input.name)) {
+        printf("%s: refused: %s\n", name, fault);
+        told++;
+        fault = NULL;
+      }
     }
     if (fault) print_error("%s: %s\n", name, fault);
     faults += fault != NULL;
     surface_free(&s);
   }
   print_count("random", &count);
+  assert_true(100 * told <= random_count);
   printf("%d more were no boundaries and were refused\n", crossing);
   assert_int_equal(faults, 0);
 }

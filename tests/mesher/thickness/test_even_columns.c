@@ -59,6 +59,12 @@ static void others_stay(void **state) {
     make(2, 0.05, (double[4]){all[i], all[i], all[i], all[i]}, made);
     for (int v = 0; v < 4; v++) NEAR(made[v], 0.05);
   }
+  // Even ones would do, but not within a tenth of the first height, for which there is room: it stays.
+  const double held = 0.038, column = held * (1 + cw_policy.least_growth) * 1.001;
+  assert_true(determinant(column - 0.9 * held) < CW_SMALL_DETERMINANT &&
+              determinant(column / 2) > CW_SMALL_DETERMINANT);
+  make(2, held, (double[4]){column, column, column, column}, made);
+  for (int v = 0; v < 4; v++) NEAR(made[v], held);
   // A tall column among short ones keeps its first height.
   make(2, 0.05, (double[4]){0.06, 0.06, 0.06, 0.11}, made);
   assert_true(made[1] < 0.06 / (1 + cw_policy.least_growth));

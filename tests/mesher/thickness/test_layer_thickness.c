@@ -64,6 +64,20 @@ static void a_short_column_gives_up_its_outer_layers(void **state) {
   NEAR(f[1], 1.0 / 2.176, 1e-14);
 }
 
+// Of up to six layers each may be 0.6 of the one before it, so that the sixth is 0.078 of the first; of more the last.
+static void last_layers_stay_a_part_of_the_first(void **state) {
+  double f[31], six = pow(0.6, 5);
+  for (int count = 1; count <= 30; ++count) {
+    const double growth = cw_layer_growth_least(count);
+    if (count <= 6)
+      NEAR(growth, 0.6, 1e-15);
+    else
+      NEAR(pow(growth, count - 1), six, 1e-14);
+    cw_layer_fractions(1.0, 1.0, count, 1.2, f); // far too short
+    if (count > 6) NEAR((f[count] - f[count - 1]) / f[1], six, 1e-12);
+  }
+}
+
 static void one_layer_is_the_whole_column(void **state) {
   double f[2];
   NEAR(cw_layer_fractions(3.0, 1.0, 1, 1.2, f), 3.0, 0.0);
@@ -80,12 +94,12 @@ static void fractions_hold_their_rules_at_all_thickness(void **state) {
       double first = cw_layer_fractions(thickness, 3e-6, count, 1.25, f);
       NEAR(f[1] * thickness, first, 1e-12 * thickness);
       double ratio = (f[2] - f[1]) / f[1];
-      assert_true(ratio <= 1.25 * (1 + 1e-9) && ratio >= cw_policy.least_growth - 1e-9);
+      assert_true(ratio <= 1.25 * (1 + 1e-9) && ratio >= cw_layer_growth_least(count) - 1e-9);
       for (int k = 1; k < count; k++) {
         assert_true(f[k + 1] > f[k]);
         NEAR((f[k + 1] - f[k]) / (f[k] - f[k - 1]), ratio, 1e-6);
       }
-      if (ratio < 1.25 * (1 - 1e-9) && ratio > cw_policy.least_growth * (1 + 1e-9)) NEAR(first, 3e-6, 1e-20);
+      if (ratio < 1.25 * (1 - 1e-9) && ratio > cw_layer_growth_least(count) * (1 + 1e-9)) NEAR(first, 3e-6, 1e-20);
     }
   }
 }
@@ -98,6 +112,7 @@ int main(void) {
       cmocka_unit_test(holds_the_first_height_and_solves_growth),
       cmocka_unit_test(growth_at_its_limit_raises_the_first_height),
       cmocka_unit_test(a_short_column_gives_up_its_outer_layers),
+      cmocka_unit_test(last_layers_stay_a_part_of_the_first),
       cmocka_unit_test(one_layer_is_the_whole_column),
       cmocka_unit_test(fractions_hold_their_rules_at_all_thickness),
   };
