@@ -24,6 +24,7 @@ typedef struct {
 
 // What one rank collects over its regions.
 typedef struct {
+  CwAssembly *assembly;
   OpenFace *open;
   int64_t open_count, open_room;
   CwInterfaceFace *interface[CW_INTERFACES_MOST][2];
@@ -171,23 +172,41 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   return face;
 }
 
-static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Collected *c) {
+CwStatus cw_each_region(const CwMesh *mesh, const CwRanks *ranks, const char *title, CwRegionWork work, void *context) {
   CwStatus status = CW_OK;
-  CwRegionData data = {0};
+  cw_progress_start(ranks->log, title, mesh->region_count, "regions");
+  for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
+    if (cw_ranks_own(ranks, r)) {
+      CwRegionData data = {0};
+      cw_mesh_region_ahead(mesh, r + ranks->size);
+      status = cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &data);
+      if (status == CW_OK) status = work(context, r, &data);
+      cw_mesh_region_free(&data);
+    }
+    cw_progress(ranks->log, r + 1);
+  }
+  cw_progress_end(ranks->log);
+  return status;
+}
+
+static CwStatus collect_region(void *context, int region, const CwRegionData *data) {
+  CwStatus status = CW_OK;
+  Collected *c = context;
+  CwAssembly *a = c->assembly;
+  const CwMesh *mesh = a->mesh;
   int32_t *open = NULL, count = 0;
   int64_t triangles, quads;
-  CW_TRY(cw_mesh_region_read(mesh, region, CW_REGION_WHOLE, &data));
-  CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, &data, 1, &open, &count));
-  collect_points(&data, c);
-  CW_TRY(collect_patches(mesh, region, &data, a, c));
+  CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, data, 1, &open, &count));
+  collect_points(data, c);
+  CW_TRY(collect_patches(mesh, region, data, a, c));
   // Each face of a cell is one of two at an inner face, or lies on a patch or a partition plane.
-  triangles = 4 * (int64_t)(data.tetrahedron_count + data.pyramid_count) + 2 * (int64_t)data.prism_count;
-  triangles -= data.triangle_count;
-  quads = data.pyramid_count + 3 * (int64_t)data.prism_count - data.quad_count;
+  triangles = 4 * (int64_t)(data->tetrahedron_count + data->pyramid_count) + 2 * (int64_t)data->prism_count;
+  triangles -= data->triangle_count;
+  quads = data->pyramid_count + 3 * (int64_t)data->prism_count - data->quad_count;
   CW_GROW(c->open, c->open_room, c->open_count + count);
   for (int32_t i = 0; i < count; ++i) {
     OpenFace *face = &c->open[c->open_count++];
-    *face = open_face(region, &data, i, open[i]);
+    *face = open_face(region, data, i, open[i]);
     --*(face->loop[3] < 0 ? &triangles : &quads);
   }
   a->places[region].inner_triangles = triangles / 2;
@@ -195,7 +214,6 @@ static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Co
   c->open_counts[region] = count;
 done:
   free(open);
-  cw_mesh_region_free(&data);
   return status;
 }
 
@@ -397,17 +415,9 @@ done:
 
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *a) {
   CwStatus status = CW_OK;
-  Collected c = {0};
+  Collected c = {.assembly = a};
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
-  cw_progress_start(ranks->log, "number the mesh", mesh->region_count, "regions");
-  for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r)) {
-      cw_mesh_region_ahead(mesh, r + ranks->size);
-      status = collect_region(mesh, r, a, &c);
-    }
-    cw_progress(ranks->log, r + 1);
-  }
-  cw_progress_end(ranks->log);
+  status = cw_each_region(mesh, ranks, "number the mesh", collect_region, &c);
   CW_TRY(cw_ranks_agree(ranks, status));
   spread(ranks, a, &c);
   CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));

@@ -61,6 +61,13 @@ typedef struct {
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *assembly);
 void cw_assembly_free(CwAssembly *assembly);
 
+// What is done with a region of this rank.
+typedef CwStatus (*CwRegionWork)(void *context, int region, const CwRegionData *data);
+
+// Reads each of this rank's regions whole, and the next one ahead, and gives it to `work`; tells `title` as progress.
+// Returns the first failure of this rank, after which it goes no further.
+CwStatus cw_each_region(const CwMesh *mesh, const CwRanks *ranks, const char *title, CwRegionWork work, void *context);
+
 // Number of a point of a region in its domain, 0-based.
 static inline int64_t cw_point_number(const CwAssembly *assembly, int region, const CwRegionData *data, int32_t point) {
   if (point < data->shared_count) return data->shared_id[point];

@@ -166,6 +166,7 @@ static void add(CwFaceCount *sum, CwFaceCount count) {
 
 // What one rank finds in its regions.
 typedef struct {
+  CwDivision *division;
   CwLink *links;
   int64_t link_count, link_room;
   struct Shared {
@@ -267,26 +268,25 @@ done:
   return status;
 }
 
-static CwStatus count_region(CwDivision *v, int region, Found *found) {
+static CwStatus count_region(void *context, int region, const CwRegionData *data) {
   CwStatus status = CW_OK;
-  CwRegionData data = {0};
+  Found *found = context;
+  CwDivision *v = found->division;
   CwRegionFaces faces = {0};
   int32_t *piece_of = NULL;
   int64_t *number = NULL;
-  CW_TRY(cw_mesh_region_read(v->assembly->mesh, region, CW_REGION_WHOLE, &data));
-  CW_NEW(piece_of, cw_region_cell_count(&data));
-  CW_NEW(number, cw_region_cell_count(&data));
-  CW_TRY(cw_division_cells(v, region, &data, piece_of, number));
-  CW_TRY(cw_region_faces(v->assembly->mesh->regions[region].path, CW_ERR_INPUT, &data, &faces));
-  note_open(v, region, &data, &faces, piece_of, number, found);
-  CW_TRY(count_inner(v, region, &data, &faces, piece_of, found));
-  count_patches(v, region, &data, piece_of);
-  CW_TRY(count_points(v, region, &data, piece_of, found));
+  CW_NEW(piece_of, cw_region_cell_count(data));
+  CW_NEW(number, cw_region_cell_count(data));
+  CW_TRY(cw_division_cells(v, region, data, piece_of, number));
+  CW_TRY(cw_region_faces(v->assembly->mesh->regions[region].path, CW_ERR_INPUT, data, &faces));
+  note_open(v, region, data, &faces, piece_of, number, found);
+  CW_TRY(count_inner(v, region, data, &faces, piece_of, found));
+  count_patches(v, region, data, piece_of);
+  CW_TRY(count_points(v, region, data, piece_of, found));
 done:
   free(piece_of);
   free(number);
   cw_region_faces_free(&faces);
-  cw_mesh_region_free(&data);
   return status;
 }
 
@@ -432,7 +432,7 @@ static void found_free(Found *found) {
 CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
   CwStatus status = CW_OK;
   const CwAssembly *a = v->assembly;
-  Found found = {0};
+  Found found = {.division = v};
   if (v->part_count == 1) {
     take_whole(v);
     number_pieces(v);
@@ -443,8 +443,7 @@ CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
   found.open_sides = calloc((size_t)a->open_count + 1, sizeof *found.open_sides);
   if (!v->open_cell || !v->open_part || !found.open_sides)
     status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on partition planes", (long long)a->open_count);
-  for (int r = 0; r < a->mesh->region_count && status == CW_OK; ++r)
-    if (cw_ranks_own(ranks, r)) status = count_region(v, r, &found);
+  if (status == CW_OK) status = cw_each_region(a->mesh, ranks, "count the parts", count_region, &found);
   CW_TRY(cw_ranks_agree(ranks, status));
   cw_ranks_reduce(ranks, v->open_cell, a->open_count, MPI_INT64_T, MPI_SUM);
   cw_ranks_reduce(ranks, v->open_part, a->open_count, MPI_INT32_T, MPI_SUM);

@@ -44,46 +44,46 @@ done:
   return status;
 }
 
-static CwStatus write_region(const CwAssembly *assembly, int region, const CwOutput *output, CwRegionFigures *figures) {
-  CwStatus status = CW_OK;
-  CwRegionData data = {0};
-  CwRegionFaces faces = {0};
-  CW_TRY(cw_mesh_region_read(assembly->mesh, region, CW_REGION_WHOLE, &data));
-  CW_TRY(cw_region_check(assembly, region, &data, &faces, figures));
-  CW_TRY(cw_output_write_region(output, region, &data, &faces));
-done:
-  cw_region_faces_free(&faces);
-  cw_mesh_region_free(&data);
-  return status;
-}
+// The second pass over the regions.
+typedef struct {
+  CwAssembly *assembly;
+  const CwRanks *ranks;
+  CwOutput *output;
+  CwRegionFigures *figures; // by region
+} Writing;
 
 enum { SYNCS = 16 }; // times that what is written is sent to the disk on the way
+
+static CwStatus write_region(void *context, int region, const CwRegionData *data) {
+  CwStatus status = CW_OK;
+  const Writing *w = context;
+  CwRegionFaces faces = {0};
+  const int64_t regions = w->assembly->mesh->region_count;
+  CW_TRY(cw_region_check(w->assembly, region, data, &faces, &w->figures[region]));
+  CW_TRY(cw_output_write_region(w->output, region, data, &faces));
+  if (w->ranks->rank == 0 && (region + w->ranks->size) * SYNCS / regions > region * SYNCS / regions)
+    cw_folder_sync_begin(w->output->folder);
+done:
+  cw_region_faces_free(&faces);
+  return status;
+}
 
 // The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is
 // collective.
 static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutput *output) {
   CwStatus status = CW_OK;
   const int regions = assembly->mesh->region_count;
-  CwRegionFigures *figures = calloc((size_t)regions, sizeof *figures);
-  if (!figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", regions);
+  Writing writing = {assembly, ranks, output, calloc((size_t)regions, sizeof *writing.figures)};
+  if (!writing.figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", regions);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_output_open(output, ranks);
-  cw_progress_start(ranks->log, "check and write the mesh", regions, "regions");
-  for (int r = 0; r < regions && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r)) {
-      cw_mesh_region_ahead(assembly->mesh, r + ranks->size);
-      status = write_region(assembly, r, output, &figures[r]);
-    }
-    if (ranks->rank == 0 && (int64_t)(r + 1) * SYNCS / regions > (int64_t)r * SYNCS / regions)
-      cw_folder_sync_begin(output->folder);
-    cw_progress(ranks->log, r + 1);
-  }
-  cw_progress_end(ranks->log);
+  if (status == CW_OK)
+    status = cw_each_region(assembly->mesh, ranks, "check and write the mesh", write_region, &writing);
 done:;
   CwStatus closed = cw_output_close(output);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
-  if (status == CW_OK) cw_region_figures_sum(ranks, figures, assembly);
-  free(figures);
+  if (status == CW_OK) cw_region_figures_sum(ranks, writing.figures, assembly);
+  free(writing.figures);
   return status;
 }
 
