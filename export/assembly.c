@@ -162,10 +162,7 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   int64_t wide[4];
   int order[4], count = cw_cell_face(data, face.cell, ref % CW_CELL_FACES, nodes);
   for (int k = 0; k < count; ++k) wide[k] = data->shared_id[nodes[k]];
-  const double *x[6];
-  const int corners = cw_cell_points(data, face.cell, x);
-  face.middle.volume = cw_cell_volume(corners, x);
-  cw_cell_centroid(corners, x, face.middle.at);
+  face.middle = cw_cell_middle(data, face.cell);
   face.kind = face.cell >= data->tetrahedron_count + data->pyramid_count ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
   face.reversed = cw_face_loop(wide, count, order);
   for (int k = 0; k < count; ++k) face.loop[k] = wide[order[k]];

@@ -11,6 +11,14 @@ static const double LEAST_EXTENT = 0.2, LEAST_EXTENT_ON_PATCH = 0.4;
 
 enum { AHEAD = 8 }; // cells
 
+CwMiddle cw_cell_middle(const CwRegionData *data, int32_t cell) {
+  const double *x[6];
+  const int count = cw_cell_points(data, cell, x);
+  CwMiddle middle = {.volume = cw_cell_volume(count, x)};
+  cw_cell_centroid(count, x, middle.at);
+  return middle;
+}
+
 void cw_face_quality_start(CwFaceQuality *q) {
   *q = (CwFaceQuality){.least = 1};
 }

@@ -33,6 +33,8 @@ typedef struct {
   double at[3], volume;
 } CwMiddle;
 
+CwMiddle cw_cell_middle(const CwRegionData *data, int32_t cell);
+
 void cw_face_quality_start(CwFaceQuality *q);
 
 // Adds a face with `count` (3 or 4) nodes at `x`, whose normal points out of the cell `from`, to `to`.

@@ -11,17 +11,14 @@ static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegi
   *figures = (CwRegionFigures){.least_volume = INFINITY};
   cw_face_quality_start(&figures->faces);
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
-    const double *x[6];
-    int count = cw_cell_points(data, cell, x);
-    double one = cw_cell_volume(count, x);
+    middle[cell] = cw_cell_middle(data, cell);
+    const double one = middle[cell].volume;
     if (!(one > 0)) {
       double centre[3];
       cw_cell_centre(data, cell, centre);
       CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
                  path, cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * one);
     }
-    cw_cell_centroid(count, x, middle[cell].at);
-    middle[cell].volume = one;
     figures->volume += one;
     figures->least_volume = one < figures->least_volume ? one : figures->least_volume;
   }

@@ -8,8 +8,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "pipeline/mesh/cell.h"
-
 // A tetrahedron on the triangle 0-1-2 with its tip at `tip`, and a right prism below.
 static void two_cells(const double tip[3], double height, CwFaceQuality *o) {
   double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, 0, -height}, {3, 0, -height}, {0, 3, -height}};
@@ -26,12 +24,7 @@ static void two_cells(const double tip[3], double height, CwFaceQuality *o) {
   assert_int_equal(cw_region_faces("rotor", CW_ERR_INPUT, &data, &faces), CW_OK);
   cw_face_quality_start(o);
   CwMiddle middle[2];
-  for (int cell = 0; cell < 2; ++cell) {
-    const double *x[6];
-    int count = cw_cell_points(&data, cell, x);
-    cw_cell_centroid(count, x, middle[cell].at);
-    middle[cell].volume = cw_cell_volume(count, x);
-  }
+  for (int cell = 0; cell < 2; ++cell) middle[cell] = cw_cell_middle(&data, cell);
   cw_face_quality_region(&data, &faces, middle, o);
   cw_region_faces_free(&faces);
   assert_int_equal(o->count, 1);
