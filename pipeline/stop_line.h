@@ -13,6 +13,7 @@ extern "C" {
 
 // From here on SIGTERM ends this process with exit status 143, and one of the ranks says so: the first to remove
 // RUN/log/STAGE.running, which the rank that `makes` it makes here. Where it cannot be made the run goes on without.
+// A rank on another host than that one speaks only where none of that host does: its own may be cut off, its line lost.
 // CW_ERR_MEMORY.
 CwStatus cw_stop_watch(const char *run, const char *stage, int makes);
 

@@ -45,16 +45,21 @@ static void start_ranks(pid_t rank[RANKS], int *told) {
   *told = told_pipe[0];
 }
 
-// Ends the ranks from `first` on as mpirun does; gives what all ranks have said.
-static void stop_ranks(const pid_t rank[RANKS], int first, int told, char said[1000]) {
-  size_t length = 0;
-  for (int k = first; k < RANKS; k++) assert_int_equal(kill(rank[k], SIGTERM), 0);
-  for (int k = first; k < RANKS; k++) {
+// Ends the ranks from `first` on, `end` excluded, as mpirun does.
+static void end_ranks(const pid_t rank[RANKS], int first, int end) {
+  for (int k = first; k < end; k++) assert_int_equal(kill(rank[k], SIGTERM), 0);
+  for (int k = first; k < end; k++) {
     int status;
     assert_int_equal(waitpid(rank[k], &status, 0), rank[k]);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 128 + SIGTERM);
   }
+}
+
+// The same for all from `first` on; gives what all ranks have said.
+static void stop_ranks(const pid_t rank[RANKS], int first, int told, char said[1000]) {
+  size_t length = 0;
+  end_ranks(rank, first, RANKS);
   for (ssize_t got; (got = read(told, said + length, 999 - length)) > 0;) length += (size_t)got;
   said[length] = '\0';
   close(told);
@@ -81,6 +86,36 @@ static void one_tells_where_the_first_is_killed(void **state) {
   assert_int_equal(waitpid(rank[0], NULL, 0), rank[0]);
   stop_ranks(rank, 1, told, said);
   assert_ptr_equal(strchr(said, '\n'), said + strlen(said) - 1);
+}
+
+static void write_host(const char *path, const char *host) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(host, file);
+  fclose(file);
+}
+
+// Ranks of another host may be cut off: one of them speaks, and so does one of the first rank's host that
+// ends later.
+static void ranks_elsewhere_leave_the_word_to_the_first_host(void **state) {
+  char host[300] = {0}, far_token[120], said[1000];
+  pid_t rank[RANKS];
+  int told;
+  snprintf(far_token, sizeof far_token, "%s.far", token);
+  gethostname(host, sizeof host - 1);
+  start_ranks(rank, &told);
+  write_host(token, "elsewhere");
+  end_ranks(rank, 1, RANKS);
+  assert_int_not_equal(access(token, F_OK), 0);
+  write_host(far_token, host);
+  end_ranks(rank, 0, 1);
+  assert_int_not_equal(access(far_token, F_OK), 0);
+  ssize_t length = read(told, said, sizeof said - 1);
+  close(told);
+  assert_true(length > 0);
+  said[length] = '\0';
+  const char *second = strchr(said, '\n') + 1;
+  assert_ptr_equal(strchr(second, '\n'), said + length - 1);
 }
 
 static void nobody_tells_after_an_error(void **state) {
@@ -125,6 +160,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(one_of_all_ranks_tells, make_run, remove_run),
       cmocka_unit_test_setup_teardown(one_tells_where_the_first_is_killed, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(ranks_elsewhere_leave_the_word_to_the_first_host, make_run, remove_run),
       cmocka_unit_test_setup_teardown(nobody_tells_after_an_error, make_run, remove_run),
       cmocka_unit_test_setup_teardown(the_end_leaves_nothing, make_run, remove_run),
   };
