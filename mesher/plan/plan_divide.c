@@ -23,7 +23,7 @@ enum {
   SAMPLES_MOST = 16000, // a section is seen well enough with these; smaller parts use all they have
   SHARED_LEAST = 40000, // pieces and samples, over all directions looked along, that are worth sharing among the ranks
   LINES_JUDGED = 200,   // candidates whose lines are looked at, best first
-  SMALL_PART = 12,      // regions to come of a part for which other planes are tried
+  SMALL_PART = 16,      // regions to come of a part for which other planes are tried
   TRIES = 4,
   TRIES_MOST = 6,
   MANY = 150 // of them; more, and for so many regions, which find less room
