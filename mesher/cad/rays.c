@@ -8,13 +8,19 @@
 
 struct CwRays {
   const CwBackground *background;
-  CwBoxTree triangles;
+  CwBoxTree triangles, normals;
 };
 
 static CwBox box_of(const void *context, int32_t t) {
   const CwBackground *background = context;
   const int32_t *corner = background->triangle[t];
   return cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
+}
+
+static CwBox normal_of(const void *context, int32_t t) {
+  const CwBackground *background = context;
+  const int32_t *corner = background->triangle[t];
+  return cw_box_of_normal(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
 }
 
 CwStatus cw_rays_make(const CwBackground *background, CwRays **rays) {
@@ -24,6 +30,7 @@ CwStatus cw_rays_make(const CwBackground *background, CwRays **rays) {
   CW_NEW(made, 1);
   made->background = background;
   CW_TRY(cw_box_tree_make(NULL, background->triangle_count, &within, box_of, background, &made->triangles));
+  CW_TRY(cw_box_tree_alike(NULL, &made->triangles, normal_of, background, &made->normals));
   *rays = made;
   made = NULL;
 done:
@@ -34,6 +41,7 @@ done:
 void cw_rays_free(CwRays **rays) {
   if (!*rays) return;
   cw_box_tree_free(&(*rays)->triangles);
+  cw_box_tree_free(&(*rays)->normals);
   free(*rays);
   *rays = NULL;
 }
@@ -78,7 +86,7 @@ static int meet(void *context, int32_t t) {
 int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      double *distance) {
   Ray ray = {rays->background, x, direction, from, to, -1};
-  cw_box_tree_ray(&rays->triangles, x, direction, &ray.to, meet, &ray);
+  cw_box_tree_ray(&rays->triangles, &rays->normals, x, direction, &ray.to, meet, &ray);
   if (ray.nearest >= 0) *distance = ray.to;
   return ray.nearest;
 }

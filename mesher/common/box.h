@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "mesher/common/vec.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -36,6 +38,14 @@ static inline CwBox cw_box_of_triangle(const double a[3], const double b[3], con
   cw_box_add_point(&box, b);
   cw_box_add_point(&box, c);
   return box;
+}
+
+// The unit normal of a triangle, as a box that nothing else is in (cw_box_tree_ray).
+static inline CwBox cw_box_of_normal(const double a[3], const double b[3], const double c[3]) {
+  double normal[3];
+  cw_normal(a, b, c, normal);
+  cw_unit(normal);
+  return cw_box_of_point(normal);
 }
 
 static inline int cw_boxes_meet(const CwBox *a, const CwBox *b) {

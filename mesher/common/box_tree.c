@@ -206,8 +206,16 @@ static int ray_meets(const CwBox *box, const double x[3], const double inverse[3
   return enter <= leave * (1 + 1e-12);
 }
 
-void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
-                     void *context) {
+// Whether some vector of a box of unit vectors may point along the unit vector g.
+static int some_along(const CwBox *box, const double g[3]) {
+  static const double rounding = -1e-12;
+  double most = 0;
+  for (int k = 0; k < 3; k++) most += (g[k] > 0 ? box->high[k] : box->low[k]) * g[k];
+  return most > rounding;
+}
+
+void cw_box_tree_ray(const CwBoxTree *tree, const CwBoxTree *normals, const double x[3], const double g[3],
+                     const double *far, CwBoxVisit visit, void *context) {
   int32_t stack[DEPTH], depth = 0;
   double inverse[3];
   // Large and not infinite where the ray is parallel to a side, so that no 0 * infinity comes up.
@@ -215,7 +223,7 @@ void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3]
   if (tree->count) stack[depth++] = 1;
   while (depth) {
     int32_t k = stack[--depth];
-    if (!ray_meets(&tree->node[k], x, inverse, *far)) continue;
+    if (!ray_meets(&tree->node[k], x, inverse, *far) || (normals && !some_along(&normals->node[k], g))) continue;
     if (k >= tree->leaves) {
       if (visit_leaf(tree, k, visit, context)) return;
       continue;

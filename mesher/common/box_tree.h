@@ -54,9 +54,11 @@ CwBoxStarts cw_box_tree_starts(const CwBoxTree *tree, const CwBox *box);
 void cw_box_tree_overlaps_from(const CwBoxTree *tree, const CwBoxStarts *starts, const CwBox *box, CwBoxVisit visit,
                                void *context);
 
-// Visits the items of every leaf whose box the ray x + s g, 0 <= s <= *far, meets; the visitor may lower *far.
-void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
-                     void *context);
+// Visits the items of every leaf whose box the ray x + s g, 0 <= s <= *far, meets, |g| = 1; the visitor may lower *far.
+// normals: a tree alike of their unit normals, for who wants those alone that the ray passes to the side of the normal;
+// most of the others are left out. NULL: all.
+void cw_box_tree_ray(const CwBoxTree *tree, const CwBoxTree *normals, const double x[3], const double g[3],
+                     const double *far, CwBoxVisit visit, void *context);
 
 #ifdef __cplusplus
 }

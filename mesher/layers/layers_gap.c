@@ -28,6 +28,12 @@ static CwBox box_of(const void *context, int32_t f) {
   return cw_box_of_triangle(corner[0], corner[1], corner[2]);
 }
 
+static CwBox normal_of(const void *context, int32_t f) {
+  const double *corner[3];
+  corners(context, f, corner);
+  return cw_box_of_normal(corner[0], corner[1], corner[2]);
+}
+
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
@@ -177,7 +183,7 @@ static void ray_start(const CwLayerWork *work, int32_t v, double x[3]) {
 // Columns to look along.
 typedef struct {
   const CwLayerWork *work;
-  const CwBoxTree *tree;
+  const CwBoxTree *tree, *normals;
   int32_t count, *vertex;
 } Gaps;
 
@@ -196,7 +202,7 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   ray.core = cw_policy.core_height * mean_edge(work, v);
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
-  cw_box_tree_ray(gaps->tree, ray.x, ray.g, &ray.far, meet, &ray);
+  cw_box_tree_ray(gaps->tree, gaps->normals, ray.x, ray.g, &ray.far, meet, &ray);
   *(Free *)out = (Free){ray.best, ray.faced};
   return CW_OK;
 }
@@ -204,7 +210,8 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   Free *most = NULL;
-  Gaps gaps = {.work = work, .tree = tree};
+  CwBoxTree normals = {0};
+  Gaps gaps = {.work = work, .tree = tree, .normals = &normals};
   int again = work->gap != NULL;
   if (!again) {
     CW_NEW_UNSET(work->gap, work->n);
@@ -218,6 +225,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
     gaps.vertex[gaps.count++] = v;
   }
   CW_NEW_UNSET(most, gaps.count);
+  CW_TRY(cw_box_tree_alike(work->in->context, tree, normal_of, work->in, &normals));
   CW_TRY(cw_parallel_for(work->in->context, "layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
   for (int32_t i = 0; i < gaps.count; i++) {
     work->gap[gaps.vertex[i]] = most[i].thickness;
@@ -228,6 +236,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
   }
 done:
+  cw_box_tree_free(&normals);
   free(gaps.vertex);
   free(most);
   return status;

@@ -249,7 +249,7 @@ int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const
   Hits hits = {.background = model->background, .to = to - from, .most = most, .hit = hit};
   for (int k = 0; k < 3; k++) hits.start[k] = point[k] + from * direction[k];
   cw_copy(direction, hits.direction);
-  cw_box_tree_ray(&model->triangles, hits.start, direction, &hits.to, add_hit, &hits);
+  cw_box_tree_ray(&model->triangles, NULL, hits.start, direction, &hits.to, add_hit, &hits);
   for (int32_t i = 0; i < hits.count; i++) hit[i].place += from;
   qsort(hit, (size_t)hits.count, sizeof *hit, by_place);
   return hits.count;

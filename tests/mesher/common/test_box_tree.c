@@ -12,6 +12,7 @@
 
 #include "draw.h"
 #include "mesher/common/box_tree.h"
+#include "mesher/common/vec.h"
 
 enum { COUNT = 700 };
 
@@ -159,7 +160,7 @@ static void rays_meet_what_lies_on_them(void **state) {
     const double g[3] = {1, 0, 0};
     double far = 1.5;
     uint8_t seen[COUNT] = {0};
-    cw_box_tree_ray(&tree, x, g, &far, mark, seen);
+    cw_box_tree_ray(&tree, NULL, x, g, &far, mark, seen);
     for (int j = 0; j < COUNT; j++) {
       if (box[j].low[0] <= 0.5 && box[j].low[1] <= x[1] && x[1] <= box[j].high[1] && box[j].low[2] <= x[2] &&
           x[2] <= box[j].high[2])
@@ -167,6 +168,44 @@ static void rays_meet_what_lies_on_them(void **state) {
     }
   }
   cw_box_tree_free(&tree);
+  free(box);
+}
+
+static CwBox normal_at(const void *context, int32_t item) {
+  return cw_box_of_point(((const double(*)[3])context)[item]);
+}
+
+// What is left out of what a ray meets has a normal against it; most of what has is left out where neighbours point the
+// same way.
+static void rays_pass_over_what_points_against_them(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  double(*normal)[3] = calloc(COUNT, sizeof *normal);
+  CwBoxTree tree, normals;
+  int against = 0, visited = 0;
+  random_boxes(7, box);
+  for (int j = 0; j < COUNT; j++) {
+    for (int k = 0; k < 3; k++) normal[j][k] = 0.5 * (box[j].low[k] + box[j].high[k]) - 0.5; // out of the middle
+    cw_unit(normal[j]);
+  }
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_alike(NULL, &tree, normal_at, normal, &normals), CW_OK);
+  for (int i = 0; i < COUNT; i += 11) {
+    const double x[3] = {-1, 0.5 * (box[i].low[1] + box[i].high[1]), 0.5 * (box[i].low[2] + box[i].high[2])};
+    const double g[3] = {1, 0, 0};
+    double far = 3;
+    uint8_t all[COUNT] = {0}, seen[COUNT] = {0};
+    cw_box_tree_ray(&tree, NULL, x, g, &far, mark, all);
+    cw_box_tree_ray(&tree, &normals, x, g, &far, mark, seen);
+    for (int j = 0; j < COUNT; j++) {
+      assert_int_equal(seen[j] || (all[j] && normal[j][0] <= 0), all[j]);
+      against += all[j] && normal[j][0] <= 0;
+      visited += seen[j] && normal[j][0] <= 0;
+    }
+  }
+  assert_true(visited < against / 2);
+  cw_box_tree_free(&tree);
+  cw_box_tree_free(&normals);
+  free(normal);
   free(box);
 }
 
@@ -191,10 +230,13 @@ static void empty_and_stopped(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(finds_all_that_meet),     cmocka_unit_test(starts_lead_to_the_same),
-      cmocka_unit_test(finds_all_that_are_near), cmocka_unit_test(follows_those_that_move),
-      cmocka_unit_test(passes_by_most),          cmocka_unit_test(rays_meet_what_lies_on_them),
-      cmocka_unit_test(empty_and_stopped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(finds_all_that_meet),
+                                     cmocka_unit_test(starts_lead_to_the_same),
+                                     cmocka_unit_test(finds_all_that_are_near),
+                                     cmocka_unit_test(follows_those_that_move),
+                                     cmocka_unit_test(passes_by_most),
+                                     cmocka_unit_test(rays_meet_what_lies_on_them),
+                                     cmocka_unit_test(rays_pass_over_what_points_against_them),
+                                     cmocka_unit_test(empty_and_stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
