@@ -241,7 +241,7 @@ static CwStatus read_patch(const char *path, const CwCaseNode *node, const CwCas
   const CwUnit *unit;
   const CwCaseNode *item, *layer, *near, *faces;
   patch->place = node->place;
-  patch->colour = patch->turns = -1;
+  patch->colour = patch->turns = patch->monitored = -1;
   patch->y_plus = patch->velocity = NAN;
   CW_TRY(read_name(path, node, node->key, PATCH_NAME_MOST, 0, patch->name));
   CW_TRY(require_map(path, node, patch_keys));

@@ -61,7 +61,7 @@ typedef struct {
   double y_plus;   // NAN: of the group
   double velocity; // m/s; NAN: of the group, or measured
   int turns;       // of a wall: 1 or 0; -1: as its domain
-  int monitored;   // of a wall: 1: solvers record its mean pressure
+  int monitored;   // of a wall: 1: solvers record its mean pressure; 0; -1: by its name
   CwEventPlace place;
 } CwCadPatch;
 

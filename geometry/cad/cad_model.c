@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "geometry/wall_name.h"
+
 static const double gravity = 9.80665;           // m/s2
 static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medium pumps
 static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
@@ -14,10 +16,6 @@ static const double BLADE_LENGTH = 1.2, VOLUTE_LENGTH = 3, PIPE_LENGTH = 3;
 typedef struct {
   double inlet_area, outlet_area, wheel_radius, interface_radius, interface_width;
 } Sizes;
-
-typedef struct {
-  CwWallFlow wheel, volute, suction, discharge;
-} Flows;
 
 static CwStatus check_turned(const CwCaseCad *cad, const CwSurvey *survey, int face, const CwContact *contact) {
   CwStatus status = CW_OK;
@@ -120,8 +118,8 @@ static double diameter(double area) {
   return sqrt(4 * area / M_PI);
 }
 
-static Flows flows_of(const CwOperatingPoint *point, const Sizes *of, int blade_count) {
-  Flows flows;
+static void set_flows(const CwOperatingPoint *point, const Sizes *of, int blade_count,
+                      CwWallFlow flow[CW_ALONG_COUNT]) {
   const double r2 = of->wheel_radius, r3 = of->interface_radius, u2 = point->speed * r2, width = of->interface_width;
   const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
   const double swirl = fmin(gravity * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
@@ -129,21 +127,31 @@ static Flows flows_of(const CwOperatingPoint *point, const Sizes *of, int blade_
   const double w1 = hypot(point->speed * diameter(of->inlet_area) / 2, before);
   // Between two blades at the outlet, across w2.
   const double pitch = 2 * M_PI * r2 / blade_count * fmin(1, meridional / w2);
-  flows.wheel =
+  flow[CW_ALONG_BLADE] =
       (CwWallFlow){(w1 + w2) / 2, BLADE_LENGTH * r3, 2 * width * pitch / (width + pitch), fmin(width, pitch), 0};
+  flow[CW_ALONG_TRAILING_EDGE] = flow[CW_ALONG_BLADE];
+  flow[CW_ALONG_TRAILING_EDGE].before = fmax(r3 - r2, 0);
   const double outlet = diameter(of->outlet_area), after = point->flow_rate / of->outlet_area;
-  flows.volute = (CwWallFlow){fmax(swirl * r2 / r3, after), VOLUTE_LENGTH * r3, outlet, fmin(width, outlet), 0};
+  const double around = fmax(swirl * r2 / r3, after), throat = diameter(point->flow_rate / around);
+  flow[CW_ALONG_VOLUTE] = (CwWallFlow){around, VOLUTE_LENGTH * r3, outlet, fmin(width, outlet), 0};
+  flow[CW_ALONG_NECK] = flow[CW_ALONG_VOLUTE];
   const double eye = diameter(of->inlet_area);
-  flows.suction = (CwWallFlow){before, PIPE_LENGTH * r3, eye, eye, 0};
-  flows.discharge = (CwWallFlow){after, PIPE_LENGTH * r3, outlet, outlet, 0};
-  return flows;
+  flow[CW_ALONG_SUCTION] = (CwWallFlow){before, PIPE_LENGTH * r3, eye, eye, 0};
+  // A cone: as pump_model.c has it.
+  flow[CW_ALONG_DIFFUSER] =
+      (CwWallFlow){sqrt(around * after), PIPE_LENGTH * r3, sqrt(throat * outlet), fmin(throat, outlet), 0};
+  flow[CW_ALONG_DISCHARGE] = (CwWallFlow){after, PIPE_LENGTH * r3, outlet, outlet, 0};
 }
 
+static int has_walls(const CwCaseCad *cad, const CwFacePatch *patch) {
+  return patch->rule >= 0 && cad->patch[patch->rule].walls != CW_CAD_WALLS_OPEN;
+}
+
+// Group of a wall that goes by no name, and size of its cells.
 static CwPatchGroup group_of(const CwCaseCad *cad, const CwFacePatch *patch) {
   static const CwPatchGroup of_rule[] = {CW_GROUP_VOLUTE, CW_GROUP_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_VOLUTE,
                                          CW_GROUP_PIPE};
-  if (patch->rule >= 0 && cad->patch[patch->rule].walls != CW_CAD_WALLS_OPEN)
-    return of_rule[cad->patch[patch->rule].walls];
+  if (has_walls(cad, patch)) return of_rule[cad->patch[patch->rule].walls];
   if (patch->role == CW_ROLE_BLADE) return CW_GROUP_BLADE;
   if (patch->role == CW_ROLE_PIPE) return CW_GROUP_PIPE;
   return cad->domain[patch->part].rotating ? CW_GROUP_HUB_SHROUD : CW_GROUP_VOLUTE;
@@ -160,21 +168,34 @@ static int is_before(const CwFacePatches *patches, int part) {
   return before;
 }
 
-static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of, const Flows *flows,
-                     CwModelPatch *patch) {
-  patch->size = patch->group = group_of(cad, of);
-  const int before = is_before(patches, of->part);
-  const int wheel = patch->group == CW_GROUP_BLADE || patch->group == CW_GROUP_HUB_SHROUD;
-  patch->flow = wheel                                        ? flows->wheel
-                : patch->group == CW_GROUP_VOLUTE && !before ? flows->volute
-                : before                                     ? flows->suction
-                                                             : flows->discharge;
+static CwAlong along_of(CwPatchGroup group, int before) {
+  if (group == CW_GROUP_BLADE || group == CW_GROUP_HUB_SHROUD) return CW_ALONG_BLADE;
+  if (group == CW_GROUP_VOLUTE && !before) return CW_ALONG_VOLUTE;
+  return before ? CW_ALONG_SUCTION : CW_ALONG_DISCHARGE;
+}
+
+// By what the case says of its walls, else by its name, else by form and place.
+static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of,
+                     const CwWallFlow flow[CW_ALONG_COUNT], CwModelPatch *patch) {
+  const CwWallName *name = cw_wall_name(of->name);
+  if (name && !has_walls(cad, of)) {
+    patch->group = name->group;
+    patch->size = name->size;
+    const int turning = name->along == CW_ALONG_BLADE || name->along == CW_ALONG_TRAILING_EDGE;
+    const int still = turning && !cad->domain[of->part].rotating; // vanes of a guide wheel
+    patch->flow = flow[still ? along_of(CW_GROUP_VOLUTE, is_before(patches, of->part)) : name->along];
+  } else {
+    patch->size = patch->group = group_of(cad, of);
+    patch->flow = flow[along_of(patch->group, is_before(patches, of->part))];
+  }
+  if (name && name->turns >= 0) patch->turns = name->turns;
+  patch->monitored = name && name->monitored;
   if (of->rule < 0) return;
   const CwCadPatch *rule = &cad->patch[of->rule];
   if (cw_case_given(rule->velocity)) patch->flow.speed = rule->velocity;
   if (rule->turns >= 0) patch->turns = rule->turns;
   patch->y_plus_asked = rule->y_plus;
-  patch->monitored = rule->monitored;
+  if (rule->monitored >= 0) patch->monitored = rule->monitored;
 }
 
 static CwStatus check(const CwCaseCad *cad, const CwOperatingPoint *point, const CwFacePatches *patches,
@@ -232,7 +253,8 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
   Sizes sizes;
   measure(cad, survey, patches, interface_count, interfaces, &sizes);
   CW_TRY(check(cad, &table->operating_point, patches, interface_count, &sizes));
-  const Flows flows = flows_of(&table->operating_point, &sizes, blade_count);
+  CwWallFlow flow[CW_ALONG_COUNT];
+  set_flows(&table->operating_point, &sizes, blade_count, flow);
   model->unit = unit;
   for (int d = 0; d < cad->domain_count; d++) {
     CW_TRY(cw_model_add_domain(model, cad->domain[d].name, cad->domain[d].rotating));
@@ -241,16 +263,18 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
       CwModelPatch *patch;
       if (of->part != d) continue;
       CW_TRY(cw_model_add_patch(model, of->name, of->kind, &patch));
-      if (of->kind == CW_PATCH_WALL) set_wall(cad, patches, of, &flows, patch);
+      if (of->kind == CW_PATCH_WALL) set_wall(cad, patches, of, flow, patch);
       if (of->kind == CW_PATCH_OUTLET) patch->flow_share = outlet_share(survey, patches, i, sizes.outlet_area);
     }
   }
   for (int i = 0; i < interface_count; i++) {
     const char *names[] = {patches->patch[interfaces[i].patch[0]].name, patches->patch[interfaces[i].patch[1]].name};
     CW_TRY(cw_model_add_interface(model, names, interfaces[i].surface, interfaces[i].radius));
+    for (int s = 0; s < 2 && interfaces[i].surface == CW_SURFACE_PLANE; s++) // before a pipe
+      model->patch[cw_model_patch_find(model, names[s])].size = CW_GROUP_PIPE;
   }
-  model->flow = (CwModelFlow){flows.suction.speed, flows.suction.diameter, flows.wheel.speed,
-                              flows.wheel.width,   2 * sizes.wheel_radius, blade_count};
+  model->flow = (CwModelFlow){flow[CW_ALONG_SUCTION].speed, flow[CW_ALONG_SUCTION].diameter, flow[CW_ALONG_BLADE].speed,
+                              flow[CW_ALONG_BLADE].width,   2 * sizes.wheel_radius,          blade_count};
 done:
   return status;
 }

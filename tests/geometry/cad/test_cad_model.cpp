@@ -101,6 +101,26 @@ static void rules_go_before(void **) {
   assert_int_equal(patch.monitored, 1);
 }
 
+// Names of generated walls go before form and place: the back of the wheel as a pipe that stands still.
+static void names_are_those_of_generated_walls(void **) {
+  Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  CwCadPatch rule = {};
+  double point[][3] = {{47 * mm, 0, 5 * mm}};
+  strcpy(rule.name, "suction_pipe");
+  rule.near = {1, point};
+  rule.y_plus = rule.velocity = NAN;
+  rule.colour = rule.turns = rule.monitored = -1;
+  made.cad.patch = &rule;
+  made.cad.patch_count = 1;
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  const CwModelPatch &patch = made.patch("suction_pipe");
+  assert_int_equal(patch.group, CW_GROUP_PIPE);
+  assert_int_equal(patch.size, CW_GROUP_PIPE);
+  small_near(patch.flow.speed, 4. / 3600 / (M_PI * 400 * mm * mm), 1e-5);
+  assert_int_equal(patch.turns, 0);
+  assert_int_equal(patch.monitored, 0);
+}
+
 static void pumps_that_cannot_be_are_told(void **) {
   Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
   both.cad.domain[1].rotating = both.rotating[1] = 1;
@@ -122,8 +142,8 @@ static void pumps_that_cannot_be_are_told(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(speeds_follow_from_the_operating_point),
-                                     cmocka_unit_test(rules_go_before),
-                                     cmocka_unit_test(pumps_that_cannot_be_are_told)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(speeds_follow_from_the_operating_point), cmocka_unit_test(rules_go_before),
+      cmocka_unit_test(names_are_those_of_generated_walls), cmocka_unit_test(pumps_that_cannot_be_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
