@@ -15,8 +15,10 @@ CELLS = int(os.environ["CUTWATER_DRAWING_CELLS"])
 ITERATIONS = 20
 # Of a drawing: rotating and standing domains, and pairs that touch.
 ROTATING = {"rotor"}
-DOMAINS = {"diffuser": ["rotor", "diffuser", "casing"]}
-PAIRS = {"diffuser": 2}
+DOMAINS = {"diffuser": ["rotor", "diffuser", "casing"], "side_chamber": ["rotor", "chamber", "casing"]}
+PAIRS = {"diffuser": 2, "side_chamber": 2}
+# Of a face of an interface, what the other side covers at least: facets of a ring gap as wide as an edge part more.
+COVERED = {"side_chamber": 0.95}
 # What checkMesh may say of sound cells: thin prisms; layers in wedges; layers in gaps narrower than the cells.
 ALLOWED = "small determinant|Max skewness|small interpolation weight|small volume ratio"
 MOST_SKEW = 10
@@ -50,13 +52,13 @@ class Drawn(unittest.TestCase):
         for pair in pairs:
             self.assertAlmostEqual(pair["areas_m2"][0] / pair["areas_m2"][1], 1, delta=0.01, msg=pair)
 
-    def checked(self, case):
+    def checked(self, name, case):
         told = execute(["checkMesh", "-allGeometry", "-allTopology"], case).stdout
         for line in re.findall(r"^ \*\*\*(.*)$", told, re.M):
             self.assertRegex(line, ALLOWED)
         self.assertLess(float(re.search(r"Max skewness = ([\d.]+)", told)[1]), MOST_SKEW)
         for side, least, most in re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", told):
-            self.assertGreater(float(least), 0.98, side)
+            self.assertGreater(float(least), COVERED.get(name, 0.98), side)
             self.assertLess(float(most), 1.02, side)
 
     def solved(self, case):
@@ -64,7 +66,8 @@ class Drawn(unittest.TestCase):
         result = execute(["simpleFoam"], case, timeout=3000)
         self.assertEqual(result.returncode, 0, result.stdout[-3000:])
         self.assertNotRegex(result.stdout, r"\bnan\b|FOAM FATAL|sigFpe::sigHandler")
-        for field in ("Ux", "Uy", "Uz", "p", "k", "epsilon"):
+        second = "omega" if "Solving for omega" in result.stdout else "epsilon"  # by the model of turbulence
+        for field in ("Ux", "Uy", "Uz", "p", "k", second):
             values = [float(v) for v in re.findall(rf"Solving for {field}, Initial residual = (\S+),", result.stdout)]
             self.assertLess(values[-1], 0.3 * max(values), field)
         error = re.findall(r"continuity errors : sum local = (\S+),", result.stdout)
@@ -76,7 +79,7 @@ class Drawn(unittest.TestCase):
             with self.subTest(name):
                 run = self.through(name)
                 self.meshed(name, run)
-                self.checked(run / "export/openfoam")
+                self.checked(name, run / "export/openfoam")
                 self.solved(run / "export/openfoam")
 
 
