@@ -324,7 +324,8 @@ done:
   return status;
 }
 
-// The worst below where a search begins, as it is judged, but near none of the places; -1 where there is none.
+// The worst below where a search begins, as it is judged, but near none of the places; -1 where there is none. In a
+// search for determinants its angles are not what is bad: those have been searched for.
 static int32_t find_worst(const Search *s, int count, const double (*place)[3], const double *reach, double *least) {
   const CwTetWork *w = s->whole;
   int32_t worst = -1;
@@ -334,6 +335,7 @@ static int32_t find_worst(const Search *s, int count, const double (*place)[3], 
     if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= (s->determinants ? policy->search_wanted : *least))
       continue;
     double sine, judged = judge(s, w->mesh, t, &sine);
+    if (s->determinants && sine < s->begin) continue;
     if (judged < *least && judged > policy->sound_quality && !is_near(w, t, count, place, reach))
       *least = judged, worst = t;
   }
