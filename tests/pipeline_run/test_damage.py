@@ -10,7 +10,7 @@ import unittest
 
 from cutwater import BIN, PAPER, WORK, digests, done, error_lines, execute, fresh, record, regions, stage
 
-CELLS = 20000
+CELLS = 150000  # in one pass, and quicker than fewer
 DAMAGES = int(os.environ.get("CUTWATER_DAMAGES", 60))
 WHOLE = WORK / "damage-whole"  # an undamaged run
 OTHER = WORK / "damage-other"  # one of a pump that differs a little

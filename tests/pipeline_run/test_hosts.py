@@ -11,7 +11,7 @@ from pathlib import Path
 
 from cutwater import ENVIRONMENT, command, digests, done, error_lines, execute, fresh, regions
 
-COUNT, CELLS = 3, 40000
+COUNT, CELLS = 3, 150000
 ONE_PASS = 300000  # cells that come in one pass: no region that is whole is made again
 SLOWER, PAIRS = 1.5, 6  # at most, in the best of so many runs each
 HOSTS = Path(__file__).with_name("hosts.sh")
