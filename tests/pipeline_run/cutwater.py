@@ -8,6 +8,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 from pathlib import Path
 
 BIN = Path(os.environ["CUTWATER_BIN"])
@@ -102,6 +103,14 @@ def state(pid):
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
         return "Z"
+
+
+def left_behind(ranks, seconds=30):
+    """Waits until these ranks have ended, which may be a moment after their mpirun has; those that have not."""
+    deadline = time.monotonic() + seconds
+    while (left := [pid for pid in ranks if state(pid) != "Z"]) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return left
 
 
 def ranks_of(mpirun):

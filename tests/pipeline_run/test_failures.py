@@ -8,8 +8,8 @@ import time
 import unittest
 from pathlib import Path
 
-from cutwater import (BIN, CELLS, PAPER, RUN, digests, done, error_lines, execute, fresh, ranks_of, record, stage,
-                      start, state, with_geometry)
+from cutwater import (BIN, CELLS, PAPER, RUN, digests, done, error_lines, execute, fresh, left_behind, ranks_of, record,
+                      stage, start, with_geometry)
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
@@ -222,11 +222,7 @@ class Failures(unittest.TestCase):
         self.assertIn("a rank was killed", error_lines(text, "mesh")[0])
         self.assertFalse((run / "mesh/manifest.json").exists())
         self.assertFalse((run / "mesh/record.json").exists())
-        # mpirun may end a moment before the ranks that it has told to stop.
-        deadline = time.monotonic() + 30
-        while (left := [pid for pid in ranks if state(pid) != "Z"]) and time.monotonic() < deadline:
-            time.sleep(0.1)
-        self.assertEqual(left, [], "ranks are left behind")
+        self.assertEqual(left_behind(ranks), [])
 
 
 if __name__ == "__main__":

@@ -7,8 +7,8 @@ import subprocess
 import time
 import unittest
 
-from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, ranks_of, record, regions, start,
-                     state, with_geometry)
+from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, left_behind, ranks_of, record, regions,
+                      start, with_geometry)
 
 
 def page_of(run):
@@ -78,9 +78,10 @@ class Resume(unittest.TestCase):
         run = with_geometry("resume")
         process = start("mesh", run, cells=CELLS, ranks=2)
         self.assertTrue(first_region(run, process))
+        ranks = ranks_of(process.pid)
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
-        time.sleep(1)  # ranks end when they see their mpirun gone
+        self.assertEqual(left_behind(ranks), [])  # ranks end when they see their mpirun gone
         self.goes_on(run)
 
     def test_a_run_with_a_killed_rank_called_again(self):
@@ -93,9 +94,7 @@ class Resume(unittest.TestCase):
         _, text = process.communicate(timeout=60)
         self.assertNotEqual(process.returncode, 0)
         self.assertEqual(len(error_lines(text, "mesh")), 1, text)
-        deadline = time.monotonic() + 30
-        while any(state(pid) != "Z" for pid in ranks) and time.monotonic() < deadline:
-            time.sleep(0.1)
+        self.assertEqual(left_behind(ranks), [])
         self.goes_on(run, ranks=3)
 
     def test_a_run_on_a_full_disk_called_again(self):

@@ -7,7 +7,7 @@ import signal
 import sys
 import unittest
 
-from cutwater import SOURCE, digests, done, fresh, record, start
+from cutwater import SOURCE, digests, done, fresh, left_behind, ranks_of, record, start
 
 sys.path.insert(0, str(SOURCE / "tests/bench"))
 import random_pumps  # noqa: E402
@@ -32,8 +32,10 @@ class ShorterEdges(unittest.TestCase):
                 break
         else:
             self.fail("there was no round to be killed in")
+        ranks = ranks_of(mesher.pid)
         os.killpg(mesher.pid, signal.SIGKILL)
         mesher.communicate()
+        self.assertEqual(left_behind(ranks), [])
 
     def test_a_killed_run_ends_in_the_same_bytes(self):
         whole, options = self.pump("whole")
