@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Generated pumps, read back from their STEP file as somebody's CAD: by names alone the same domains and patches, groups
-of walls, what turns, and passages, and nearly the same mesh, through all stages. CUTWATER_READ_BACK names cases of
-cases/; without it the pump is that of the shared run."""
+"""Generated pumps, read back from their STEP file as somebody's CAD: by names alone the same domains and patches,
+groups of walls, what turns, and passages, and nearly the same mesh, through all stages. CUTWATER_READ_BACK names cases
+of cases/; without it the pump is that of the shared run."""
 import json
 import os
 import re
@@ -19,8 +19,8 @@ ANGLES = 0.8  # of those of the generated pump, at least: both meshes have a wor
 def as_cad(case, model):
     """The text of a case whose pump is pump.step."""
     sections = re.split(r"^(?=[a-z_]+:)", case, flags=re.M)
-    domains = "".join(f"    {domain['name']}: {{solid: {domain['name']}, rotating: {str(domain['rotating']).lower()}}}\n"
-                      for domain in model["domains"])
+    domains = "".join(f"    {of['name']}: {{solid: {of['name']}, rotating: {str(of['rotating']).lower()}}}\n"
+                      for of in model["domains"])
     return "".join(part for part in sections if part.split(":")[0] in ASKED) + (
         "\ncad:\n  files: [pump.step]\n  domains:\n" + domains)
 
