@@ -4,6 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "pipeline/log.h"
 #include "pipeline/status.h"
@@ -13,6 +17,11 @@ static const size_t START_MEMORY = (size_t)64 << 20;
 
 static void require_memory(void) {
   const char *rank = getenv("OMPI_COMM_WORLD_RANK");
+#ifdef M_ARENA_MAX
+  // Where address space is limited, MPI's threads must not take 64 MiB of it each for heaps of their own.
+  struct rlimit space;
+  if (!getrlimit(RLIMIT_AS, &space) && space.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);
+#endif
   void *room = mmap(NULL, START_MEMORY, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room != MAP_FAILED) {
     munmap(room, START_MEMORY);

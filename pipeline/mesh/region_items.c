@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { OPEN_MEMORY = 8 << 20 }; // bytes: more than HDF5 takes to open a file
 typedef enum { REAL, INDEX, WIDE } Kind;
 
 // The arrays, in the order of the file. Those of one column have one dimension.
@@ -91,6 +92,10 @@ CwStatus cw_region_items_open(const char *path, hid_t *file, char digest[CW_HASH
   haddr_t end = HADDR_UNDEF;
   char found[CW_HASH_TEXT], wanted[CW_HASH_TEXT];
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // ours is the one line that a person sees
+  // HDF5 1.10 crashes where memory ends while it opens a file.
+  void *volatile room = malloc(OPEN_MEMORY);
+  CW_REQUIRE(room, CW_ERR_MEMORY, "out of memory: %d MiB to open %s", OPEN_MEMORY >> 20, path);
+  free(room);
   *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   CW_REQUIRE(*file >= 0, CW_ERR_IO, "%s: is missing, damaged or cut short: cannot be opened as HDF5", path);
   CW_REQUIRE(cw_region_items_integer(*file, path, "format", &format) == CW_OK, CW_ERR_IO,
