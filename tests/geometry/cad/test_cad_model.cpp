@@ -77,14 +77,21 @@ static void speeds_follow_from_the_operating_point(void **) {
   small_near(made.model.flow.reference_length, 2 * r2, 1e-6);
 }
 
+// The back of the wheel as a patch of this name, of which the case says nothing more.
+static CwCadPatch back_as(const char *name) {
+  static double point[][3] = {{47 * mm, 0, 5 * mm}};
+  CwCadPatch rule = {};
+  strcpy(rule.name, name);
+  rule.near = {1, point};
+  rule.y_plus = rule.velocity = NAN;
+  rule.colour = rule.turns = rule.monitored = -1;
+  return rule;
+}
+
 // What the case says of a patch goes before what is measured.
 static void rules_go_before(void **) {
   Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
-  CwCadPatch rule = {};
-  double point[][3] = {{47 * mm, 0, 5 * mm}};
-  strcpy(rule.name, "back");
-  rule.near = {1, point};
-  rule.colour = -1;
+  CwCadPatch rule = back_as("back");
   rule.walls = CW_CAD_WALLS_PIPE;
   rule.y_plus = 3;
   rule.velocity = 9;
@@ -104,12 +111,7 @@ static void rules_go_before(void **) {
 // Names of generated walls go before form and place: the back of the wheel as a pipe that stands still.
 static void names_are_those_of_generated_walls(void **) {
   Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
-  CwCadPatch rule = {};
-  double point[][3] = {{47 * mm, 0, 5 * mm}};
-  strcpy(rule.name, "suction_pipe");
-  rule.near = {1, point};
-  rule.y_plus = rule.velocity = NAN;
-  rule.colour = rule.turns = rule.monitored = -1;
+  CwCadPatch rule = back_as("suction_pipe");
   made.cad.patch = &rule;
   made.cad.patch_count = 1;
   if (made.make()) fail_msg("%s", cw_fail_message());
