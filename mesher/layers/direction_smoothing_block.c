@@ -15,7 +15,7 @@
 #include "mesher/policy.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
-static const double SETTLED = 1e-3; // change in one sweep, in thicknesses, that is none
+static const double SETTLED = 2e-4; // change in one sweep, in thicknesses, that is none
 
 // Projects u onto the directions in which the column of v may lean without changing its normal thickness or
 // leaving its constraints.
@@ -46,7 +46,6 @@ static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
 // A vertex in a block.
 typedef struct {
   double distance, opening, thickness; // to the nearest source, its cot(alpha/2) and thickness
-  double widen;                        // factor on L where the usual one leaves prisms overrun
   int32_t source;                      // vertex; -1: out of reach
   double u[3];                         // displacement relative to an undisturbed neighbour on the wall, m
   double given[3], line[3];            // of a source: what is fixed of it, and the direction of the rest
@@ -59,7 +58,7 @@ static int32_t source_of(const CwSmoothing *smoothing, int32_t v) {
 
 static SmoothingAt smoothing_at(const CwSmoothing *smoothing, int32_t v) {
   const CwSmoothingReach *reach = &smoothing->reach[v];
-  SmoothingAt at = {.distance = reach->distance, .widen = 1, .source = -1};
+  SmoothingAt at = {.distance = reach->distance, .source = -1};
   if (reach->source < 0) return at;
   const CwSmoothingSource *source = &smoothing->source[reach->source];
   at.opening = source->opening, at.thickness = source->thickness, at.source = source->vertex;
@@ -89,9 +88,12 @@ typedef struct {
   double *reach;              // of members, where nothing is widened
   uint8_t *stirred, *changed; // members to relax; those whose displacement changed since the columns were set
   uint8_t *touched;           // whose displacement changed at all
+  uint8_t *spread;            // members beside whom the widening has changed since theirs was made from it
+  double *widen;              // of all: factor on L where the usual one leaves prisms overrun
   SmoothingAt *smoothing;     // of all
   double (*column)[3], (*top)[3];
   int32_t triangle_count, *triangle; // of the wall, with a member
+  int32_t (*corner)[3];              // of these: local numbers
   double *quality;                   // of the prisms over them
   int32_t *local;                    // of the domain's vertices; as in CwSmoothing
 } Part;
@@ -114,6 +116,9 @@ static void part_free(Part *part) {
   free(part->stirred);
   free(part->changed);
   free(part->touched);
+  free(part->spread);
+  free(part->widen);
+  free(part->corner);
   free(part->quality);
   free(part->smoothing);
   free(part->column);
@@ -194,6 +199,8 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
   CW_NEW(part->stirred, count);
   CW_NEW(part->changed, count);
   CW_NEW(part->touched, count);
+  CW_NEW(part->spread, count);
+  memset(part->spread, 1, (size_t)count);
   memset(part->stirred, 1, (size_t)count);
   memset(part->changed, 1, (size_t)count);
   links = 0;
@@ -218,12 +225,18 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
       if (is_first) part->triangle[part->triangle_count++] = work->face[k];
     }
   }
+  CW_NEW_UNSET(part->corner, part->triangle_count);
   CW_NEW(part->reach, part->all);
   CW_NEW(part->smoothing, part->all);
+  CW_NEW(part->widen, part->all);
   CW_NEW(part->column, part->all);
   CW_NEW(part->top, part->all);
   for (int32_t i = 0; i < part->all; i++) part->smoothing[i] = smoothing_at(smoothing, vertex_of(part, i));
-  for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
+  for (int32_t f = 0; f < part->triangle_count; f++) {
+    for (int k = 0; k < 3; k++) part->corner[f][k] = local[work->in->triangle[part->triangle[f]][k]] - 1;
+    part->quality[f] = INFINITY; // of those that do not change
+  }
+  for (int32_t i = 0; i < part->all; i++) part->widen[i] = 1;
   for (int32_t i = 0; i < part->all; i++) {
     if (part->smoothing[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->smoothing[i]);
   }
@@ -236,7 +249,7 @@ static double relax(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   SmoothingAt *own = &part->smoothing[i];
   int32_t v = part->member[i];
-  double reach = part->reach[i] * own->widen, l2 = reach * reach, sum[3] = {0}, u[3];
+  double reach = part->reach[i] * part->widen[i], l2 = reach * reach, sum[3] = {0}, u[3];
   for (int32_t k = part->near_start[i]; k < part->near_start[i + 1]; k++) {
     const double *near = part->smoothing[part->near[k]].u;
     double weight = part->weight[k];
@@ -262,15 +275,15 @@ static double relax(Part *part, int32_t i) {
   return moved;
 }
 
-static int is_wide(const SmoothingAt *smoothing) {
-  return smoothing->widen > 1.05;
+static int is_wide(const Part *part, int32_t i) {
+  return part->widen[i] > 1.05;
 }
 
 // Relaxes the members outward and inward by turns: news of a source crosses the whole reach in one sweep. Only those
-// are looked at that are stirred: told to, or beside one that moved. `wide`: those alone where the smoothing was
-// widened; elsewhere the solution stands.
+// are looked at that are stirred: told to, widened, or beside one that moved. `wide`: those alone where the smoothing was
+// ever widened; elsewhere the solution stands.
 static void solve(Part *part, int wide, int sweeps) {
-  for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] = is_wide(&part->smoothing[i]);
+  for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] &= is_wide(part, i);
   for (int s = 0; s < sweeps; s++) {
     int32_t stirred = 0;
     for (int32_t k = 0; k < part->count; k++) {
@@ -283,7 +296,7 @@ static void solve(Part *part, int wide, int sweeps) {
       part->stirred[i] = 1;
       for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
         int32_t j = part->near[l];
-        if (j < part->count && (!wide || is_wide(&part->smoothing[j]))) part->stirred[j] = 1;
+        if (j < part->count && (!wide || is_wide(part, j))) part->stirred[j] = 1;
       }
     }
     if (stirred == 0) break;
@@ -321,6 +334,21 @@ static void lean(Part *part, int32_t i) {
   set_end(part, i);
 }
 
+// Widens the smoothing at i to `widen` at least. A member then has its neighbours made from it; around the members only
+// the neighbours in the same prism are known, and more than one of them.
+static void widen_at(Part *part, int32_t i, double widen) {
+  if (widen <= part->widen[i]) return;
+  part->widen[i] = widen;
+  if (i >= part->count) {
+    memset(part->spread, 1, (size_t)part->count);
+    return;
+  }
+  part->stirred[i] = 1;
+  for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+    if (part->near[l] < part->count) part->spread[part->near[l]] = 1;
+  }
+}
+
 // Widens the smoothing around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's
 // bevel on the hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
 static int32_t widen(Part *part) {
@@ -328,31 +356,32 @@ static int32_t widen(Part *part) {
   const CwLayerInput *in = work->in;
   int32_t poor = 0;
   for (int32_t f = 0; f < part->triangle_count; f++) {
-    const int32_t *v = in->triangle[part->triangle[f]];
-    int32_t local[3] = {part->local[v[0]] - 1, part->local[v[1]] - 1, part->local[v[2]] - 1};
+    const int32_t *local = part->corner[f];
     int changed = 0;
     for (int k = 0; k < 3; k++) changed |= local[k] < part->count && part->changed[local[k]];
     if (changed) {
+      const int32_t *v = in->triangle[part->triangle[f]];
       const double *wall[3], *top[3];
       for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], top[k] = part->top[local[k]];
       part->quality[f] = cw_prism_quality(wall, top);
     }
     if (part->quality[f] >= cw_policy.smoothing_poor) continue;
     poor++;
-    for (int k = 0; k < 3; k++) {
-      part->smoothing[local[k]].widen = fmin(part->smoothing[local[k]].widen * 1.4, cw_policy.smoothing_widest);
-    }
+    for (int k = 0; k < 3; k++)
+      widen_at(part, local[k], fmin(part->widen[local[k]] * 1.4, cw_policy.smoothing_widest));
   }
   memset(part->changed, 0, (size_t)part->count);
   // Over about a thickness around, so that the lean stays smooth.
   for (int pass = 0; pass < 2 && poor; pass++)
     for (int32_t k = 0; k < part->count; k++) {
       int32_t i = pass ? part->count - 1 - k : k, v = part->member[i];
+      if (!part->spread[i]) continue;
+      part->spread[i] = 0;
       for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
-        double there = part->smoothing[part->near[l]].widen;
-        if (there <= part->smoothing[i].widen) continue;
+        double there = part->widen[part->near[l]];
+        if (there <= part->widen[i]) continue;
         double away = cw_distance(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
-        part->smoothing[i].widen = fmax(part->smoothing[i].widen, there * exp(-0.5 * away));
+        widen_at(part, i, there * exp(-0.5 * away));
       }
     }
   return poor;
@@ -392,7 +421,7 @@ static void start(const CwSmoothing *smoothing, Part *part, int32_t i) {
   }
   if (smoothing->lean) {
     const CwLean *last = (const CwLean *)smoothing->lean[place / CW_SMOOTHING_BLOCK] + place % CW_SMOOTHING_BLOCK;
-    at->widen = last->widen;
+    part->widen[i] = last->widen;
     for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / smoothing->lean_t[v];
     if (is_settled(smoothing, v)) {
       memcpy(part->column[i], last->column, sizeof last->column);
@@ -431,7 +460,7 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
     int32_t i = part.local[smoothing->member[block * CW_SMOOTHING_BLOCK + k]] - 1;
     memcpy(lean_of[k].column, part.column[i], sizeof part.column[i]);
     memcpy(lean_of[k].u, part.smoothing[i].u, sizeof part.smoothing[i].u);
-    lean_of[k].widen = part.smoothing[i].widen;
+    lean_of[k].widen = part.widen[i];
     lean_of[k].changed = part.touched[i];
   }
   *size = (int64_t)count * (int64_t)sizeof *lean_of;

@@ -2,7 +2,6 @@
 #include "mesher/region/region_copy.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "mesher/common/model_unit.h"
@@ -40,7 +39,7 @@ static int32_t node_of(const CwRegionContext *context, int64_t id) {
   return context->shared_node[low];
 }
 
-// Number and place of the shared point that `turns` turns make of `id`.
+// Number and place of the shared point that `turns` turns make of `id`, which may be *turned.
 static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t turns, int64_t *turned, double x[3]) {
   CwStatus status = CW_OK;
   const CwRegionInput *from = &context->from;
@@ -61,66 +60,23 @@ done:
   return status;
 }
 
-static CwStatus copy_array(const void *from, size_t count, size_t size, void *to) {
+CwStatus cw_region_turn(const CwRegionContext *context, int32_t turns, int32_t number, const char *fingerprint,
+                        CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
-  char *block;
-  CW_NEW(block, count * size);
-  if (count) memcpy(block, from, count * size);
-  *(void **)to = block;
-done:
-  return status;
-}
-
-CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns, int32_t number,
-                        const char *fingerprint, CwRegionMesh *mesh) {
-  CwStatus status = CW_OK;
-  *mesh = *first;
-  mesh->cells.points = NULL;
-  mesh->cells.shared_id = NULL;
-  mesh->cells.tetrahedra = NULL;
-  mesh->cells.pyramids = NULL;
-  mesh->cells.prisms = NULL;
-  mesh->cells.triangles = NULL;
-  mesh->cells.triangle_patch = mesh->cells.triangle_cell = NULL;
-  mesh->cells.quads = NULL;
-  mesh->cells.quad_patch = mesh->cells.quad_cell = NULL;
-  mesh->region = copied_region(context, first->region - 1, turns) + 1;
+  CwRegionData *cells = &mesh->cells;
+  mesh->region = copied_region(context, mesh->region - 1, turns) + 1;
   mesh->number = number;
   snprintf(mesh->fingerprint, sizeof mesh->fingerprint, "%s", fingerprint);
-  CW_NEW(mesh->cells.points, mesh->cells.point_count);
-  CW_NEW(mesh->cells.shared_id, mesh->cells.shared_count);
-  for (int32_t i = 0; i < mesh->cells.point_count; i++) {
+  for (int32_t i = 0; i < cells->point_count; i++) {
     double turned[3];
-    cw_image_point(context->from.in->images, turns, first->cells.points[i], turned);
-    cw_copy(turned, mesh->cells.points[i]);
-    if (i >= mesh->cells.shared_count) continue;
-    CW_TRY(turned_point(context, first->cells.shared_id[i], turns, &mesh->cells.shared_id[i], mesh->cells.points[i]));
-    CW_REQUIRE(cw_distance(turned, mesh->cells.points[i]) < SAME_POINT, CW_ERR_MESH,
+    cw_image_point(context->from.in->images, turns, cells->points[i], turned);
+    cw_copy(turned, cells->points[i]);
+    if (i >= cells->shared_count) continue;
+    CW_TRY(turned_point(context, cells->shared_id[i], turns, &cells->shared_id[i], cells->points[i]));
+    CW_REQUIRE(cw_distance(turned, cells->points[i]) < SAME_POINT, CW_ERR_MESH,
                "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its periodic image",
-               context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, mesh->cells.points[i])));
-  }
-  struct {
-    const void *from;
-    int32_t count;
-    size_t size;
-    void *to;
-  } arrays[] = {
-      {first->cells.tetrahedra, first->cells.tetrahedron_count, sizeof *first->cells.tetrahedra,
-       &mesh->cells.tetrahedra},
-      {first->cells.pyramids, first->cells.pyramid_count, sizeof *first->cells.pyramids, &mesh->cells.pyramids},
-      {first->cells.prisms, first->cells.prism_count, sizeof *first->cells.prisms, &mesh->cells.prisms},
-      {first->cells.triangles, first->cells.triangle_count, sizeof *first->cells.triangles, &mesh->cells.triangles},
-      {first->cells.triangle_patch, first->cells.triangle_count, sizeof *first->cells.triangle_patch,
-       &mesh->cells.triangle_patch},
-      {first->cells.triangle_cell, first->cells.triangle_count, sizeof *first->cells.triangle_cell,
-       &mesh->cells.triangle_cell},
-      {first->cells.quads, first->cells.quad_count, sizeof *first->cells.quads, &mesh->cells.quads},
-      {first->cells.quad_patch, first->cells.quad_count, sizeof *first->cells.quad_patch, &mesh->cells.quad_patch},
-      {first->cells.quad_cell, first->cells.quad_count, sizeof *first->cells.quad_cell, &mesh->cells.quad_cell}};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-    CW_TRY(copy_array(arrays[i].from, (size_t)arrays[i].count, arrays[i].size, arrays[i].to));
+               context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, cells->points[i])));
   }
 done:
-  if (status != CW_OK) cw_region_free(mesh);
   return status;
 }

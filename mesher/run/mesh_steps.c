@@ -145,11 +145,11 @@ static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source,
   cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
   if (!taken) {
-    CW_TRY(cw_region_copy(&domain->context, &first, turns, domain->number[task.index], fingerprint, &mesh));
-    CW_TRY(cw_audit_copy(&mesh, &summary->quality.open_faces));
-    CW_TRY(cw_region_write(path, &mesh));
+    CW_TRY(cw_region_turn(&domain->context, turns, domain->number[task.index], fingerprint, &first));
+    CW_TRY(cw_audit_copy(&first, &summary->quality.open_faces));
+    CW_TRY(cw_region_write(path, &first));
   }
-  strcpy(summary->digest, mesh.digest);
+  strcpy(summary->digest, taken ? mesh.digest : first.digest);
 done:
   cw_region_free(&first);
   cw_region_free(&mesh);

@@ -44,9 +44,13 @@ class InTime(unittest.TestCase):
         pass
 
     def set(self, folder, **entries):
+        """Not by foamDictionary, which would write the time step anew, to six digits."""
+        path = folder / "system/controlDict"
+        text = path.read_text()
         for entry, value in entries.items():
-            result = execute(["foamDictionary", "-entry", entry, "-set", value, "system/controlDict"], folder)
-            self.assertEqual(result.returncode, 0, result.stdout)
+            text, found = re.subn(rf"(?m)^{entry} .*", f"{entry} {value};", text)
+            self.assertEqual(found, 1, entry)
+        path.write_text(text)
 
     def solve(self, folder, *words):
         """The case's own script; the last line of a run too short for a report is no failure."""
@@ -71,7 +75,7 @@ class InTime(unittest.TestCase):
         self.set(self.case, endTime=20, writeInterval=20)
         self.assertIn("head", execute(["./Allrun", 2], self.case).stdout)
         transient, les = self.case / "transient", self.case / "les"
-        self.set(transient, endTime=STEPS / 360 * TURN, writeInterval=STEPS // 2)
+        self.set(transient, endTime=f"{STEPS / 360 * TURN:.10g}", writeInterval=STEPS // 2)
         self.assertIn("starts from iteration 20 of the steady run", self.solve(transient))
         self.assertAlmostEqual(float(self.latest(transient).name) / TURN * 360, STEPS, places=3)
         self.assertAlmostEqual(self.turned(transient)[0], STEPS % 360, places=2)

@@ -54,7 +54,7 @@ static void set_time_steps(cs_time_step_t *steps) {
   cs_time_step_options_t *time = cs_get_glob_time_step_options();
   const double radian = 1.0 / PUMP_SPEED;
   time->idtvar = 2;
-  time->coumax = 3; // at 10 k runs away after 20 steps
+  time->coumax = 3;
   time->foumax = 1e6;
   time->varrdt = 0.5;
   time->dtmin = 1e-4 * radian;
@@ -72,6 +72,7 @@ void cs_user_parameters(cs_domain_t *domain) {
   turbulence->uref = PUMP_PASSAGE_SPEED;
   turbulence->almax = PUMP_PASSAGE_WIDTH;
   if (PUMP_TURBULENCE == CS_TURB_K_EPSILON) cs_get_glob_wall_functions()->iwallf = CS_WALL_F_2SCALES_LOG;
+  cs_get_glob_turb_rans_model()->iclkep = 1; // both clipped together, else k runs away
   cs_get_glob_space_disc()->imrgra = 1; // gradients by least squares
   set_time_steps(domain->time_step);
   set_scheme(CS_F_(vel), 1);
