@@ -135,15 +135,13 @@ done:
 // Files of the stage besides those of each solid. Each appears whole; record.json, written last by main(), says
 // that all are there.
 static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwMeasuredPump *measured, const char *path,
-                           int file) {
+                           int file, CwBeside **beside) {
   const CwSolid *const *solids = (const CwSolid *const *)pump->solid;
   switch (file) {
   case 0:
     return cw_faces_table_write(solids, pump->count, path);
   case 1:
     return write_model(design, pump, path);
-  case 10:
-    return cw_step_write_with_faces(solids, pump->count, path);
   case 2:
     return cw_step_write(solids, pump->count, path);
   case 3:
@@ -158,8 +156,10 @@ static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwM
     return cw_picture_blade_angle(design, path);
   case 8:
     return cw_picture_volute_sections(design, path);
-  default:
+  case 9:
     return cw_picture_volute_plan(design, path);
+  default:
+    return cw_beside_end(beside, path);
   }
 }
 
@@ -201,6 +201,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CwPipeStubs stubs;
   CwMeasuredPump measured = {0};
   CwPump pump = {0};
+  CwBeside *beside = NULL;
   char *folder = NULL, *path = NULL;
   CW_TRY(cw_stage_path(args, "geometry", &folder));
   CW_TRY(cw_hydraulic_design(table, &design));
@@ -209,6 +210,10 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CW_TRY(build(args->log, table, &design, &stubs, record, &pump, &measured));
   const double begin = cw_seconds();
   CW_TRY(remove_old_solids(args));
+  CW_TRY(in_folder(args, names[FILES - 1], &path));
+  CW_TRY(cw_step_write_with_faces((const CwSolid *const *)pump.solid, pump.count, path, &beside));
+  free(path);
+  path = NULL;
   for (int i = 0; i < pump.count; i++) {
     char name[40];
     snprintf(name, sizeof name, "%s.brep", cw_solid_domain(pump.solid[i]));
@@ -220,7 +225,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   }
   for (int i = 0; i < FILES; i++) {
     CW_TRY(in_folder(args, names[i], &path));
-    CW_TRY(write_file(&pump, &design, &measured, path, i));
+    CW_TRY(write_file(&pump, &design, &measured, path, i, &beside));
     CW_TRY(cw_record_file(record, folder, names[i]));
     free(path);
     path = NULL;
@@ -232,6 +237,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
   CW_TRY(cw_record_number(record, "specific_speed_ns", design.specific_speed_ns));
 done:
+  cw_beside_drop(&beside);
   free(folder);
   free(path);
   cw_pump_free(&pump);

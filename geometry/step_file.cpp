@@ -141,9 +141,7 @@ CwSolid *read(const char *path, const char *domain, CwStatus *status) {
   return nullptr;
 }
 
-} // namespace
-
-static CwStatus write_whole(const CwSolid *const *solids, int count, bool with_faces, const char *path) {
+CwStatus write_whole(const CwSolid *const *solids, int count, bool with_faces, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {};
   try {
@@ -160,12 +158,26 @@ done:
   return status;
 }
 
+struct FileWithFaces {
+  const CwSolid *const *solids;
+  int count;
+  const char *path;
+};
+
+CwStatus write_with_faces(const void *given) {
+  const FileWithFaces *file = static_cast<const FileWithFaces *>(given);
+  return write_whole(file->solids, file->count, true, file->path);
+}
+
+} // namespace
+
 CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path) {
   return write_whole(solids, count, false, path);
 }
 
-CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path) {
-  return write_whole(solids, count, true, path);
+CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path, CwBeside **beside) {
+  const FileWithFaces file = {solids, count, path};
+  return cw_beside_start(write_with_faces, &file, beside);
 }
 
 CwStatus cw_step_read(const char *path, const char *domain, CwSolid **solid) {

@@ -3,6 +3,7 @@
 #ifndef CUTWATER_GEOMETRY_STEP_FILE_H
 #define CUTWATER_GEOMETRY_STEP_FILE_H
 
+#include "geometry/beside.h"
 #include "geometry/solid.h"
 #include "pipeline/status.h"
 
@@ -13,9 +14,10 @@ extern "C" {
 // Writes `count` solids, whole or not at all. The same bits each time: the header's time stamp is fixed.
 CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path);
 
-// The same, and each face once more as a shell that is a product with the name of its patch: gmsh and FreeCAD show the
-// names of products, not those of faces. gmsh gives the names to the solids' own faces, where they coincide.
-CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path);
+// The same beside the caller (beside.h), and each face once more as a shell that is a product with the name of its
+// patch: gmsh and FreeCAD show the names of products, not those of faces. gmsh gives the names to the solids' own
+// faces, where they coincide.
+CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path, CwBeside **beside);
 
 // Reads the solid of the product called `domain` back: patches from the names of the faces; kind and name
 // stay empty. Fails with CW_ERR_IO where the file cannot be read and CW_ERR_INPUT where it has no such solid.

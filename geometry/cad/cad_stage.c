@@ -93,7 +93,7 @@ static void show(CwLog *log, const Work *work) {
   }
 }
 
-static CwStatus write_file(const Work *work, int file, const char *path) {
+static CwStatus write_file(const Work *work, int file, const char *path, CwBeside **beside) {
   const CwSolid *const *solids = (const CwSolid *const *)work->solid;
   const int count = work->cad->domain_count;
   switch (file) {
@@ -104,14 +104,19 @@ static CwStatus write_file(const Work *work, int file, const char *path) {
   case FILE_STEP:
     return cw_step_write(solids, count, path);
   default:
-    return cw_step_write_with_faces(solids, count, path);
+    return cw_beside_end(beside, path);
   }
 }
 
 static CwStatus write_files(const CwStageArgs *args, const Work *work, CwRecord *record) {
   CwStatus status = CW_OK;
+  CwBeside *beside = NULL;
   char *folder = NULL, *path = NULL;
   CW_TRY(cw_stage_path(args, "geometry", &folder));
+  CW_TRY(in_folder(args, file_names[FILE_STEP_FACES], &path));
+  CW_TRY(cw_step_write_with_faces((const CwSolid *const *)work->solid, work->cad->domain_count, path, &beside));
+  free(path);
+  path = NULL;
   for (int d = 0; d < work->cad->domain_count; d++) {
     char name[CW_NAME_SIZE + 8];
     snprintf(name, sizeof name, "%s.brep", work->cad->domain[d].name);
@@ -123,12 +128,13 @@ static CwStatus write_files(const CwStageArgs *args, const Work *work, CwRecord 
   }
   for (int i = 0; i < FILES; i++) {
     CW_TRY(in_folder(args, file_names[i], &path));
-    CW_TRY(write_file(work, i, path));
+    CW_TRY(write_file(work, i, path, &beside));
     CW_TRY(cw_record_file(record, folder, file_names[i]));
     free(path);
     path = NULL;
   }
 done:
+  cw_beside_drop(&beside);
   free(folder);
   free(path);
   return status;
