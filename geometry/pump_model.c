@@ -4,36 +4,29 @@
 #include <math.h>
 #include <string.h>
 
-#include "geometry/wall_name.h"
+#include "geometry/wall_flow.h"
 
-// Lengths along which the boundary layers grow, over the radius of the interface: a blade is a little longer than that,
-// the spiral runs about three of them, the pipes some diameters.
-static const double BLADE_LENGTH = 1.2, VOLUTE_LENGTH = 3, PIPE_LENGTH = 3;
-
-static void set_flows(const CwDesign *of, CwWallFlow flow[CW_ALONG_COUNT]) {
+static CwWaterWay water_way(const CwDesign *of) {
   const double shaft = of->through_shaft_diameter > 0 ? of->through_shaft_diameter : 0;
-  const double narrow =
-      fmin(fmin(of->outlet_width, of->outlet_throat_width), fmin(of->inlet_passage_width, of->inlet_throat_width));
-  const double throat = sqrt(4 * of->throat_area / M_PI), pipe = of->inlet_diameter - shaft;
-  // The mean along the blade. Between two blades: four times the section over its outline.
-  flow[CW_ALONG_BLADE] = (CwWallFlow){
-      of->relative_speed, BLADE_LENGTH * of->interface_radius,
-      2 * of->outlet_width * of->outlet_throat_width / (of->outlet_width + of->outlet_throat_width), narrow, 0};
-  flow[CW_ALONG_VOLUTE] =
-      (CwWallFlow){of->volute_speed, VOLUTE_LENGTH * of->interface_radius, throat, fmin(of->inlet_width, throat), 0};
-  flow[CW_ALONG_TRAILING_EDGE] = flow[CW_ALONG_BLADE];
-  flow[CW_ALONG_TRAILING_EDGE].before = of->interface_radius - of->outlet_diameter / 2;
-  flow[CW_ALONG_NECK] = flow[CW_ALONG_VOLUTE];
-  flow[CW_ALONG_NECK].width = fmin(of->outlet_width, throat);
-  // A shaft leaves a ring, half as wide.
-  flow[CW_ALONG_SUCTION] =
-      (CwWallFlow){of->suction_speed, PIPE_LENGTH * of->interface_radius, pipe, shaft > 0 ? pipe / 2 : pipe, 0};
-  // The diffuser widens like a cone, from throat to discharge: along it the mean of Q / (pi r^2) is Q / (pi r0 r1).
-  flow[CW_ALONG_DIFFUSER] =
-      (CwWallFlow){sqrt(of->throat_speed * of->discharge_speed), PIPE_LENGTH * of->interface_radius,
-                   sqrt(throat * of->discharge_diameter), fmin(throat, of->discharge_diameter), 0};
-  flow[CW_ALONG_DISCHARGE] = (CwWallFlow){of->discharge_speed, PIPE_LENGTH * of->interface_radius,
-                                          of->discharge_diameter, of->discharge_diameter, 0};
+  const double pipe = of->inlet_diameter - shaft;
+  return (CwWaterWay){
+      .radius = of->interface_radius,
+      .blade_speed = of->relative_speed, // the mean along the blade
+      .passage = {of->outlet_width, of->outlet_throat_width},
+      .blade_width =
+          fmin(fmin(of->outlet_width, of->outlet_throat_width), fmin(of->inlet_passage_width, of->inlet_throat_width)),
+      .behind_blades = of->interface_radius - of->outlet_diameter / 2,
+      .volute_speed = of->volute_speed,
+      .volute_width = of->inlet_width,
+      .neck_width = of->outlet_width,
+      .suction_speed = of->suction_speed,
+      .suction_diameter = pipe,
+      .suction_width = shaft > 0 ? pipe / 2 : pipe, // a shaft leaves a ring
+      .throat_speed = of->throat_speed,
+      .throat_diameter = sqrt(4 * of->throat_area / M_PI),
+      .discharge_speed = of->discharge_speed,
+      .discharge_diameter = of->discharge_diameter,
+  };
 }
 
 static void set_wall(const CwWallFlow flow[CW_ALONG_COUNT], CwModelPatch *patch) {
@@ -70,7 +63,8 @@ done:
 CwStatus cw_pump_model(const CwDesign *design, const CwPump *pump, CwModel *model) {
   CwStatus status = CW_OK;
   CwWallFlow flow[CW_ALONG_COUNT];
-  set_flows(design, flow);
+  const CwWaterWay way = water_way(design);
+  cw_wall_flows(&way, flow);
   model->unit = cw_solid_unit(pump->solid[0]);
   for (int i = 0; i < pump->count; i++) CW_TRY(add_domain(pump->solid[i], flow, model));
   for (int i = 0; i < pump->interface_count; i++) {

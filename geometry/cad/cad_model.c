@@ -5,17 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "geometry/wall_name.h"
+#include "geometry/wall_flow.h"
 
 static const double gravity = 9.80665;           // m/s2
 static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medium pumps
 static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
-// Lengths along which the boundary layers grow, over the radius of the interface: as pump_model.c has them.
-static const double BLADE_LENGTH = 1.2, VOLUTE_LENGTH = 3, PIPE_LENGTH = 3;
 
 typedef struct {
   double inlet_area, outlet_area, wheel_radius, interface_radius, interface_width;
+  double volute_radius; // mean of the spiral's walls
 } Sizes;
+
+// What a wall is like.
+typedef struct {
+  CwAlong along;
+  CwPatchGroup group, size;
+} Wall;
 
 static CwStatus check_turned(const CwCaseCad *cad, const CwSurvey *survey, int face, const CwContact *contact) {
   CwStatus status = CW_OK;
@@ -86,63 +91,6 @@ done:
   return status;
 }
 
-static void measure(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches, int interface_count,
-                    const CwCadInterface *interfaces, Sizes *sizes) {
-  *sizes = (Sizes){0};
-  double blade_radius = 0, widest = 0;
-  for (int f = 0; f < survey->face_count; f++) {
-    const CwSurveyFace *face = &survey->face[f];
-    const CwFacePatch *patch = &patches->patch[patches->of_face[f]];
-    const int rotating = cad->domain[face->part].rotating;
-    if (patch->kind == CW_PATCH_INLET) sizes->inlet_area += face->area;
-    if (patch->kind == CW_PATCH_OUTLET) sizes->outlet_area += face->area;
-    if (rotating) widest = fmax(widest, face->radius[1]);
-    if (rotating && patch->role == CW_ROLE_BLADE) blade_radius = fmax(blade_radius, face->radius[1]);
-  }
-  sizes->wheel_radius = blade_radius > 0 ? blade_radius : widest;
-  // The wheel's outlet: of the interfaces between what rotates and what does not the one farthest out.
-  for (int i = 0; i < interface_count; i++) {
-    const CwCadInterface *between = &interfaces[i];
-    const int a = patches->patch[between->patch[0]].part, b = patches->patch[between->patch[1]].part;
-    if (cad->domain[a].rotating == cad->domain[b].rotating) continue;
-    double radius = 0;
-    for (int f = 0; f < survey->face_count; f++)
-      if (patches->of_face[f] == between->patch[0]) radius = fmax(radius, survey->face[f].radius[1]);
-    if (radius <= sizes->interface_radius) continue;
-    sizes->interface_radius = radius;
-    sizes->interface_width = between->area[0] / (2 * M_PI * radius);
-  }
-}
-
-static double diameter(double area) {
-  return sqrt(4 * area / M_PI);
-}
-
-static void set_flows(const CwOperatingPoint *point, const Sizes *of, int blade_count,
-                      CwWallFlow flow[CW_ALONG_COUNT]) {
-  const double r2 = of->wheel_radius, r3 = of->interface_radius, u2 = point->speed * r2, width = of->interface_width;
-  const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
-  const double swirl = fmin(gravity * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
-  const double w2 = hypot(u2 - swirl, meridional), before = point->flow_rate / of->inlet_area;
-  const double w1 = hypot(point->speed * diameter(of->inlet_area) / 2, before);
-  // Between two blades at the outlet, across w2.
-  const double pitch = 2 * M_PI * r2 / blade_count * fmin(1, meridional / w2);
-  flow[CW_ALONG_BLADE] =
-      (CwWallFlow){(w1 + w2) / 2, BLADE_LENGTH * r3, 2 * width * pitch / (width + pitch), fmin(width, pitch), 0};
-  flow[CW_ALONG_TRAILING_EDGE] = flow[CW_ALONG_BLADE];
-  flow[CW_ALONG_TRAILING_EDGE].before = fmax(r3 - r2, 0);
-  const double outlet = diameter(of->outlet_area), after = point->flow_rate / of->outlet_area;
-  const double around = fmax(swirl * r2 / r3, after), throat = diameter(point->flow_rate / around);
-  flow[CW_ALONG_VOLUTE] = (CwWallFlow){around, VOLUTE_LENGTH * r3, outlet, fmin(width, outlet), 0};
-  flow[CW_ALONG_NECK] = flow[CW_ALONG_VOLUTE];
-  const double eye = diameter(of->inlet_area);
-  flow[CW_ALONG_SUCTION] = (CwWallFlow){before, PIPE_LENGTH * r3, eye, eye, 0};
-  // A cone: as pump_model.c has it.
-  flow[CW_ALONG_DIFFUSER] =
-      (CwWallFlow){sqrt(around * after), PIPE_LENGTH * r3, sqrt(throat * outlet), fmin(throat, outlet), 0};
-  flow[CW_ALONG_DISCHARGE] = (CwWallFlow){after, PIPE_LENGTH * r3, outlet, outlet, 0};
-}
-
 static int has_walls(const CwCaseCad *cad, const CwFacePatch *patch) {
   return patch->rule >= 0 && cad->patch[patch->rule].walls != CW_CAD_WALLS_OPEN;
 }
@@ -175,19 +123,90 @@ static CwAlong along_of(CwPatchGroup group, int before) {
 }
 
 // By what the case says of its walls, else by its name, else by form and place.
+static Wall wall_of(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of) {
+  const CwWallName *name = has_walls(cad, of) ? NULL : cw_wall_name(of->name);
+  const int before = is_before(patches, of->part);
+  const CwPatchGroup group = name ? name->group : group_of(cad, of);
+  const int of_blades = name && (name->along == CW_ALONG_BLADE || name->along == CW_ALONG_TRAILING_EDGE);
+  Wall wall = {name ? name->along : along_of(group, before), group, name ? name->size : group};
+  if (of_blades && !cad->domain[of->part].rotating) wall.along = along_of(CW_GROUP_VOLUTE, before); // a guide wheel's
+  return wall;
+}
+
+static void measure(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches, int interface_count,
+                    const CwCadInterface *interfaces, Sizes *sizes) {
+  *sizes = (Sizes){0};
+  double blade_radius = 0, widest = 0, volute_area = 0, volute_moment = 0;
+  for (int f = 0; f < survey->face_count; f++) {
+    const CwSurveyFace *face = &survey->face[f];
+    const CwFacePatch *patch = &patches->patch[patches->of_face[f]];
+    const int rotating = cad->domain[face->part].rotating;
+    if (patch->kind == CW_PATCH_INLET) sizes->inlet_area += face->area;
+    if (patch->kind == CW_PATCH_OUTLET) sizes->outlet_area += face->area;
+    if (rotating) widest = fmax(widest, face->radius[1]);
+    if (rotating && patch->role == CW_ROLE_BLADE) blade_radius = fmax(blade_radius, face->radius[1]);
+    if (patch->kind == CW_PATCH_WALL && wall_of(cad, patches, patch).along == CW_ALONG_VOLUTE) {
+      volute_area += face->area;
+      volute_moment += face->area * face->mean_radius;
+    }
+  }
+  sizes->wheel_radius = blade_radius > 0 ? blade_radius : widest;
+  sizes->volute_radius = volute_area > 0 ? volute_moment / volute_area : 0;
+  // The wheel's outlet: of the interfaces between what rotates and what does not the one farthest out.
+  for (int i = 0; i < interface_count; i++) {
+    const CwCadInterface *between = &interfaces[i];
+    const int a = patches->patch[between->patch[0]].part, b = patches->patch[between->patch[1]].part;
+    if (cad->domain[a].rotating == cad->domain[b].rotating) continue;
+    double radius = 0;
+    for (int f = 0; f < survey->face_count; f++)
+      if (patches->of_face[f] == between->patch[0]) radius = fmax(radius, survey->face[f].radius[1]);
+    if (radius <= sizes->interface_radius) continue;
+    sizes->interface_radius = radius;
+    sizes->interface_width = between->area[0] / (2 * M_PI * radius);
+  }
+}
+
+static double diameter(double area) {
+  return sqrt(4 * area / M_PI);
+}
+
+// The swirl behind the wheel is that of the head; in the spiral it goes on as a free vortex (r times swirl stays) to
+// the throat, whose middle is about as far out as the spiral's walls in the mean. The spiral's speed is the mean of
+// both ends, as in a designed pump.
+static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int blade_count) {
+  const double r2 = of->wheel_radius, r3 = of->interface_radius, u2 = point->speed * r2, width = of->interface_width;
+  const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
+  const double swirl = fmin(gravity * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
+  const double w2 = hypot(u2 - swirl, meridional), before = point->flow_rate / of->inlet_area;
+  const double eye = diameter(of->inlet_area), w1 = hypot(point->speed * eye / 2, before);
+  const double pitch = 2 * M_PI * r2 / blade_count * fmin(1, meridional / w2); // at the outlet, across w2
+  const double outlet = diameter(of->outlet_area), after = point->flow_rate / of->outlet_area;
+  const double around = fmax(swirl * r2 / r3, after);
+  const double throat = fmax(swirl * r2 / fmax(r3, of->volute_radius), after);
+  return (CwWaterWay){.radius = r3,
+                      .blade_speed = (w1 + w2) / 2,
+                      .passage = {width, pitch},
+                      .blade_width = fmin(width, pitch),
+                      .behind_blades = fmax(r3 - r2, 0),
+                      .volute_speed = (around + throat) / 2,
+                      .volute_width = width,
+                      .neck_width = width,
+                      .suction_speed = before,
+                      .suction_diameter = eye,
+                      .suction_width = eye,
+                      .throat_speed = throat,
+                      .throat_diameter = diameter(point->flow_rate / throat),
+                      .discharge_speed = after,
+                      .discharge_diameter = outlet};
+}
+
 static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of,
                      const CwWallFlow flow[CW_ALONG_COUNT], CwModelPatch *patch) {
   const CwWallName *name = cw_wall_name(of->name);
-  if (name && !has_walls(cad, of)) {
-    patch->group = name->group;
-    patch->size = name->size;
-    const int turning = name->along == CW_ALONG_BLADE || name->along == CW_ALONG_TRAILING_EDGE;
-    const int still = turning && !cad->domain[of->part].rotating; // vanes of a guide wheel
-    patch->flow = flow[still ? along_of(CW_GROUP_VOLUTE, is_before(patches, of->part)) : name->along];
-  } else {
-    patch->size = patch->group = group_of(cad, of);
-    patch->flow = flow[along_of(patch->group, is_before(patches, of->part))];
-  }
+  const Wall wall = wall_of(cad, patches, of);
+  patch->group = wall.group;
+  patch->size = wall.size;
+  patch->flow = flow[wall.along];
   if (name && name->turns >= 0) patch->turns = name->turns;
   patch->monitored = name && name->monitored;
   if (of->rule < 0) return;
@@ -254,7 +273,8 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
   measure(cad, survey, patches, interface_count, interfaces, &sizes);
   CW_TRY(check(cad, &table->operating_point, patches, interface_count, &sizes));
   CwWallFlow flow[CW_ALONG_COUNT];
-  set_flows(&table->operating_point, &sizes, blade_count, flow);
+  const CwWaterWay way = water_way(&table->operating_point, &sizes, blade_count);
+  cw_wall_flows(&way, flow);
   model->unit = unit;
   for (int d = 0; d < cad->domain_count; d++) {
     CW_TRY(cw_model_add_domain(model, cad->domain[d].name, cad->domain[d].rotating));

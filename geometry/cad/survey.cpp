@@ -96,6 +96,7 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties, AREA);
   made.area = std::fabs(properties.Mass()) * unit * unit;
+  made.mean_radius = unit * std::sqrt(properties.MomentOfInertia(gp::OZ()) / properties.Mass());
   const std::array<double, 3> centre = metres(properties.CentreOfMass(), unit);
   std::memcpy(made.centre, centre.data(), sizeof made.centre);
   made.radius[0] = made.height[0] = INFINITY;

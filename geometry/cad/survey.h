@@ -17,12 +17,13 @@ typedef struct {
   CwSurveyForm form;
   int turned; // 1: of revolution about the axis, a plane across it too
   double area;
-  double centre[3]; // of the area
-  double normal[3]; // mean, out of the part: of length 1 on a plane, less on others
-  double at[3];     // a point of the face, near its middle
-  double radius[2]; // least and greatest distance from the axis
-  double height[2]; // least and greatest z
-  double twist;     // mean of normal times the direction of rotation
+  double centre[3];   // of the area
+  double normal[3];   // mean, out of the part: of length 1 on a plane, less on others
+  double at[3];       // a point of the face, near its middle
+  double radius[2];   // least and greatest distance from the axis
+  double mean_radius; // of the area, root mean square
+  double height[2];   // least and greatest z
+  double twist;       // mean of normal times the direction of rotation
   int first_triangle, triangle_count;
 } CwSurveyFace;
 

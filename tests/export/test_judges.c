@@ -123,6 +123,7 @@ static void a_large_mesh_is_checked_in_parts(void **state) {
   assert_non_null(strstr(output, "Mesh OK"));
   assert_non_null(strstr(output, "10/U\nprocessor1/constant\nnProcs : 2\nnProcs : 2\n"));
   assert_null(strstr(output, "cellToRegion"));
+  assert_non_null(strstr(output, "openfoam.processors: 2 has it exported divided, on all ranks\n"));
 }
 
 static void transient_run_starts_from_the_steady_one(void **state) {

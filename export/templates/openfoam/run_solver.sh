@@ -48,6 +48,8 @@ on_ranks() { # $1: ranks, then PROGRAM ARGUMENTS..., its words into log.PROGRAM
 
 divide() { # for $1 ranks, if there are several, a mesh that is whole, with its latest fields
     divided . || [ "$1" = 1 ] && return
+    [ "$usual_ranks" = 1 ] || echo "divides the mesh on one core, which takes 0.6 GB for a million cells; a case with" \
+        "openfoam.processors: $1 has it exported divided, on all ranks"
     foamDictionary -entry numberOfSubdomains -set "$1" system/decomposeParDict > /dev/null || exit 1
     if grep -q hierarchical system/decomposeParDict; then
         foamDictionary -entry coeffs/n -set "($1 1 1)" system/decomposeParDict > /dev/null || exit 1

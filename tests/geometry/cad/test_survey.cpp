@@ -49,6 +49,7 @@ static void pipes_are_revolved(void **) {
   for (int f = 0; f < small.survey.face_count; f++) {
     const CwSurveyFace &face = small.survey.face[f];
     assert_true(face.turned);
+    small_near(face.mean_radius, face.form == CW_FORM_REVOLVED ? 5 * mm : 5 * mm / std::sqrt(2), 1e-6); // of a disc
     if (face.form != CW_FORM_REVOLVED) continue;
     revolved++;
     small_near(face.area, 2 * M_PI * 5 * 10 * mm * mm, 1e-10);
