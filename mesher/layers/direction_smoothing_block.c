@@ -15,7 +15,7 @@
 #include "mesher/policy.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
-static const double SETTLED = 2e-4; // change in one sweep, in thicknesses, that is none
+static const double SETTLED = 1e-3; // change in one sweep, in thicknesses, that is none
 
 // Projects u onto the directions in which the column of v may lean without changing its normal thickness or
 // leaving its constraints.
