@@ -15,7 +15,7 @@
 #include "mesher/policy.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
-static const double SETTLED = 1e-3; // change in one sweep, in thicknesses, that is none
+static const double SETTLED = 3e-4; // change in one sweep, in thicknesses, that is none
 
 // Projects u onto the directions in which the column of v may lean without changing its normal thickness or
 // leaving its constraints.
@@ -280,8 +280,8 @@ static int is_wide(const Part *part, int32_t i) {
 }
 
 // Relaxes the members outward and inward by turns: news of a source crosses the whole reach in one sweep. Only those
-// are looked at that are stirred: told to, widened, or beside one that moved. `wide`: those alone where the smoothing was
-// ever widened; elsewhere the solution stands.
+// are looked at that are stirred: told to, widened, or beside one that moved. `wide`: those alone where the smoothing
+// was ever widened; elsewhere the solution stands.
 static void solve(Part *part, int wide, int sweeps) {
   for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] &= is_wide(part, i);
   for (int s = 0; s < sweeps; s++) {
