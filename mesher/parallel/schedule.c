@@ -15,6 +15,10 @@ typedef struct {
   int32_t task;
 } Ordered;
 
+static double cost_of(const CwSchedule *schedule, int32_t task) {
+  return schedule->cost ? schedule->cost[task] : 1.0;
+}
+
 static int compare_cost(const void *left, const void *right) {
   const Ordered *a = left, *b = right;
   if (a->cost != b->cost) return a->cost > b->cost ? -1 : 1;
@@ -83,14 +87,16 @@ static CwStatus put_in_order(const CwSchedule *schedule, Order *order) {
   CW_NEW(order->left, count + 1);
   CW_NEW(place, count);
   if (schedule->after) CW_NEW(order->before, count);
-  for (int32_t task = 0; task < count; task++)
-    order->by_cost[task] = (Ordered){schedule->cost ? schedule->cost[task] : 1.0, task};
+  for (int32_t task = 0; task < count; task++) order->by_cost[task] = (Ordered){cost_of(schedule, task), task};
+  for (int32_t task = count; order->before && task-- > 0;) { // with all that waits for it
+    if (schedule->after[task] >= 0) order->by_cost[schedule->after[task]].cost += order->by_cost[task].cost;
+  }
   qsort(order->by_cost, (size_t)count, sizeof *order->by_cost, compare_cost);
   for (int32_t i = 0; i < count; i++) {
     order->task[i] = order->by_cost[i].task;
     place[order->task[i]] = i;
   }
-  for (int32_t i = count; i-- > 0;) order->left[i] = order->left[i + 1] + order->by_cost[i].cost;
+  for (int32_t i = count; i-- > 0;) order->left[i] = order->left[i + 1] + cost_of(schedule, order->task[i]);
   for (int32_t i = 0; order->before && i < count; i++) {
     int32_t after = schedule->after[order->task[i]];
     order->before[i] = after < 0 ? -1 : place[after];

@@ -22,9 +22,9 @@ typedef struct {
   const char *step; // "surface patches", also in the profiler
   const char *unit; // "patches"; NULL: a part of a step, without progress of its own
   int32_t count;
-  const double *cost; // predicted, any unit; largest is taken first, ties by index
-  // Of each task another that has to have ended, on whichever rank, before it begins: of smaller index and at no less
-  // cost, so that it is taken before; -1: none. NULL: no task waits.
+  const double *cost; // predicted, any unit; largest, with what waits for it, is taken first, ties by index
+  // Of each task another of smaller index that has to have ended, on whichever rank, before it begins; -1: none. NULL:
+  // no task waits.
   const int32_t *after;
   CwTask run;
   void *context;

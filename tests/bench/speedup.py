@@ -8,8 +8,8 @@
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs
 on the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost
-first, each rank takes the next task when it is free and waits where that one comes after another; a schedule starts
-when the one before has ended on all ranks).
+first, with what waits for it, each rank takes the next task when it is free and waits where that one comes after
+another; a schedule starts when the one before has ended on all ranks).
 What no task accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are
 grouped as the mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row
 of 2 ranks, measured and modelled, and --check tell how far it holds here.
@@ -89,9 +89,12 @@ def group_sides(cost, own, ranks):
 
 def replay(tasks, ranks):
     """Time until the last of the tasks (predicted cost, seconds, index of the task it waits for or -1) ends on `ranks`
-    ranks."""
-    free, ended = [0.0] * ranks, {-1: 0.0}
-    for i in sorted(range(len(tasks)), key=lambda i: -tasks[i][0]):
+    ranks: first the largest, with what waits for it."""
+    free, ended, cost = [0.0] * ranks, {-1: 0.0}, [task[0] for task in tasks]
+    for i in reversed(range(len(tasks))):
+        if tasks[i][2] >= 0:
+            cost[tasks[i][2]] += cost[i]
+    for i in sorted(range(len(tasks)), key=lambda i: -cost[i]):
         _, seconds, after = tasks[i]
         ended[i] = max(heapq.heappop(free), ended[after]) + seconds
         heapq.heappush(free, ended[i])

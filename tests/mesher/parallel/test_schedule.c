@@ -275,14 +275,37 @@ static void failing_task_ends_those_that_wait(void **state) {
   assert_int_equal(count_lines_with(output, "error: the first task fails"), 1);
 }
 
-// A task that others would wait for without end is refused.
-static void tasks_wait_for_none_that_is_taken_later(void **state) {
+// Tasks that would wait for one another without end are refused.
+static void tasks_that_wait_for_one_another_are_refused(void **state) {
   (void)state;
   const double cost[2] = {1, 2};
-  const int32_t after[2] = {-1, 0};
+  const int32_t after[2] = {1, 0};
   CwSchedule schedule = {
       .step = "tasks", .count = 2, .cost = cost, .after = after, .run = run_timed, .context = "after"};
   assert_int_equal(cw_schedule_run(NULL, &schedule, NULL, NULL, NULL), CW_ERR_INPUT);
+}
+
+typedef struct {
+  int count, task[4];
+} Taken;
+
+static CwStatus note_task(void *context, int32_t task, void **bytes, int64_t *size) {
+  Taken *taken = context;
+  taken->task[taken->count++] = task;
+  return CW_OK;
+}
+
+// Task 1 is not the largest, but with the two that wait for it.
+static void what_others_wait_for_is_taken_first(void **state) {
+  (void)state;
+  const double cost[4] = {3, 2, 1, 0.5};
+  const int32_t after[4] = {-1, -1, 1, 1}, wanted[4] = {1, 0, 2, 3};
+  Taken taken = {0};
+  CwSchedule schedule = {
+      .step = "tasks", .count = 4, .cost = cost, .after = after, .run = note_task, .context = &taken};
+  assert_int_equal(cw_schedule_run(NULL, &schedule, NULL, NULL, NULL), CW_OK);
+  assert_int_equal(taken.count, 4);
+  for (int i = 0; i < 4; i++) assert_int_equal(taken.task[i], wanted[i]);
 }
 
 static void killed_rank_ends_the_run(void **state) {
@@ -339,7 +362,8 @@ int main(int argc, char **argv) {
       cmocka_unit_test(many_failing_tasks_print_one_line),
       cmocka_unit_test(tasks_wait_for_those_they_come_after),
       cmocka_unit_test(failing_task_ends_those_that_wait),
-      cmocka_unit_test(tasks_wait_for_none_that_is_taken_later),
+      cmocka_unit_test(tasks_that_wait_for_one_another_are_refused),
+      cmocka_unit_test(what_others_wait_for_is_taken_first),
       cmocka_unit_test(killed_rank_ends_the_run),
       cmocka_unit_test(waiting_ranks_sleep),
   };
