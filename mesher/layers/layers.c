@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/box_tree.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
@@ -34,7 +35,7 @@ static CwStatus find_thickness(void *context, int32_t v, void *out) {
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwLayerWork work = {0};
-  CwGapTree tree = {0};
+  CwBoxTree tree = {0};
   memset(layers, 0, sizeof *layers);
   cw_profiler_part(input->context, "layers: neighbours");
   CW_TRY(cw_layers_topology(input, &work));
@@ -57,7 +58,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     CW_TRY(cw_layers_grade(&work, NULL));
   }
   cw_profiler_part(input->context, "layers: repair");
-  CW_TRY_STAGE(cw_layers_repair(&work, &tree.places, layers->top, &layers->repair_rounds, outcome), outcome);
+  CW_TRY_STAGE(cw_layers_repair(&work, &tree, layers->top, &layers->repair_rounds, outcome), outcome);
   CW_TRY(cw_parallel_for(input->context, "layers: thicknesses", work.n, sizeof *layers->thickness, find_thickness,
                          &(Columns){&work, layers}, layers->thickness));
   for (int32_t v = 0; v < work.n; v++) {
@@ -68,7 +69,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_REPAIR;
   }
 done:
-  cw_gap_tree_free(&tree);
+  cw_box_tree_free(&tree);
   cw_smoothing_free(&work.smoothing);
   cw_layers_work_free(&work);
   if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_layers_free(layers);

@@ -34,7 +34,7 @@ static CwBox normal_of(const void *context, int32_t f) {
   return cw_box_of_normal(corner[0], corner[1], corner[2]);
 }
 
-CwStatus cw_gap_tree_make(CwLayerWork *work, CwGapTree *tree) {
+CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   int32_t total = in->triangle_count + in->obstacle_triangle_count;
@@ -46,13 +46,11 @@ CwStatus cw_gap_tree_make(CwLayerWork *work, CwGapTree *tree) {
   for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
     for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
   }
-  CW_TRY(cw_box_tree_make(in->context, total, &within, box_of, in, &tree->places));
-  CW_TRY(cw_box_tree_alike(in->context, &tree->places, normal_of, in, &tree->normals));
+  CW_TRY(cw_box_tree_make(work->in->context, total, &within, box_of, in, tree));
   int32_t count = 0;
   for (int32_t i = 0; i < total; i++) {
-    int32_t f = tree->places.item[i];
-    for (int k = 0; f < in->triangle_count && k < 3; k++) {
-      int32_t v = in->triangle[f][k];
+    for (int k = 0; tree->item[i] < in->triangle_count && k < 3; k++) {
+      int32_t v = in->triangle[tree->item[i]][k];
       if (!listed[v]) work->curve[count++] = v;
       listed[v] = 1;
     }
@@ -60,11 +58,6 @@ CwStatus cw_gap_tree_make(CwLayerWork *work, CwGapTree *tree) {
 done:
   free(listed);
   return status;
-}
-
-void cw_gap_tree_free(CwGapTree *tree) {
-  cw_box_tree_free(&tree->places);
-  cw_box_tree_free(&tree->normals);
 }
 
 // Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the
@@ -190,7 +183,7 @@ static void ray_start(const CwLayerWork *work, int32_t v, double x[3]) {
 // Columns to look along.
 typedef struct {
   const CwLayerWork *work;
-  const CwGapTree *tree;
+  const CwBoxTree *tree, *normals;
   int32_t count, *vertex;
 } Gaps;
 
@@ -209,15 +202,16 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   ray.core = cw_policy.core_height * mean_edge(work, v);
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
-  cw_box_tree_ray(&gaps->tree->places, &gaps->tree->normals, ray.x, ray.g, &ray.far, meet, &ray);
+  cw_box_tree_ray(gaps->tree, gaps->normals, ray.x, ray.g, &ray.far, meet, &ray);
   *(Free *)out = (Free){ray.best, ray.faced};
   return CW_OK;
 }
 
-CwStatus cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree) {
+CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   Free *most = NULL;
-  Gaps gaps = {.work = work, .tree = tree};
+  CwBoxTree normals = {0};
+  Gaps gaps = {.work = work, .tree = tree, .normals = &normals};
   int again = work->gap != NULL;
   if (!again) {
     CW_NEW_UNSET(work->gap, work->n);
@@ -231,6 +225,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree) {
     gaps.vertex[gaps.count++] = v;
   }
   CW_NEW_UNSET(most, gaps.count);
+  CW_TRY(cw_box_tree_alike(work->in->context, tree, normal_of, work->in, &normals));
   CW_TRY(cw_parallel_for(work->in->context, "layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
   for (int32_t i = 0; i < gaps.count; i++) {
     work->gap[gaps.vertex[i]] = most[i].thickness;
@@ -241,6 +236,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree) {
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
   }
 done:
+  cw_box_tree_free(&normals);
   free(gaps.vertex);
   free(most);
   return status;

@@ -7,20 +7,15 @@
 #include "mesher/layers/layer_columns.h"
 #include "pipeline/status.h"
 
-// All triangles, those of the walls first: a tree of their boxes, and one like it of their normals' boxes.
-typedef struct {
-  CwBoxTree places, normals;
-} CwGapTree;
-
-// For the free way along a ray. Sets `curve`. tree is zero or made; free with cw_gap_tree_free. Collective.
-CwStatus cw_gap_tree_make(CwLayerWork *work, CwGapTree *tree);
-void cw_gap_tree_free(CwGapTree *tree);
+// A tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`.
+// Collective.
+CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
 // How thick the column of v may be where another wall stands `way` before it, m: gap_share of the way, and no more
 // than leaves `core` (m) to the tetrahedra between both layer tops; but as much as makes its last prism no smaller than
 // 1 / core_ratio of a tetrahedron across what is left, and as much as keeps the first layer.
 double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core);
 // t = min(most, room before walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
-CwStatus cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree);
+CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a concave place, where columns side by side lean to one another, 0.6 of the thickness
 // at which they would meet. Beside a concave crease the smoothing keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_concavity(CwLayerWork *work);

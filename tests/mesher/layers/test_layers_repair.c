@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Columns that lean: turned, then thinned.
 #include "layers_case.h"
+#include "mesher/common/box_tree.h"
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/layers/layers_gap.h"
 #include "mesher/layers/layers_normal.h"
@@ -31,7 +32,7 @@ static void leaning_column(void **state) {
     }
     c.in.least = least; // freed with the case
     CwLayerWork work = {0};
-    CwGapTree tree = {0};
+    CwBoxTree tree = {0};
     assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
     assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
     assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
@@ -40,7 +41,7 @@ static void leaning_column(void **state) {
     memcpy(work.column[centre], leaning, sizeof leaning);
     for (int after = 0; after < 2; after++) {
       double prism = 1, shape = 1, thickness = INFINITY;
-      if (after) assert_int_equal(cw_layers_repair(&work, &tree.places, top, &rounds, &c.outcome), CW_OK);
+      if (after) assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
       for (int32_t v = 0; v < n; v++) {
         if (!after) cw_layers_place(&work, v, top[v]);
         thickness = fmin(thickness, top[v][2]);
@@ -60,7 +61,7 @@ static void leaning_column(void **state) {
       if (after && i == 1) assert_true(thickness < 0.55 * MM);
       if (after && i == 2) assert_float_equal(thickness, 0.55 * MM, 1e-15);
     }
-    cw_gap_tree_free(&tree);
+    cw_box_tree_free(&tree);
     cw_smoothing_free(&work.smoothing);
     cw_layers_work_free(&work);
     free(top);
@@ -81,7 +82,7 @@ static void sheared_prism(void **state) {
     assert_int_equal(case_make(&c), CW_OK);
     c.in.division.count = layers;
     CwLayerWork work = {0};
-    CwGapTree tree = {0};
+    CwBoxTree tree = {0};
     assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
     assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
     assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
@@ -89,7 +90,7 @@ static void sheared_prism(void **state) {
       work.t[v] = c.target;
       memcpy(work.column[v], lean, sizeof lean);
     }
-    assert_int_equal(cw_layers_repair(&work, &tree.places, top, &rounds, &c.outcome), CW_OK);
+    assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
     const int32_t *corner = c.wall.triangle[0];
     const double *wall[3], *end[3], whole[3] = {1, 1, 1};
     for (int k = 0; k < 3; k++) {
@@ -101,7 +102,7 @@ static void sheared_prism(void **state) {
     print_message("  sheared prism: %.3f of the determinant asked for\n", cw_prism_shear_quality(wall, end, 1, whole));
     assert_true(layers ? cw_prism_shear_quality(wall, end, 1, whole) == 1
                        : cw_prism_shear_quality(wall, end, 1, whole) < 0.1);
-    cw_gap_tree_free(&tree);
+    cw_box_tree_free(&tree);
     cw_smoothing_free(&work.smoothing);
     cw_layers_work_free(&work);
     case_free(&c);
