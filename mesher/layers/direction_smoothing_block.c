@@ -334,8 +334,8 @@ static void lean(Part *part, int32_t i) {
   set_end(part, i);
 }
 
-// Widens the smoothing at i to `widen` at least. A member then has its neighbours made from it; around the members only
-// the neighbours in the same prism are known, and more than one of them.
+// Widens the smoothing at i to `widen` at least, and has the neighbours follow; of a vertex around the members they are
+// not listed, so that all are looked at.
 static void widen_at(Part *part, int32_t i, double widen) {
   if (widen <= part->widen[i]) return;
   part->widen[i] = widen;
