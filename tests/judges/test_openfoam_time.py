@@ -103,7 +103,7 @@ class InTime(unittest.TestCase):
         part = [abs(sum(p * cmath.exp(-2j * math.pi * k * i / 360) for i, p in enumerate(pressure)))
                 for k in range(1, 31)]
         self.assertEqual(1 + part.index(max(part)), BLADES, part)
-        self.assertTrue((self.latest(les) / "UPhaseMean").exists())
+        self.assertTrue((self.latest(les) / "UMean_phase").exists())
         planes = list((les / "postProcessing/planes").glob("*/middle.vtp"))
         planes += list((les / "postProcessing/planes").glob("*/*middle*.vtk"))
         self.assertGreaterEqual(len(planes), 2 * 360 // (360 // BLADES) - 1)
