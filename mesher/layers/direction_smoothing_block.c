@@ -92,10 +92,9 @@ typedef struct {
   double *widen;              // of all: factor on L where the usual one leaves prisms overrun
   SmoothingAt *smoothing;     // of all
   double (*column)[3], (*top)[3];
-  int32_t triangle_count, *triangle; // of the wall, with a member
-  int32_t (*corner)[3];              // of these: local numbers
-  double *quality;                   // of the prisms over them
-  int32_t *local;                    // of the domain's vertices; as in CwSmoothing
+  int32_t triangle_count, (*corner)[3]; // of the wall, with a member; their local numbers
+  double *quality;                      // of the prisms over them
+  int32_t *local;                       // of the domain's vertices; as in CwSmoothing
 } Part;
 
 static int32_t vertex_of(const Part *part, int32_t i) {
@@ -123,7 +122,6 @@ static void part_free(Part *part) {
   free(part->smoothing);
   free(part->column);
   free(part->top);
-  free(part->triangle);
 }
 
 static int by_distance(const void *p, const void *q) {
@@ -194,7 +192,7 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
   CW_NEW(part->weight, links);
   CW_NEW(part->weights, count);
   CW_NEW(part->area, count);
-  CW_NEW(part->triangle, faces);
+  CW_NEW_UNSET(part->corner, faces);
   CW_NEW(part->quality, faces);
   CW_NEW(part->stirred, count);
   CW_NEW(part->changed, count);
@@ -222,20 +220,18 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
       const int32_t *corner = work->in->triangle[work->face[k]];
       int is_first = 1; // of the members of this triangle: the one that lists it
       for (int c = 0; c < 3; c++) is_first &= corner[c] == v || !local[corner[c]] || local[corner[c]] - 1 >= i;
-      if (is_first) part->triangle[part->triangle_count++] = work->face[k];
+      if (!is_first) continue;
+      for (int c = 0; c < 3; c++) part->corner[part->triangle_count][c] = local[corner[c]] - 1;
+      part->triangle_count++;
     }
   }
-  CW_NEW_UNSET(part->corner, part->triangle_count);
   CW_NEW(part->reach, part->all);
   CW_NEW(part->smoothing, part->all);
   CW_NEW(part->widen, part->all);
   CW_NEW(part->column, part->all);
   CW_NEW(part->top, part->all);
   for (int32_t i = 0; i < part->all; i++) part->smoothing[i] = smoothing_at(smoothing, vertex_of(part, i));
-  for (int32_t f = 0; f < part->triangle_count; f++) {
-    for (int k = 0; k < 3; k++) part->corner[f][k] = local[work->in->triangle[part->triangle[f]][k]] - 1;
-    part->quality[f] = INFINITY; // of those that do not change
-  }
+  for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
   for (int32_t i = 0; i < part->all; i++) part->widen[i] = 1;
   for (int32_t i = 0; i < part->all; i++) {
     if (part->smoothing[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->smoothing[i]);
@@ -360,15 +356,13 @@ static int32_t widen(Part *part) {
     int changed = 0;
     for (int k = 0; k < 3; k++) changed |= local[k] < part->count && part->changed[local[k]];
     if (changed) {
-      const int32_t *v = in->triangle[part->triangle[f]];
       const double *wall[3], *top[3];
-      for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], top[k] = part->top[local[k]];
+      for (int k = 0; k < 3; k++) wall[k] = in->x[vertex_of(part, local[k])], top[k] = part->top[local[k]];
       part->quality[f] = cw_prism_quality(wall, top);
     }
     if (part->quality[f] >= cw_policy.smoothing_poor) continue;
     poor++;
-    for (int k = 0; k < 3; k++)
-      widen_at(part, local[k], fmin(part->widen[local[k]] * 1.4, cw_policy.smoothing_widest));
+    for (int k = 0; k < 3; k++) widen_at(part, local[k], fmin(part->widen[local[k]] * 1.4, cw_policy.smoothing_widest));
   }
   memset(part->changed, 0, (size_t)part->count);
   // Over about a thickness around, so that the lean stays smooth.
