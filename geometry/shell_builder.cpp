@@ -65,47 +65,56 @@ static std::vector<double> samples_of(const Handle(Geom_Curve) & curve, const Ha
   return samples;
 }
 
-void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward,
+void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<std::vector<CwEdgeUse>> loops, bool outward,
                           const char *patch, const char *kind, const std::string &name) {
   BRep_Builder builder;
   CwSolidFace made;
   double twice_area = 0;
-  for (const CwEdgeUse &use : loop) {
-    Edge &edge = edges[use.edge];
-    gp_Pnt2d last;
-    bool begun = false;
-    for (double t : samples_of(edge.curve, use.curve, edge.first, edge.last)) {
-      const gp_Pnt2d uv = use.curve->Value(t);
-      edge.deviation = std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
-      if (begun) twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
-      last = uv;
-      begun = true;
+  for (const std::vector<CwEdgeUse> &loop : loops)
+    for (const CwEdgeUse &use : loop) {
+      Edge &edge = edges[use.edge];
+      gp_Pnt2d last;
+      bool begun = false;
+      for (double t : samples_of(edge.curve, use.curve, edge.first, edge.last)) {
+        const gp_Pnt2d uv = use.curve->Value(t);
+        edge.deviation = std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
+        if (begun) twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
+        last = uv;
+        begun = true;
+      }
     }
-  }
-  // A forward face has its fluid-side loop counter-clockwise in the parameter plane.
-  if (twice_area < 0) {
-    std::reverse(loop.begin(), loop.end());
-    for (CwEdgeUse &use : loop) use.forward = !use.forward;
-  }
-  TopoDS_Wire wire;
   builder.MakeFace(made.face, surface, least_tolerance);
+  for (std::vector<CwEdgeUse> &loop : loops) {
+    // A forward face has its fluid-side loops counter-clockwise in the parameter plane.
+    if (twice_area < 0) {
+      std::reverse(loop.begin(), loop.end());
+      for (CwEdgeUse &use : loop) use.forward = !use.forward;
+    }
+    add_loop(loop, outward, name, made.face);
+  }
+  made.face.Orientation(outward ? TopAbs_FORWARD : TopAbs_REVERSED);
+  made.patch = patch;
+  made.kind = kind;
+  made.name = name;
+  faces.push_back(made);
+}
+
+void CwShellBuilder::add_loop(const std::vector<CwEdgeUse> &loop, bool outward, const std::string &name,
+                              TopoDS_Face &face) {
+  BRep_Builder builder;
+  TopoDS_Wire wire;
   builder.MakeWire(wire);
   for (size_t i = 0; i < loop.size(); i++) {
     const CwEdgeUse &use = loop[i], &next = loop[(i + 1) % loop.size()];
     Edge &edge = edges[use.edge];
     if ((use.forward ? edge.end : edge.begin) != (next.forward ? edges[next.edge].begin : edges[next.edge].end))
       throw Standard_Failure(("open loop on face " + name + " after edge " + std::to_string(i)).c_str());
-    builder.UpdateEdge(edge.edge, use.curve, made.face, least_tolerance);
+    builder.UpdateEdge(edge.edge, use.curve, face, least_tolerance);
     builder.Add(wire, edge.edge.Oriented(use.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
     (use.forward == outward ? edge.forward_uses : edge.reversed_uses)++;
   }
   wire.Closed(Standard_True);
-  builder.Add(made.face, wire);
-  made.face.Orientation(outward ? TopAbs_FORWARD : TopAbs_REVERSED);
-  made.patch = patch;
-  made.kind = kind;
-  made.name = name;
-  faces.push_back(made);
+  builder.Add(face, wire);
 }
 
 CwSolid *CwShellBuilder::finish(const char *domain, double unit) {

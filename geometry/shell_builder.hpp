@@ -31,12 +31,18 @@ public:
   int edge(const Handle(Geom_Curve) & curve, double first, double last, int begin, int end);
   // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv)
   // points out of the solid. Each face needs a surface of its own.
-  void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward, const char *patch,
-            const char *kind, const std::string &name);
+  void face(const Handle(Geom_Surface) & surface, const std::vector<CwEdgeUse> &loop, bool outward, const char *patch,
+            const char *kind, const std::string &name) {
+    face(surface, std::vector<std::vector<CwEdgeUse>>{loop}, outward, patch, kind, name);
+  }
+  // The same with holes: all loops have the fluid on the same side.
+  void face(const Handle(Geom_Surface) & surface, std::vector<std::vector<CwEdgeUse>> loops, bool outward,
+            const char *patch, const char *kind, const std::string &name);
   // Makes the solid of all that was given in the model unit (m), or throws Standard_Failure with the reason.
   CwSolid *finish(const char *domain, double unit);
 
 private:
+  void add_loop(const std::vector<CwEdgeUse> &loop, bool outward, const std::string &name, TopoDS_Face &face);
   struct Edge {
     TopoDS_Edge edge;
     Handle(Geom_Curve) curve;

@@ -18,6 +18,7 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <gp_Pnt.hxx>
 
 #include "geometry/cad/cad_file.h"
 #include "geometry/cad/cad_parts.h"
@@ -56,6 +57,9 @@ CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &
 // Gives each face of `part` what the file says of the face of `from` that it lies on; nothing where all are farther off
 // than `within`.
 void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within = 1e100);
+
+// Points of a lattice in the face's parameters, `along` intervals each way, that lie inside of it; `most` at the most.
+std::vector<gp_Pnt> cw_cad_inner_points(const TopoDS_Face &face, int along, size_t most);
 
 // The faces of a shape, in the order that counts.
 inline TopTools_IndexedMapOfShape cw_cad_faces(const TopoDS_Shape &shape) {

@@ -2,14 +2,13 @@
 #include "geometry/cad/cad_parts.h"
 
 #include <cmath>
+#include <deque>
 #include <memory>
 
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepClass_FaceClassifier.hxx>
-#include <BRepExtrema_DistShapeShape.hxx>
-#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -19,6 +18,7 @@
 #include <gp_Trsf.hxx>
 
 #include "geometry/cad/cad_part.hpp"
+#include "geometry/cad/face_distance.hpp"
 #include "geometry/model_unit.h"
 #include "geometry/solid.hpp"
 
@@ -28,19 +28,11 @@ const double millimetre = 1e-3; // m
 
 // A point inside the face; false where the face has none that can be found.
 bool inner_point(const TopoDS_Face &face, gp_Pnt &point) {
-  double u0, u1, v0, v1;
-  BRepTools::UVBounds(face, u0, u1, v0, v1);
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   for (int n = 2; n <= 32; n *= 2) {
-    for (int i = 1; i < n; i += 1) {
-      for (int j = 1; j < n; j += 1) {
-        const gp_Pnt2d uv(u0 + (u1 - u0) * i / n, v0 + (v1 - v0) * j / n);
-        BRepClass_FaceClassifier classifier(face, uv, 1e-7);
-        if (classifier.State() != TopAbs_IN) continue;
-        point = surface->Value(uv.X(), uv.Y());
-        return true;
-      }
-    }
+    const std::vector<gp_Pnt> points = cw_cad_inner_points(face, n, 1);
+    if (points.empty()) continue;
+    point = points[0];
+    return true;
   }
   return false;
 }
@@ -106,42 +98,42 @@ CwStatus check_size(const CwCaseCad &cad, double radius) {
 
 } // namespace
 
-void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within) {
-  struct Old {
-    TopoDS_Face face;
-    Bnd_Box box;
-    const CwCadFaceOrigin *origin;
-  };
-  std::vector<Old> olds;
-  for (const CwCadPart &of : from) {
-    const TopTools_IndexedMapOfShape map = cw_cad_faces(of.solid);
-    for (int i = 1; i <= map.Extent(); i++) {
-      Old old = {TopoDS::Face(map(i)), {}, &of.origin[i - 1]};
-      BRepBndLib::Add(old.face, old.box, Standard_False);
-      olds.push_back(old);
+std::vector<gp_Pnt> cw_cad_inner_points(const TopoDS_Face &face, int along, size_t most) {
+  double u0, u1, v0, v1;
+  std::vector<gp_Pnt> points;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  for (int i = 1; i < along; i++) {
+    for (int j = 1; j < along && points.size() < most; j++) {
+      const gp_Pnt2d uv(u0 + (u1 - u0) * i / along, v0 + (v1 - v0) * j / along);
+      BRepClass_FaceClassifier classifier(face, uv, 1e-7);
+      if (classifier.State() == TopAbs_IN) points.push_back(surface->Value(uv.X(), uv.Y()));
     }
   }
+  return points;
+}
+
+void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within) {
   const TopTools_IndexedMapOfShape map = cw_cad_faces(part.solid);
+  std::vector<TopTools_IndexedMapOfShape> olds;
+  std::deque<CwFaceDistance> distance;
+  for (const CwCadPart &of : from) olds.push_back(cw_cad_faces(of.solid)), distance.emplace_back(of.solid);
   part.origin.assign(map.Extent(), {});
   for (int i = 1; i <= map.Extent(); i++) {
-    const Old *best = nullptr;
-    for (const Old &old : olds)
-      if (old.face.IsSame(map(i))) best = &old;
+    const CwCadFaceOrigin *best = nullptr;
+    for (size_t k = 0; k < from.size(); k++)
+      if (olds[k].Contains(map(i))) best = &from[k].origin[olds[k].FindIndex(map(i)) - 1];
     gp_Pnt at;
-    double nearest = 0;
+    double nearest = INFINITY;
     if (!best && inner_point(TopoDS::Face(map(i)), at)) {
-      const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(at).Vertex();
-      Bnd_Box point;
-      point.Add(at);
-      for (const Old &old : olds) {
-        if (best && old.box.Distance(point) > nearest) continue;
-        BRepExtrema_DistShapeShape distance(vertex, old.face);
-        if (!distance.IsDone() || (best && distance.Value() >= nearest)) continue;
-        best = &old;
-        nearest = distance.Value();
-      }
+      for (size_t k = 0; k < from.size(); k++)
+        for (int f = 0; f < olds[k].Extent(); f++) {
+          const double far = distance[k].at(f, at, nearest);
+          if (far < nearest) nearest = far, best = &from[k].origin[f];
+        }
+      if (nearest > within) best = nullptr;
     }
-    if (best && nearest <= within) part.origin[i - 1] = *best->origin;
+    if (best) part.origin[i - 1] = *best;
   }
 }
 

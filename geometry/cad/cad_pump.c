@@ -7,6 +7,7 @@
 
 #include "geometry/cad/cad_cut.h"
 #include "geometry/cad/divide.h"
+#include "geometry/cad/passages.h"
 #include "geometry/cad/solid_choice.h"
 
 // Gap that is closed where the case gives none, over the model unit: the wheel has 128 to 256 of them.
@@ -61,19 +62,20 @@ static int number_of(const CwCadPump *pump, int face) {
   return cw_cad_part_face_number(pump->parts, of->part, of->face);
 }
 
-// The faces of the file that are blades, by their numbers, as long as none is divided: pieces of equal blades may
-// differ, where their seams do. `blade` holds `count`.
-static void note_blades(const CwCadPump *pump, int count, int *blade) {
+// What the faces of the file are, by their numbers, as long as none is divided: a piece does not show it. `role` holds
+// `count`.
+static void note_roles(const CwCadPump *pump, int count, CwFaceRole *role) {
   for (int f = 0; f < pump->survey.face_count; f++)
-    if (number_of(pump, f) >= 0 && number_of(pump, f) < count)
-      blade[number_of(pump, f)] = pump->role[f] == CW_ROLE_BLADE;
+    if (number_of(pump, f) >= 0 && number_of(pump, f) < count) role[number_of(pump, f)] = pump->role[f];
 }
 
-// Pieces of blades are blades.
-static void keep_blades(CwCadPump *pump, int count, const int *blade) {
+// Pieces of blades are blades, and those of openings are openings.
+static void keep_roles(CwCadPump *pump, int count, const CwFaceRole *role) {
   for (int f = 0; f < pump->survey.face_count; f++) {
     const int number = number_of(pump, f);
-    if (pump->role[f] == CW_ROLE_WALL && number >= 0 && number < count && blade[number]) pump->role[f] = CW_ROLE_BLADE;
+    if (pump->role[f] == CW_ROLE_CONTACT || number < 0 || number >= count) continue;
+    if (role[number] == CW_ROLE_BLADE || role[number] == CW_ROLE_INLET || role[number] == CW_ROLE_OUTLET)
+      pump->role[f] = role[number];
   }
 }
 
@@ -95,23 +97,28 @@ done:
 
 CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwStatus status = CW_OK;
-  int *pieces = NULL, *blade = NULL;
+  int *pieces = NULL;
+  CwFaceRole *role = NULL;
   CW_TRY(read_parts(cad, log, pump));
   CW_TRY(look(cad, pump));
   const int faces = pump->survey.face_count, blades = pump->blade_count;
   CW_NEW(pieces, cad->domain_count);
-  CW_NEW(blade, faces);
-  note_blades(pump, faces, blade);
+  CW_NEW(role, faces);
+  note_roles(pump, faces, role);
   for (int d = 0; d < cad->domain_count; d++)
     pieces[d] = cad->domain[d].rotating && pump->blade_count > 1 ? pump->blade_count : PIECES;
   CW_TRY(cw_cad_divide(pieces, &pump->frame, log, pump->parts));
+  for (int d = 0; d < cad->domain_count; d++) {
+    if (cad->domain[d].rotating && blades > 1)
+      CW_TRY(cw_cad_passages(d, blades, pump->tolerance / cw_cad_parts_unit(pump->parts), log, pump->parts));
+  }
   CW_TRY(look(cad, pump));
   CW_TRY(cut_contacts(cad, log, pump));
-  keep_blades(pump, faces, blade);
+  keep_roles(pump, faces, role);
   if (blades > 1) pump->blade_count = blades;
 done:
   free(pieces);
-  free(blade);
+  free(role);
   return status;
 }
 

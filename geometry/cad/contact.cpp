@@ -18,7 +18,6 @@
 
 namespace {
 
-const int TRIANGLES = 24;   // that are looked from in a face, about
 const double NEAR = 1e-3;   // of the size: a gap up to it is meant to be none
 const double MOST = 0.5;    // of a face's points: it can be one part alone that so many touch
 const double FACING = -0.7; // cosine of the normals of faces that face one another, by their triangles
@@ -49,8 +48,8 @@ bool faces(const CwSurvey &survey, int triangle, int other, const double at[3]) 
   int nearest = face.first_triangle;
   double best = INFINITY, n[3], m[3];
   for (int t = face.first_triangle; t < face.first_triangle + face.triangle_count; t++) {
-    double least = off(survey.middle[t], at);
-    for (int k = 0; k < 3; k++) least = std::min(least, off(survey.corner[t][k], at));
+    double least = INFINITY;
+    for (int k = 0; k < 3; k++) least = std::min(least, off(survey.point[survey.triangle[t][k]], at));
     if (least < best) best = least, nearest = t;
   }
   normal_of(survey, triangle, n);
@@ -65,16 +64,15 @@ struct Seen {
   const double *at = nullptr;
 };
 
-// Looks from a point of a triangle at one other part.
-CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, int triangle, const double at[3], int part,
-                   double tolerance, Seen &seen) {
+// Looks from a point at one other part.
+CwStatus look_from(const CwSurvey &survey, const CwSurveySample &from, int part, double tolerance, Seen &seen) {
   double distance;
   int other;
-  if (std::isnan(at[0])) return CW_OK;
-  const CwStatus status = cw_survey_nearest(&parts, &survey, part, at, NEAR * survey.size, &other, &distance, nullptr);
+  const double *at = from.at;
+  const CwStatus status = cw_survey_nearest(&survey, part, at, NEAR * survey.size, &other, &distance, nullptr);
   if (status != CW_OK) return status;
   seen.looked++;
-  if (other < 0 || !faces(survey, triangle, other, at)) return CW_OK;
+  if (other < 0 || !faces(survey, from.triangle, other, at)) return CW_OK;
   if (distance <= tolerance) {
     seen.touching++;
     seen.others[other]++;
@@ -85,15 +83,11 @@ CwStatus look_from(const CwCadParts &parts, const CwSurvey &survey, int triangle
   return CW_OK;
 }
 
-// Looks from points of a face: in the middle and near the corners of some of its triangles.
-CwStatus look(const CwCadParts &parts, const CwSurvey &survey, int face, int part, double tolerance, Seen &seen) {
+CwStatus look(const CwSurvey &survey, int face, int part, double tolerance, Seen &seen) {
   CwStatus status = CW_OK;
   const CwSurveyFace &of = survey.face[face];
-  const int step = std::max(1, of.triangle_count / TRIANGLES);
-  for (int t = of.first_triangle; t < of.first_triangle + of.triangle_count; t += step) {
-    CW_TRY(look_from(parts, survey, t, survey.middle[t], part, tolerance, seen));
-    for (int k = 0; k < 3; k++) CW_TRY(look_from(parts, survey, t, survey.corner[t][k], part, tolerance, seen));
-  }
+  for (int i = of.first_sample; i < of.first_sample + of.sample_count; i++)
+    CW_TRY(look_from(survey, survey.sample[i], part, tolerance, seen));
 done:
   return status;
 }
@@ -166,7 +160,7 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
       const int own = survey->face[f].part;
       if (p == own) continue;
       Seen seen;
-      const CwStatus status = look(*parts, *survey, f, p, tolerance, seen);
+      const CwStatus status = look(*survey, f, p, tolerance, seen);
       if (status != CW_OK) return status;
       if (!seen.touching && seen.near == seen.looked && seen.at) {
         double x[3];

@@ -72,7 +72,7 @@ static CwStatus take_points(const Work *work, int r, int *found) {
     double x[3], distance, second;
     int face;
     cw_cad_frame_from_file(work->frame, at, x);
-    CW_TRY(cw_survey_nearest(work->parts, work->survey, part, x, NEAR * work->survey->size, &face, &distance, &second));
+    CW_TRY(cw_survey_nearest(work->survey, part, x, NEAR * work->survey->size, &face, &distance, &second));
     CW_REQUIRE(
         face >= 0, CW_ERR_INPUT,
         "cad.patches.%s.near_mm: no face lies within %.3g mm of (%.6g, %.6g, %.6g); allowed: a point on the face",

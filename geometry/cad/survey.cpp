@@ -6,12 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepGProp.hxx>
 #include <BRepLProp_SLProps.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -27,13 +26,20 @@
 #include <gp_Vec.hxx>
 
 #include "geometry/cad/cad_part.hpp"
+#include "geometry/cad/face_distance.hpp"
+
+struct CwSurveyExact {
+  double unit; // m
+  std::deque<CwFaceDistance> part;
+};
 
 namespace {
 
 const double DEFLECTION = 1e-3;  // of the size, chord to surface
-const double AREA = 1e-5;       // relative error of areas
+const double AREA = 1e-5;        // relative error of areas
 const double ANGLE = 0.35;       // rad, between neighbouring chords
 const double CORNER = 0.95;      // of the way from the middle of a triangle to its corners
+const int TRIANGLES = 24;        // that are sampled on a face, about
 const double SAME_NORMAL = 1e-5; // sine of the angle within which normals are alike
 
 using Points = std::vector<std::array<double, 3>>;
@@ -42,12 +48,17 @@ struct Lists {
   std::vector<CwSurveyFace> face;
   std::vector<CwSurveyEdge> edge;
   std::vector<std::array<int, 3>> triangle;
-  Points point, middle, corner;
+  Points point;
+  std::vector<CwSurveySample> sample;
   std::vector<std::array<double, 6>> box;
 };
 
 std::array<double, 3> metres(const gp_Pnt &p, double unit) {
   return {p.X() * unit, p.Y() * unit, p.Z() * unit};
+}
+
+void put(const gp_Pnt &p, double unit, double x[3]) {
+  for (int i = 0; i < 3; i++) x[i] = p.Coord(i + 1) * unit;
 }
 
 std::array<double, 6> box_of(const TopoDS_Shape &face, double unit) {
@@ -88,6 +99,16 @@ struct Normals {
   }
 };
 
+// The nearest that lies on the face; null where none does.
+template <class OnFace>
+const gp_XY *first_of(std::vector<std::pair<double, gp_XY>> &by_distance, const OnFace &on_face) {
+  std::stable_sort(by_distance.begin(), by_distance.end(),
+                   [](const auto &a, const auto &b) { return a.first < b.first; });
+  for (const auto &[distance, uv] : by_distance)
+    if (on_face(uv)) return &uv;
+  return nullptr;
+}
+
 void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &lists) {
   CwSurveyFace made = {};
   made.part = part;
@@ -97,8 +118,7 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
   BRepGProp::SurfaceProperties(face, properties, AREA);
   made.area = std::fabs(properties.Mass()) * unit * unit;
   made.mean_radius = unit * std::sqrt(properties.MomentOfInertia(gp::OZ()) / properties.Mass());
-  const std::array<double, 3> centre = metres(properties.CentreOfMass(), unit);
-  std::memcpy(made.centre, centre.data(), sizeof made.centre);
+  put(properties.CentreOfMass(), unit, made.centre);
   made.radius[0] = made.height[0] = INFINITY;
   made.height[1] = -INFINITY;
   TopLoc_Location place;
@@ -106,9 +126,12 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
   if (mesh.IsNull()) throw Standard_Failure(("face " + std::to_string(index + 1) + " has no triangulation").c_str());
   const BRepAdaptor_Surface surface(face, Standard_False);
   BRepTopAdaptor_FClass2d outline(face, Precision::PConfusion());
-  const auto on_face = [&](const gp_XY &uv) {
-    if (outline.Perform(gp_Pnt2d(uv)) == TopAbs_OUT) return std::array<double, 3>{NAN, NAN, NAN};
-    return metres(surface.Value(uv.X(), uv.Y()), unit);
+  // Chords of the triangles may leave the face.
+  const auto on_face = [&](const gp_XY &uv) { return outline.Perform(gp_Pnt2d(uv)) != TopAbs_OUT; };
+  const auto add_sample = [&](const gp_XY &uv) {
+    if (!on_face(uv)) return;
+    lists.sample.push_back({(int)lists.triangle.size() - 1, {}});
+    put(surface.Value(uv.X(), uv.Y()), unit, lists.sample.back().at);
   };
   const bool reversed = face.Orientation() == TopAbs_REVERSED;
   const int first_point = (int)lists.point.size();
@@ -122,7 +145,9 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
     lists.point.push_back(x);
   }
   Normals normals;
-  double nearest = INFINITY;
+  std::vector<std::pair<double, gp_XY>> middles; // and their distance from the centre
+  const int step = std::max(1, mesh->NbTriangles() / TRIANGLES);
+  made.first_sample = (int)lists.sample.size();
   for (int i = 1; i <= mesh->NbTriangles(); i++) {
     int n[3];
     mesh->Triangle(i).Get(n[0], n[1], n[2]);
@@ -132,18 +157,17 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
     gp_Pnt p[3];
     for (int k = 0; k < 3; k++) uv += mesh->UVNode(n[k]).XY() / 3, p[k] = mesh->Node(n[k]);
     const gp_Pnt at = surface.Value(uv.X(), uv.Y());
-    const std::array<double, 3> middle = on_face(uv);
-    lists.middle.push_back(middle);
-    for (int k = 0; k < 3; k++) {
-      const gp_XY near = uv * (1 - CORNER) + mesh->UVNode(n[k]).XY() * CORNER;
-      lists.corner.push_back(on_face(near));
+    middles.emplace_back(at.Distance(properties.CentreOfMass()), uv);
+    if ((i - 1) % step == 0) {
+      add_sample(uv);
+      for (int k = 0; k < 3; k++) add_sample(uv * (1 - CORNER) + mesh->UVNode(n[k]).XY() * CORNER);
     }
     gp_Vec normal;
     if (normal_at(surface, reversed, gp_Pnt2d(uv), normal))
       normals.add(at, normal, gp_Vec(p[0], p[1]).Crossed(gp_Vec(p[0], p[2])).Magnitude() / 2);
-    const double off = std::hypot(std::hypot(middle[0] - centre[0], middle[1] - centre[1]), middle[2] - centre[2]);
-    if (off < nearest) nearest = off, std::memcpy(made.at, middle.data(), sizeof made.at);
   }
+  made.sample_count = (int)lists.sample.size() - made.first_sample;
+  if (const gp_XY *at = first_of(middles, on_face)) put(surface.Value(at->X(), at->Y()), unit, made.at);
   made.triangle_count = mesh->NbTriangles();
   if (normals.area > 0)
     for (int i = 0; i < 3; i++) made.normal[i] = normals.sum.Coord(i + 1) / normals.area;
@@ -243,12 +267,6 @@ template <class To, class From> CwStatus copy(const std::vector<From> &from, To 
   return CW_OK;
 }
 
-std::vector<std::array<double, 9>> threes(const Points &points) {
-  std::vector<std::array<double, 9>> made(points.size() / 3);
-  for (size_t i = 0; i < points.size(); i++) std::copy(points[i].begin(), points[i].end(), &made[i / 3][3 * (i % 3)]);
-  return made;
-}
-
 } // namespace
 
 CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
@@ -267,14 +285,16 @@ CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
       BRepTools::Clean(solid); // a stored triangulation would go into the files
       add_edges(solid, first, parts->unit, lists);
     }
-    int triangles, boxes, corners;
+    int boxes;
     CW_TRY(copy(lists.face, survey->face, survey->face_count));
     CW_TRY(copy(lists.edge, survey->edge, survey->edge_count));
     CW_TRY(copy(lists.triangle, survey->triangle, survey->triangle_count));
     CW_TRY(copy(lists.point, survey->point, survey->point_count));
-    CW_TRY(copy(lists.middle, survey->middle, triangles));
-    CW_TRY(copy(threes(lists.corner), survey->corner, corners));
+    CW_TRY(copy(lists.sample, survey->sample, survey->sample_count));
     CW_TRY(copy(lists.box, survey->box, boxes));
+    survey->exact = new CwSurveyExact;
+    survey->exact->unit = parts->unit;
+    for (const CwCadPart &part : parts->part) survey->exact->part.emplace_back(part.solid);
   done:
     return status;
   });
@@ -285,28 +305,24 @@ void cw_survey_free(CwSurvey *survey) {
   std::free(survey->edge);
   std::free(survey->triangle);
   std::free(survey->point);
-  std::free(survey->middle);
-  std::free(survey->corner);
+  std::free(survey->sample);
   std::free(survey->box);
+  delete survey->exact;
   *survey = CwSurvey();
 }
 
-CwStatus cw_survey_nearest(const CwCadParts *parts, const CwSurvey *survey, int part, const double point[3],
-                           double reach, int *face, double *distance, double *second) {
+CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[3], double reach, int *face,
+                           double *distance, double *second) {
   return cw_cad_guard("cad", [&] {
-    const gp_Pnt at(point[0] / parts->unit, point[1] / parts->unit, point[2] / parts->unit);
-    const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(at).Vertex();
-    TopTools_IndexedMapOfShape faces;
+    const double unit = survey->exact->unit;
+    const gp_Pnt at(point[0] / unit, point[1] / unit, point[2] / unit);
     double best = reach, next = reach;
     *face = -1;
-    for (int i = 0, p = -1; i < survey->face_count; i++) {
+    for (int i = 0; i < survey->face_count; i++) {
       const CwSurveyFace &of = survey->face[i];
       if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= next) continue;
       if (std::isfinite(next) && !may_reach(*survey, of, point, next)) continue;
-      if (of.part != p) p = of.part, faces = cw_cad_faces(parts->part[p].solid);
-      BRepExtrema_DistShapeShape measure(vertex, faces(of.face + 1));
-      if (!measure.IsDone()) continue;
-      const double d = measure.Value() * parts->unit;
+      const double d = unit * survey->exact->part[of.part].at(of.face, at, next / unit);
       if (d < best) {
         next = best;
         best = d;

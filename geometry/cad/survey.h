@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the faces of all parts look like: form, area, place, edges between them, and a coarse triangulation. Plain data
-// in metres and in the pump's coordinates, from which patches are proposed, chosen and drawn.
+// in metres and in the pump's coordinates, from which patches are proposed, chosen and drawn; and distances from the
+// exact faces.
 #ifndef CUTWATER_GEOMETRY_CAD_SURVEY_H
 #define CUTWATER_GEOMETRY_CAD_SURVEY_H
 
@@ -12,6 +13,7 @@ extern "C" {
 
 typedef enum { CW_FORM_PLANE, CW_FORM_REVOLVED, CW_FORM_OTHER } CwSurveyForm; // revolved: about the axis, no plane
 
+// Its fields are plain measures of one face; none follows from another.
 typedef struct {
   int part, face; // from 0; faces of a part stand together, in their order
   CwSurveyForm form;
@@ -25,7 +27,14 @@ typedef struct {
   double height[2];   // least and greatest z
   double twist;       // mean of normal times the direction of rotation
   int first_triangle, triangle_count;
+  int first_sample, sample_count;
 } CwSurveyFace;
+
+// A point on a face, in the middle of one of its triangles or near a corner of it.
+typedef struct {
+  int triangle;
+  double at[3];
+} CwSurveySample;
 
 typedef struct {
   int face[2]; // into CwSurvey.face, of one part
@@ -33,16 +42,18 @@ typedef struct {
   double angle; // through the water, rad: pi where smooth, less where the edge is concave as seen from the water
 } CwSurveyEdge;
 
+typedef struct CwSurveyExact CwSurveyExact; // the exact faces, for distances
+
 typedef struct {
-  int face_count, edge_count, triangle_count, point_count;
+  int face_count, edge_count, triangle_count, point_count, sample_count;
   CwSurveyFace *face;
   CwSurveyEdge *edge;
   int (*triangle)[3];
   double (*point)[3];
-  double (*middle)[3];    // of each triangle, on the exact face; NAN where its chords leave the face there
-  double (*corner)[3][3]; // the same a little inside of its corners
+  CwSurveySample *sample; // on the exact faces: about as many on each
   double (*box)[2][3];    // of each face
   double size;            // greatest extent of all
+  CwSurveyExact *exact;
 } CwSurvey;
 
 // Free also after a failure; zeroed `survey` on entry.
@@ -51,8 +62,8 @@ void cw_survey_free(CwSurvey *survey);
 
 // The face nearest to a point, of one part or (-1) of all, and its distance; -1 where none is within `reach`. `second`,
 // where not NULL: the distance of the second nearest, or `reach`.
-CwStatus cw_survey_nearest(const CwCadParts *parts, const CwSurvey *survey, int part, const double point[3],
-                           double reach, int *face, double *distance, double *second);
+CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[3], double reach, int *face,
+                           double *distance, double *second);
 
 #ifdef __cplusplus
 }

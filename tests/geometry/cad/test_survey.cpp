@@ -75,11 +75,11 @@ static void the_nearest_face_is_found(void **) {
   const double at[] = {5 * mm, 4 * mm, 10.5 * mm};
   int face;
   double distance, second;
-  assert_int_equal(cw_survey_nearest(&small.parts, &small.survey, -1, at, 1, &face, &distance, &second), CW_OK);
+  assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 1, &face, &distance, &second), CW_OK);
   small_near(small.survey.face[face].normal[2], 1, 1e-12);
   small_near(distance, 0.5 * mm, 1e-12);
   small_near(second, std::hypot(4, 0.5) * mm, 1e-12);
-  assert_int_equal(cw_survey_nearest(&small.parts, &small.survey, -1, at, 0.1 * mm, &face, &distance, nullptr), CW_OK);
+  assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 0.1 * mm, &face, &distance, nullptr), CW_OK);
   assert_int_equal(face, -1);
 }
 

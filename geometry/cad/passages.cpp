@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/cad/passages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepAlgoAPI_Section.hxx>
+#include <BRepAlgoAPI_Splitter.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepClass_FaceClassifier.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Plane.hxx>
+#include <Precision.hxx>
+#include <ShapeConstruct_ProjectCurveOnSurface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Wire.hxx>
+#include <gp_Circ.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+#include "geometry/cad/images.hpp"
+#include "geometry/shell_builder.hpp"
+
+namespace {
+
+const double BEYOND = 2;  // of the greatest coordinate: how far the meridians reach
+const double SAME = 1e-7; // model units: curves that are turned copies already
+const double DISC = 0.5;  // of the way from the axis to the outline of a face: the disc that meridians leave out
+enum { SAMPLES = 5, OUTLINE_SAMPLES = 40, ANGLES = 48, BESIDE = 2 };
+
+// Whether the axis goes through a plane face, at right angles.
+bool meets_axis(const TopoDS_Face &face) {
+  const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
+  if (surface.GetType() != GeomAbs_Plane) return false;
+  const gp_Pln plane = surface.Plane();
+  if (std::fabs(plane.Axis().Direction().Z()) < 1 - Precision::Angular()) return false;
+  BRepClass_FaceClassifier classifier(face, gp_Pnt(0, 0, plane.Location().Z()), Precision::Confusion());
+  return classifier.State() == TopAbs_IN;
+}
+
+// Points along the outline of a face.
+std::vector<std::vector<gp_Pnt>> outline_of(const TopoDS_Face &face) {
+  std::vector<std::vector<gp_Pnt>> points;
+  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(at.Current()));
+    const double first = curve.FirstParameter(), last = curve.LastParameter();
+    points.emplace_back();
+    for (int i = 0; i <= OUTLINE_SAMPLES; i++)
+      points.back().push_back(curve.Value(first + (last - first) * i / OUTLINE_SAMPLES));
+  }
+  return points;
+}
+
+// Least and greatest distance of the outline from the axis.
+std::pair<double, double> radii_of(const TopoDS_Face &face) {
+  std::pair<double, double> radii(INFINITY, 0);
+  for (const std::vector<gp_Pnt> &edge : outline_of(face))
+    for (const gp_Pnt &at : edge) {
+      radii.first = std::min(radii.first, std::hypot(at.X(), at.Y()));
+      radii.second = std::max(radii.second, std::hypot(at.X(), at.Y()));
+    }
+  return radii;
+}
+
+// Faces that are their own images, but for round discs: those need no cut, and meridians would meet in them.
+std::vector<TopoDS_Face> faces_to_cut(const CwImagesOfSolid &images) {
+  std::vector<TopoDS_Face> found;
+  for (int f = 0; f < images.faces.Extent(); f++) {
+    const TopoDS_Face &face = TopoDS::Face(images.faces(f + 1));
+    if (!images.is_fixed(f)) continue;
+    const auto [least, most] = radii_of(face);
+    if (!meets_axis(face) || most - least > SAME * most) found.push_back(face);
+  }
+  return found;
+}
+
+// The angle of the first meridian: where least of the faces' outlines runs beside it, all turned into one passage, so
+// that it meets blades at steep angles and no corners.
+double free_angle(const std::vector<TopoDS_Face> &faces, int count) {
+  const double pitch = 2 * M_PI / count;
+  std::vector<double> beside(ANGLES), outline(ANGLES);
+  for (const TopoDS_Face &face : faces)
+    for (const std::vector<gp_Pnt> &edge : outline_of(face))
+      for (size_t i = 1; i < edge.size(); i++) {
+        const double angle = std::fmod(std::atan2(edge[i].Y(), edge[i].X()) + 2 * M_PI, pitch);
+        outline[std::min((int)(ANGLES * angle / pitch), ANGLES - 1)] += edge[i].Distance(edge[i - 1]);
+      }
+  for (int i = 0; i < ANGLES; i++)
+    for (int k = -BESIDE; k <= BESIDE; k++) beside[i] += outline[(i + k + ANGLES) % ANGLES];
+  return pitch * (std::min_element(beside.begin(), beside.end()) - beside.begin() + 0.5) / ANGLES;
+}
+
+// A meridian from a radius on.
+TopoDS_Face half_plane(const TopoDS_Shape &solid, double angle, double radius) {
+  Bnd_Box box;
+  double low[3], high[3], most = 0;
+  BRepBndLib::Add(solid, box, Standard_False);
+  box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
+  for (int i = 0; i < 3; i++) most = std::max(most, std::max(std::fabs(low[i]), std::fabs(high[i])));
+  most *= BEYOND;
+  const gp_Ax3 axes(gp::Origin(), gp_Dir(-std::sin(angle), std::cos(angle), 0),
+                    gp_Dir(std::cos(angle), std::sin(angle), 0));
+  return BRepBuilderAPI_MakeFace(gp_Pln(axes), radius, most, -most, most).Face();
+}
+
+void add_turned(const TopoDS_Edge &edge, int from, const CwImagesOfSolid &images, TopTools_ListOfShape &tools) {
+  double first, last;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  for (int k = from; k < images.count; k++)
+    tools.Append(
+        BRepBuilderAPI_MakeEdge(Handle(Geom_Curve)::DownCast(curve->Transformed(images.turn(k))), first, last).Edge());
+}
+
+void cut(const TopTools_ListOfShape &tools, CwCadPart &part) {
+  if (tools.IsEmpty()) return;
+  TopTools_ListOfShape arguments;
+  arguments.Append(part.solid);
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(tools);
+  splitter.SetNonDestructive(Standard_True);
+  splitter.Build();
+  TopExp_Explorer solid(splitter.Shape(), TopAbs_SOLID);
+  if (splitter.HasErrors() || !solid.More()) return;
+  const CwCadPart before = part;
+  part.solid = solid.Current();
+  cw_cad_carry({before}, part);
+}
+
+bool is_on_meridian(const TopoDS_Edge &edge) {
+  const BRepAdaptor_Curve curve(edge);
+  const double first = curve.FirstParameter(), last = curve.LastParameter();
+  const gp_Pnt begin = curve.Value(first);
+  for (int i = 1; i <= SAMPLES; i++) {
+    const gp_Pnt at = curve.Value(first + (last - first) * i / SAMPLES);
+    if (std::fabs(begin.X() * at.Y() - begin.Y() * at.X()) > SAME * std::hypot(at.X(), at.Y())) return false;
+  }
+  return true;
+}
+
+bool is_revolved(const TopoDS_Face &face) {
+  const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
+  gp_Ax1 axis;
+  switch (surface.GetType()) {
+  case GeomAbs_Plane:
+    axis = gp_Ax1(gp::Origin(), surface.Plane().Axis().Direction());
+    break;
+  case GeomAbs_Cylinder:
+    axis = surface.Cylinder().Axis();
+    break;
+  case GeomAbs_Cone:
+    axis = surface.Cone().Axis();
+    break;
+  case GeomAbs_Torus:
+    axis = surface.Torus().Axis();
+    break;
+  case GeomAbs_Sphere:
+    return std::hypot(surface.Sphere().Location().X(), surface.Sphere().Location().Y()) < SAME;
+  case GeomAbs_SurfaceOfRevolution:
+    axis = surface.AxeOfRevolution();
+    break;
+  default:
+    return false;
+  }
+  return axis.Direction().IsParallel(gp::DZ(), Precision::Angular()) &&
+         std::hypot(axis.Location().X(), axis.Location().Y()) < SAME;
+}
+
+// Where a seam ends at a blade, one passage has an edge between two faces of revolution and the others have none: it is
+// cut into them as well.
+void repeat_seams(const CwImagesOfSolid &images, CwCadPart &part) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopTools_ListOfShape tools;
+  TopExp::MapShapesAndAncestors(part.solid, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  for (int e = 1; e <= faces_of.Extent(); e++) {
+    const TopoDS_Edge &edge = TopoDS::Edge(faces_of.FindKey(e));
+    bool revolved = !BRep_Tool::Degenerated(edge) && is_on_meridian(edge);
+    for (TopTools_ListIteratorOfListOfShape face(faces_of(e)); face.More() && revolved; face.Next())
+      revolved = is_revolved(TopoDS::Face(face.Value()));
+    if (revolved) add_turned(edge, 1, images, tools);
+  }
+  cut(tools, part);
+}
+
+// Cuts faces that are their own images along a meridian of each passage; off the axis, where it goes through one.
+void cut_meridians(const std::vector<TopoDS_Face> &faces, const CwImagesOfSolid &images, CwCadPart &part) {
+  TopTools_ListOfShape tools;
+  const double angle = free_angle(faces, images.count);
+  for (const TopoDS_Face &face : faces) {
+    const double radius = meets_axis(face) ? DISC * radii_of(face).first : 0;
+    if (radius > 0) {
+      const gp_Ax2 axes(gp_Pnt(0, 0, BRepAdaptor_Surface(face).Plane().Location().Z()), gp::DZ());
+      add_turned(BRepBuilderAPI_MakeEdge(gp_Circ(axes, radius), angle, angle + 2 * M_PI / images.count).Edge(), 0,
+                 images, tools);
+    }
+    BRepAlgoAPI_Section section(face, half_plane(part.solid, angle, radius));
+    for (TopExp_Explorer at(section.Shape(), TopAbs_EDGE); at.More(); at.Next())
+      add_turned(TopoDS::Edge(at.Current()), 0, images, tools);
+  }
+  cut(tools, part);
+}
+
+// Makes the solid anew from turned copies of the first faces, edges and vertices.
+class Copies {
+public:
+  explicit Copies(const CwImagesOfSolid &images) : images(images) {}
+  TopoDS_Shape make(double unit);
+
+private:
+  const CwImagesOfSolid &images;
+  CwShellBuilder builder;
+  std::vector<std::vector<int>> vertex, edge; // in the builder: of the first of a set, by turns
+
+  const TopoDS_Edge &old_edge(int e) const {
+    return TopoDS::Edge(images.edges(e + 1));
+  }
+  int vertex_number(const TopoDS_Shape &shape) const {
+    return images.vertices.FindIndex(shape) - 1;
+  }
+  Handle(Geom_Curve) copied_curve(int first, int turns, double range[2]) const;
+  void add_vertices();
+  void add_edges();
+  bool runs_alike(int e) const;
+  Handle(Geom2d_Curve) on_surface(int e, bool alike, const TopoDS_Face &face) const;
+  void add_face(int f);
+};
+
+Handle(Geom_Curve) Copies::copied_curve(int first, int turns, double range[2]) const {
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(old_edge(first), range[0], range[1]);
+  return Handle(Geom_Curve)::DownCast(curve->Transformed(images.turn(turns)));
+}
+
+void Copies::add_vertices() {
+  vertex.resize(images.vertices.Extent());
+  for (int v = 0; v < images.vertices.Extent(); v++) {
+    if (images.vertex.first[v] != v) continue;
+    const gp_Pnt point = BRep_Tool::Pnt(TopoDS::Vertex(images.vertices(v + 1)));
+    for (int k = 0; k < images.count; k++) vertex[v].push_back(builder.vertex(point.Transformed(images.turn(k))));
+  }
+}
+
+void Copies::add_edges() {
+  edge.resize(images.edges.Extent());
+  for (int e = 0; e < images.edges.Extent(); e++) {
+    if (images.edge.first[e] != e) continue;
+    const TopoDS_Edge forward = TopoDS::Edge(old_edge(e).Oriented(TopAbs_FORWARD));
+    const int begin = vertex_number(TopExp::FirstVertex(forward)), end = vertex_number(TopExp::LastVertex(forward));
+    for (int k = 0; k < images.count; k++) {
+      double range[2];
+      const auto turned = [&](int v) {
+        return vertex[images.vertex.first[v]][(images.vertex.turns[v] + k) % images.count];
+      };
+      const Handle(Geom_Curve) curve = copied_curve(e, k, range);
+      edge[e].push_back(builder.edge(curve, range[0], range[1], turned(begin), turned(end)));
+    }
+  }
+}
+
+// Whether an edge runs the way that the copy in its place does.
+bool Copies::runs_alike(int e) const {
+  double range[2], own[2];
+  const Handle(Geom_Curve) copy = copied_curve(images.edge.first[e], images.edge.turns[e], range);
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(old_edge(e), own[0], own[1]);
+  const gp_Pnt at = copy->Value(range[0] + (range[1] - range[0]) / 3);
+  return at.Distance(curve->Value(own[0] + (own[1] - own[0]) / 3)) <=
+         at.Distance(curve->Value(own[1] - (own[1] - own[0]) / 3));
+}
+
+// The copy's curve in the parameters of a first face, which has the edge itself.
+Handle(Geom2d_Curve) Copies::on_surface(int e, bool alike, const TopoDS_Face &face) const {
+  double range[2], own[2];
+  const Handle(Geom_Curve) copy = copied_curve(images.edge.first[e], images.edge.turns[e], range);
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(old_edge(e), own[0], own[1]);
+  const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(
+      TopoDS::Edge(old_edge(e).Oriented(TopAbs_FORWARD)), TopoDS::Face(face.Oriented(TopAbs_FORWARD)), own[0], own[1]);
+  if (old.IsNull()) throw Standard_Failure("an edge has no curve on its face");
+  bool same = alike && std::fabs(range[0] - own[0]) + std::fabs(range[1] - own[1]) <= Precision::PConfusion();
+  for (int i = 0; i <= SAMPLES && same; i++) {
+    const double t = range[0] + (range[1] - range[0]) * i / SAMPLES;
+    same = copy->Value(t).Distance(curve->Value(t)) <= SAME;
+  }
+  if (same) return old;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  ShapeConstruct_ProjectCurveOnSurface projector;
+  projector.Init(surface, Precision::Confusion());
+  Handle(Geom_Curve) onto = copy;
+  Handle(Geom2d_Curve) made;
+  if (!projector.Perform(onto, range[0], range[1], made) || made.IsNull())
+    throw Standard_Failure("an edge cannot be brought onto its face");
+  gp_Vec2d shift(made->Value((range[0] + range[1]) / 2), old->Value((own[0] + own[1]) / 2));
+  shift.SetX(surface->IsUPeriodic() ? surface->UPeriod() * std::round(shift.X() / surface->UPeriod()) : 0);
+  shift.SetY(surface->IsVPeriodic() ? surface->VPeriod() * std::round(shift.Y() / surface->VPeriod()) : 0);
+  if (shift.Magnitude() > 0) made->Translate(shift);
+  return made;
+}
+
+void Copies::add_face(int f) {
+  const TopoDS_Face face = TopoDS::Face(images.faces(f + 1).Oriented(TopAbs_FORWARD));
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  struct Use {
+    int e;
+    CwEdgeUse use;
+  };
+  std::vector<std::vector<Use>> loops;
+  for (TopExp_Explorer wire(face, TopAbs_WIRE); wire.More(); wire.Next()) {
+    loops.emplace_back();
+    for (BRepTools_WireExplorer at(TopoDS::Wire(wire.Current()), face); at.More(); at.Next()) {
+      const int e = images.edges.FindIndex(at.Current()) - 1;
+      const bool alike = runs_alike(e);
+      loops.back().push_back(
+          {e, {0, (at.Current().Orientation() == TopAbs_FORWARD) == alike, on_surface(e, alike, face)}});
+    }
+  }
+  for (int k = 0; k < (images.is_fixed(f) ? 1 : images.count); k++) {
+    std::vector<std::vector<CwEdgeUse>> turned;
+    for (const std::vector<Use> &loop : loops) {
+      turned.emplace_back();
+      for (const Use &of : loop) {
+        turned.back().push_back(of.use);
+        turned.back().back().edge = edge[images.edge.first[of.e]][(images.edge.turns[of.e] + k) % images.count];
+      }
+    }
+    builder.face(Handle(Geom_Surface)::DownCast(surface->Transformed(images.turn(k))), turned,
+                 images.faces(f + 1).Orientation() == TopAbs_FORWARD, "", "", std::to_string(f + 1));
+  }
+}
+
+TopoDS_Shape Copies::make(double unit) {
+  add_vertices();
+  add_edges();
+  for (int f = 0; f < images.faces.Extent(); f++)
+    if (images.face.first[f] == f) add_face(f);
+  const std::unique_ptr<CwSolid> solid(builder.finish("", unit));
+  return solid->solid;
+}
+
+// Why the part stays as it is, "" where it became symmetric; *off: by how much its faces moved, at most.
+std::string make_symmetric(int count, double tolerance, double unit, CwCadPart &part, double *off) {
+  CwImagesOfSolid images;
+  CwCadPart made = part;
+  std::string why = images.find(made.solid, count, tolerance, unit);
+  if (!why.empty()) {
+    repeat_seams(images, made);
+    why = images.find(made.solid, count, tolerance, unit);
+    if (!why.empty()) return why;
+  }
+  const std::vector<TopoDS_Face> faces = faces_to_cut(images);
+  if (!faces.empty()) {
+    cut_meridians(faces, images, made);
+    why = images.find(made.solid, count, tolerance, unit);
+    if (!why.empty()) return why;
+    if (!faces_to_cut(images).empty()) return "a face of revolution cannot be cut";
+  }
+  images.choose();
+  const CwCadPart before = made;
+  made.solid = Copies(images).make(unit);
+  if (!BRepCheck_Analyzer(made.solid).IsValid()) return "turned copies make no valid solid";
+  cw_cad_carry({before}, made);
+  part = made;
+  *off = images.off;
+  return "";
+}
+
+} // namespace
+
+CwStatus cw_cad_passages(int part, int count, double tolerance, CwLog *log, CwCadParts *parts) {
+  CwCadPart &of = parts->part[part];
+  return cw_cad_guard("cad.domains." + of.domain, [&] {
+    std::string why;
+    double off = 0;
+    try {
+      why = make_symmetric(count, tolerance, parts->unit, of, &off);
+    } catch (const Standard_Failure &failure) {
+      why = failure.GetMessageString();
+    }
+    if (why.empty())
+      cw_log(log, "%s: %d faces, turned copies of those of one of %d passages, %.2g mm off those of the file at most",
+             of.domain.c_str(), (int)of.origin.size(), count, 1e3 * parts->unit * off);
+    else
+      cw_log(log, "%s: %s; it will be meshed whole, not one of %d passages; cad.tolerance_mm is %.3g",
+             of.domain.c_str(), why.c_str(), count, 1e3 * parts->unit * tolerance);
+    return CW_OK;
+  });
+}
