@@ -9,13 +9,13 @@
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/plan/plan_axis.h"
 #include "mesher/plan/plan_cost.h"
 #include "mesher/plan/plan_divide.h"
 #include "mesher/plan/plan_lines.h"
 #include "mesher/plan/plan_profile.h"
 
 enum {
-  AXIS_SAMPLES = 400,
   STATIONS = 80, // places tried for the plane across the axis
   REFUSED = 2,   // places to either side of one that are refused with it
   STEPS = 36,    // of equal work in a slice, where planes between slices may stand
@@ -37,8 +37,7 @@ typedef struct {
   CwPlan *plan;
   int32_t count;
   int32_t slices_most;
-  double up;                         // 1: z grows from pipe to impeller, -1: it falls
-  double low, nose, high;            // along up * z: ends of the domain, end of the fluid on the axis, m
+  CwPlanAxis axis;
   CwPlanProfile along;               // the domain along up * z
   double touch[TOUCHES], touch_step; // of planes across the axis (cw_plan_touch), from `low` to `high`
   uint8_t refused[STATIONS];         // places of the plane across the axis before which no half-planes fit
@@ -48,13 +47,13 @@ typedef struct {
 } Sectors;
 
 static CwPlane across(const Sectors *sectors, double place) {
-  return (CwPlane){{0, 0, sectors->up}, place};
+  return (CwPlane){{0, 0, sectors->axis.up}, place};
 }
 
 // What a plane across the axis costs.
 static double judge_across(const Sectors *sectors, double place, double *worst) {
   CwPlanPlace found = cw_profile_at(&sectors->along, cw_profile_bin(&sectors->along, place));
-  double touch = round((place - sectors->low) / sectors->touch_step);
+  double touch = round((place - sectors->axis.low) / sectors->touch_step);
   *worst = found.worst;
   return cw_plan_place_cost(found) + cw_plan_touch_cost(sectors->touch[(int)fmin(fmax(touch, 0), TOUCHES - 1)]);
 }
@@ -77,32 +76,6 @@ static CwStatus judge_half_plane(const Sectors *sectors, const CwPlanPart *wheel
   *judged = (Judged){cw_plan_place_cost(place) + touch + lines.cost, place.worst};
 done:
   return status;
-}
-
-// Finds which side of the domain has fluid on the axis; CW_OUTCOME_ASYMMETRIC where both or none have it.
-static void find_axis(Sectors *sectors, CwOutcome *outcome) {
-  const CwBackground *background = sectors->model->background;
-  double low = INFINITY, high = -INFINITY;
-  for (int32_t i = 0; i < background->point_count; i++) {
-    low = fmin(low, background->x[i][2]);
-    high = fmax(high, background->x[i][2]);
-  }
-  double step = (high - low) / AXIS_SAMPLES;
-  int wet[AXIS_SAMPLES], runs = 0, last = 0;
-  for (int i = 0; i < AXIS_SAMPLES; i++) {
-    double x[3] = {0, 0, low + step * (i + 0.5)};
-    wet[i] = cw_inside_test(sectors->model->inside, x);
-    runs += i > 0 && wet[i] != wet[i - 1];
-  }
-  if (runs != 1) {
-    cw_outcome_set(outcome, CW_OUTCOME_ASYMMETRIC, NULL, "fluid on the axis at both ends, or at none");
-    return;
-  }
-  while (wet[last] == wet[0]) last++;
-  sectors->up = wet[0] ? 1 : -1;
-  sectors->low = wet[0] ? low : -high;
-  sectors->high = wet[0] ? high : -low;
-  sectors->nose = sectors->up * (low + step * last);
 }
 
 // The side of the pipe in steps of equal work, from node 0 outwards.
@@ -172,7 +145,7 @@ done:
 
 // A place tried for the plane across the axis.
 static double station_place(const Sectors *sectors, int station) {
-  return sectors->nose + (sectors->high - sectors->nose) * station / STATIONS;
+  return sectors->axis.nose + (sectors->axis.high - sectors->axis.nose) * station / STATIONS;
 }
 
 // The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
@@ -471,12 +444,12 @@ CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const C
   CW_TRY(new_plan(room, &tried));
   CW_TRY(cw_plan_model_make(context, cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
-  find_axis(&sectors, outcome);
-  if (outcome->kind != CW_OUTCOME_DONE) goto done;
+  CW_END_UNLESS(cw_plan_axis_find(background, inside, &sectors.axis), outcome, CW_OUTCOME_ASYMMETRIC, NULL,
+                "fluid on the axis at both ends");
   CwPlane along = across(&sectors, 0);
   cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &sectors.along);
-  sectors.touch_step = (sectors.high - sectors.low) / (TOUCHES - 1);
-  cw_plan_touches(&model, &whole, along.normal, sectors.low, sectors.touch_step, TOUCHES, sectors.touch);
+  sectors.touch_step = (sectors.axis.high - sectors.axis.low) / (TOUCHES - 1);
+  cw_plan_touches(&model, &whole, along.normal, sectors.axis.low, sectors.touch_step, TOUCHES, sectors.touch);
   CW_TRY_STAGE(place_root(&sectors, 0, &slices, outcome), outcome);
   double pipe = cw_profile_below(&sectors.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
   CW_TRY_STAGE(weigh_numbers(&sectors, pipe, pitch, options->region_count, number, &numbers, outcome), outcome);

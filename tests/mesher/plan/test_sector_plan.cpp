@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A sector decomposition over a tank with n equal sides: where it is, and how it is planned.
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 
 #include "planned_solid.h"
@@ -123,6 +125,27 @@ static void fluid_all_along_the_axis_has_no_sectors(void **) {
   assert_null(cube.plan.node);
 }
 
+// With a shaft from end to end the slices lie where the domain is narrow: below, in a pipe under a wheel.
+static void a_shaft_leaves_sectors(void **) {
+  const int turns = 4;
+  for (int upside_down = 0; upside_down < 2; upside_down++) {
+    const double from = upside_down ? 30 : 0, wheel = upside_down ? 0 : 40;
+    const TopoDS_Shape pipe = BRepPrimAPI_MakeBox(gp_Pnt(-8, -8, from), 16, 16, 40).Shape();
+    const TopoDS_Shape water =
+        BRepAlgoAPI_Fuse(pipe, BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, wheel), 40, 40, 30).Shape()).Shape();
+    const TopoDS_Shape shaft = BRepPrimAPI_MakeBox(gp_Pnt(-3, -3, -1), 6, 6, 80).Shape();
+    PlannedTank tank(BRepAlgoAPI_Cut(water, shaft).Shape(), turns, 9);
+    PlannedSolid::check(tank.status);
+    assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
+    assert_int_equal(tank.plan.sector_turns, turns);
+    assert_near(tank.plan.node[0].plane.normal[2], upside_down ? -1 : 1, 1e-12);
+    const double eye[] = {0.005, 0.001, upside_down ? 0.069 : 0.001};
+    assert_true(cw_plan_locate(&tank.plan, eye) < tank.plan.sector_region);
+    const double rim[] = {0.019, 0.001, upside_down ? 0.001 : 0.069};
+    assert_true(cw_plan_locate(&tank.plan, rim) >= tank.plan.sector_region);
+  }
+}
+
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sectors_divide_by_angle),
@@ -130,6 +153,7 @@ int main() {
       cmocka_unit_test(pitches_are_planned_alike),
       cmocka_unit_test(slices_are_as_large_as_regions),
       cmocka_unit_test(fluid_all_along_the_axis_has_no_sectors),
+      cmocka_unit_test(a_shaft_leaves_sectors),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
