@@ -90,13 +90,15 @@ done:
   return status;
 }
 
-// Looks for equal passages about the axis.
+// Looks for equal passages about the axis, anew where a symmetry was found or given up.
 static CwStatus find_symmetry(CwMeshRun *run) {
   CwStatus status = CW_OK;
+  run->whole = 0;
   if (!run->table->mesh.periodic_impeller) goto done;
   cw_profiler_part(&run->context, "symmetry");
   for (int d = 0; d < run->model.domain_count; d++) {
     CwDomain *domain = &run->domain[d];
+    cw_symmetry_free(&domain->symmetry);
     CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
     if (domain->symmetry)
       cw_log(run->context.log, "%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
@@ -250,10 +252,7 @@ static CwStatus leave_out_narrow(CwMeshRun *run) {
   cw_profiler_part(&run->context, "narrow faces");
   CW_TRY(cw_leave_out_narrow(run, &left));
   if (left == 0) goto done;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
-    cw_symmetry_free(&run->domain[d].symmetry);
-  }
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:
@@ -297,6 +296,7 @@ CwStatus cw_mesh_resize(CwMeshRun *run) {
     cw_domain_clear(&run->domain[d]);
     run->domain[d].layer_share = CW_LAYER_SHARE;
   }
+  if (run->whole) CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:
   return status;

@@ -85,7 +85,6 @@ static CwCellLaw rounded_law(const CwCellLaw *law) {
 static CwStatus keep_state(CwMeshRun *run, const char *fingerprint, CwPassState *state) {
   CwStatus status = CW_OK;
   state->pass = run->passes;
-  state->whole = run->whole;
   state->finer = run->finer;
   for (int d = 0; d < run->model.domain_count; d++) state->more_regions[d] = run->domain[d].more_regions;
   if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, state));
@@ -95,7 +94,7 @@ done:
 
 // What the next mesh follows from, with as many digits as the file keeps.
 static CwPassStart start_of(const CwMeshRun *run) {
-  return (CwPassStart){rounded_law(&run->prisms), rounded_law(&run->tets), run->finer.count};
+  return (CwPassStart){rounded_law(&run->prisms), rounded_law(&run->tets), run->finer.count, run->whole};
 }
 
 static void take_laws(CwMeshRun *run, const CwPassStart *start) {
@@ -116,7 +115,9 @@ static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
   if (run->stopped) goto done;
   if (state->start.prisms.factor > 0) take_laws(run, &state->start);
-  if (state->whole) CW_TRY(cw_mesh_plan_whole(run, "as in the run that this one goes on from"));
+  if (state->start.whole)
+    CW_TRY(
+        cw_mesh_plan_whole(run, state->tried_whole ? "they fall short" : "as in the run that this one goes on from"));
 done:
   return status;
 }
@@ -137,24 +138,33 @@ done:
   return status;
 }
 
+// Begins anew as the best mesh did.
+static void take_best(CwMeshRun *run, CwPassState *state) {
+  state->start = state->best;
+  run->finer.count = state->best.places;
+}
+
 // Asks for shorter edges about flat tetrahedra and missed first heights, as long as these become fewer: where edges are
-// as long as a passage is wide no filling is better. After a second round that did not help the best mesh is made
-// again. met: whether there is a mesh of as many cells as asked; *again: 1 where there is anything to make.
-static CwStatus shorten_for_quality(CwMeshRun *run, CwPassState *state, int met, int *again) {
+// as long as a passage is wide no filling is better. After a second round that did not help an impeller of periodic
+// images is meshed whole once, if it is there that the best mesh falls short: fewer planes leave layers more room. Then
+// the best mesh is made again. met: whether there is a mesh of as many cells as asked; *again: 1 where there is
+// anything to make.
+static CwStatus improve(CwMeshRun *run, CwPassState *state, int met, int *again) {
   CwStatus status = CW_OK;
   int32_t poor = 0;
   double deficit = met ? cw_poor_deficit(run, &poor) : INFINITY;
+  int many = met && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare;
   int best = met && (state->poor_rounds == 0 || deficit < state->least_deficit);
-  int more = met && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare && state->poor_rounds < POOR_MOST &&
-             (best || state->poor_rounds == state->best_round + 1);
-  *again = more || (!best && state->poor_rounds <= POOR_MOST);
+  int more = many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1);
   if (best) {
     state->best = state->start;
     state->best_round = state->poor_rounds;
     state->least_deficit = deficit;
+    state->best_lacks = many && cw_poor_in_passages(run);
   }
+  int whole = !more && state->best_lacks && !state->tried_whole && state->poor_rounds <= POOR_MOST;
+  *again = more || whole || (!best && state->poor_rounds <= POOR_MOST);
   if (!*again) goto done;
-  state->poor_rounds = more ? state->poor_rounds + 1 : POOR_MOST + 1;
   if (more) {
     cw_log(run->context.log,
            "tetrahedra below %.0f degrees in regions, or first heights missed: %d; made again with "
@@ -162,10 +172,13 @@ static CwStatus shorten_for_quality(CwMeshRun *run, CwPassState *state, int met,
            cw_policy.flat_angle, poor);
     CW_TRY(cw_finer_at_poor(run));
     state->start = start_of(run);
+    state->poor_rounds++;
   } else {
-    cw_log(run->context.log, "the last shorter edges did not help; the best mesh is made again");
-    state->start = state->best;
-    run->finer.count = state->best.places;
+    take_best(run, state);
+    state->poor_rounds = whole ? POOR_MOST : POOR_MOST + 1;
+    if (whole) state->start.whole = state->tried_whole = 1;
+    cw_log(run->context.log, whole ? "the passages fall short; the impeller is meshed whole for once"
+                                   : "that did not help; the best mesh is made again");
   }
   run->retries++;
 done:
@@ -181,7 +194,7 @@ static CwStatus judge_pass(CwMeshRun *run, CwPassState *state, int *last, int *a
          100 * off, asked);
   cw_learn_tets(run);
   *last = met || run->passes - state->first_pass + 1 >= PASSES_MOST;
-  if (met || (*last && state->poor_rounds > 0)) CW_TRY(shorten_for_quality(run, state, met, again));
+  if (met || (*last && state->poor_rounds > 0)) CW_TRY(improve(run, state, met, again));
   if (*last && !*again && !met)
     cw_log_warn(run->context.log, "%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells,
                 100 * off, asked, PASSES_MOST);
@@ -199,7 +212,7 @@ static CwStatus run_passes(CwMeshRun *run, const char *fingerprint, CwPassState 
     if (run->stopped) break;
     if (optional && outcome.kind != CW_OUTCOME_DONE) {
       cw_log(run->context.log, "no mesh with these: %s", outcome.reason);
-      CW_TRY(shorten_for_quality(run, state, 0, &again));
+      CW_TRY(improve(run, state, 0, &again));
     } else if (outcome.kind == CW_OUTCOME_FINER) {
       CW_TRY(shorten_for_layers(run, &outcome, state));
       state->start = start_of(run);

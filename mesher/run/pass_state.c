@@ -102,12 +102,12 @@ static int int_in(const json_t *file, const char *key) {
 
 static CwPassStart start_in(const json_t *file) {
   return (CwPassStart){law_in(json_object_get(file, "prisms")), law_in(json_object_get(file, "tetrahedra")),
-                       int_in(file, "places")};
+                       int_in(file, "places"), json_is_true(json_object_get(file, "whole"))};
 }
 
 static json_t *start_packed(const CwPassStart *start) {
-  return json_pack("{s:o, s:o, s:i}", "prisms", law_packed(&start->prisms), "tetrahedra", law_packed(&start->tets),
-                   "places", start->places);
+  return json_pack("{s:o, s:o, s:i, s:b}", "prisms", law_packed(&start->prisms), "tetrahedra", law_packed(&start->tets),
+                   "places", start->places, "whole", start->whole);
 }
 
 CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {
@@ -122,12 +122,13 @@ CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *finger
   *state = (CwPassState){.pass = int_in(file, "pass"),
                          .first_pass = int_in(file, "first_pass"),
                          .start = start_in(json_object_get(file, "start")),
-                         .whole = json_is_true(json_object_get(file, "whole")),
                          .finer_rounds = int_in(file, "finer_rounds"),
                          .poor_rounds = int_in(file, "poor_rounds"),
                          .best = start_in(json_object_get(file, "best")),
                          .least_deficit = json_number_value(json_object_get(file, "least_deficit")),
-                         .best_round = int_in(file, "best_round")};
+                         .best_round = int_in(file, "best_round"),
+                         .best_lacks = json_is_true(json_object_get(file, "best_lacks")),
+                         .tried_whole = json_is_true(json_object_get(file, "tried_whole"))};
   for (size_t d = 0; d < CW_DOMAINS_MOST; d++)
     state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
   CW_TRY(places_in(json_object_get(file, "finer"), &state->finer));
@@ -141,11 +142,12 @@ CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, cons
   char path[PATH_SIZE];
   json_t *more = json_array(), *file = NULL;
   for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
-  file = json_pack("{s:s, s:i, s:i, s:o, s:b, s:o, s:i, s:i, s:o, s:f, s:i, s:o}", "fingerprint", fingerprint, "pass",
-                   state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start), "whole",
-                   state->whole, "more_regions", more, "finer_rounds", state->finer_rounds, "poor_rounds",
-                   state->poor_rounds, "best", start_packed(&state->best), "least_deficit", state->least_deficit,
-                   "best_round", state->best_round, "finer", places_packed(&state->finer));
+  file = json_pack("{s:s, s:i, s:i, s:o, s:o, s:i, s:i, s:o, s:f, s:i, s:b, s:b, s:o}", "fingerprint", fingerprint,
+                   "pass", state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start),
+                   "more_regions", more, "finer_rounds", state->finer_rounds, "poor_rounds", state->poor_rounds, "best",
+                   start_packed(&state->best), "least_deficit", state->least_deficit, "best_round", state->best_round,
+                   "best_lacks", state->best_lacks, "tried_whole", state->tried_whole, "finer",
+                   places_packed(&state->finer));
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_sealed_json_write(file, path));

@@ -23,32 +23,43 @@ static int is_judged(const CwDomain *domain, int patch) {
   return domain->patch[patch].kind == CW_PATCH_WALL && domain->patch_target[patch].first.source != CW_FIRST_FITTED;
 }
 
-// How many times missed_share of the faces miss their first height beyond the first time.
-static double lacks_first_heights(const CwMeshRun *run) {
+// How many times missed_share of the domain's faces miss their first height, beyond the first time.
+static double lacks_first_heights(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
   double faces = 0, missed = 0;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    const CwDomain *domain = &run->domain[d];
-    for (int p = 0; p < run->model.domain[d].patch_count; p++) {
-      for (int32_t r = 0; is_judged(domain, p) && r < domain->plan.region_count; r++) {
-        faces += run->summary[d][r].coverage[p].faces;
-        missed += run->summary[d][r].coverage[p].faces - run->summary[d][r].coverage[p].first_met;
-      }
+  for (int p = 0; p < run->model.domain[d].patch_count; p++) {
+    for (int32_t r = 0; is_judged(domain, p) && r < domain->plan.region_count; r++) {
+      faces += run->summary[d][r].coverage[p].faces;
+      missed += run->summary[d][r].coverage[p].faces - run->summary[d][r].coverage[p].first_met;
     }
   }
   return faces > 0 ? fmax(missed / (cw_policy.missed_share * faces) - 1, 0) : 0;
 }
 
-double cw_poor_deficit(const CwMeshRun *run, int32_t *count) {
-  double deficit = lacks_first_heights(run);
-  *count = deficit > 0;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
-      double of = lacks_angle(run, d, r);
-      deficit += of;
-      *count += of > 0;
-    }
+// Of one domain.
+static double deficit_of(const CwMeshRun *run, int d, int32_t *count) {
+  double deficit = lacks_first_heights(run, d);
+  *count += deficit > 0;
+  for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
+    double of = lacks_angle(run, d, r);
+    deficit += of;
+    *count += of > 0;
   }
   return deficit;
+}
+
+double cw_poor_deficit(const CwMeshRun *run, int32_t *count) {
+  double deficit = 0;
+  *count = 0;
+  for (int d = 0; d < run->model.domain_count; d++) deficit += deficit_of(run, d, count);
+  return deficit;
+}
+
+int cw_poor_in_passages(const CwMeshRun *run) {
+  int32_t count = 0;
+  for (int d = 0; d < run->model.domain_count; d++)
+    if (run->domain[d].symmetry) deficit_of(run, d, &count);
+  return count > 0;
 }
 
 // Asks for shorter edges at the vertex x unless a place of this round, of which `before` were there, is near.
@@ -67,10 +78,10 @@ done:
 
 CwStatus cw_finer_at_poor(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  int heights = lacks_first_heights(run) > 0;
   int32_t before = run->finer.count;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
+    int heights = lacks_first_heights(run, d) > 0;
     for (int32_t r = 0; r < domain->plan.region_count; r++) {
       if (lacks_angle(run, d, r) > 0) CW_TRY(add_apart(run, d, run->summary[d][r].quality.flattest_at, before));
     }

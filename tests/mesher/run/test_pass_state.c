@@ -68,6 +68,7 @@ static void check_start(const CwPassStart *read, const CwPassStart *written) {
   assert_memory_equal(&read->prisms, &written->prisms, sizeof read->prisms);
   assert_memory_equal(&read->tets, &written->tets, sizeof read->tets);
   assert_int_equal(read->places, written->places);
+  assert_int_equal(read->whole, written->whole);
 }
 
 static void state_comes_back_as_written(void **unused) {
@@ -78,20 +79,20 @@ static void state_comes_back_as_written(void **unused) {
   CwFinerPlace place[2] = {{0, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, {{1, 2, 3}, 0.1 / 3}}};
   const CwPassState written = {.pass = 3,
                                .first_pass = 2,
-                               .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 2},
-                               .whole = 1,
+                               .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 2, 1},
                                .more_regions = {0, 2},
                                .finer_rounds = 1,
                                .poor_rounds = 4,
-                               .best = {{11.5, 1.1, 0}, {10.25, 1.1, 0}, 1},
+                               .best = {{11.5, 1.1, 0}, {10.25, 1.1, 0}, 1, 0},
                                .least_deficit = 2. / 3,
                                .best_round = 3,
+                               .best_lacks = 1,
+                               .tried_whole = 1,
                                .finer = {.count = 2, .place = place}};
   assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
   CwPassState read = {0};
   assert_int_equal(cw_pass_state_read(NULL, run, fingerprint, &read), CW_OK);
   assert_int_equal(read.pass, 3);
-  assert_int_equal(read.whole, 1);
   assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
   assert_int_equal(read.first_pass, 2);
   check_start(&read.start, &written.start);
@@ -100,6 +101,8 @@ static void state_comes_back_as_written(void **unused) {
   assert_int_equal(read.poor_rounds, 4);
   assert_float_equal(read.least_deficit, written.least_deficit, 0);
   assert_int_equal(read.best_round, 3);
+  assert_int_equal(read.best_lacks, 1);
+  assert_int_equal(read.tried_whole, 1);
   assert_int_equal(read.finer.count, 2);
   for (int i = 0; i < 2; i++) { // to the last bit
     assert_int_equal(read.finer.place[i].domain, place[i].domain);

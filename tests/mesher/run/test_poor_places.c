@@ -58,8 +58,30 @@ static void missed_first_heights_count(void **state) {
   assert_int_equal(count, 0);
 }
 
+// Two domains, each of a region with half of its angle: it counts in that which has passages.
+static void what_passages_lack_is_told(void **state) {
+  static CwMeshRun run = {.model.domain_count = 2};
+  CwSymmetry symmetry = {.count = 6};
+  CwRegionSummary made[2] = {0};
+  int32_t count;
+  for (int d = 0; d < 2; d++) {
+    made[d].quality.dihedral_least = 6;
+    made[d].dihedral_allowed = 12;
+    run.domain[d].plan.region_count = 1;
+    run.summary[d] = &made[d];
+  }
+  assert_int_equal(cw_poor_in_passages(&run), 0);
+  run.domain[1].symmetry = &symmetry;
+  assert_int_equal(cw_poor_in_passages(&run), 1);
+  assert_float_equal(cw_poor_deficit(&run, &count), 1, 1e-12);
+  assert_int_equal(count, 2);
+  made[1].quality.dihedral_least = 12;
+  assert_int_equal(cw_poor_in_passages(&run), 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_lacks_angle_counts),
-                                     cmocka_unit_test(missed_first_heights_count)};
+                                     cmocka_unit_test(missed_first_heights_count),
+                                     cmocka_unit_test(what_passages_lack_is_told)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
