@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -12,8 +11,6 @@
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <gp_Ax1.hxx>
 
 #include "geometry/cad/cad_part.hpp"
@@ -67,18 +64,11 @@ double distance_of(const TopoDS_Shape &solid, const CwCadFrame &frame) {
 }
 
 std::vector<CwCadBody> pieces_of(const CwCadCut &cut, const CwCadFrame &frame, const CwCadBody &body) {
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(body.solid);
+  TopTools_ListOfShape tools;
   tools.Append(surface_of(cut, frame, body.solid));
-  BRepAlgoAPI_Splitter splitter;
-  splitter.SetArguments(arguments);
-  splitter.SetTools(tools);
-  splitter.SetNonDestructive(Standard_True);
-  splitter.Build();
   std::vector<std::pair<double, TopoDS_Shape>> solids;
-  if (!splitter.HasErrors())
-    for (TopExp_Explorer at(splitter.Shape(), TopAbs_SOLID); at.More(); at.Next())
-      solids.emplace_back(distance_of(at.Current(), frame), at.Current());
+  for (const TopoDS_Shape &solid : cw_cad_split(body.solid, tools))
+    solids.emplace_back(distance_of(solid, frame), solid);
   if (solids.size() < 2) return {body};
   std::stable_sort(solids.begin(), solids.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   std::vector<CwCadBody> pieces;

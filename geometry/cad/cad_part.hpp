@@ -5,12 +5,15 @@
 #define CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -58,6 +61,16 @@ CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &
 // than `within`.
 void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within = 1e100);
 
+// Puts another solid in the place of the part's; its faces keep what the file says of those they lie on.
+void cw_cad_replace(const TopoDS_Shape &solid, CwCadPart &part);
+
+// The solids that tools, faces or edges, leave of one; none where OpenCASCADE fails. What is nearer than `fuzzy` to a
+// tool, in the unit of the solid, lies on it.
+std::vector<TopoDS_Shape> cw_cad_split(const TopoDS_Shape &solid, const TopTools_ListOfShape &tools, double fuzzy = 0);
+
+// Points at even steps of an edge's parameter, its ends among them.
+std::vector<gp_Pnt> cw_cad_edge_points(const TopoDS_Edge &edge, int steps);
+
 // Points of a lattice in the face's parameters, `along` intervals each way, that lie inside of it; `most` at the most.
 std::vector<gp_Pnt> cw_cad_inner_points(const TopoDS_Face &face, int along, size_t most);
 
@@ -66,6 +79,14 @@ inline TopTools_IndexedMapOfShape cw_cad_faces(const TopoDS_Shape &shape) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   return faces;
+}
+
+// The numbers, from 0, that the parts of a shape, of one kind, have in a map.
+inline std::set<int> cw_cad_numbers(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind,
+                                    const TopTools_IndexedMapOfShape &all) {
+  std::set<int> found;
+  for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) found.insert(all.FindIndex(at.Current()) - 1);
+  return found;
 }
 
 #endif

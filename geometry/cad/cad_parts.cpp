@@ -5,7 +5,9 @@
 #include <deque>
 #include <memory>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepClass_FaceClassifier.hxx>
@@ -13,7 +15,6 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Geom_Surface.hxx>
-#include <TopExp_Explorer.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Trsf.hxx>
 
@@ -135,6 +136,35 @@ void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double wi
     }
     if (best) part.origin[i - 1] = *best;
   }
+}
+
+void cw_cad_replace(const TopoDS_Shape &solid, CwCadPart &part) {
+  const CwCadPart before = part;
+  part.solid = solid;
+  cw_cad_carry({before}, part);
+}
+
+std::vector<TopoDS_Shape> cw_cad_split(const TopoDS_Shape &solid, const TopTools_ListOfShape &tools, double fuzzy) {
+  TopTools_ListOfShape arguments;
+  arguments.Append(solid);
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(tools);
+  splitter.SetFuzzyValue(fuzzy);
+  splitter.SetNonDestructive(Standard_True);
+  splitter.Build();
+  std::vector<TopoDS_Shape> solids;
+  if (!splitter.HasErrors())
+    for (TopExp_Explorer at(splitter.Shape(), TopAbs_SOLID); at.More(); at.Next()) solids.push_back(at.Current());
+  return solids;
+}
+
+std::vector<gp_Pnt> cw_cad_edge_points(const TopoDS_Edge &edge, int steps) {
+  const BRepAdaptor_Curve curve(edge);
+  const double first = curve.FirstParameter(), last = curve.LastParameter();
+  std::vector<gp_Pnt> points;
+  for (int i = 0; i <= steps; i++) points.push_back(curve.Value(first + (last - first) * i / steps));
+  return points;
 }
 
 CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadBodies *bodies, const int *domain,

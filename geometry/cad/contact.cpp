@@ -6,11 +6,8 @@
 #include <map>
 #include <set>
 
-#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRep_Builder.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 
 #include "geometry/cad/cad_part.hpp"
@@ -125,27 +122,15 @@ TopoDS_Shape unified(const std::vector<TopoDS_Shape> &faces) {
 
 // Cuts the faces of a part along the outlines of `tools`.
 CwStatus cut_part(const std::vector<TopoDS_Shape> &tools, double tolerance, CwCadPart &part) {
-  TopTools_ListOfShape arguments, with;
-  arguments.Append(part.solid);
+  TopTools_ListOfShape with;
   with.Append(unified(tools));
-  BRepAlgoAPI_Splitter splitter;
-  splitter.SetArguments(arguments);
-  splitter.SetTools(with);
-  splitter.SetFuzzyValue(tolerance);
-  splitter.SetNonDestructive(Standard_True);
-  splitter.Build();
-  int solids = 0;
-  TopoDS_Shape cut;
-  if (!splitter.HasErrors())
-    for (TopExp_Explorer at(splitter.Shape(), TopAbs_SOLID); at.More(); at.Next(), solids++) cut = at.Current();
-  if (solids != 1)
+  const std::vector<TopoDS_Shape> solids = cw_cad_split(part.solid, with, tolerance);
+  if (solids.size() != 1)
     return CW_FAIL(CW_ERR_GEOMETRY,
                    "cad.domains.%s: the outline of its neighbour's faces cannot be cut into its own; "
                    "allowed: domains that touch along whole faces",
                    part.domain.c_str());
-  const CwCadPart before = part;
-  part.solid = cut;
-  cw_cad_carry({before}, part);
+  cw_cad_replace(solids[0], part);
   return CW_OK;
 }
 

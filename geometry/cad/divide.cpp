@@ -167,12 +167,11 @@ CwStatus fail_at(const CwCadPart &part, const CwCadFrame &frame, double unit, co
 void replace(CwCadPart &part, const TopoDS_Shape &shape) {
   TopExp_Explorer solid(shape, TopAbs_SOLID);
   if (!solid.More()) throw Standard_Failure("the division leaves no solid");
-  const CwCadPart before = part;
-  part.solid = solid.Current();
-  if (!BRepCheck_Analyzer(part.solid).IsValid()) { // ends of lunes: their edges' parameters do not fit
-    BRepLib::SameParameter(part.solid, Precision::Confusion(), Standard_True);
+  const TopoDS_Shape made = solid.Current();
+  if (!BRepCheck_Analyzer(made).IsValid()) { // ends of lunes: their edges' parameters do not fit
+    BRepLib::SameParameter(made, Precision::Confusion(), Standard_True);
   }
-  cw_cad_carry({before}, part);
+  cw_cad_replace(made, part);
 }
 
 CwStatus divide_part(int pieces, const CwCadFrame &frame, CwLog *log, double unit, CwCadPart &part) {

@@ -15,17 +15,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 
-namespace {
-
-std::vector<int> numbers(const TopoDS_Shape &face, TopAbs_ShapeEnum kind, const TopTools_IndexedMapOfShape &all) {
-  TopTools_IndexedMapOfShape own;
-  std::vector<int> found;
-  TopExp::MapShapes(face, kind, own);
-  for (int i = 1; i <= own.Extent(); i++) found.push_back(all.FindIndex(own(i)) - 1);
-  return found;
-}
-
-} // namespace
+#include "geometry/cad/cad_part.hpp"
 
 CwFaceDistance::Face::Face(const TopoDS_Face &of)
     : surface(of, Standard_False), outline(of, std::max(BRep_Tool::Tolerance(of), Precision::PConfusion())) {
@@ -47,8 +37,8 @@ CwFaceDistance::CwFaceDistance(const TopoDS_Shape &solid) {
   for (int e = 0; e < edges.Extent(); e++) BRepBndLib::Add(edges(e + 1), edge[e].box, Standard_False);
   for (int f = 1; f <= faces.Extent(); f++) {
     BRepBndLib::Add(faces(f), box[f - 1], Standard_False);
-    edges_of.push_back(numbers(faces(f), TopAbs_EDGE, edges));
-    vertices_of.push_back(numbers(faces(f), TopAbs_VERTEX, vertices));
+    edges_of.push_back(cw_cad_numbers(faces(f), TopAbs_EDGE, edges));
+    vertices_of.push_back(cw_cad_numbers(faces(f), TopAbs_VERTEX, vertices));
   }
 }
 

@@ -5,6 +5,7 @@
 #define CUTWATER_GEOMETRY_CAD_FACE_DISTANCE_HPP
 
 #include <memory>
+#include <set>
 #include <vector>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -37,7 +38,7 @@ private:
   std::vector<Bnd_Box> box;                // of each face
   std::vector<std::unique_ptr<Face>> face; // when first needed
   std::vector<Edge> edge;
-  std::vector<std::vector<int>> edges_of, vertices_of; // of a face
+  std::vector<std::set<int>> edges_of, vertices_of; // of a face
 };
 
 #endif

@@ -6,12 +6,10 @@
 #include <cstdio>
 #include <set>
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRep_Tool.hxx>
 #include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -23,21 +21,12 @@
 
 namespace {
 
-const int EDGE_SAMPLES = 7, FACE_LATTICE = 8;
+const int EDGE_STEPS = 8, FACE_LATTICE = 8;
 const size_t FACE_SAMPLES = 9;
 
 double distance(const gp_Pnt &point, const TopoDS_Shape &shape) {
   BRepExtrema_DistShapeShape extrema(BRepBuilderAPI_MakeVertex(point).Vertex(), shape);
   return extrema.IsDone() ? extrema.Value() : INFINITY;
-}
-
-std::vector<gp_Pnt> points_of(const TopoDS_Edge &edge) {
-  const BRepAdaptor_Curve curve(edge);
-  std::vector<gp_Pnt> points;
-  const double first = curve.FirstParameter(), last = curve.LastParameter();
-  for (int i = 1; i <= EDGE_SAMPLES; i++)
-    points.push_back(curve.Value(first + (last - first) * i / (EDGE_SAMPLES + 1)));
-  return points;
 }
 
 std::string fails(const char *what, const gp_Pnt &at, double off, double unit) {
@@ -49,14 +38,6 @@ std::string fails(const char *what, const gp_Pnt &at, double off, double unit) {
     snprintf(text, sizeof text, "%s at radius %.3f, z %.3f mm has no image", what,
              1e3 * unit * std::hypot(at.X(), at.Y()), 1e3 * unit * at.Z());
   return text;
-}
-
-// The numbers of the parts of a shape, of one kind.
-std::set<int> numbers(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind, const TopTools_IndexedMapOfShape &all) {
-  std::set<int> found;
-  for (TopExp_Explorer explorer(shape, kind); explorer.More(); explorer.Next())
-    found.insert(all.FindIndex(explorer.Current()) - 1);
-  return found;
 }
 
 std::set<int> images_of(const std::set<int> &items, const std::vector<int> &next) {
@@ -124,22 +105,23 @@ std::string CwImagesOfSolid::find(const TopoDS_Shape &solid, int passages, doubl
     if (nearest > tolerance) return fails("a corner", point, nearest, unit);
   }
   std::vector<std::set<int>> ends, outline;
-  for (int e = 0; e < edges.Extent(); e++) ends.push_back(numbers(edges(e + 1), TopAbs_VERTEX, vertices));
-  for (int f = 0; f < faces.Extent(); f++) outline.push_back(numbers(faces(f + 1), TopAbs_EDGE, edges));
+  for (int e = 0; e < edges.Extent(); e++) ends.push_back(cw_cad_numbers(edges(e + 1), TopAbs_VERTEX, vertices));
+  for (int f = 0; f < faces.Extent(); f++) outline.push_back(cw_cad_numbers(faces(f + 1), TopAbs_EDGE, edges));
   for (int e = 0; e < edges.Extent(); e++) {
     const TopoDS_Edge &from = TopoDS::Edge(edges(e + 1));
     if (BRep_Tool::Degenerated(from)) return "it has a pole";
     const std::set<int> wanted = images_of(ends[e], vertex.next);
-    const std::vector<gp_Pnt> points = points_of(from);
+    const std::vector<gp_Pnt> points = cw_cad_edge_points(from, EDGE_STEPS);
     double nearest = INFINITY;
     for (int g = 0; g < edges.Extent(); g++) {
       if (ends[g] != wanted) continue;
       double far = 0;
-      for (const gp_Pnt &point : points) far = std::max(far, distance(point.Transformed(once), edges(g + 1)));
+      for (int i = 1; i < EDGE_STEPS; i++) // the ends are vertices
+        far = std::max(far, distance(points[i].Transformed(once), edges(g + 1)));
       if (far < nearest) nearest = far, edge.next[e] = g;
     }
     off = std::max(off, nearest);
-    if (nearest > tolerance) return fails("an edge", points[EDGE_SAMPLES / 2], nearest, unit);
+    if (nearest > tolerance) return fails("an edge", points[EDGE_STEPS / 2], nearest, unit);
   }
   CwFaceDistance to_face(solid);
   for (int f = 0; f < faces.Extent(); f++) {
@@ -163,7 +145,7 @@ std::string CwImagesOfSolid::find(const TopoDS_Shape &solid, int passages, doubl
 
 void CwImagesOfSolid::choose() {
   std::vector<std::set<int>> outline;
-  for (int f = 0; f < faces.Extent(); f++) outline.push_back(numbers(faces(f + 1), TopAbs_EDGE, edges));
+  for (int f = 0; f < faces.Extent(); f++) outline.push_back(cw_cad_numbers(faces(f + 1), TopAbs_EDGE, edges));
   std::vector<bool> settled(faces.Extent()), taken(edges.Extent()), kept(vertices.Extent());
   std::vector<int> queue;
   for (int seed = 0; seed < faces.Extent(); seed++) {
@@ -189,7 +171,7 @@ void CwImagesOfSolid::choose() {
       if (taken[edge.first[e]]) continue;
       put_first(e, edge);
       taken[e] = true;
-      for (const int v : numbers(edges(e + 1), TopAbs_VERTEX, vertices)) {
+      for (const int v : cw_cad_numbers(edges(e + 1), TopAbs_VERTEX, vertices)) {
         if (kept[vertex.first[v]]) continue;
         put_first(v, vertex);
         kept[v] = true;

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Section.hxx>
-#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -24,7 +22,6 @@
 #include <ShapeConstruct_ProjectCurveOnSurface.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Wire.hxx>
 #include <gp_Circ.hxx>
 
@@ -37,7 +34,7 @@ namespace {
 const double BEYOND = 2;  // of the greatest coordinate: how far the meridians reach
 const double SAME = 1e-7; // model units: curves that are turned copies already
 const double DISC = 0.5;  // of the way from the axis to the outline of a face: the disc that meridians leave out
-enum { SAMPLES = 5, OUTLINE_SAMPLES = 40, ANGLES = 48, BESIDE = 2 };
+enum { SAMPLES = 5, OUTLINE_STEPS = 40, ANGLES = 48, BESIDE = 2 };
 
 // Whether the axis goes through a plane face, at right angles.
 bool meets_axis(const TopoDS_Face &face) {
@@ -52,13 +49,8 @@ bool meets_axis(const TopoDS_Face &face) {
 // Points along the outline of a face.
 std::vector<std::vector<gp_Pnt>> outline_of(const TopoDS_Face &face) {
   std::vector<std::vector<gp_Pnt>> points;
-  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
-    const BRepAdaptor_Curve curve(TopoDS::Edge(at.Current()));
-    const double first = curve.FirstParameter(), last = curve.LastParameter();
-    points.emplace_back();
-    for (int i = 0; i <= OUTLINE_SAMPLES; i++)
-      points.back().push_back(curve.Value(first + (last - first) * i / OUTLINE_SAMPLES));
-  }
+  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next())
+    points.push_back(cw_cad_edge_points(TopoDS::Edge(at.Current()), OUTLINE_STEPS));
   return points;
 }
 
@@ -124,28 +116,14 @@ void add_turned(const TopoDS_Edge &edge, int from, const CwImagesOfSolid &images
 
 void cut(const TopTools_ListOfShape &tools, CwCadPart &part) {
   if (tools.IsEmpty()) return;
-  TopTools_ListOfShape arguments;
-  arguments.Append(part.solid);
-  BRepAlgoAPI_Splitter splitter;
-  splitter.SetArguments(arguments);
-  splitter.SetTools(tools);
-  splitter.SetNonDestructive(Standard_True);
-  splitter.Build();
-  TopExp_Explorer solid(splitter.Shape(), TopAbs_SOLID);
-  if (splitter.HasErrors() || !solid.More()) return;
-  const CwCadPart before = part;
-  part.solid = solid.Current();
-  cw_cad_carry({before}, part);
+  const std::vector<TopoDS_Shape> solids = cw_cad_split(part.solid, tools);
+  if (solids.size() == 1) cw_cad_replace(solids[0], part);
 }
 
 bool is_on_meridian(const TopoDS_Edge &edge) {
-  const BRepAdaptor_Curve curve(edge);
-  const double first = curve.FirstParameter(), last = curve.LastParameter();
-  const gp_Pnt begin = curve.Value(first);
-  for (int i = 1; i <= SAMPLES; i++) {
-    const gp_Pnt at = curve.Value(first + (last - first) * i / SAMPLES);
-    if (std::fabs(begin.X() * at.Y() - begin.Y() * at.X()) > SAME * std::hypot(at.X(), at.Y())) return false;
-  }
+  const std::vector<gp_Pnt> points = cw_cad_edge_points(edge, SAMPLES);
+  for (const gp_Pnt &at : points)
+    if (std::fabs(points[0].X() * at.Y() - points[0].Y() * at.X()) > SAME * std::hypot(at.X(), at.Y())) return false;
   return true;
 }
 
@@ -228,11 +206,14 @@ private:
   int vertex_number(const TopoDS_Shape &shape) const {
     return images.vertices.FindIndex(shape) - 1;
   }
+  // The copy, in the builder, in the place that `turns` turns take an item to.
+  int copy_of(const std::vector<std::vector<int>> &copies, const CwImageSet &set, int item, int turns) const {
+    return copies[set.first[item]][(set.turns[item] + turns) % images.count];
+  }
   Handle(Geom_Curve) copied_curve(int first, int turns, double range[2]) const;
   void add_vertices();
   void add_edges();
-  bool runs_alike(int e) const;
-  Handle(Geom2d_Curve) on_surface(int e, bool alike, const TopoDS_Face &face) const;
+  CwEdgeUse use_of(const TopoDS_Edge &used, const TopoDS_Face &face) const;
   void add_face(int f);
 };
 
@@ -258,39 +239,40 @@ void Copies::add_edges() {
     const int begin = vertex_number(TopExp::FirstVertex(forward)), end = vertex_number(TopExp::LastVertex(forward));
     for (int k = 0; k < images.count; k++) {
       double range[2];
-      const auto turned = [&](int v) {
-        return vertex[images.vertex.first[v]][(images.vertex.turns[v] + k) % images.count];
-      };
       const Handle(Geom_Curve) curve = copied_curve(e, k, range);
-      edge[e].push_back(builder.edge(curve, range[0], range[1], turned(begin), turned(end)));
+      edge[e].push_back(builder.edge(curve, range[0], range[1], copy_of(vertex, images.vertex, begin, k),
+                                     copy_of(vertex, images.vertex, end, k)));
     }
   }
 }
 
-// Whether an edge runs the way that the copy in its place does.
-bool Copies::runs_alike(int e) const {
+// A curve that a projection has made, in the period of the one that it takes the place of.
+void shift_to(const gp_Pnt2d &at, const gp_Pnt2d &wanted, const Geom_Surface &surface, Geom2d_Curve &curve) {
+  gp_Vec2d shift(at, wanted);
+  shift.SetX(surface.IsUPeriodic() ? surface.UPeriod() * std::round(shift.X() / surface.UPeriod()) : 0);
+  shift.SetY(surface.IsVPeriodic() ? surface.VPeriod() * std::round(shift.Y() / surface.VPeriod()) : 0);
+  if (shift.Magnitude() > 0) curve.Translate(shift);
+}
+
+// How a first face, forward, uses the copy in the place of one of its edges; `edge` of it is that edge's number.
+CwEdgeUse Copies::use_of(const TopoDS_Edge &used, const TopoDS_Face &face) const {
   double range[2], own[2];
+  const int e = images.edges.FindIndex(used) - 1;
   const Handle(Geom_Curve) copy = copied_curve(images.edge.first[e], images.edge.turns[e], range);
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(old_edge(e), own[0], own[1]);
   const gp_Pnt at = copy->Value(range[0] + (range[1] - range[0]) / 3);
-  return at.Distance(curve->Value(own[0] + (own[1] - own[0]) / 3)) <=
-         at.Distance(curve->Value(own[1] - (own[1] - own[0]) / 3));
-}
-
-// The copy's curve in the parameters of a first face, which has the edge itself.
-Handle(Geom2d_Curve) Copies::on_surface(int e, bool alike, const TopoDS_Face &face) const {
-  double range[2], own[2];
-  const Handle(Geom_Curve) copy = copied_curve(images.edge.first[e], images.edge.turns[e], range);
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(old_edge(e), own[0], own[1]);
-  const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(
-      TopoDS::Edge(old_edge(e).Oriented(TopAbs_FORWARD)), TopoDS::Face(face.Oriented(TopAbs_FORWARD)), own[0], own[1]);
+  const bool alike = at.Distance(curve->Value(own[0] + (own[1] - own[0]) / 3)) <=
+                     at.Distance(curve->Value(own[1] - (own[1] - own[0]) / 3));
+  const bool forward = (used.Orientation() == TopAbs_FORWARD) == alike;
+  const Handle(Geom2d_Curve) old =
+      BRep_Tool::CurveOnSurface(TopoDS::Edge(old_edge(e).Oriented(TopAbs_FORWARD)), face, own[0], own[1]);
   if (old.IsNull()) throw Standard_Failure("an edge has no curve on its face");
   bool same = alike && std::fabs(range[0] - own[0]) + std::fabs(range[1] - own[1]) <= Precision::PConfusion();
   for (int i = 0; i <= SAMPLES && same; i++) {
     const double t = range[0] + (range[1] - range[0]) * i / SAMPLES;
     same = copy->Value(t).Distance(curve->Value(t)) <= SAME;
   }
-  if (same) return old;
+  if (same) return {e, forward, old};
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   ShapeConstruct_ProjectCurveOnSurface projector;
   projector.Init(surface, Precision::Confusion());
@@ -298,39 +280,23 @@ Handle(Geom2d_Curve) Copies::on_surface(int e, bool alike, const TopoDS_Face &fa
   Handle(Geom2d_Curve) made;
   if (!projector.Perform(onto, range[0], range[1], made) || made.IsNull())
     throw Standard_Failure("an edge cannot be brought onto its face");
-  gp_Vec2d shift(made->Value((range[0] + range[1]) / 2), old->Value((own[0] + own[1]) / 2));
-  shift.SetX(surface->IsUPeriodic() ? surface->UPeriod() * std::round(shift.X() / surface->UPeriod()) : 0);
-  shift.SetY(surface->IsVPeriodic() ? surface->VPeriod() * std::round(shift.Y() / surface->VPeriod()) : 0);
-  if (shift.Magnitude() > 0) made->Translate(shift);
-  return made;
+  shift_to(made->Value((range[0] + range[1]) / 2), old->Value((own[0] + own[1]) / 2), *surface.get(), *made.get());
+  return {e, forward, made};
 }
 
 void Copies::add_face(int f) {
   const TopoDS_Face face = TopoDS::Face(images.faces(f + 1).Oriented(TopAbs_FORWARD));
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  struct Use {
-    int e;
-    CwEdgeUse use;
-  };
-  std::vector<std::vector<Use>> loops;
+  std::vector<std::vector<CwEdgeUse>> loops;
   for (TopExp_Explorer wire(face, TopAbs_WIRE); wire.More(); wire.Next()) {
     loops.emplace_back();
-    for (BRepTools_WireExplorer at(TopoDS::Wire(wire.Current()), face); at.More(); at.Next()) {
-      const int e = images.edges.FindIndex(at.Current()) - 1;
-      const bool alike = runs_alike(e);
-      loops.back().push_back(
-          {e, {0, (at.Current().Orientation() == TopAbs_FORWARD) == alike, on_surface(e, alike, face)}});
-    }
+    for (BRepTools_WireExplorer at(TopoDS::Wire(wire.Current()), face); at.More(); at.Next())
+      loops.back().push_back(use_of(at.Current(), face));
   }
   for (int k = 0; k < (images.is_fixed(f) ? 1 : images.count); k++) {
-    std::vector<std::vector<CwEdgeUse>> turned;
-    for (const std::vector<Use> &loop : loops) {
-      turned.emplace_back();
-      for (const Use &of : loop) {
-        turned.back().push_back(of.use);
-        turned.back().back().edge = edge[images.edge.first[of.e]][(images.edge.turns[of.e] + k) % images.count];
-      }
-    }
+    std::vector<std::vector<CwEdgeUse>> turned = loops;
+    for (std::vector<CwEdgeUse> &loop : turned)
+      for (CwEdgeUse &use : loop) use.edge = copy_of(edge, images.edge, use.edge, k);
     builder.face(Handle(Geom_Surface)::DownCast(surface->Transformed(images.turn(k))), turned,
                  images.faces(f + 1).Orientation() == TopAbs_FORWARD, "", "", std::to_string(f + 1));
   }
@@ -363,10 +329,9 @@ std::string make_symmetric(int count, double tolerance, double unit, CwCadPart &
     if (!faces_to_cut(images).empty()) return "a face of revolution cannot be cut";
   }
   images.choose();
-  const CwCadPart before = made;
-  made.solid = Copies(images).make(unit);
-  if (!BRepCheck_Analyzer(made.solid).IsValid()) return "turned copies make no valid solid";
-  cw_cad_carry({before}, made);
+  const TopoDS_Shape copies = Copies(images).make(unit);
+  if (!BRepCheck_Analyzer(copies).IsValid()) return "turned copies make no valid solid";
+  cw_cad_replace(copies, made);
   part = made;
   *off = images.off;
   return "";

@@ -58,7 +58,8 @@ std::array<double, 3> metres(const gp_Pnt &p, double unit) {
 }
 
 void put(const gp_Pnt &p, double unit, double x[3]) {
-  for (int i = 0; i < 3; i++) x[i] = p.Coord(i + 1) * unit;
+  const std::array<double, 3> at = metres(p, unit);
+  std::copy(at.begin(), at.end(), x);
 }
 
 std::array<double, 6> box_of(const TopoDS_Shape &face, double unit) {
