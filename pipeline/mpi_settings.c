@@ -5,6 +5,9 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/uio.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -31,6 +34,20 @@ static void require_memory(void) {
   exit(!rank || !strcmp(rank, "0") ? cw_log_error(NULL, status) : (int)status);
 }
 
+// Whether a process may read the memory of another of the same user: a child tries with this one.
+static int may_read_memory(void) {
+  static volatile int word;
+  pid_t parent = getpid(), child = (word = 1, fork());
+  int code = 1;
+  if (child < 0) return 0;
+  if (child == 0) {
+    int seen = word = 0;
+    struct iovec here = {&seen, sizeof seen}, there = {(void *)&word, sizeof word};
+    _exit(process_vm_readv(parent, &here, 1, &there, 1, 0) == sizeof seen && seen == 1 ? 0 : 1);
+  }
+  return waitpid(child, &code, 0) == child && code == 0;
+}
+
 void cw_mpi_settings(void) {
   require_memory();
   setenv("OMPI_MCA_sharedfp", "^lockedfile", 0);
@@ -39,4 +56,6 @@ void cw_mpi_settings(void) {
   if (alone) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int one_host = alone || (all && here && strcmp(all, here) == 0);
   if (one_host) setenv("OMPI_MCA_pml", "ob1", 0);
+  const char *copies = "OMPI_MCA_btl_vader_single_copy_mechanism";
+  if (!alone && !getenv(copies) && !may_read_memory()) setenv(copies, "none", 0);
 }

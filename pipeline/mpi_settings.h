@@ -8,6 +8,10 @@
 // daemon beside it either, which takes a quarter of a second: nobody is going to join it. Where there is too little
 // memory for MPI to start, the process ends here, with one line: MPI would crash.
 //
+// A message is copied once, from process to process, where a process may read the memory of another (process_vm_readv):
+// ranks that share a core are two to three times as quick by that. Some containers and kernels forbid it, and Open MPI
+// 4.1 fails there; it is tried once, by a child, and else Open MPI copies twice.
+//
 // Nobody here uses shared file pointers, but Open MPI prepares them for every file, and one of its ways of doing so
 // (sharedfp/lockedfile, to 5.0.9) ends the process where the path has more than some 240 characters (open-mpi/ompi
 // issue 13565). It is left out.

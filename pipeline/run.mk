@@ -26,11 +26,11 @@ endif
 
 # Also as root. A host that falls silent is given up after a minute (Open MPI 4.1 by itself: after eight). On this
 # machine also more ranks than it has cores, without binding, so that runs side by side do not share a core while
-# another is free, and without copies across processes, which containers forbid.
+# another is free.
 LAUNCHER ?= env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 $(if $(HOSTS),$\
   OMPI_MCA_oob_tcp_keepalive_time=30 OMPI_MCA_oob_tcp_keepalive_intvl=10 OMPI_MCA_oob_tcp_keepalive_probes=3 $\
   mpirun -q --hostfile $(HOSTS),$\
-  OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -q --oversubscribe --bind-to none) $(if $(NP),-n $(NP))
+  mpirun -q --oversubscribe --bind-to none) $(if $(NP),-n $(NP))
 
 # $(call cutwater_note,TEXT): puts the text into the target where it is not there yet.
 define cutwater_note

@@ -42,6 +42,14 @@ int MPI_Allgather(const void *from, int count, MPI_Datatype type, void *to, int 
   return PMPI_Allgather(from, count, type, to, each, kind, comm);
 }
 
+int MPI_Iallgatherv(const void *from, int count, MPI_Datatype type, void *to, const int *each, const int *place,
+                    MPI_Datatype kind, MPI_Comm comm, MPI_Request *request) {
+  int ranks;
+  MPI_Comm_size(comm, &ranks);
+  LOOK(place[ranks - 1] + each[ranks - 1], kind);
+  return PMPI_Iallgatherv(from, count, type, to, each, place, kind, comm, request);
+}
+
 int MPI_Reduce(const void *from, void *to, int count, MPI_Datatype type, MPI_Op operation, int root, MPI_Comm comm) {
   LOOK(count, type);
   return PMPI_Reduce(from, to, count, type, operation, root, comm);

@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -13,12 +14,15 @@
 #include "pipeline/parallel/message.h"
 #include "pipeline/stop_line.h"
 
+// Bytes in one message to all, and of all ranks at once to all, which have come before a rank that waits for them falls
+// asleep: who sleeps hands nothing on.
+static const int64_t TO_ALL = 1 << 20, AT_ONCE = 1 << 24;
 enum { LOOKS = 20 }; // for a message before the first sleep: some microseconds, less than the sleep itself
 // That a rank looks before it sleeps, s, where each has a core of its own: steps of all ranks follow one another in
 // milliseconds, and who sleeps through the end of a wait is late by up to a third of it.
 static const double LOOK_SECONDS = 2e-2;
-// A look that comes so much later than the one before, s, found the core with another program: for a while no rank that
-// waits here looks on, s.
+// Who looks on and is so much later, s, than its processor time tells, found the core with another program: for a while
+// no rank that waits here looks on, s.
 static const double LATE = 1e-3, CROWDED = 1;
 // One a process, as MPI is: whether its host has a core for each rank, and until when it is known to be taken by
 // others.
@@ -39,19 +43,39 @@ void cw_team_sleep(double seconds) {
   nanosleep(&pause, NULL);
 }
 
+static double thread_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 CwTeamWait cw_team_wait_begin(void) {
   double now = cw_seconds();
-  return (CwTeamWait){.pause = LEAST_PAUSE, .until = own_core ? now + LOOK_SECONDS : 0, .seen = now};
+  return (CwTeamWait){.pause = LEAST_PAUSE,
+                      .until = own_core ? now + LOOK_SECONDS : 0,
+                      .seen = now,
+                      .since = now,
+                      .used = thread_seconds()};
+}
+
+// Whether another program had the core since the last look. A look may take long of itself: it moves what has come.
+static int lost_core(CwTeamWait *wait, double now) {
+  if (now - wait->seen <= LATE) return 0;
+  double used = thread_seconds(), lost = (now - wait->since) - (used - wait->used);
+  wait->since = now;
+  wait->used = used;
+  return lost > LATE;
 }
 
 void cw_team_wait_on(CwTeamWait *wait) {
   double now = cw_seconds();
-  if (now < wait->until && now - wait->seen > LATE) crowded_until = now + CROWDED;
+  if (now < wait->until && lost_core(wait, now)) crowded_until = now + CROWDED;
   wait->seen = now;
   if (wait->looks++ < LOOKS || (now < wait->until && now >= crowded_until)) return;
   cw_team_sleep(wait->pause);
   if (wait->pause < MOST_PAUSE) wait->pause *= PAUSE_GROWTH;
-  wait->seen = cw_seconds();
+  wait->seen = wait->since = cw_seconds();
+  wait->used = thread_seconds();
 }
 
 void cw_team_wait(MPI_Request *request) {
@@ -160,10 +184,45 @@ void cw_team_most(const CwTeam *team, int64_t count, double *value) {
 void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from) {
   for (int64_t at = 0, part; at < size && team->ranks > 1; at += part) {
     MPI_Request request;
-    part = cw_message_items(size - at, 1);
+    part = cw_message_items(size - at < TO_ALL ? size - at : TO_ALL, 1);
     MPI_Ibcast((char *)bytes + at, (int)part, MPI_BYTE, from, team->comm, &request);
     cw_team_wait(&request);
   }
+}
+
+CwStatus cw_team_gather(const CwTeam *team, const int64_t *size, void **all) {
+  CwStatus status = CW_OK;
+  char *round = NULL;
+  int *part = NULL, *place = NULL, ranks = team->ranks;
+  int64_t most = 0;
+  if (ranks == 1) goto done;
+  for (int rank = 0; rank < ranks; rank++) most = size[rank] > most ? size[rank] : most;
+  int64_t width = cw_message_items(AT_ONCE, (size_t)ranks); // of each rank in one round
+  if (width > most) width = most;
+  CW_NEW(part, ranks);
+  CW_NEW(place, ranks);
+  CW_NEW_UNSET(round, width * ranks);
+  for (int64_t at = 0; at < most; at += width) {
+    MPI_Request request;
+    int end = 0;
+    for (int rank = 0; rank < ranks; rank++) {
+      int64_t left = size[rank] > at ? size[rank] - at : 0;
+      part[rank] = (int)(left < width ? left : width);
+      place[rank] = end;
+      end += part[rank];
+    }
+    MPI_Iallgatherv((char *)all[team->rank] + (part[team->rank] ? at : 0), part[team->rank], MPI_BYTE, round, part,
+                    place, MPI_BYTE, team->comm, &request);
+    cw_team_wait(&request);
+    for (int rank = 0; rank < ranks; rank++) {
+      if (rank != team->rank && part[rank]) memcpy((char *)all[rank] + at, round + place[rank], (size_t)part[rank]);
+    }
+  }
+done:
+  free(part);
+  free(place);
+  free(round);
+  return status;
 }
 
 CwStatus cw_team_split(const CwTeam *team, int number, CwTeam **part) {

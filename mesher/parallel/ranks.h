@@ -50,6 +50,10 @@ void cw_team_join(const CwTeam *team, CwTeam **part);
 // `size` bytes of the rank `from` to the others. [in,out] bytes.
 void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from);
 
+// The size[rank] bytes at all[rank] of each rank to all the others, at the same place. [in,out] all[ranks]: room for as
+// many bytes each. CW_ERR_MEMORY.
+CwStatus cw_team_gather(const CwTeam *team, const int64_t *size, void **all);
+
 // The greatest of all ranks, for each of `count` values. [in,out] value.
 void cw_team_most(const CwTeam *team, int64_t count, double *value);
 

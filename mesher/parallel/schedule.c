@@ -30,37 +30,45 @@ typedef struct {
   double owner, size, seconds;
 } TaskEnd;
 
-// Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few
-// broadcasts.
-static CwStatus gather_results(const CwTeam *team, int32_t count, const TaskEnd *end, void **bytes) {
+// The results of a rank, one behind the other in `pack`; to: 1 into the pack, 0 out of it, where room is made for each.
+static CwStatus move_results(int rank, int32_t count, const TaskEnd *end, int to, char *pack, void **bytes) {
   CwStatus status = CW_OK;
-  char *pack = NULL;
-  for (int rank = 0; rank < team->ranks && team->ranks > 1; rank++) {
-    int64_t total = 0, at = 0;
-    for (int32_t task = 0; task < count; task++) {
-      if (end[task].owner == rank) total += (int64_t)end[task].size;
-    }
-    if (total == 0) continue;
-    CW_NEW_UNSET(pack, total);
-    for (int32_t task = 0; rank == team->rank && task < count; task++) {
-      if (end[task].owner != rank || end[task].size == 0) continue;
-      memcpy(pack + at, bytes[task], (size_t)end[task].size);
-      at += (int64_t)end[task].size;
-    }
-    cw_team_broadcast(team, pack, total, rank);
-    at = 0;
-    for (int32_t task = 0; rank != team->rank && task < count; task++) {
-      if (end[task].owner != rank || end[task].size == 0) continue;
-      bytes[task] = malloc((size_t)end[task].size);
-      CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %.0f bytes", end[task].size);
-      memcpy(bytes[task], pack + at, (size_t)end[task].size);
-      at += (int64_t)end[task].size;
-    }
-    free(pack);
-    pack = NULL;
+  for (int32_t task = 0; task < count; task++) {
+    if (end[task].owner != rank || end[task].size == 0) continue;
+    size_t size = (size_t)end[task].size;
+    if (!to) bytes[task] = malloc(size);
+    CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %zu bytes", size);
+    memcpy(to ? pack : bytes[task], to ? bytes[task] : pack, size);
+    pack += size;
   }
 done:
+  return status;
+}
+
+// Every rank gets every result: thousands of small tasks, few messages.
+static CwStatus gather_results(const CwTeam *team, int32_t count, const TaskEnd *end, void **bytes) {
+  CwStatus status = CW_OK;
+  int64_t *size = NULL;
+  void **pack = NULL;
+  CW_NEW(size, team->ranks);
+  CW_NEW(pack, team->ranks);
+  if (team->ranks == 1) goto done;
+  for (int32_t task = 0; task < count; task++) size[(int)end[task].owner] += (int64_t)end[task].size;
+  for (int rank = 0; rank < team->ranks; rank++) {
+    pack[rank] = malloc((size_t)size[rank] + 1);
+    CW_REQUIRE(pack[rank], CW_ERR_MEMORY, "out of memory: results of %lld bytes", (long long)size[rank]);
+  }
+  CW_TRY(move_results(team->rank, count, end, 1, pack[team->rank], bytes));
+  CW_TRY(cw_team_gather(team, size, pack));
+  for (int rank = 0; rank < team->ranks; rank++) {
+    if (rank != team->rank) CW_TRY(move_results(rank, count, end, 0, pack[rank], bytes));
+    free(pack[rank]);
+    pack[rank] = NULL;
+  }
+done:
+  for (int rank = 0; pack && rank < team->ranks; rank++) free(pack[rank]);
   free(pack);
+  free(size);
   return status;
 }
 

@@ -25,7 +25,8 @@ void cw_team_sleep(double seconds);
 // The same for who looks for something else: after each look in vain cw_team_wait_on(), which sleeps no longer than
 // about a third of the time waited so far.
 typedef struct {
-  double pause, until, seen; // s: of the next sleep; when the first may begin; the last look
+  double pause, until;      // s: of the next sleep; when the first may begin
+  double seen, used, since; // s: the last look; processor time of this thread at the time `since`
   int looks;
 } CwTeamWait;
 CwTeamWait cw_team_wait_begin(void);

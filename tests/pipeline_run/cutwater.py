@@ -18,8 +18,7 @@ CELLS = int(os.environ.get("CUTWATER_CELLS", 200000))
 PAPER = SOURCE / "cases/paper/case.yaml"
 RUN = WORK / f"paper-{CELLS}"  # the run that the tests share
 
-MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                   "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 ENVIRONMENT = {**os.environ, **MPI_ENVIRONMENT, "WM_PROJECT_DIR": "/usr/share/openfoam"}
 MPI_STAGES = ("mesh", "export", "report")
 

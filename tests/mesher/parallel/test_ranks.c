@@ -33,6 +33,28 @@ static int spread_wrong(const CwTeam *all) {
   return wrong + (value[0] != ranks - 1) + (value[1] != 0);
 }
 
+// Each rank has other bytes, and so many: the first none, the second some, the others more than go at once.
+static int gather_wrong(const CwTeam *all) {
+  enum { MOST = 8 };
+  int rank = cw_team_rank(all), ranks = cw_team_ranks(all), wrong = 0;
+  int64_t size[MOST];
+  void *bytes[MOST];
+  for (int r = 0; r < ranks; r++) {
+    size[r] = r == 0 ? 0 : r == 1 ? 5 : 20000000 + r;
+    unsigned char *own = bytes[r] = malloc((size_t)size[r] + 1);
+    for (int64_t i = 0; i < size[r]; i++) own[i] = r == rank ? (unsigned char)(i % 251 + r) : 0;
+    own[size[r]] = 77;
+  }
+  wrong += cw_team_gather(all, size, bytes) != CW_OK;
+  for (int r = 0; r < ranks; r++) {
+    const unsigned char *got = bytes[r];
+    for (int64_t i = 0; i < size[r]; i++) wrong += got[i] != (unsigned char)(i % 251 + r);
+    wrong += got[size[r]] != 77;
+    free(bytes[r]);
+  }
+  return wrong;
+}
+
 // The even ranks and the odd ones apart.
 static int split_wrong(const CwTeam *all) {
   CwTeam *part;
@@ -52,7 +74,7 @@ static int be_a_rank(int argc, char **argv) {
   cw_log_open("test", NULL, rank == 0, 0, &test_log);
   CwStatus status = cw_team_agree(all, fail_where(argv[1], rank));
   if (status != CW_OK) return cw_mpi_fail(test_log, status);
-  int wrong = spread_wrong(all) + split_wrong(all) + (cw_mpi_ranks() != cw_team_ranks(all));
+  int wrong = spread_wrong(all) + gather_wrong(all) + split_wrong(all) + (cw_mpi_ranks() != cw_team_ranks(all));
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close(&test_log);
   cw_mpi_end(&all);
