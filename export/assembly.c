@@ -48,6 +48,7 @@ static void collected_free(Collected *c) {
 }
 
 void cw_assembly_free(CwAssembly *assembly) {
+  cw_region_share_free(&assembly->share);
   free(assembly->places);
   free(assembly->parts);
   free(assembly->patches);
@@ -169,24 +170,24 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   return face;
 }
 
-CwStatus cw_each_region(const CwMesh *mesh, const CwRanks *ranks, const char *title, CwRegionWork work, void *context) {
+CwStatus cw_each_region(const CwAssembly *a, const CwRanks *ranks, const char *title, CwRegionWork work,
+                        void *context) {
   CwStatus status = CW_OK;
-  cw_progress_start(ranks->log, title, mesh->region_count, "regions");
-  for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r)) {
-      CwRegionData data = {0};
-      cw_mesh_region_ahead(mesh, r + ranks->size);
-      status = cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &data);
-      if (status == CW_OK) status = work(context, r, &data);
-      cw_mesh_region_free(&data);
-    }
-    cw_progress(ranks->log, r + 1);
+  const int *own = a->share.own, count = a->share.own_count;
+  cw_progress_start(ranks->log, title, a->mesh->region_count, "regions");
+  for (int i = 0; i < count && status == CW_OK; ++i) {
+    CwRegionData data = {0};
+    if (i + 1 < count) cw_mesh_region_ahead(a->mesh, own[i + 1]);
+    status = cw_mesh_region_read(a->mesh, own[i], CW_REGION_WHOLE, &data);
+    if (status == CW_OK) status = work(context, own[i], &data);
+    cw_mesh_region_free(&data);
+    cw_progress(ranks->log, (int64_t)(i + 1) * a->mesh->region_count / count);
   }
   cw_progress_end(ranks->log);
   return status;
 }
 
-static CwStatus collect_region(void *context, int region, const CwRegionData *data) {
+static CwStatus collect_region(void *context, int region, CwRegionData *data) {
   CwStatus status = CW_OK;
   Collected *c = context;
   CwAssembly *a = c->assembly;
@@ -219,7 +220,7 @@ done:
 static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
   const CwMesh *mesh = a->mesh;
   for (int r = 0; r < mesh->region_count; ++r) {
-    int root = r % ranks->size;
+    int root = a->share.owner[r];
     CwPatchPart *parts = a->parts + (size_t)r * (size_t)mesh->patch_count;
     MPI_Bcast(&a->places[r], sizeof a->places[r], MPI_BYTE, root, ranks->comm);
     MPI_Bcast(parts, (int)sizeof *parts * mesh->patch_count, MPI_BYTE, root, ranks->comm);
@@ -391,9 +392,10 @@ done:
   return status;
 }
 
-static CwStatus prepare(const CwMesh *mesh, CwAssembly *a, Collected *c) {
+static CwStatus prepare(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
   a->mesh = mesh;
+  CW_TRY(cw_region_share(mesh, ranks, &a->share));
   CW_TRY(number_regions(mesh, a));
   CW_NEW(a->parts, (size_t)mesh->region_count * (size_t)mesh->patch_count);
   CW_NEW(a->patches, mesh->patch_count);
@@ -413,8 +415,8 @@ done:
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *a) {
   CwStatus status = CW_OK;
   Collected c = {.assembly = a};
-  CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
-  status = cw_each_region(mesh, ranks, "number the mesh", collect_region, &c);
+  CW_TRY(cw_ranks_agree(ranks, prepare(mesh, ranks, a, &c)));
+  status = cw_each_region(a, ranks, "number the mesh", collect_region, &c);
   CW_TRY(cw_ranks_agree(ranks, status));
   spread(ranks, a, &c);
   CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));

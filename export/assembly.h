@@ -6,6 +6,7 @@
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
 #include "export/face_quality.h"
+#include "export/region_share.h"
 #include "pipeline/parallel/ranks.h"
 #include "pipeline/mesh/region_faces.h"
 #include "pipeline/mesh/region_read.h"
@@ -44,6 +45,7 @@ typedef struct {
 
 typedef struct {
   const CwMesh *mesh;
+  CwRegionShare share;
   CwDomainTotal totals[CW_DOMAINS_MOST];
   CwRegionPlace *places; // by region
   CwPatchPart *parts;    // by region, then patch
@@ -61,12 +63,13 @@ typedef struct {
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *assembly);
 void cw_assembly_free(CwAssembly *assembly);
 
-// What is done with a region of this rank.
-typedef CwStatus (*CwRegionWork)(void *context, int region, const CwRegionData *data);
+// What is done with a region of this rank. `data` may be taken over, zeros left in its place.
+typedef CwStatus (*CwRegionWork)(void *context, int region, CwRegionData *data);
 
-// Reads each of this rank's regions whole, and the next one ahead, and gives it to `work`; tells `title` as progress.
-// Returns the first failure of this rank, after which it goes no further.
-CwStatus cw_each_region(const CwMesh *mesh, const CwRanks *ranks, const char *title, CwRegionWork work, void *context);
+// Reads each of this rank's regions whole, and the next one ahead, and gives it to `work`, those that are alike one
+// after another; tells `title` as progress. Returns the first failure of this rank, after which it goes no further.
+CwStatus cw_each_region(const CwAssembly *assembly, const CwRanks *ranks, const char *title, CwRegionWork work,
+                        void *context);
 
 // Number of a point of a region in its domain, 0-based.
 static inline int64_t cw_point_number(const CwAssembly *assembly, int region, const CwRegionData *data, int32_t point) {

@@ -268,7 +268,7 @@ done:
   return status;
 }
 
-static CwStatus count_region(void *context, int region, const CwRegionData *data) {
+static CwStatus count_region(void *context, int region, CwRegionData *data) {
   CwStatus status = CW_OK;
   Found *found = context;
   CwDivision *v = found->division;
@@ -297,10 +297,10 @@ static CwStatus spread_pieces(CwDivision *v, const CwRanks *ranks) {
   for (int r = 0; r < mesh->region_count; ++r)
     for (int p = v->first_piece[r]; p < v->first_piece[r + 1]; ++p) {
       CwPiece *piece = &v->pieces[p];
-      MPI_Bcast(&piece->own_points, 1, MPI_INT64_T, r % ranks->size, ranks->comm);
-      MPI_Bcast(&piece->inner, 2, MPI_INT64_T, r % ranks->size, ranks->comm);
-      MPI_Bcast(piece->patch, 2 * mesh->domains[mesh->regions[r].domain].patch_count, MPI_INT64_T, r % ranks->size,
-                ranks->comm);
+      MPI_Bcast(&piece->own_points, 1, MPI_INT64_T, v->assembly->share.owner[r], ranks->comm);
+      MPI_Bcast(&piece->inner, 2, MPI_INT64_T, v->assembly->share.owner[r], ranks->comm);
+      MPI_Bcast(piece->patch, 2 * mesh->domains[mesh->regions[r].domain].patch_count, MPI_INT64_T,
+                v->assembly->share.owner[r], ranks->comm);
     }
   return status;
 }
@@ -443,7 +443,7 @@ CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
   found.open_sides = calloc((size_t)a->open_count + 1, sizeof *found.open_sides);
   if (!v->open_cell || !v->open_part || !found.open_sides)
     status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on partition planes", (long long)a->open_count);
-  if (status == CW_OK) status = cw_each_region(a->mesh, ranks, "count the parts", count_region, &found);
+  if (status == CW_OK) status = cw_each_region(a, ranks, "count the parts", count_region, &found);
   CW_TRY(cw_ranks_agree(ranks, status));
   cw_ranks_reduce(ranks, v->open_cell, a->open_count, MPI_INT64_T, MPI_SUM);
   cw_ranks_reduce(ranks, v->open_part, a->open_count, MPI_INT32_T, MPI_SUM);

@@ -3,8 +3,11 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "pipeline/mesh/cell.h"
+
+static const double TURN_ROUNDING = 2e-15; // of the greatest coordinate: a few roundings
 
 static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionFigures *figures, CwMiddle *middle) {
   CwStatus status = CW_OK;
@@ -45,30 +48,100 @@ done:
   return status;
 }
 
-CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *data, CwRegionFaces *faces,
-                         CwRegionFigures *figures) {
+static int same_bytes(const void *a, const void *b, size_t count, size_t size) {
+  return count == 0 || memcmp(a, b, count * size) == 0;
+}
+
+// Whether a region of the same counts has the same cells and boundary faces, and its points are those of the model
+// turned about the axis.
+static int is_turned_copy(const CwRegionData *model, const CwRegionData *data) {
+  const size_t triangles = (size_t)data->triangle_count, quads = (size_t)data->quad_count;
+  double greatest = 0, squares = 0;
+  int32_t far = 0;
+  if (model->point_count != data->point_count || model->shared_count != data->shared_count ||
+      model->tetrahedron_count != data->tetrahedron_count || model->pyramid_count != data->pyramid_count ||
+      model->prism_count != data->prism_count || model->triangle_count != data->triangle_count ||
+      model->quad_count != data->quad_count)
+    return 0;
+  if (!same_bytes(model->tetrahedra, data->tetrahedra, (size_t)data->tetrahedron_count, sizeof *data->tetrahedra) ||
+      !same_bytes(model->pyramids, data->pyramids, (size_t)data->pyramid_count, sizeof *data->pyramids) ||
+      !same_bytes(model->prisms, data->prisms, (size_t)data->prism_count, sizeof *data->prisms) ||
+      !same_bytes(model->triangles, data->triangles, triangles, sizeof *data->triangles) ||
+      !same_bytes(model->triangle_cell, data->triangle_cell, triangles, sizeof *data->triangle_cell) ||
+      !same_bytes(model->quads, data->quads, quads, sizeof *data->quads) ||
+      !same_bytes(model->quad_cell, data->quad_cell, quads, sizeof *data->quad_cell))
+    return 0;
+  for (int32_t p = 0; p < model->point_count; ++p) {
+    const double *x = model->points[p], square = x[0] * x[0] + x[1] * x[1];
+    greatest = fmax(greatest, fmax(square, x[2] * x[2]));
+    if (square > squares) far = p;
+    squares = fmax(squares, square);
+  }
+  if (!(squares > 0)) return 0;
+  const double *x = model->points[far], *y = data->points[far], most = TURN_ROUNDING * sqrt(greatest);
+  const double c = (x[0] * y[0] + x[1] * y[1]) / squares, s = (x[0] * y[1] - x[1] * y[0]) / squares;
+  for (int32_t p = 0; p < model->point_count; ++p) {
+    x = model->points[p];
+    y = data->points[p];
+    if (!(fabs(c * x[0] - s * x[1] - y[0]) <= most && fabs(s * x[0] + c * x[1] - y[1]) <= most &&
+          fabs(x[2] - y[2]) <= most))
+      return 0;
+  }
+  return 1;
+}
+
+static CwStatus check_counts(const CwAssembly *a, int region, const CwRegionFaces *faces) {
   CwStatus status = CW_OK;
   const CwRegionPlace *place = &a->places[region];
-  const char *path = a->mesh->regions[region].path;
   int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
-  CwMiddle *middle = NULL;
-  CW_NEW_UNSET(middle, cw_region_cell_count(data));
-  CW_TRY(check_volumes(path, data, figures, middle));
-  CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, faces));
-  CW_TRY(check_points(path, data));
-  cw_face_quality_region(data, faces, middle, &figures->faces);
   CW_REQUIRE(faces->inner_triangles == place->inner_triangles && faces->inner_quads == place->inner_quads &&
                  faces->open_count == open,
-             CW_ERR_INPUT, "%s: has other faces than when it was first read", path);
+             CW_ERR_INPUT, "%s: has other faces than when it was first read", a->mesh->regions[region].path);
+done:
+  return status;
+}
+
+void cw_region_model_free(CwRegionModel *model) {
+  if (model->kept) cw_mesh_region_free(&model->data);
+  cw_region_faces_free(&model->faces);
+  *model = (CwRegionModel){0};
+}
+
+CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *data, CwRegionModel *model) {
+  CwStatus status = CW_OK;
+  const char *path = a->mesh->regions[region].path;
+  CwMiddle *middle = NULL;
+  if (!model->kept || a->share.alike[region] != a->share.alike[model->region] || !is_turned_copy(&model->data, data)) {
+    cw_region_model_free(model);
+    model->region = region;
+    CW_NEW_UNSET(middle, cw_region_cell_count(data));
+    CW_TRY(check_volumes(path, data, &model->figures, middle));
+    CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, &model->faces));
+    CW_TRY(check_points(path, data));
+    cw_face_quality_region(data, &model->faces, middle, &model->figures.faces);
+  }
+  CW_TRY(check_counts(a, region, &model->faces));
 done:
   free(middle);
   return status;
 }
 
+void cw_region_model_keep(const CwAssembly *a, int region, CwRegionData *data, CwRegionModel *model) {
+  int more = 0;
+  for (int r = region + 1; r < a->mesh->region_count; ++r) more |= a->share.alike[r] == a->share.alike[region];
+  if (!more) {
+    cw_region_model_free(model);
+  } else if (!model->kept) {
+    model->data = *data;
+    model->kept = 1;
+    *data = (CwRegionData){0};
+  }
+}
+
 void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figures, CwAssembly *a) {
   for (int r = 0; r < a->mesh->region_count; ++r) {
     CwDomainTotal *total = &a->totals[a->mesh->regions[r].domain];
-    MPI_Bcast(&figures[r], sizeof *figures, MPI_BYTE, r % ranks->size, ranks->comm);
+    MPI_Bcast(&figures[r], sizeof *figures, MPI_BYTE, a->share.owner[r], ranks->comm);
     total->least_volume =
         total->volume > 0 ? fmin(total->least_volume, figures[r].least_volume) : figures[r].least_volume;
     total->volume += figures[r].volume;

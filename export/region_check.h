@@ -10,11 +10,23 @@ typedef struct {
   CwFaceQuality faces;         // between its cells and on patches
 } CwRegionFigures;
 
-// Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and measures its cells. Fails
-// with CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
+// A region that has been checked, and kept where regions that are alike are still to come. Zeroed to begin with.
+typedef struct {
+  int region;
+  int kept; // 1: `data` is its
+  CwRegionData data;
+  CwRegionFaces faces;
+  CwRegionFigures figures;
+} CwRegionModel;
+
+// Checks a region: model->faces and model->figures are its own then, for good where it is a copy of the model, turned
+// about the axis (compared cell by cell and point by point), else until the next call; it is the model of the next one
+// where such are to come, and its data are taken over by cw_region_model_keep() once it is written. Fails with
+// CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
 // belongs to no cell, or the faces are not as many as the assembly found.
-CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionData *data, CwRegionFaces *faces,
-                         CwRegionFigures *figures);
+CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionData *data, CwRegionModel *model);
+void cw_region_model_keep(const CwAssembly *assembly, int region, CwRegionData *data, CwRegionModel *model);
+void cw_region_model_free(CwRegionModel *model);
 
 // Gives all ranks the figures of all regions, each set on the rank that owns it, and sums them into the totals of the
 // domains. Collective.

@@ -50,21 +50,23 @@ typedef struct {
   const CwRanks *ranks;
   CwOutput *output;
   CwRegionFigures *figures; // by region
+  CwRegionModel model;
+  int written; // regions of this rank
 } Writing;
 
 enum { SYNCS = 16 }; // times that what is written is sent to the disk on the way
 
-static CwStatus write_region(void *context, int region, const CwRegionData *data) {
+static CwStatus write_region(void *context, int region, CwRegionData *data) {
   CwStatus status = CW_OK;
-  const Writing *w = context;
-  CwRegionFaces faces = {0};
-  const int64_t regions = w->assembly->mesh->region_count;
-  CW_TRY(cw_region_check(w->assembly, region, data, &faces, &w->figures[region]));
-  CW_TRY(cw_output_write_region(w->output, region, data, &faces));
-  if (w->ranks->rank == 0 && (region + w->ranks->size) * SYNCS / regions > region * SYNCS / regions)
+  Writing *w = context;
+  const int64_t regions = w->assembly->share.own_count, written = ++w->written;
+  CW_TRY(cw_region_check(w->assembly, region, data, &w->model));
+  w->figures[region] = w->model.figures;
+  CW_TRY(cw_output_write_region(w->output, region, data, &w->model.faces));
+  cw_region_model_keep(w->assembly, region, data, &w->model);
+  if (w->ranks->rank == 0 && written * SYNCS / regions > (written - 1) * SYNCS / regions)
     cw_folder_sync_begin(w->output->folder);
 done:
-  cw_region_faces_free(&faces);
   return status;
 }
 
@@ -73,16 +75,19 @@ done:
 static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutput *output) {
   CwStatus status = CW_OK;
   const int regions = assembly->mesh->region_count;
-  Writing writing = {assembly, ranks, output, calloc((size_t)regions, sizeof *writing.figures)};
+  Writing writing = {.assembly = assembly,
+                     .ranks = ranks,
+                     .output = output,
+                     .figures = calloc((size_t)regions, sizeof *writing.figures)};
   if (!writing.figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", regions);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_output_open(output, ranks);
-  if (status == CW_OK)
-    status = cw_each_region(assembly->mesh, ranks, "check and write the mesh", write_region, &writing);
+  if (status == CW_OK) status = cw_each_region(assembly, ranks, "check and write the mesh", write_region, &writing);
 done:;
   CwStatus closed = cw_output_close(output);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
   if (status == CW_OK) cw_region_figures_sum(ranks, writing.figures, assembly);
+  cw_region_model_free(&writing.model);
   free(writing.figures);
   return status;
 }

@@ -15,11 +15,6 @@ typedef struct {
   CwLog *log; // of this rank
 } CwRanks;
 
-// The regions are dealt to the ranks in turn.
-static inline int cw_ranks_own(const CwRanks *ranks, int region) {
-  return region % ranks->size == ranks->rank;
-}
-
 // All ranks learn of a failure: returns `status` where it is one, CW_ERR_RANK where another rank has one,
 // else CW_OK. Collective.
 CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status);
