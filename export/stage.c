@@ -11,7 +11,6 @@
 #include "export/patch_role.h"
 #include "export/region_check.h"
 #include "pipeline/case_points.h"
-#include "pipeline/file_digest.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
@@ -230,26 +229,6 @@ static void warn(CwLog *log, const CwAssembly *a, const CwInterface *interfaces)
     if (!cw_patch_is_there(a, p)) cw_log_warn(log, "patch '%s' has no face and is left out", a->mesh->patches[p].name);
 }
 
-// The digest of a file that the ranks have written together, each of some of its blocks. Collective.
-static CwStatus digest_together(const char *path, const CwRanks *ranks, char digest[CW_HASH_TEXT]) {
-  CwStatus status = CW_OK;
-  CwHash *blocks = NULL;
-  int64_t size = 0;
-  CW_TRY(cw_ranks_agree(ranks, cw_file_size(path, &size)));
-  int64_t count = cw_file_block_count(size);
-  blocks = calloc((size_t)count + 1, sizeof *blocks);
-  if (!blocks)
-    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld blocks of %s", (long long)count, path);
-  else
-    status = cw_file_digest_blocks(path, size, ranks->rank, ranks->size, blocks);
-  CW_TRY(cw_ranks_agree(ranks, status));
-  cw_ranks_reduce(ranks, blocks, 2 * count, MPI_UINT64_T, MPI_SUM); // the others' are 0
-  cw_file_digest_join(blocks, size, digest);
-done:
-  free(blocks);
-  return status;
-}
-
 // Moves what was made to its place. What an earlier run left of other formats is not of this mesh.
 static CwStatus finish_files(const char *folder, const char *part, int formats) {
   CwStatus status = CW_OK;
@@ -327,7 +306,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &output));
   CW_TRY(cw_ranks_agree(ranks, join(part, cw_output_known_by(&output), &known)));
-  CW_TRY(digest_together(known, ranks, digest));
+  CW_TRY(cw_ranks_file_digest(ranks, known, digest));
   written = cw_seconds();
   int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
   for (int d = 0; d < mesh.domain_count; ++d) cells += assembly.totals[d].cells;

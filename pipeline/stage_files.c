@@ -44,14 +44,14 @@ done:
   return status;
 }
 
-static CwStatus check_files(const char *run, const char *stage, json_t *files) {
+static CwStatus check_files(const char *run, const char *stage, json_t *files, CwDigestOf digest_of, void *given) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE], digest[CW_HASH_TEXT];
   const char *name;
   json_t *wanted;
   json_object_foreach(files, name, wanted) {
     snprintf(path, sizeof path, "%s/%s/%s", run, stage, name);
-    CW_TRY(cw_file_digest(path, digest));
+    CW_TRY(digest_of(given, path, digest));
     CW_REQUIRE(json_is_string(wanted) && !strcmp(digest, json_string_value(wanted)), CW_ERR_IO,
                "%s: is not as cutwater-%s wrote it: damaged or replaced; run cutwater-%s again", path, stage, stage);
   }
@@ -59,19 +59,35 @@ done:
   return status;
 }
 
-CwStatus cw_stage_files_check(const char *run, const char *stage) {
+CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of,
+                                 void *given) {
   CwStatus status = CW_OK;
-  char digest[CW_HASH_TEXT];
+  char path[PATH_SIZE], digest[CW_HASH_TEXT];
   const char *from;
-  json_t *record = NULL, *files, *wanted;
-  CW_TRY(read_record(run, stage, &record, &files));
-  CW_TRY(check_files(run, stage, files));
+  json_t *files, *wanted;
+  snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
+  CW_TRY(cw_json_object(record, path, "files", &files));
+  CW_TRY(check_files(run, stage, files, digest_of, given));
   json_object_foreach(json_object_get(record, "made_from"), from, wanted) {
     CW_TRY(digest_stage(run, from, digest));
     CW_REQUIRE(json_is_string(wanted) && !strcmp(digest, json_string_value(wanted)), CW_ERR_INPUT,
                "%s/%s: was made from other files than lie in %s/%s; run cutwater-%s again", run, stage, run, from,
                stage);
   }
+done:
+  return status;
+}
+
+static CwStatus digest_alone(void *given, const char *path, char digest[CW_HASH_TEXT]) {
+  (void)given;
+  return cw_file_digest(path, digest);
+}
+
+CwStatus cw_stage_files_check(const char *run, const char *stage) {
+  CwStatus status = CW_OK;
+  json_t *record = NULL, *files;
+  CW_TRY(read_record(run, stage, &record, &files));
+  CW_TRY(cw_stage_files_check_by(run, stage, record, digest_alone, NULL));
 done:
   json_decref(record);
   return status;

@@ -7,6 +7,7 @@
 
 #include <jansson.h>
 
+#include "pipeline/hash.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -16,6 +17,11 @@ extern "C" {
 // Holds the files of RUN/STAGE, and those it was made from, against its record. CW_ERR_IO where one is missing or not
 // as it was written, CW_ERR_INPUT where the stage was made from other files than lie there.
 CwStatus cw_stage_files_check(const char *run, const char *stage);
+
+// The same with a record that has been read, and another way to digest a file, which is called for each one in the
+// order of the record. `given` goes to `digest_of`.
+typedef CwStatus (*CwDigestOf)(void *given, const char *path, char digest[CW_HASH_TEXT]);
+CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of, void *given);
 
 // For the record: by name the digest of the files of each stage, as its record tells of them. `stages` ends with NULL.
 // CW_ERR_IO, CW_ERR_INPUT, CW_ERR_MEMORY.

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/file_digest.h"
 #include "pipeline/parallel/message.h"
 
 CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status) {
@@ -90,4 +91,23 @@ void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count) {
     MPI_Exscan(MPI_IN_PLACE, values + at, (int)part, MPI_INT64_T, MPI_SUM, ranks->comm);
   }
   if (ranks->rank == 0) memset(values, 0, (size_t)count * sizeof *values); // MPI leaves these as they are
+}
+
+CwStatus cw_ranks_file_digest(const CwRanks *ranks, const char *path, char digest[CW_HASH_TEXT]) {
+  CwStatus status = CW_OK;
+  CwHash *blocks = NULL;
+  int64_t size = 0;
+  CW_TRY(cw_ranks_agree(ranks, cw_file_size(path, &size)));
+  int64_t count = cw_file_block_count(size);
+  blocks = calloc((size_t)count + 1, sizeof *blocks);
+  if (!blocks)
+    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld blocks of %s", (long long)count, path);
+  else
+    status = cw_file_digest_blocks(path, size, ranks->rank, ranks->size, blocks);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  cw_ranks_reduce(ranks, blocks, 2 * count, MPI_UINT64_T, MPI_SUM); // the others' are 0
+  cw_file_digest_join(blocks, size, digest);
+done:
+  free(blocks);
+  return status;
 }

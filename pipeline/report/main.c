@@ -10,6 +10,7 @@
 #include "pipeline/mpi_settings.h"
 #include "pipeline/parallel/ranks.h"
 #include "pipeline/record.h"
+#include "pipeline/report/export_check.h"
 #include "pipeline/report/page.h"
 #include "pipeline/stage_args.h"
 #include "pipeline/stop_line.h"
@@ -53,6 +54,7 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, const CwRan
   CwStatus status = CW_OK;
   CwRecord *record = NULL;
   CwReportData data = {0};
+  CwExportCheck *check = NULL;
   CwPumpSizes sizes;
   char *path = NULL, *record_path = NULL;
   double started = cw_seconds(), drawn;
@@ -61,7 +63,12 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, const CwRan
   if (status == CW_OK) status = cw_report_sizes(&data, &sizes);
   if (status == CW_OK && ranks->rank == 0) status = require_content(&data);
   CW_TRY(cw_ranks_agree(ranks, status));
+  if (data.record[CW_STAGE_OF_EXPORT]) {
+    status = cw_export_check_begin(args->run_path, data.record[CW_STAGE_OF_EXPORT], ranks, &check);
+    CW_TRY(cw_ranks_agree(ranks, status));
+  }
   CW_TRY(cw_report_pictures_draw(ranks, &data.mesh, &sizes, &data.flow, &data.pictures, &data.view));
+  if (check) CW_TRY(cw_export_check_end(check));
   drawn = cw_seconds();
   int64_t memory = cw_peak_memory_bytes();
   cw_ranks_reduce(ranks, &memory, 1, MPI_INT64_T, MPI_SUM);
@@ -74,6 +81,7 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, const CwRan
   CW_TRY(cw_record_write(record, record_path));
   cw_log(args->log, "%d pictures, page written to %s in %.1f s", data.pictures.count, path, cw_seconds() - started);
 done:
+  cw_export_check_free(&check);
   cw_record_free(record);
   cw_report_data_free(&data);
   free(path);

@@ -9,7 +9,6 @@
 #include "pipeline/case_origin.h"
 #include "pipeline/json_read.h"
 #include "pipeline/sealed_json.h"
-#include "pipeline/stage_files.h"
 
 const char *const cw_report_stage[CW_STAGES] = {"geometry", "mesh", "export"};
 
@@ -22,7 +21,6 @@ static CwStatus read_record(const char *run, const CwCase *table, int stage, jso
   if (!strcmp(cw_report_stage[stage], "export")) {
     if (access(path, F_OK) != 0) goto done; // not exported yet
     CW_TRY(cw_case_origin_check(table, run, "export"));
-    CW_TRY(cw_stage_files_check(run, "export"));
   }
   CW_TRY(cw_sealed_json_read(path, record));
   CW_TRY(cw_json_text(*record, path, "stage", &name));

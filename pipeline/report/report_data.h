@@ -23,9 +23,11 @@ typedef struct {
   CwFlow flow;
 } CwReportData;
 
+enum { CW_STAGE_OF_EXPORT = 2 };
 extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
 
-// Reads the files of `run` (all but the region files) and checks that they are of this case. CW_ERR_IO,
+// Reads the files of `run` (all but the region files and those of the export) and checks that they are of this case.
+// CW_ERR_IO,
 // CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data);
 void cw_report_data_free(CwReportData *data);
