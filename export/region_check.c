@@ -7,7 +7,7 @@
 
 #include "pipeline/mesh/cell.h"
 
-static const double TURN_ROUNDING = 2e-15; // of the greatest coordinate: a few roundings
+static const double TURN_ROUNDING = 2e-15; // of the greatest coordinate, and of a cosine: a few roundings
 
 static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionFigures *figures, CwMiddle *middle) {
   CwStatus status = CW_OK;
@@ -80,6 +80,7 @@ static int is_turned_copy(const CwRegionData *model, const CwRegionData *data) {
   if (!(squares > 0)) return 0;
   const double *x = model->points[far], *y = data->points[far], most = TURN_ROUNDING * sqrt(greatest);
   const double c = (x[0] * y[0] + x[1] * y[1]) / squares, s = (x[0] * y[1] - x[1] * y[0]) / squares;
+  if (!(fabs(c * c + s * s - 1) <= 2 * TURN_ROUNDING)) return 0; // stretched
   for (int32_t p = 0; p < model->point_count; ++p) {
     x = model->points[p];
     y = data->points[p];

@@ -19,11 +19,11 @@ typedef struct {
   CwRegionFigures figures;
 } CwRegionModel;
 
-// Checks a region: model->faces and model->figures are its own then, for good where it is a copy of the model, turned
-// about the axis (compared cell by cell and point by point), else until the next call; it is the model of the next one
-// where such are to come, and its data are taken over by cw_region_model_keep() once it is written. Fails with
-// CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
-// belongs to no cell, or the faces are not as many as the assembly found.
+// Checks a region; model->faces and model->figures are its own then, until the next call. Where it is a copy of the
+// model, turned about the axis (compared cell by cell and point by point), they are those of the model. Else it becomes
+// the model, whose data cw_region_model_keep() takes over once the region is written, where others that are alike are
+// to come. Fails with CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive
+// volume, a point belongs to no cell, or the faces are not as many as the assembly found.
 CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionData *data, CwRegionModel *model);
 void cw_region_model_keep(const CwAssembly *assembly, int region, CwRegionData *data, CwRegionModel *model);
 void cw_region_model_free(CwRegionModel *model);

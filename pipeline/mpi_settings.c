@@ -37,7 +37,8 @@ static void require_memory(void) {
 // Whether a process may read the memory of another of the same user: a child tries with this one.
 static int may_read_memory(void) {
   static volatile int word;
-  pid_t parent = getpid(), child = (word = 1, fork());
+  word = 1;
+  pid_t parent = getpid(), child = fork();
   int code = 1;
   if (child < 0) return 0;
   if (child == 0) {

@@ -135,6 +135,10 @@ static void what_is_no_turned_copy_is_checked_itself(void **state) {
   CwRegionData moved = turned(1);
   moved.points[4][2] -= 1e-13;
   assert_false(second_is_copy(&moved));
+  moved = turned(1); // wider, of the same height
+  for (int p = 0; p < 6; ++p)
+    for (int k = 0; k < 2; ++k) moved.points[p][k] *= 1.25;
+  assert_false(second_is_copy(&moved));
   moved = turned(1); // the same cells in another order
   memcpy(moved.tetrahedra, (int32_t[][4]){{0, 2, 1, 4}, {0, 1, 2, 3}}, sizeof tetrahedra);
   for (int i = 0; i < 6; ++i) moved.triangle_cell[i] = 1 - moved.triangle_cell[i];
