@@ -93,6 +93,11 @@ void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count) {
   if (ranks->rank == 0) memset(values, 0, (size_t)count * sizeof *values); // MPI leaves these as they are
 }
 
+void cw_ranks_digest_join(const CwRanks *ranks, CwHash *blocks, int64_t size, char digest[CW_HASH_TEXT]) {
+  cw_ranks_reduce(ranks, blocks, 2 * cw_file_block_count(size), MPI_UINT64_T, MPI_SUM); // the others' are 0
+  cw_file_digest_join(blocks, size, digest);
+}
+
 CwStatus cw_ranks_file_digest(const CwRanks *ranks, const char *path, char digest[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
   CwHash *blocks = NULL;
@@ -105,8 +110,7 @@ CwStatus cw_ranks_file_digest(const CwRanks *ranks, const char *path, char diges
   else
     status = cw_file_digest_blocks(path, size, ranks->rank, ranks->size, blocks);
   CW_TRY(cw_ranks_agree(ranks, status));
-  cw_ranks_reduce(ranks, blocks, 2 * count, MPI_UINT64_T, MPI_SUM); // the others' are 0
-  cw_file_digest_join(blocks, size, digest);
+  cw_ranks_digest_join(ranks, blocks, size, digest);
 done:
   free(blocks);
   return status;

@@ -19,7 +19,7 @@ struct CwExportCheck {
   json_t *record;
   const CwRanks *ranks;
   File *file;
-  int count, joined;
+  int count, asked, joined;
   pthread_t reader;
   CwStatus status; // of the reader, and why
   CwFailure failure;
@@ -70,25 +70,21 @@ static void wait_for(CwExportCheck *check) {
   check->joined = 1;
 }
 
-// The digest of a file of the record, in whose order they are asked for.
-static CwStatus digest_of(void *given, const char *path, char digest[CW_HASH_TEXT]) {
-  File **next = given;
+// The digest of a file of the record, in whose order they are asked for. Collective.
+static CwStatus digest_next(void *given, const char *path, char digest[CW_HASH_TEXT]) {
+  CwExportCheck *check = given;
+  File *file = &check->file[check->asked++];
   (void)path;
-  cw_file_digest_join((*next)->blocks, (*next)->size, digest);
-  ++*next;
+  cw_ranks_digest_join(check->ranks, file->blocks, file->size, digest);
   return CW_OK;
 }
 
 CwStatus cw_export_check_end(CwExportCheck *check) {
   CwStatus status = CW_OK;
-  File *next = check->file;
   wait_for(check);
   if (check->status != CW_OK) *cw_failure() = check->failure;
   CW_TRY(cw_ranks_agree(check->ranks, check->status));
-  for (int i = 0; i < check->count; i++)
-    cw_ranks_reduce(check->ranks, check->file[i].blocks, 2 * cw_file_block_count(check->file[i].size), MPI_UINT64_T,
-                    MPI_SUM);
-  status = cw_stage_files_check_by(check->run, "export", check->record, digest_of, &next);
+  status = cw_stage_files_check_by(check->run, "export", check->record, digest_next, check);
   CW_TRY(cw_ranks_agree(check->ranks, status));
 done:
   return status;
