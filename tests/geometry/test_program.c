@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "tests/remove_folder.h"
+
 static char folder[] = "geometry-program-XXXXXX";
 
 static int run(const char *case_file, const char *name) {
@@ -25,9 +27,7 @@ static int setup(void **state) {
 }
 
 static int teardown(void **state) {
-  char command[100];
-  snprintf(command, sizeof command, "rm -r %s", folder);
-  return system(command);
+  return remove_folder(folder);
 }
 
 static int messages_have(const char *words) {

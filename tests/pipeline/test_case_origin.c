@@ -17,6 +17,7 @@
 #include "pipeline/case_schema.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
+#include "tests/remove_folder.h"
 
 static char run[] = "/tmp/cutwater-origin-XXXXXX", path[sizeof run + 40];
 static CwCase paper;
@@ -37,9 +38,7 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  char command[sizeof run + 20];
-  snprintf(command, sizeof command, "rm -r %s", run);
-  return system(command);
+  return remove_folder(run);
 }
 
 static void the_same_case_is_taken(void **state) {

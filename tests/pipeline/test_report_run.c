@@ -22,6 +22,7 @@
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/report/page.h"
 #include "tests/seal_run.h"
+#include "tests/remove_folder.h"
 
 #define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
 
@@ -171,9 +172,7 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  char command[100];
-  snprintf(command, sizeof command, "rm -r %s", run);
-  return system(command);
+  return remove_folder(run);
 }
 
 // Runs the program by itself or by a launcher; returns its exit status and what it said.

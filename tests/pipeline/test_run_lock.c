@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/run_lock.h"
+#include "tests/remove_folder.h"
 
 #include <errno.h>
 #include <setjmp.h>
@@ -23,9 +24,7 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  char command[sizeof run + 20];
-  snprintf(command, sizeof command, "rm -r %s", run);
-  return system(command);
+  return remove_folder(run);
 }
 
 // Another process takes the folder for the mesher and waits for its end; returns when it has it.

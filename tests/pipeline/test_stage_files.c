@@ -17,6 +17,7 @@
 #include "pipeline/file_digest.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
+#include "tests/remove_folder.h"
 
 static char run[] = "/tmp/cutwater-files-XXXXXX", path[sizeof run + 60];
 
@@ -64,9 +65,7 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  char command[sizeof run + 20];
-  snprintf(command, sizeof command, "rm -r %s", run);
-  return system(command);
+  return remove_folder(run);
 }
 
 static void refuses(const char *stage, CwStatus code, const char *words) {

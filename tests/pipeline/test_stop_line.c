@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "pipeline/stop_line.h"
+#include "tests/remove_folder.h"
 
 enum { RANKS = 4 };
 
@@ -151,9 +152,7 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  char command[100];
-  snprintf(command, sizeof command, "rm -r %s", run);
-  return system(command);
+  return remove_folder(run);
 }
 
 int main(void) {

@@ -21,6 +21,7 @@
 #include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/case_read.h"
+#include "tests/remove_folder.h"
 
 enum { CELLS_PER_REGION = 20000 };
 
@@ -85,8 +86,7 @@ static int open_pump(void **state) {
   prism_factor = 2.45 * domain[0].layer_count;
   check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
   assert_true(symmetry || strcmp(case_name, "paper") != 0);
-  snprintf(command, sizeof command, "rm -r %s", folder);
-  assert_int_equal(system(command), 0);
+  assert_int_equal(remove_folder(folder), 0);
   return 0;
 }
 
