@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/rays.h"
 #include "mesher/common/vec.h"
 
 void cw_background_free(CwBackground *background) {
@@ -12,6 +13,7 @@ void cw_background_free(CwBackground *background) {
   free(background->face);
   free(background->uv);
   free(background->neighbour);
+  cw_rays_free(&background->rays);
   memset(background, 0, sizeof *background);
 }
 

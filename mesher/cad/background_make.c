@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/cad/background_tessellate.h"
+#include "mesher/cad/rays.h"
 #include "mesher/common/model_unit.h"
 
 typedef struct {
@@ -97,6 +98,7 @@ CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *b
   }
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "the tessellation encloses %g m3; it must be positive", volume);
+  CW_TRY(cw_rays_make(background, &background->rays));
 done:
   if (status != CW_OK) cw_background_free(background);
   return status;

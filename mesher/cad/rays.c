@@ -7,7 +7,8 @@
 #include "mesher/common/vec.h"
 
 struct CwRays {
-  const CwBackground *background;
+  const double (*x)[3]; // the background's
+  const int32_t (*triangle)[3];
   CwBoxTree triangles, normals;
 };
 
@@ -28,7 +29,8 @@ CwStatus cw_rays_make(const CwBackground *background, CwRays **rays) {
   CwRays *made = NULL;
   CwBox within = cw_box_of_points(background->point_count, (const double(*)[3])background->x);
   CW_NEW(made, 1);
-  made->background = background;
+  made->x = (const double(*)[3])background->x;
+  made->triangle = (const int32_t(*)[3])background->triangle;
   CW_TRY(cw_box_tree_make(NULL, background->triangle_count, &within, box_of, background, &made->triangles));
   CW_TRY(cw_box_tree_alike(NULL, &made->triangles, normal_of, background, &made->normals));
   *rays = made;
@@ -46,29 +48,26 @@ void cw_rays_free(CwRays **rays) {
   *rays = NULL;
 }
 
-// T. Moller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997; exits only.
-static int leaves_through(const CwBackground *background, int32_t t, const double x[3], const double d[3], double *s) {
-  const int32_t *n = background->triangle[t];
-  const double *a = background->x[n[0]], *b = background->x[n[1]], *c = background->x[n[2]];
-  double e[3], f[3], o[3];
-  for (int k = 0; k < 3; k++) {
-    e[k] = b[k] - a[k];
-    f[k] = c[k] - a[k];
-    o[k] = x[k] - a[k];
-  }
-  double normal[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
-  double det = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
-  if (!(det > 0)) return 0;
-  double q[3] = {o[1] * d[2] - o[2] * d[1], o[2] * d[0] - o[0] * d[2], o[0] * d[1] - o[1] * d[0]};
-  double u = -(f[0] * q[0] + f[1] * q[1] + f[2] * q[2]), v = e[0] * q[0] + e[1] * q[1] + e[2] * q[2];
-  if (u < 0 || v < 0 || u + v > det) return 0;
-  *s = -(normal[0] * o[0] + normal[1] * o[1] + normal[2] * o[2]) / det;
-  return 1;
+// T. Moller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997: whether the ray goes through the
+// triangle, outwards (1), inwards (-1), or not (0).
+static int goes_through(const CwRays *rays, int32_t t, const double x[3], const double d[3], double *s) {
+  const int32_t *corner = rays->triangle[t];
+  const double *a = rays->x[corner[0]];
+  double e[3], f[3], o[3], normal[3], q[3];
+  cw_sub(rays->x[corner[1]], a, e);
+  cw_sub(rays->x[corner[2]], a, f);
+  cw_sub(x, a, o);
+  cw_cross(e, f, normal);
+  cw_cross(o, d, q);
+  double det = cw_dot(normal, d), out = det > 0 ? 1 : -1, u = -out * cw_dot(f, q), v = out * cw_dot(e, q);
+  if (det == 0 || u < 0 || v < 0 || u + v > out * det) return 0;
+  *s = -cw_dot(normal, o) / det;
+  return (int)out;
 }
 
 // A ray, and what it has met.
 typedef struct {
-  const CwBackground *background;
+  const CwRays *rays;
   const double *x, *direction;
   double from, to;
   int32_t nearest;
@@ -77,7 +76,7 @@ typedef struct {
 static int meet(void *context, int32_t t) {
   Ray *ray = context;
   double s;
-  if (!leaves_through(ray->background, t, ray->x, ray->direction, &s) || s <= ray->from || s >= ray->to) return 0;
+  if (goes_through(ray->rays, t, ray->x, ray->direction, &s) <= 0 || s <= ray->from || s >= ray->to) return 0;
   ray->to = s;
   ray->nearest = t;
   return 0;
@@ -85,8 +84,40 @@ static int meet(void *context, int32_t t) {
 
 int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      double *distance) {
-  Ray ray = {rays->background, x, direction, from, to, -1};
+  Ray ray = {rays, x, direction, from, to, -1};
   cw_box_tree_ray(&rays->triangles, &rays->normals, x, direction, &ray.to, meet, &ray);
   if (ray.nearest >= 0) *distance = ray.to;
   return ray.nearest;
+}
+
+typedef struct {
+  const CwRays *rays;
+  const double *direction;
+  double start[3], to;
+  int32_t count, most;
+  CwRayHit *hit;
+} Hits;
+
+static int add_hit(void *context, int32_t t) {
+  Hits *hits = context;
+  double s;
+  if (!goes_through(hits->rays, t, hits->start, hits->direction, &s) || s < 0 || s > hits->to) return 0;
+  hits->hit[hits->count++] = (CwRayHit){s, t};
+  return hits->count == hits->most;
+}
+
+static int by_place(const void *a, const void *b) {
+  const CwRayHit *p = a, *q = b;
+  if (p->place != q->place) return p->place < q->place ? -1 : 1;
+  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+int32_t cw_rays_hits(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
+                     int32_t most, CwRayHit *hit) {
+  Hits hits = {.rays = rays, .direction = direction, .to = to - from, .most = most, .hit = hit};
+  for (int k = 0; k < 3; k++) hits.start[k] = x[k] + from * direction[k];
+  cw_box_tree_ray(&rays->triangles, NULL, hits.start, direction, &hits.to, add_hit, &hits);
+  for (int32_t i = 0; i < hits.count; i++) hit[i].place += from;
+  qsort(hit, (size_t)hits.count, sizeof *hit, by_place);
+  return hits.count;
 }

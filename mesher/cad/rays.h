@@ -14,7 +14,7 @@ extern "C" {
 
 typedef struct CwRays CwRays;
 
-// The background must outlive the rays.
+// The points and triangles of the background must outlive the rays; they are its own where cw_background_join made it.
 CwStatus cw_rays_make(const CwBackground *background, CwRays **rays);
 void cw_rays_free(CwRays **rays);
 
@@ -22,6 +22,17 @@ void cw_rays_free(CwRays **rays);
 // Hits from outside in are passed over: from a point on the wall they can only be rounding. *distance gets s.
 int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      double *distance);
+
+// A place where a line enters or leaves the domain.
+typedef struct {
+  double place;     // along the line, m
+  int32_t triangle; // of the background
+} CwRayHit;
+
+// All hits of the line x + s direction (unit vector), from <= s <= to, in order; at most `most` of them. An edge between
+// two triangles may be hit twice.
+int32_t cw_rays_hits(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
+                     int32_t most, CwRayHit *hit);
 
 #ifdef __cplusplus
 }

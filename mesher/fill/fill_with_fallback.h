@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The one call that fills a boundary: by the kernel, and by TetGen where the kernel's flips do not recover all
+// The one call that fills a boundary: by the kernel, and by TetGen where the kernel does not recover all
 // triangles or leave a cell that is flat.
 #ifndef CUTWATER_MESHER_FILL_FILL_WITH_FALLBACK_H
 #define CUTWATER_MESHER_FILL_FILL_WITH_FALLBACK_H

@@ -11,7 +11,6 @@
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill_mesh.h"
-#include "mesher/fill/fill_mesh.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel_core.h"
@@ -149,15 +148,16 @@ done:
   return status;
 }
 
-// Brings all boundary triangles into the mesh by flips. Where some are still missing the boundary does not cross
+// Brings all boundary triangles into the mesh by flips, and new points where these are stuck. Where some are still missing the boundary does not cross
 // itself.
-static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *facets, CwFillRecovery *recovery) {
+static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *facets, int32_t *source_count,
+                        CwFillRecovery *recovery) {
   CwStatus status = CW_OK;
   int64_t flips = 0;
   CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
   recovery->missing = facets->missing_count;
   for (int round = 0; round < cw_policy.recover_rounds && facets->missing_count; round++)
-    CW_TRY(cw_kernel_recover(mesh, facets, round, input->log, &flips));
+    CW_TRY(cw_kernel_recover(mesh, facets, round, input->log, source_count, &flips));
   recovery->flips = (int32_t)(flips < INT32_MAX ? flips : INT32_MAX);
   if (facets->missing_count) {
     CW_TRY(cw_boundary_check_crossing(input));
@@ -184,7 +184,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   CW_TRY(cw_delaunay_connect(&mesh));
   CW_TRY(cw_kernel_core_carve(&core, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
-  CW_TRY(recover(input, &mesh, &facets, &recovery));
+  CW_TRY(recover(input, &mesh, &facets, &count, &recovery));
   if (facets.missing_count) goto done;
   CW_TRY(keep_inside(input, &facets, &mesh));
   cw_facets_free(&facets);

@@ -12,7 +12,7 @@ extern "C" {
 
 typedef enum {
   CW_KERNEL_FILLED,
-  CW_KERNEL_NOT_RECOVERED // flips do not recover a triangle, or bodies that touch along an edge have it missing
+  CW_KERNEL_NOT_RECOVERED // a triangle is not recovered, or bodies that touch along an edge have it missing
 } CwKernelOutcome;
 
 // Promises and errors of cw_tetgen_fill. Where the boundary is not recovered *fill is empty but for fill->recovery,

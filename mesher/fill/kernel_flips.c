@@ -13,6 +13,7 @@ CwStatus cw_flips_make(CwTetMesh *mesh, CwFlips *flips) {
   memset(flips, 0, sizeof *flips);
   flips->mesh = mesh;
   CW_NEW(flips->tet_at, mesh->point_count);
+  flips->tet_at_space = mesh->point_count;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwTet *tet = &mesh->tet[t];
     cw_tet_prefetch_ahead(tet);
@@ -142,6 +143,32 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
   int count = cw_ring_tets(&table.cut[0][0], CW_RING, ring, a, b, 0, n - 1, tet, 0);
   CW_TRY(replace(flips, n, old, count, (const int32_t(*)[4])tet));
   *flipped = 1;
+done:
+  return status;
+}
+
+CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double part, int32_t *source_count,
+                        int *split) {
+  CwStatus status = CW_OK;
+  CwTetMesh *mesh = flips->mesh;
+  int32_t old[CW_RING], ring[CW_RING], tet[CW_CAVITY][4], middle;
+  double x[3];
+  *split = 0;
+  int n = cw_tet_ring(mesh, t, a, b, CW_RING, old, ring);
+  for (int k = 0; k < 3; k++) x[k] = (1 - part) * mesh->point[a].x[k] + part * mesh->point[b].x[k];
+  for (int k = 0; k < n; k++) {
+    const double *p = mesh->point[ring[k]].x, *q = mesh->point[ring[(k + 1) % n]].x;
+    if (cw_orient3d(mesh->point[a].x, x, p, q) <= 0 || cw_orient3d(x, mesh->point[b].x, p, q) <= 0) goto done;
+  }
+  if (n == 0) goto done;
+  CW_TRY(cw_tet_mesh_add_point(mesh, x, (*source_count)++, &middle));
+  CW_GROW(flips->tet_at, flips->tet_at_space, mesh->point_count);
+  for (int k = 0; k < n; k++) {
+    memcpy(tet[2 * k], (int32_t[4]){a, middle, ring[k], ring[(k + 1) % n]}, sizeof *tet);
+    memcpy(tet[2 * k + 1], (int32_t[4]){middle, b, ring[k], ring[(k + 1) % n]}, sizeof *tet);
+  }
+  CW_TRY(replace(flips, n, old, 2 * n, (const int32_t(*)[4])tet));
+  *split = 1;
 done:
   return status;
 }

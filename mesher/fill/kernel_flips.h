@@ -21,7 +21,7 @@ typedef int (*CwCrossing)(const void *context, int count, const int32_t *point);
 
 typedef struct {
   CwTetMesh *mesh;
-  int32_t *tet_at; // one tetrahedron of each point
+  int32_t *tet_at, tet_at_space; // one tetrahedron of each point
   int32_t *star, star_count, star_space;
   CwCrossing crossing;
   const void *context;
@@ -43,6 +43,9 @@ CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped);
 // Takes the edge a-b of t away; of all valid triangulations of its ring the one with the fewest crossings. *flipped as
 // above.
 CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *flipped);
+// Puts a new point on the edge a-b of t, such a part of the way from a, with the source (*source_count)++. *split is 0
+// where rounding or too many tetrahedra forbid it.
+CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double part, int32_t *source_count, int *split);
 
 #ifdef __cplusplus
 }

@@ -20,6 +20,7 @@ typedef struct {
   const CwFacets *facets;
   Goal goal;
   uint32_t random;
+  int32_t *source_count;
 } Recovery;
 
 static int side(const CwTetMesh *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
@@ -96,18 +97,24 @@ done:
   return status;
 }
 
-// The first face or edge between a and b, and a flip that takes it away. *found: the edge is there.
-static CwStatus clear_towards(Recovery *r, int32_t a, int32_t b, int depth, int *found, int *moved) {
+// What lies on the way from a to b beside a, in tetrahedron t: an edge (count = 2) or a face (3) opposite its corner
+// `at`; count = 0: another point, or nothing, as the edge is there.
+typedef struct {
+  int count, at;
+  int32_t t, point[3];
+} Obstacle;
+
+static CwStatus look_towards(Recovery *r, int32_t a, int32_t b, int *found, Obstacle *obstacle) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
   const CwTetMesh *mesh = flips->mesh;
   int32_t t;
-  *moved = 0;
+  *obstacle = (Obstacle){.count = 0};
   CW_TRY(cw_flips_find_edge(flips, a, b, &t));
   *found = t >= 0;
   for (int32_t k = 0; k < flips->star_count && !*found; k++) {
     const CwTet *tet = &mesh->tet[flips->star[k]];
-    int at = 0, zeros = 0, zero = -1, within = 1;
+    int at = 0, zeros = 0, zero = -1, within = 1, count = 0;
     while (tet->corner[at] != a) at++;
     for (int i = 0; i < 4 && within; i++) {
       if (i == at) continue;
@@ -122,28 +129,32 @@ static CwStatus clear_towards(Recovery *r, int32_t a, int32_t b, int depth, int 
       }
     }
     if (!within) continue;
-    t = flips->star[k];
-    int32_t f[3];
-    for (int i = 0; i < 3; i++) f[i] = tet->corner[cw_tet_face[at][i]];
-    if (zeros > 1) goto done; // through a point
-    if (zeros == 1) {
-      int32_t end[2];
-      int ends = 0;
-      for (int i = 0; i < 4; i++) {
-        if (i != at && i != zero) end[ends++] = tet->corner[i];
-      }
-      CW_TRY(clear_edge(r, t, end[0], end[1], depth, moved));
-      goto done;
-    }
-    if (cw_facets_find(r->facets, f) >= 0) goto done;
-    CW_TRY(cw_flips_face(flips, t, at, moved));
-    *moved *= 2;
-    for (int level = 0; level <= depth && !*moved; level++) {
-      int first = level ? draw(r, 3) : 0;
-      for (int i = first; i < first + 3 && !*moved; i++)
-        CW_TRY(clear_edge(r, t, f[i % 3], f[(i + 1) % 3], level, moved));
+    if (zeros > 1) goto done;
+    *obstacle = (Obstacle){.count = 3 - zeros, .at = at, .t = flips->star[k]};
+    for (int i = 0; i < 3; i++) {
+      int corner = cw_tet_face[at][i];
+      if (corner != zero) obstacle->point[count++] = tet->corner[corner];
     }
     goto done;
+  }
+done:
+  return status;
+}
+
+// A flip that takes away what is on the way from a to b. *found: the edge is there.
+static CwStatus clear_towards(Recovery *r, int32_t a, int32_t b, int depth, int *found, int *moved) {
+  CwStatus status = CW_OK;
+  Obstacle on;
+  *moved = 0;
+  CW_TRY(look_towards(r, a, b, found, &on));
+  if (on.count == 2) CW_TRY(clear_edge(r, on.t, on.point[0], on.point[1], depth, moved));
+  if (on.count < 3 || cw_facets_find(r->facets, on.point) >= 0) goto done;
+  CW_TRY(cw_flips_face(&r->flips, on.t, on.at, moved));
+  *moved *= 2;
+  for (int level = 0; level <= depth && !*moved; level++) {
+    int first = level ? draw(r, 3) : 0;
+    for (int i = first; i < first + 3 && !*moved; i++)
+      CW_TRY(clear_edge(r, on.t, on.point[i % 3], on.point[(i + 1) % 3], level, moved));
   }
 done:
   return status;
@@ -193,6 +204,38 @@ done:
   return status;
 }
 
+// Puts a point on edge p-q of t, if it is none of the boundary's, not far from the middle, and by chance, lest it come
+// to lie in line with others.
+static CwStatus put_point(Recovery *r, int32_t t, int32_t p, int32_t q, int *put) {
+  if (cw_facets_has_edge(r->facets, p, q)) return CW_OK;
+  return cw_flips_split(&r->flips, t, p, q, (96 + draw(r, 64)) / 256.0, r->source_count, put);
+}
+
+// On one that is on the way from a to b.
+static CwStatus put_point_between(Recovery *r, int32_t a, int32_t b, int *put) {
+  CwStatus status = CW_OK;
+  Obstacle on;
+  int found;
+  *put = 0;
+  CW_TRY(look_towards(r, a, b, &found, &on));
+  for (int i = 0; i < on.count && !*put; i++)
+    CW_TRY(put_point(r, on.t, on.point[i], on.point[(i + 1) % on.count], put));
+done:
+  return status;
+}
+
+// Where flips alone are stuck (P. L. George, F. Hecht, E. Saltel, Automatic mesh generator with specified boundary, 1991,
+// whose points are moved from there later): the improvement moves these, too, or takes them away.
+static CwStatus recover_edge_by_points(Recovery *r, int32_t a, int32_t b, int *found) {
+  CwStatus status = CW_OK;
+  for (int put = 1, points = 0; put && !*found && points < cw_policy.recover_tries; points++) {
+    CW_TRY(put_point_between(r, points % 2 ? b : a, points % 2 ? a : b, &put));
+    if (put) CW_TRY(recover_edge(r, a, b, found));
+  }
+done:
+  return status;
+}
+
 // Whether face i of a tetrahedron is the facet, seen from inside.
 static int is_inner(const CwTet *tet, int i, const int32_t facet[3]) {
   const int8_t *face = cw_tet_face[i];
@@ -225,16 +268,19 @@ done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int64_t *flips) {
+CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int32_t *source_count,
+                           int64_t *flips) {
   CwStatus status = CW_OK;
-  Recovery r = {.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + (uint32_t)round};
+  Recovery r = {.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + (uint32_t)round, .source_count = source_count};
   int lost_edges = 0, lost_faces = 0, found;
   CW_TRY(cw_flips_make(mesh, &r.flips));
   r.flips.context = &r.goal;
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0) continue;
     for (int k = 0; k < 3; k++) {
-      CW_TRY(recover_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], &found));
+      int32_t a = facets->corner[f][k], b = facets->corner[f][(k + 1) % 3];
+      CW_TRY(recover_edge(&r, a, b, &found));
+      if (!found && round > 0) CW_TRY(recover_edge_by_points(&r, a, b, &found));
       lost_edges += !found;
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Brings boundary triangles that the Delaunay mesh does not have into it, by flips.
+// Brings boundary triangles that the Delaunay mesh does not have into it, by flips and a few new points.
 #ifndef CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
 #define CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
 
@@ -11,9 +11,11 @@ extern "C" {
 #endif
 
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered
-// stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. Another `round`
-// tries other flips. Adds what was flipped to *flips. Deterministic.
-CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int64_t *flips);
+// stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. A later `round`
+// than the first tries other flips, and puts new points inside where these are stuck, with the sources *source_count
+// and on. Adds what was flipped to *flips. Deterministic.
+CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int32_t *source_count,
+                           int64_t *flips);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/cad/rays.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
@@ -227,8 +228,9 @@ static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, con
   CwStatus status = CW_OK;
   cut_to_cell(line, node, part);
   if (!(line->to > line->from)) return CW_OK;
-  CwPlanHit hit[HITS_MOST];
-  int32_t hits = cw_plan_line_hits(line->model, line->point, line->direction, line->from, line->to, HITS_MOST, hit);
+  CwRayHit hit[HITS_MOST];
+  int32_t hits =
+      cw_rays_hits(line->model->background->rays, line->point, line->direction, line->from, line->to, HITS_MOST, hit);
   if (hits == HITS_MOST) lines->impossible = 1; // there may be more of them
   int found = 0;
   End from = {line->from, -1, 0, 0};

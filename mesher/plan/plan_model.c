@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "mesher/cad/cad_leave_out.h"
+#include "mesher/cad/rays.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
-enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64, HITS_MOST = 64 };
+enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
 enum {
   SAMPLES_OF_REGION = 1000, // of the volume
   TOGETHER = 8,             // places of the size field in one sample, at most
@@ -211,65 +212,6 @@ CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double
   return wall;
 }
 
-typedef struct {
-  const CwBackground *background;
-  double start[3], direction[3], to;
-  int32_t count, most;
-  CwPlanHit *hit;
-} Hits;
-
-// T. Moller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
-static int add_hit(void *context, int32_t t) {
-  Hits *hits = context;
-  const int32_t *corner = hits->background->triangle[t];
-  const double *a = hits->background->x[corner[0]];
-  double u[3], v[3], o[3], p[3], q[3];
-  cw_sub(hits->background->x[corner[1]], a, u);
-  cw_sub(hits->background->x[corner[2]], a, v);
-  cw_sub(hits->start, a, o);
-  cw_cross(hits->direction, v, p);
-  cw_cross(o, u, q);
-  double det = cw_dot(u, p), side = det > 0 ? 1 : -1, along_u = side * cw_dot(o, p);
-  double along_v = side * cw_dot(hits->direction, q);
-  if (det == 0 || along_u < 0 || along_v < 0 || along_u + along_v > side * det) return 0;
-  double place = cw_dot(v, q) / det;
-  if (place < 0 || place > hits->to) return 0;
-  hits->hit[hits->count++] = (CwPlanHit){place, t};
-  return hits->count == hits->most;
-}
-
-static int by_place(const void *a, const void *b) {
-  const CwPlanHit *p = a, *q = b;
-  if (p->place != q->place) return p->place < q->place ? -1 : 1;
-  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
-}
-
-int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const double direction[3], double from,
-                          double to, int32_t most, CwPlanHit *hit) {
-  Hits hits = {.background = model->background, .to = to - from, .most = most, .hit = hit};
-  for (int k = 0; k < 3; k++) hits.start[k] = point[k] + from * direction[k];
-  cw_copy(direction, hits.direction);
-  cw_box_tree_ray(&model->triangles, NULL, hits.start, direction, &hits.to, add_hit, &hits);
-  for (int32_t i = 0; i < hits.count; i++) hit[i].place += from;
-  qsort(hit, (size_t)hits.count, sizeof *hit, by_place);
-  return hits.count;
-}
-
-static CwBox box_of(const void *context, int32_t t) {
-  const CwBackground *background = context;
-  const int32_t *corner = background->triangle[t];
-  return cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
-}
-
-static CwStatus sort_triangles(CwPlanModel *model) {
-  const CwBackground *background = model->background;
-  CwBox within = cw_box_empty();
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) cw_box_add_point(&within, background->x[background->triangle[t][k]]);
-  }
-  return cw_box_tree_make(model->context, background->triangle_count, &within, box_of, background, &model->triangles);
-}
-
 // Of a background triangle.
 typedef struct {
   double normal[3], density, thickness;
@@ -304,20 +246,15 @@ static CwStatus measure(void *context, int32_t t, void *out) {
 static CwStatus limit_by_gap(void *context, int32_t t, void *out) {
   const CwPlanModel *model = context;
   const CwBackground *background = model->background;
-  double *thickness = out, centre[3] = {0, 0, 0}, inward[3];
-  CwPlanHit hit[HITS_MOST];
+  double *thickness = out, centre[3], inward[3], distance;
   *thickness = model->thickness[t];
   if (*thickness == 0) return CW_OK;
-  for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
+  cw_background_area(background, t, centre);
   for (int k = 0; k < 3; k++) inward[k] = -model->normal[t][k];
   double far = *thickness / cw_policy.gap_share;
-  int32_t hits = cw_plan_line_hits(model, centre, inward, HAIR * far, far, HITS_MOST, hit);
-  for (int32_t i = 0; i < hits; i++) {
-    int32_t met = hit[i].triangle;
-    if (!model->wall[met] || cw_dot(inward, model->normal[met]) < cw_policy.size_facing) continue;
-    *thickness = cw_policy.gap_share * hit[i].place;
-    break;
-  }
+  int32_t met = cw_rays_exit(background->rays, centre, inward, HAIR * far, far, &distance);
+  if (met >= 0 && model->wall[met] && cw_dot(inward, model->normal[met]) >= cw_policy.size_facing)
+    *thickness = cw_policy.gap_share * distance;
   return CW_OK;
 }
 
@@ -460,7 +397,6 @@ CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const Cw
   model->region_count = options->region_count;
   model->base_size = options->base_size;
   CW_TRY(measure_walls(cad, options, model));
-  CW_TRY(sort_triangles(model));
   CW_TRY(limit_layers(model));
   CW_TRY(sample_walls(model));
   CW_TRY(sample_volume(options, model));
@@ -487,6 +423,5 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);
-  cw_box_tree_free(&model->triangles);
   memset(model, 0, sizeof *model);
 }

@@ -7,7 +7,6 @@
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
 #include "mesher/cad/inside.h"
-#include "mesher/common/box_tree.h"
 #include "mesher/common/cubes.h"
 #include "mesher/parallel/context.h"
 #include "mesher/plan/plan.h"
@@ -52,7 +51,6 @@ typedef struct {
   int32_t *wall_triangle; // of each, the background triangle
   double thickest;        // m, of the layers anywhere
   CwCubes walls;
-  CwBoxTree triangles;  // all of the background
   int32_t region_count; // asked
   double mean_work;     // of the regions to be
 } CwPlanModel;
@@ -96,16 +94,5 @@ typedef struct {
 
 // The wall nearest to x; none, infinitely far and with no layers, where none is within `reach` m or a little more.
 CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach);
-
-// A place where a line enters or leaves the domain.
-typedef struct {
-  double place;     // along the line, m
-  int32_t triangle; // of the background
-} CwPlanHit;
-
-// All hits of the line point + s direction, from <= s <= to, in order; at most `most` of them. An edge between two
-// triangles may be hit twice.
-int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const double direction[3], double from,
-                          double to, int32_t most, CwPlanHit *hit);
 
 #endif

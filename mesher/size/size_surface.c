@@ -25,7 +25,6 @@ struct CwSizeSurface {
   CwSizeInput input;
   CwSizeGrid grid;  // of the face in hand; unset in between
   float *curvature; // of each background point on that face, 1/m; below 0: not known yet
-  CwRays *rays;
   int32_t *face_start; // triangles of face f: face_triangle[face_start[f] .. face_start[f + 1])
   int32_t *face_triangle;
   double (*crease)[3]; // points along creases where walls meet at less than 160 degrees of fluid
@@ -115,7 +114,7 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   const CwBackground *b = input->background;
   const double inward[3] = {-outward[0], -outward[1], -outward[2]};
   double cells = fmax(input->table->cells_across_gap, 1), distance;
-  int32_t hit = cw_rays_exit(surface->rays, x, inward, 1e-3 * patch_size, cells * patch_size, &distance);
+  int32_t hit = cw_rays_exit(b->rays, x, inward, 1e-3 * patch_size, cells * patch_size, &distance);
   if (hit < 0) return INFINITY;
   // Before an open face there are no layers and no velocity profile: two cells do.
   if (!cw_cad_face_is_wall(input->cad, b->face[t]) || !cw_cad_face_is_wall(input->cad, b->face[hit]))
@@ -236,7 +235,6 @@ CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) 
   for (int f = 0; f < faces; f++) // ends of the faces, filled from behind
     surface->face_start[f + 1] += surface->face_start[f];
   for (int32_t t = b->triangle_count - 1; t >= 0; t--) surface->face_triangle[--surface->face_start[b->face[t]]] = t;
-  CW_TRY(cw_rays_make(b, &surface->rays));
   CW_TRY(find_creases(surface));
   *result = surface;
   surface = NULL;
@@ -247,7 +245,6 @@ done:
 
 void cw_size_surface_free(CwSizeSurface **surface) {
   if (!*surface) return;
-  cw_rays_free(&(*surface)->rays);
   cw_cubes_free(&(*surface)->cubes);
   cw_size_grid_free(&(*surface)->grid);
   free((*surface)->curvature);

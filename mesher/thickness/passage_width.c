@@ -25,7 +25,6 @@ typedef struct {
 typedef struct {
   const CwCad *cad;
   const CwBackground *background;
-  const CwRays *rays;
   const double *width;
   const int32_t *first;    // ray of each triangle; last: of all
   const double *area;      // that the rays of each triangle stand for
@@ -62,7 +61,7 @@ static CwStatus look_across(void *context, int32_t ray, void *out) {
   centre_of_part(look, t, n, ray - look->first[t], x);
   cw_background_normal(b, t, normal);
   const double inward[3] = {-normal[0], -normal[1], -normal[2]};
-  int32_t hit = cw_rays_exit(look->rays, x, inward, 1e-3 * width, (1 - 1.0 / BINS) * width, &distance);
+  int32_t hit = cw_rays_exit(b->rays, x, inward, 1e-3 * width, (1 - 1.0 / BINS) * width, &distance);
   if (hit < 0 || !cw_cad_face_is_wall(look->cad, b->face[hit])) return CW_OK;
   cw_background_normal(b, hit, met);
   if (cw_dot(inward, met) >= cw_policy.size_facing) seen->bin = (int32_t)fmin(BINS * distance / width, BINS - 1);
@@ -82,11 +81,10 @@ static double width_of(const double area[BINS + 1], double width) {
 
 CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwBackground *background, double *width) {
   CwStatus status = CW_OK;
-  CwRays *rays = NULL;
   Seen *seen = NULL;
   int32_t *first = NULL, *triangle = NULL, triangles = background->triangle_count;
   double(*area)[BINS + 1] = NULL, *stands_for = NULL, *waiting = NULL, *step = NULL, centre[3];
-  Look look = {cad, background, NULL, width, NULL, NULL, NULL};
+  Look look = {cad, background, width, NULL, NULL, NULL};
   int patches = cw_cad_patch_count(cad);
   CW_NEW(first, (size_t)triangles + 1);
   CW_NEW(area, patches);
@@ -112,15 +110,13 @@ CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwB
   for (int32_t t = 0; t < triangles; t++) {
     for (int32_t i = first[t]; i < first[t + 1]; i++) triangle[i] = t;
   }
-  CW_TRY(cw_rays_make(background, &rays));
-  look = (Look){cad, background, rays, width, first, stands_for, triangle};
+  look = (Look){cad, background, width, first, stands_for, triangle};
   CW_TRY(cw_parallel_for(context, "passage widths", first[triangles], sizeof *seen, look_across, &look, seen));
   for (int32_t i = 0; i < first[triangles]; i++) area[seen[i].patch][seen[i].bin] += seen[i].area;
   for (int p = 0; p < patches; p++) {
     if (cw_cad_patch_kind(cad, p) == CW_PATCH_WALL) width[p] = width_of(area[p], width[p]);
   }
 done:
-  cw_rays_free(&rays);
   free(first);
   free(stands_for);
   free(waiting);

@@ -72,7 +72,7 @@ static void count_cell(const double *const *x, int corners, Probe *probe, int pr
   }
 }
 
-static int find_probes(const CwCad *cad, const CwBackground *background, const CwRays *rays, double greatest,
+static int find_probes(const CwCad *cad, const CwBackground *background, double greatest,
                        Probe *probe) {
   int32_t step = background->triangle_count / RAYS + 1;
   int count = 0;
@@ -89,7 +89,7 @@ static int find_probes(const CwCad *cad, const CwBackground *background, const C
       centre[k] = (corner_x[0][k] + corner_x[1][k] + corner_x[2][k]) / 3;
       away[k] = -n[k];
     }
-    int32_t hit = cw_rays_exit(rays, centre, away, 1e-5, greatest, &gap);
+    int32_t hit = cw_rays_exit(background->rays, centre, away, 1e-5, greatest, &gap);
     if (hit < 0) continue;
     const int32_t *corner = background->triangle[hit];
     cw_sub(background->x[corner[1]], background->x[corner[0]], u);
@@ -143,15 +143,13 @@ static CwStatus measure(const char *geometry, const char *folder, const char *na
   CwStatus status = CW_OK;
   CwCad *cad = NULL;
   CwBackground background = {0};
-  CwRays *rays = NULL;
   CwDomainMesh mesh = {0};
   Probe *probe = NULL;
   CW_TRY(cw_cad_open(geometry, name, &cad));
   CW_TRY(cw_background_make(cad, 4e-5, 0.2, &background));
-  CW_TRY(cw_rays_make(&background, &rays));
   CW_TRY(cw_domain_mesh_read(folder, name, &mesh));
   CW_NEW(probe, 2 * RAYS);
-  int count = find_probes(cad, &background, rays, greatest, probe);
+  int count = find_probes(cad, &background, greatest, probe);
   for (int32_t r = 0; r < mesh.region_count; r++) {
     const CwRegionMesh *region = &mesh.region[r];
     const double *x[6];
@@ -168,7 +166,6 @@ static CwStatus measure(const char *geometry, const char *folder, const char *na
 done:
   free(probe);
   cw_domain_mesh_free(&mesh);
-  cw_rays_free(&rays);
   cw_background_free(&background);
   cw_cad_close(&cad);
   return status;

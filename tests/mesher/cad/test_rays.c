@@ -37,6 +37,26 @@ static void rays_leave_where_they_should(void **state) {
   assert_null(rays);
 }
 
+static void a_line_meets_the_walls_in_order(void **state) {
+  Octahedron shape;
+  CwBackground background = octahedron(&shape, 1);
+  CwRays *rays = NULL;
+  CwRayHit hit[8];
+  const double place[4] = {-0.8, -0.05, 0.05, 0.8}, right[3] = {1, 0, 0}, point[3] = {0, 0.1, 0.1};
+  const int32_t triangle[4] = {1, 9, 8, 0};
+  assert_int_equal(cw_rays_make(&background, &rays), CW_OK);
+  assert_int_equal(cw_rays_hits(rays, point, right, -2, 2, 8, hit), 4);
+  for (int i = 0; i < 4; i++) {
+    assert_true(fabs(hit[i].place - place[i]) < 1e-14);
+    assert_int_equal(hit[i].triangle, triangle[i]);
+  }
+  assert_int_equal(cw_rays_hits(rays, point, right, 0, 2, 8, hit), 2);
+  assert_int_equal(hit[0].triangle, 8);
+  assert_int_equal(cw_rays_hits(rays, point, right, 0.06, 0.79, 8, hit), 0);
+  assert_int_equal(cw_rays_hits(rays, point, right, -2, 2, 3, hit), 3);
+  cw_rays_free(&rays);
+}
+
 static void many_rays_agree_with_the_formula(void **state) {
   Octahedron shape;
   CwBackground background = octahedron(&shape, 0);
@@ -62,6 +82,7 @@ static void many_rays_agree_with_the_formula(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rays_leave_where_they_should),
+      cmocka_unit_test(a_line_meets_the_walls_in_order),
       cmocka_unit_test(many_rays_agree_with_the_formula),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -108,6 +108,34 @@ static void stretched_triangles(void **unused) {
   surface_free(&s);
 }
 
+// E. Schoenhardt's prism, the upper triangle of which is turned against the diagonals of its sides, has no
+// tetrahedralization without a point inside (Ueber die Zerlegung von Dreieckspolyedern in Tetraeder, 1928).
+static void a_polyhedron_that_needs_a_point_inside(void **unused) {
+  for (int degrees = 10; degrees <= 50; degrees += 20) {
+    Surface s = {0};
+    double size = 0.01;
+    for (int k = 0; k < 6; k++) {
+      double a = M_PI * (120 * (k % 3) - (k < 3 ? 0 : degrees)) / 180;
+      shape_point(&s, size * cos(a), size * sin(a), k < 3 ? 0 : size);
+    }
+    for (int k = 0; k < 3; k++) {
+      surface_triangle(&s, k, (k + 1) % 3, k + 3, 1);
+      surface_triangle(&s, (k + 1) % 3, (k + 1) % 3 + 3, k + 3, 1);
+    }
+    surface_triangle(&s, 0, 2, 1, 1);
+    surface_triangle(&s, 3, 4, 5, 1);
+    CwFillInput input = fill_input(&s, &size);
+    CwFill fill;
+    CwKernelOutcome outcome;
+    assert_int_equal(cw_kernel_fill(&input, &fill, &outcome), CW_OK);
+    assert_int_equal(outcome, CW_KERNEL_FILLED);
+    assert_true(fill.recovery.missing > 0 && fill.point_count > 6);
+    check(&s, &fill);
+    cw_fill_free(&fill);
+    surface_free(&s);
+  }
+}
+
 static void equal_bits_twice(void **unused) {
   Surface s = {0};
   surface_add_sphere(&s, origin, 0.05, 4, 1);
@@ -136,7 +164,7 @@ int main(void) {
       cmocka_unit_test(thin_slabs),
       cmocka_unit_test(wrong_diagonals_are_recovered),
       cmocka_unit_test(stretched_triangles),
-      cmocka_unit_test(equal_bits_twice),
+      cmocka_unit_test(a_polyhedron_that_needs_a_point_inside), cmocka_unit_test(equal_bits_twice),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

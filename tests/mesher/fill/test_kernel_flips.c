@@ -83,6 +83,36 @@ static void axis_of_a_bipyramid(void **unused) {
   cw_tet_mesh_free(&mesh);
 }
 
+// A point on the axis parts each of the three tetrahedra about it in two.
+static void a_point_on_the_axis_of_a_bipyramid(void **unused) {
+  const double x[5][3] = {{1, 0, 0}, {-0.5, 0.8, 0.01}, {-0.5, -0.8, 0}, {0.01, 0, 0.3}, {0, 0.01, -0.3}};
+  CwTetMesh mesh;
+  CwFlips flips;
+  int32_t t, tet[CW_RING], ring[CW_RING], sources = 5;
+  int split;
+  assert_int_equal(cw_delaunay_make(5, x, &mesh), CW_OK);
+  double six = joined_volume6(&mesh);
+  assert_int_equal(cw_flips_make(&mesh, &flips), CW_OK);
+  int32_t a = point_from(&mesh, 3), b = point_from(&mesh, 4);
+  assert_int_equal(cw_flips_find_edge(&flips, a, b, &t), CW_OK);
+  assert_int_equal(cw_flips_split(&flips, t, a, b, 0.25, &sources, &split), CW_OK);
+  assert_int_equal(split, 1);
+  assert_int_equal(sources, 6);
+  int32_t made = point_from(&mesh, 5);
+  for (int k = 0; k < 3; k++)
+    assert_true(fabs(mesh.point[made].x[k] - (0.75 * x[3][k] + 0.25 * x[4][k])) < 1e-15);
+  assert_int_equal(cw_flips_find_edge(&flips, a, b, &t), CW_OK);
+  assert_int_equal(t, -1);
+  for (int end = 0; end < 2; end++) {
+    assert_int_equal(cw_flips_find_edge(&flips, made, end ? b : a, &t), CW_OK);
+    assert_true(t >= 0);
+    assert_int_equal(cw_tet_ring(&mesh, t, made, end ? b : a, CW_RING, tet, ring), 3);
+  }
+  assert_true(fabs(joined_volume6(&mesh) / six - 1.0) < 1e-12);
+  cw_flips_free(&flips);
+  cw_tet_mesh_free(&mesh);
+}
+
 static void any_flips_keep_a_mesh(void **unused) {
   double(*x)[3] = malloc(300 * sizeof *x);
   uint64_t state = 9;
@@ -145,6 +175,7 @@ static void improvement_raises_the_least(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(axis_of_a_bipyramid),
+      cmocka_unit_test(a_point_on_the_axis_of_a_bipyramid),
       cmocka_unit_test(any_flips_keep_a_mesh),
       cmocka_unit_test(improvement_raises_the_least),
   };

@@ -105,7 +105,7 @@ static void missing_facets_are_recovered(void **unused) {
     CwTetMesh mesh;
     CwFacets facets;
     int64_t flips = 0;
-    int32_t missing = 0;
+    int32_t missing = 0, sources = 0;
     surface_add_sphere(&s, origin, 0.05, 3, 1);
     assert_true(shape_turn_diagonals(&s, seed, 20) > 10);
     CwFillInput input = fill_input(&s, &size);
@@ -115,9 +115,10 @@ static void missing_facets_are_recovered(void **unused) {
     for (int32_t f = 0; f < facets.count; f++) missing += !has_face(&mesh, facets.corner[f]);
     assert_int_equal(facets.missing_count, missing);
     assert_true(missing > 0);
+    sources = s.point_count;
     double six = joined_volume6(&mesh);
     for (int round = 0; round < 4 && facets.missing_count; round++)
-      assert_int_equal(cw_kernel_recover(&mesh, &facets, round, NULL, &flips), CW_OK);
+      assert_int_equal(cw_kernel_recover(&mesh, &facets, round, NULL, &sources, &flips), CW_OK);
     assert_true(4 * facets.missing_count < missing);
     assert_true(flips >= (missing - facets.missing_count) / 2);
     // What stays missing lacks an edge: nothing else keeps a face away.

@@ -93,20 +93,6 @@ static void the_nearest_wall_is_found(void **) {
   assert_true(std::isinf(wall.distance));
 }
 
-static void a_line_meets_the_walls_in_order(void **) {
-  Box box;
-  CwPlanHit hit[8];
-  const double point[] = {0.0201, 0.0143, 0.0107}, along_x[] = {1, 0, 0};
-  int32_t count = cw_plan_line_hits(&box.model, point, along_x, -1, 1, 8, hit);
-  assert_true(count >= 2); // an edge between two triangles may be hit twice
-  assert_near(hit[0].place, -0.0201, 1e-9);
-  assert_near(hit[count - 1].place, 0.0199, 1e-9);
-  count = cw_plan_line_hits(&box.model, point, along_x, 0, 1, 8, hit);
-  assert_near(hit[0].place, 0.0199, 1e-9);
-  assert_int_equal(cw_plan_line_hits(&box.model, point, along_x, -0.02, 0.019, 8, hit), 0);
-  assert_int_equal(cw_plan_line_hits(&box.model, point, along_x, -1, 1, 1, hit), 1);
-}
-
 // What one half has the other lacks, in work and volume.
 static void halves_make_the_whole(void **) {
   Box box;
@@ -142,7 +128,6 @@ int main() {
                               cmocka_unit_test(walls_have_their_layers_and_prisms),
                               cmocka_unit_test(layers_give_way_to_a_wall_opposite),
                               cmocka_unit_test(the_nearest_wall_is_found),
-                              cmocka_unit_test(a_line_meets_the_walls_in_order),
                               cmocka_unit_test(halves_make_the_whole),
                               cmocka_unit_test(edges_keep_planes_off)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
