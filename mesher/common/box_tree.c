@@ -193,17 +193,36 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
   cw_box_tree_overlaps_from(tree, &root, box, visit, context);
 }
 
-// A hair more than the box, so that rounding lets no ray slip between two; straight on, as rays are many.
-static int ray_meets(const CwBox *box, const double x[3], const double inverse[3], double far) {
-  double enter = 0, leave = far;
-  if (box->low[0] > box->high[0]) return 0; // nothing in it
+// A ray, ready to be held against boxes: along axis k the near side of any is its low[k] or high[k], and so the far one;
+// both are looked at from a hair off x, so that rounding lets no ray slip between two boxes.
+typedef struct {
+  double inverse[3], near_x[3], far_x[3];
+  int near_is_high[3];
+} BoxRay;
+
+static BoxRay ready(const CwBoxTree *tree, const double x[3], const double g[3]) {
+  BoxRay ray;
+  double hair = 1e-12 * cw_box_longest(&tree->node[1]);
   for (int k = 0; k < 3; k++) {
-    double hair = 1e-9 * (box->high[k] - box->low[k]) + 1e-15;
-    double a = (box->low[k] - hair - x[k]) * inverse[k], b = (box->high[k] + hair - x[k]) * inverse[k];
-    enter = cw_greater(enter, cw_lesser(a, b));
-    leave = cw_lesser(leave, cw_greater(a, b));
+    // Large and not infinite where the ray is parallel to a side, so that no 0 * infinity comes up.
+    ray.inverse[k] = fabs(g[k]) > 1e-30 ? 1 / g[k] : 1e30;
+    ray.near_is_high[k] = ray.inverse[k] < 0;
+    ray.near_x[k] = x[k] + (ray.near_is_high[k] ? -hair : hair);
+    ray.far_x[k] = x[k] - (ray.near_is_high[k] ? -hair : hair);
   }
-  return enter <= leave * (1 + 1e-12);
+  return ray;
+}
+
+// Straight on, as rays are many; an empty box is as far off as one can be.
+static int ray_meets(const CwBox *box, const BoxRay *ray, double far) {
+  double enter = 0, leave = far;
+  for (int k = 0; k < 3; k++) {
+    const double *side[2] = {&box->low[k], &box->high[k]};
+    int high = ray->near_is_high[k];
+    enter = cw_greater(enter, (*side[high] - ray->near_x[k]) * ray->inverse[k]);
+    leave = cw_lesser(leave, (*side[1 - high] - ray->far_x[k]) * ray->inverse[k]);
+  }
+  return enter <= leave;
 }
 
 // Whether some vector of a box of unit vectors may point along the unit vector g.
@@ -217,13 +236,12 @@ static int some_along(const CwBox *box, const double g[3]) {
 void cw_box_tree_ray(const CwBoxTree *tree, const CwBoxTree *normals, const double x[3], const double g[3],
                      const double *far, CwBoxVisit visit, void *context) {
   int32_t stack[DEPTH], depth = 0;
-  double inverse[3];
-  // Large and not infinite where the ray is parallel to a side, so that no 0 * infinity comes up.
-  for (int k = 0; k < 3; k++) inverse[k] = fabs(g[k]) > 1e-30 ? 1 / g[k] : 1e30;
-  if (tree->count) stack[depth++] = 1;
+  if (!tree->count) return;
+  BoxRay ray = ready(tree, x, g);
+  stack[depth++] = 1;
   while (depth) {
     int32_t k = stack[--depth];
-    if (!ray_meets(&tree->node[k], x, inverse, *far) || (normals && !some_along(&normals->node[k], g))) continue;
+    if (!ray_meets(&tree->node[k], &ray, *far) || (normals && !some_along(&normals->node[k], g))) continue;
     if (k >= tree->leaves) {
       if (visit_leaf(tree, k, visit, context)) return;
       continue;
