@@ -87,7 +87,7 @@ static void turn(CwCad *cad, CwBackground *background) {
   }
 }
 
-CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background) {
+CwStatus cw_background_join(const CwContext *context, CwCad *cad, void *const *face_bytes, CwBackground *background) {
   CwStatus status = CW_OK;
   memset(background, 0, sizeof *background);
   CW_TRY(cw_tessellation_weld(cad, face_bytes, background));
@@ -98,7 +98,7 @@ CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *b
   }
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "the tessellation encloses %g m3; it must be positive", volume);
-  CW_TRY(cw_rays_make(background, &background->rays));
+  CW_TRY(cw_rays_make(context, background, &background->rays));
 done:
   if (status != CW_OK) cw_background_free(background);
   return status;
@@ -116,7 +116,7 @@ CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackg
   CW_NEW(bytes, faces);
   CW_TRY(cw_tessellation_start(cad, deflection, angle, &tessellation));
   for (int f = 0; f < faces; f++) CW_TRY(cw_tessellation_face(tessellation, f, &bytes[f], &size));
-  CW_TRY(cw_background_join(cad, bytes, background));
+  CW_TRY(cw_background_join(NULL, cad, bytes, background));
 done:
   for (int f = 0; bytes && f < faces; f++) free(bytes[f]);
   free(bytes);

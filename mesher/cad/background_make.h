@@ -5,6 +5,7 @@
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -16,8 +17,8 @@ extern "C" {
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
 
 // From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with
-// CW_ERR_GEOMETRY where the result is not closed (the place is named).
-CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
+// CW_ERR_GEOMETRY where the result is not closed (the place is named). Collective; context: NULL for one process.
+CwStatus cw_background_join(const CwContext *context, CwCad *cad, void *const *face_bytes, CwBackground *background);
 
 #ifdef __cplusplus
 }

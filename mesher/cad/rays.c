@@ -24,15 +24,15 @@ static CwBox normal_of(const void *context, int32_t t) {
   return cw_box_of_normal(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
 }
 
-CwStatus cw_rays_make(const CwBackground *background, CwRays **rays) {
+CwStatus cw_rays_make(const CwContext *context, const CwBackground *background, CwRays **rays) {
   CwStatus status = CW_OK;
   CwRays *made = NULL;
   CwBox within = cw_box_of_points(background->point_count, (const double(*)[3])background->x);
   CW_NEW(made, 1);
   made->x = (const double(*)[3])background->x;
   made->triangle = (const int32_t(*)[3])background->triangle;
-  CW_TRY(cw_box_tree_make(NULL, background->triangle_count, &within, box_of, background, &made->triangles));
-  CW_TRY(cw_box_tree_alike(NULL, &made->triangles, normal_of, background, &made->normals));
+  CW_TRY(cw_box_tree_make(context, background->triangle_count, &within, box_of, background, &made->triangles));
+  CW_TRY(cw_box_tree_alike(context, &made->triangles, normal_of, background, &made->normals));
   *rays = made;
   made = NULL;
 done:

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "mesher/cad/background.h"
+#include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -15,7 +16,8 @@ extern "C" {
 typedef struct CwRays CwRays;
 
 // The points and triangles of the background must outlive the rays; they are its own where cw_background_join made it.
-CwStatus cw_rays_make(const CwBackground *background, CwRays **rays);
+// Collective; context: NULL for one process.
+CwStatus cw_rays_make(const CwContext *context, const CwBackground *background, CwRays **rays);
 void cw_rays_free(CwRays **rays);
 
 // First triangle through which x + s * direction (unit vector) leaves the domain, from < s < to; -1: none.

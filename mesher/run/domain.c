@@ -97,10 +97,10 @@ CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **byte
   return cw_tessellation_face(domain->tessellation, face, bytes, byte_count);
 }
 
-CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes) {
+CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes) {
   CwStatus status = CW_OK;
   cw_tessellation_free(&domain->tessellation);
-  CW_TRY(cw_background_join(domain->cad, bytes, &domain->background));
+  CW_TRY(cw_background_join(context, domain->cad, bytes, &domain->background));
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));

@@ -83,7 +83,7 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 double cw_domain_background_cost(const CwDomain *domain, int face);
 CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);
+CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
 // Walls on which no layers can stand become bare, with a warning.
 CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain);
 

@@ -79,7 +79,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
   CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
   cw_profiler_part(&run->context, "background joined");
   for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
+    CW_TRY(cw_domain_take_background(&run->context, &run->domain[d], results.bytes[d]));
     cw_log(run->context.log, "%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
            run->domain[d].background.triangle_count);
   }

@@ -11,7 +11,7 @@
 
 // Rays start on the centres of equal parts of a triangle, edges of which are no longer than this share of the width,
 // and so short that a patch has some hundred rays; at most so many along an edge. Small triangles share one.
-static const double SPACING = 0.5, LEAST_RAYS = 200;
+static const double SPACING = 1, LEAST_RAYS = 200;
 enum { PARTS_MOST = 24 };
 
 enum { BINS = 200 }; // of a patch's distances, over its width

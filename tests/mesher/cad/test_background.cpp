@@ -112,7 +112,7 @@ static void faces_of_two_ranks_are_joined(void **state) {
     assert_int_equal(cw_tessellation_face(tessellation[f % 2], f, &bytes[f], &size), CW_OK);
     assert_true(cw_tessellation_cost(tessellation[0], f) >= 4);
   }
-  assert_int_equal(cw_background_join(cad[1], bytes.data(), &b), CW_OK);
+  assert_int_equal(cw_background_join(nullptr, cad[1], bytes.data(), &b), CW_OK);
   assert_int_equal(a.point_count, b.point_count);
   assert_int_equal(a.triangle_count, b.triangle_count);
   assert_memory_equal(a.x, b.x, a.point_count * sizeof *a.x);

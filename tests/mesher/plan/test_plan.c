@@ -52,7 +52,7 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
   check(cw_domain_start_background(made, 4e-5));
   made->base_size = 2e-3;
   for (int f = 0; f < faces; f++) check(cw_domain_background_face(made, f, &part[f], &size));
-  check(cw_domain_take_background(made, part));
+  check(cw_domain_take_background(NULL, made, part));
   for (int f = 0; f < faces; f++) free(part[f]);
   free(part);
   int seeds = cw_size_seed_parts(made->cad);
