@@ -2,6 +2,7 @@
 #include "export/face_quality.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "pipeline/mesh/cell.h"
 
@@ -148,11 +149,11 @@ static inline double squared_distance(const double a[3], const double b[3]) {
   return dot(d, d);
 }
 
-// Counts a cell of a small determinant, or a prism of a great aspect ratio. These are about the length of its edges
-// over its height and the fourth power of the inverse: few cells are flat enough to be measured, or have a face on a
-// patch beside the wall at the base of a prism, without which the determinant is less.
-static inline void judge_cell(int count, const double *const *x, double volume, const int32_t *across,
-                              CwFaceQuality *q) {
+// Counts a cell of a small determinant; whether it is a prism that may have a great aspect ratio. These are about the
+// fourth power of its height over the length of its edges and the inverse: few cells are flat enough to be measured, or
+// have a face on a patch beside the wall at the base of a prism, without which the determinant is less.
+static inline int judge_cell(int count, const double *const *x, double volume, const int32_t *across,
+                             CwFaceQuality *q) {
   static const double FLAT = 20; // cube of the longest edge over the volume; 8.5 of a regular tetrahedron
   const CwFaceKind kind = count == 6 ? CW_FACE_OF_PRISM : CW_FACE_OTHER;
   const int base = count == 6 ? 3 : count;
@@ -165,14 +166,17 @@ static inline void judge_cell(int count, const double *const *x, double volume, 
     inner |= (unsigned)(across[f] != CW_ACROSS_PATCH) << f;
     on_patches += across[f] == CW_ACROSS_PATCH && (count < 6 || f < 3);
   }
-  const int is_flat = squares * sqrt(squares) > FLAT * volume;
-  if (!is_flat && on_patches < (count == 6 ? 1 : 2)) return;
-  q->slender += count == 6 && is_flat && cw_cell_aspect(6, x) > CW_ASPECT_MOST;
-  q->open[kind] += cw_cell_determinant(count, x, inner) < CW_DETERMINANT_LEAST;
+  const double cube = squares * sqrt(squares);
+  if (cube > FLAT * volume || on_patches >= (count == 6 ? 1 : 2))
+    q->open[kind] += cw_cell_determinant(count, x, inner) < CW_DETERMINANT_LEAST;
+  // Of the area vectors no component is less than that of the sides, nor any greater than that of both ends and the
+  // sides: their ratio is below this one.
+  return count == 6 && cube > CW_ASPECT_MOST * volume;
 }
 
-void cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,
-                            CwFaceQuality *q) {
+CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,
+                                CwFaceQuality *q, CwFlatPrisms *flat) {
+  CwStatus status = CW_OK;
   const double *x[6], *corner[4];
   double least = 1, sum = 0;
   const int32_t cells = cw_region_cell_count(data), first_prism = data->tetrahedron_count + data->pyramid_count;
@@ -201,13 +205,36 @@ void cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces
       sum += cosine;
     }
     q->count += count;
-    judge_cell(cell >= first_prism ? 6 : cell >= data->tetrahedron_count ? 5 : 4, x, middle[cell].volume, across, q);
+    if (judge_cell(cell >= first_prism               ? 6
+                   : cell >= data->tetrahedron_count ? 5
+                                                     : 4,
+                   x, middle[cell].volume, across, q)) {
+      CW_GROW(flat->cell, flat->space, flat->count + 1);
+      flat->cell[flat->count++] = cell;
+    }
   }
   q->least = fmin(q->least, least);
   q->sum += sum;
   for (int32_t i = 0; i < data->triangle_count; ++i)
     face_on_patch(data, faces->triangle_face[i], middle, first_prism, q);
   for (int32_t i = 0; i < data->quad_count; ++i) face_on_patch(data, faces->quad_face[i], middle, first_prism, q);
+done:
+  return status;
+}
+
+int64_t cw_flat_prisms_slender(const CwFlatPrisms *flat, const CwRegionData *data) {
+  const double *x[6];
+  int64_t slender = 0;
+  for (int32_t i = 0; i < flat->count; ++i) {
+    cw_cell_points(data, flat->cell[i], x);
+    slender += cw_cell_aspect(6, x) > CW_ASPECT_MOST;
+  }
+  return slender;
+}
+
+void cw_flat_prisms_free(CwFlatPrisms *flat) {
+  free(flat->cell);
+  *flat = (CwFlatPrisms){0};
 }
 
 static double degrees(double cosine) {

@@ -6,6 +6,7 @@
 #define CUTWATER_EXPORT_FACE_QUALITY_H
 
 #include "pipeline/mesh/region_faces.h"
+#include "pipeline/status.h"
 
 // What checkMesh tells of: more skewness or aspect ratio, less weight, determinant or ratio of the volumes of two
 // cells.
@@ -46,9 +47,20 @@ void cw_face_quality_patch(int count, const double *const *x, const double from[
 
 void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum);
 
-// Adds the faces between two cells of a region, those on patches, and the prisms. `middle`: of each cell.
-void cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,
-                            CwFaceQuality *q);
+// Prisms of a region that have a great aspect ratio where they lie so to the axes: checkMesh's is of the components of
+// area vectors, and not the same once a region is turned.
+typedef struct {
+  int32_t *cell, count, space;
+} CwFlatPrisms;
+
+// Adds the faces between two cells of a region, those on patches, and the cells by determinant, and lists the flat
+// prisms, as cells of the region, in *flat, which the caller frees. `middle`: of each cell. CW_ERR_MEMORY.
+CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,
+                                CwFaceQuality *q, CwFlatPrisms *flat);
+
+// How many of them have a great aspect ratio in this region.
+int64_t cw_flat_prisms_slender(const CwFlatPrisms *flat, const CwRegionData *data);
+void cw_flat_prisms_free(CwFlatPrisms *flat);
 
 // In degrees; 0 without faces. The mean is the angle of the mean cosine.
 double cw_non_orthogonality_greatest(const CwFaceQuality *q);

@@ -105,6 +105,7 @@ done:
 void cw_region_model_free(CwRegionModel *model) {
   if (model->kept) cw_mesh_region_free(&model->data);
   cw_region_faces_free(&model->faces);
+  cw_flat_prisms_free(&model->flat);
   *model = (CwRegionModel){0};
 }
 
@@ -119,8 +120,9 @@ CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *da
     CW_TRY(check_volumes(path, data, &model->figures, middle));
     CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, &model->faces));
     CW_TRY(check_points(path, data));
-    cw_face_quality_region(data, &model->faces, middle, &model->figures.faces);
+    CW_TRY(cw_face_quality_region(data, &model->faces, middle, &model->figures.faces, &model->flat));
   }
+  model->figures.faces.slender = cw_flat_prisms_slender(&model->flat, data);
   CW_TRY(check_counts(a, region, &model->faces));
 done:
   free(middle);

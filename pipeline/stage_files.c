@@ -59,21 +59,30 @@ done:
   return status;
 }
 
-CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of,
-                                 void *given) {
+CwStatus cw_stage_files_source_check(const char *run, const char *stage, json_t *record) {
   CwStatus status = CW_OK;
-  char path[PATH_SIZE], digest[CW_HASH_TEXT];
+  char digest[CW_HASH_TEXT];
   const char *from;
-  json_t *files, *wanted;
-  snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
-  CW_TRY(cw_json_object(record, path, "files", &files));
-  CW_TRY(check_files(run, stage, files, digest_of, given));
+  json_t *wanted;
   json_object_foreach(json_object_get(record, "made_from"), from, wanted) {
     CW_TRY(digest_stage(run, from, digest));
     CW_REQUIRE(json_is_string(wanted) && !strcmp(digest, json_string_value(wanted)), CW_ERR_INPUT,
                "%s/%s: was made from other files than lie in %s/%s; run cutwater-%s again", run, stage, run, from,
                stage);
   }
+done:
+  return status;
+}
+
+CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of,
+                                 void *given) {
+  CwStatus status = CW_OK;
+  char path[PATH_SIZE];
+  json_t *files;
+  snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
+  CW_TRY(cw_json_object(record, path, "files", &files));
+  CW_TRY(check_files(run, stage, files, digest_of, given));
+  CW_TRY(cw_stage_files_source_check(run, stage, record));
 done:
   return status;
 }

@@ -23,6 +23,9 @@ CwStatus cw_stage_files_check(const char *run, const char *stage);
 typedef CwStatus (*CwDigestOf)(void *given, const char *path, char digest[CW_HASH_TEXT]);
 CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of, void *given);
 
+// The second half alone, which reads records and no files: whether the stage was made from what lies there.
+CwStatus cw_stage_files_source_check(const char *run, const char *stage, json_t *record);
+
 // For the record: by name the digest of the files of each stage, as its record tells of them. `stages` ends with NULL.
 // CW_ERR_IO, CW_ERR_INPUT, CW_ERR_MEMORY.
 CwStatus cw_stage_files_read(const char *run, const char *const *stages, json_t **made_from);

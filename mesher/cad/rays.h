@@ -31,8 +31,8 @@ typedef struct {
   int32_t triangle; // of the background
 } CwRayHit;
 
-// All hits of the line x + s direction (unit vector), from <= s <= to, in order; at most `most` of them. An edge between
-// two triangles may be hit twice.
+// All hits of the line x + s direction (unit vector), from <= s <= to, in order; at most `most` of them. An edge
+// between two triangles may be hit twice.
 int32_t cw_rays_hits(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      int32_t most, CwRayHit *hit);
 

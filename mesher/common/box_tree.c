@@ -193,8 +193,8 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
   cw_box_tree_overlaps_from(tree, &root, box, visit, context);
 }
 
-// A ray, ready to be held against boxes: along axis k the near side of any is its low[k] or high[k], and so the far one;
-// both are looked at from a hair off x, so that rounding lets no ray slip between two boxes.
+// A ray, ready to be held against boxes: along axis k the near side of any is its low[k] or high[k], and so the far
+// one; both are looked at from a hair off x, so that rounding lets no ray slip between two boxes.
 typedef struct {
   double inverse[3], near_x[3], far_x[3];
   int near_is_high[3];

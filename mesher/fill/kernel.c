@@ -148,8 +148,8 @@ done:
   return status;
 }
 
-// Brings all boundary triangles into the mesh by flips, and new points where these are stuck. Where some are still missing the boundary does not cross
-// itself.
+// Brings all boundary triangles into the mesh by flips, and new points where these are stuck. Where some are still
+// missing the boundary does not cross itself.
 static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *facets, int32_t *source_count,
                         CwFillRecovery *recovery) {
   CwStatus status = CW_OK;

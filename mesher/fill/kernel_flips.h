@@ -45,7 +45,8 @@ CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped);
 CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *flipped);
 // Puts a new point on the edge a-b of t, such a part of the way from a, with the source (*source_count)++. *split is 0
 // where rounding or too many tetrahedra forbid it.
-CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double part, int32_t *source_count, int *split);
+CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double part, int32_t *source_count,
+                        int *split);
 
 #ifdef __cplusplus
 }

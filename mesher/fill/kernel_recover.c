@@ -224,8 +224,8 @@ done:
   return status;
 }
 
-// Where flips alone are stuck (P. L. George, F. Hecht, E. Saltel, Automatic mesh generator with specified boundary, 1991,
-// whose points are moved from there later): the improvement moves these, too, or takes them away.
+// Where flips alone are stuck (P. L. George, F. Hecht, E. Saltel, Automatic mesh generator with specified boundary,
+// 1991, whose points are moved from there later): the improvement moves these, too, or takes them away.
 static CwStatus recover_edge_by_points(Recovery *r, int32_t a, int32_t b, int *found) {
   CwStatus status = CW_OK;
   for (int put = 1, points = 0; put && !*found && points < cw_policy.recover_tries; points++) {
@@ -271,7 +271,8 @@ done:
 CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int32_t *source_count,
                            int64_t *flips) {
   CwStatus status = CW_OK;
-  Recovery r = {.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + (uint32_t)round, .source_count = source_count};
+  Recovery r = {
+      .facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + (uint32_t)round, .source_count = source_count};
   int lost_edges = 0, lost_faces = 0, found;
   CW_TRY(cw_flips_make(mesh, &r.flips));
   r.flips.context = &r.goal;

@@ -48,6 +48,7 @@ CwStatus cw_export_check_begin(const char *run, json_t *record, const CwRanks *r
   CwExportCheck *check = NULL;
   json_t *files = json_object_get(record, "files"), *digest;
   const char *name;
+  CW_TRY(cw_stage_files_source_check(run, "export", record));
   CW_NEW(check, 1);
   check->run = run;
   check->record = record;

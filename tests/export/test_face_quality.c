@@ -25,7 +25,10 @@ static void two_cells(const double tip[3], double height, CwFaceQuality *o) {
   cw_face_quality_start(o);
   CwMiddle middle[2];
   for (int cell = 0; cell < 2; ++cell) middle[cell] = cw_cell_middle(&data, cell);
-  cw_face_quality_region(&data, &faces, middle, o);
+  CwFlatPrisms flat = {0};
+  assert_int_equal(cw_face_quality_region(&data, &faces, middle, o, &flat), CW_OK);
+  o->slender = cw_flat_prisms_slender(&flat, &data);
+  cw_flat_prisms_free(&flat);
   cw_region_faces_free(&faces);
   assert_int_equal(o->count, 1);
 }
@@ -120,6 +123,35 @@ static void aspects_by_hand(void **state) {
   }
 }
 
+// Legs of 3 m along x and y give 6 h to either side, 9 m2 over which is not above 1000; turned by 45 degrees they give
+// 3 sqrt(2) h to one side, and it is.
+static void an_aspect_depends_on_the_axes(void **state) {
+  (void)state;
+  const double h = 1.8e-3, c = sqrt(0.5);
+  double points[2][6][3] = {{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, h}, {3, 0, h}, {0, 3, h}}};
+  int32_t prisms[][6] = {{0, 1, 2, 3, 4, 5}};
+  for (int p = 0; p < 6; ++p) {
+    const double *x = points[0][p];
+    memcpy(points[1][p], (double[3]){c * (x[0] - x[1]), c * (x[0] + x[1]), x[2]}, sizeof points[1][p]);
+  }
+  CwRegionData data = {.points = points[0], .point_count = 6, .prisms = prisms, .prism_count = 1};
+  CwRegionData turned = data;
+  turned.points = points[1];
+  CwRegionFaces faces = {0};
+  CwFaceQuality q;
+  CwFlatPrisms flat = {0};
+  const CwMiddle middle = cw_cell_middle(&data, 0);
+  cw_face_quality_start(&q);
+  data.shared_count = 6;
+  assert_int_equal(cw_region_faces("rotor", CW_ERR_INPUT, &data, &faces), CW_OK);
+  assert_int_equal(cw_face_quality_region(&data, &faces, &middle, &q, &flat), CW_OK);
+  assert_int_equal(flat.count, 1);
+  assert_int_equal(cw_flat_prisms_slender(&flat, &data), 0);
+  assert_int_equal(cw_flat_prisms_slender(&flat, &turned), 1);
+  cw_flat_prisms_free(&flat);
+  cw_region_faces_free(&faces);
+}
+
 static void no_face_is_at_no_angle(void **state) {
   (void)state;
   CwFaceQuality o;
@@ -135,6 +167,7 @@ int main(void) {
       cmocka_unit_test(weights_by_hand),
       cmocka_unit_test(volumes_by_hand),
       cmocka_unit_test(aspects_by_hand),
+      cmocka_unit_test(an_aspect_depends_on_the_axes),
       cmocka_unit_test(no_face_is_at_no_angle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

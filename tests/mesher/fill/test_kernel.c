@@ -164,7 +164,8 @@ int main(void) {
       cmocka_unit_test(thin_slabs),
       cmocka_unit_test(wrong_diagonals_are_recovered),
       cmocka_unit_test(stretched_triangles),
-      cmocka_unit_test(a_polyhedron_that_needs_a_point_inside), cmocka_unit_test(equal_bits_twice),
+      cmocka_unit_test(a_polyhedron_that_needs_a_point_inside),
+      cmocka_unit_test(equal_bits_twice),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

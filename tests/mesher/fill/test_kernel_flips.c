@@ -99,8 +99,7 @@ static void a_point_on_the_axis_of_a_bipyramid(void **unused) {
   assert_int_equal(split, 1);
   assert_int_equal(sources, 6);
   int32_t made = point_from(&mesh, 5);
-  for (int k = 0; k < 3; k++)
-    assert_true(fabs(mesh.point[made].x[k] - (0.75 * x[3][k] + 0.25 * x[4][k])) < 1e-15);
+  for (int k = 0; k < 3; k++) assert_true(fabs(mesh.point[made].x[k] - (0.75 * x[3][k] + 0.25 * x[4][k])) < 1e-15);
   assert_int_equal(cw_flips_find_edge(&flips, a, b, &t), CW_OK);
   assert_int_equal(t, -1);
   for (int end = 0; end < 2; end++) {
