@@ -20,7 +20,7 @@ typedef struct {
   int32_t *face;           // CAD face of each triangle
   double (*uv)[3][2];      // of each corner on that face
   int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
-  struct CwRays *rays;     // rays.h
+  struct CwRays *rays;     // through it (rays.h)
 } CwBackground;
 
 void cw_background_free(CwBackground *background);

@@ -98,7 +98,8 @@ CwStatus cw_background_join(const CwContext *context, CwCad *cad, void *const *f
   }
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "the tessellation encloses %g m3; it must be positive", volume);
-  CW_TRY(cw_rays_make(context, background, &background->rays));
+  CW_TRY(cw_rays_make(context, background->point_count, (const double(*)[3])background->x, background->triangle_count,
+                      (const int32_t(*)[3])background->triangle, &background->rays));
 done:
   if (status != CW_OK) cw_background_free(background);
   return status;

@@ -13,26 +13,27 @@ struct CwRays {
 };
 
 static CwBox box_of(const void *context, int32_t t) {
-  const CwBackground *background = context;
-  const int32_t *corner = background->triangle[t];
-  return cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
+  const CwRays *rays = context;
+  const int32_t *corner = rays->triangle[t];
+  return cw_box_of_triangle(rays->x[corner[0]], rays->x[corner[1]], rays->x[corner[2]]);
 }
 
 static CwBox normal_of(const void *context, int32_t t) {
-  const CwBackground *background = context;
-  const int32_t *corner = background->triangle[t];
-  return cw_box_of_normal(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
+  const CwRays *rays = context;
+  const int32_t *corner = rays->triangle[t];
+  return cw_box_of_normal(rays->x[corner[0]], rays->x[corner[1]], rays->x[corner[2]]);
 }
 
-CwStatus cw_rays_make(const CwContext *context, const CwBackground *background, CwRays **rays) {
+CwStatus cw_rays_make(const CwContext *context, int32_t point_count, const double (*x)[3], int32_t triangle_count,
+                      const int32_t (*triangle)[3], CwRays **rays) {
   CwStatus status = CW_OK;
   CwRays *made = NULL;
-  CwBox within = cw_box_of_points(background->point_count, (const double(*)[3])background->x);
+  CwBox within = cw_box_of_points(point_count, x);
   CW_NEW(made, 1);
-  made->x = (const double(*)[3])background->x;
-  made->triangle = (const int32_t(*)[3])background->triangle;
-  CW_TRY(cw_box_tree_make(context, background->triangle_count, &within, box_of, background, &made->triangles));
-  CW_TRY(cw_box_tree_alike(context, &made->triangles, normal_of, background, &made->normals));
+  made->x = x;
+  made->triangle = triangle;
+  CW_TRY(cw_box_tree_make(context, triangle_count, &within, box_of, made, &made->triangles));
+  CW_TRY(cw_box_tree_alike(context, &made->triangles, normal_of, made, &made->normals));
   *rays = made;
   made = NULL;
 done:

@@ -5,7 +5,6 @@
 
 #include <stdint.h>
 
-#include "mesher/cad/background.h"
 #include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
@@ -15,9 +14,10 @@ extern "C" {
 
 typedef struct CwRays CwRays;
 
-// The points and triangles of the background must outlive the rays; they are its own where cw_background_join made it.
-// Collective; context: NULL for one process.
-CwStatus cw_rays_make(const CwContext *context, const CwBackground *background, CwRays **rays);
+// Of a closed surface with normals out of the domain, as a background is; its points and triangles must outlive the
+// rays. Collective; context: NULL for one process.
+CwStatus cw_rays_make(const CwContext *context, int32_t point_count, const double (*x)[3], int32_t triangle_count,
+                      const int32_t (*triangle)[3], CwRays **rays);
 void cw_rays_free(CwRays **rays);
 
 // First triangle through which x + s * direction (unit vector) leaves the domain, from < s < to; -1: none.
@@ -27,8 +27,8 @@ int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double directi
 
 // A place where a line enters or leaves the domain.
 typedef struct {
-  double place;     // along the line, m
-  int32_t triangle; // of the background
+  double place; // along the line, m
+  int32_t triangle;
 } CwRayHit;
 
 // All hits of the line x + s direction (unit vector), from <= s <= to, in order; at most `most` of them. An edge
