@@ -169,9 +169,10 @@ static inline int judge_cell(int count, const double *const *x, double volume, c
   const double cube = squares * sqrt(squares);
   if (cube > FLAT * volume || on_patches >= (count == 6 ? 1 : 2))
     q->open[kind] += cw_cell_determinant(count, x, inner) < CW_DETERMINANT_LEAST;
-  // Of the area vectors no component is less than that of the sides, nor any greater than that of both ends and the
-  // sides: their ratio is below this one.
-  return count == 6 && cube > CW_ASPECT_MOST * volume;
+  // The sums of components are twice the cell's projections along the axes. None is less than its volume over its
+  // diameter, nor more than that of a sphere, so that no ratio is above pi / 4 of the diameter's cube over the volume;
+  // and that diameter is less than twice the longest edge of the base.
+  return count == 6 && 8 * cube > CW_ASPECT_MOST * volume;
 }
 
 CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *faces, const CwMiddle *middle,

@@ -82,7 +82,6 @@ CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *rec
   snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
   CW_TRY(cw_json_object(record, path, "files", &files));
   CW_TRY(check_files(run, stage, files, digest_of, given));
-  CW_TRY(cw_stage_files_source_check(run, stage, record));
 done:
   return status;
 }
@@ -97,6 +96,7 @@ CwStatus cw_stage_files_check(const char *run, const char *stage) {
   json_t *record = NULL, *files;
   CW_TRY(read_record(run, stage, &record, &files));
   CW_TRY(cw_stage_files_check_by(run, stage, record, digest_alone, NULL));
+  CW_TRY(cw_stage_files_source_check(run, stage, record));
 done:
   json_decref(record);
   return status;

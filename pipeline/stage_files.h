@@ -18,12 +18,12 @@ extern "C" {
 // as it was written, CW_ERR_INPUT where the stage was made from other files than lie there.
 CwStatus cw_stage_files_check(const char *run, const char *stage);
 
-// The same with a record that has been read, and another way to digest a file, which is called for each one in the
-// order of the record. `given` goes to `digest_of`.
+// The first half, of the files, with a record that has been read, and another way to digest a file, which is called for
+// each one in the order of the record. `given` goes to `digest_of`.
 typedef CwStatus (*CwDigestOf)(void *given, const char *path, char digest[CW_HASH_TEXT]);
 CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of, void *given);
 
-// The second half alone, which reads records and no files: whether the stage was made from what lies there.
+// The second half, which reads records and no files: whether the stage was made from what lies there.
 CwStatus cw_stage_files_source_check(const char *run, const char *stage, json_t *record);
 
 // For the record: by name the digest of the files of each stage, as its record tells of them. `stages` ends with NULL.

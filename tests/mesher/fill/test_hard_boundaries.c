@@ -24,7 +24,7 @@
 static CwLog *test_log;
 
 // Of the random ones.
-static int random_count = 30;
+static int random_count = 40;
 static uint64_t first_seed = 1, seed_step = 1;
 
 typedef struct {
