@@ -47,7 +47,8 @@ NUMBER(int64_t, even_steps, 5, 0, "1", "each shorter by the same")
 
 // Search of patches for what single changes cannot mend; without it least angles are 1.7 degrees less.
 NUMBER(double, search_bad, 0.2250, 0, "sine", "13 degrees: a search begins below, and again and again")
-NUMBER(double, search_wanted, 0.3090, none, "sine", "18 degrees: and below where the boundary allows more")
+NUMBER(double, search_wanted, 0.3090, none, "sine",
+       "18 degrees: and below where the boundary allows more; layer tops leave room for three beside a plane")
 NUMBER(int64_t, search_patch, 150, none, "tetrahedra", "of a patch; of 300: 0.4 degrees less in the same time")
 NUMBER(int64_t, search_tries, 250, none, "1", "of a beginning")
 NUMBER(int64_t, search_share, 500, none, "tetrahedra", "of a mesh for one try more")

@@ -182,7 +182,7 @@ static int open_column(ConcaveEdges *concave, int32_t v) {
   double end[3], column[3], thickness = work->t[local];
   cw_copy(concave->top[local], end);
   cw_copy(work->column[local], column);
-  cw_layers_turn(work, local, concave->top, judge);
+  cw_layers_turn(work, local, concave->top, judge, 0);
   stretch(work, local, concave->top);
   turn_copies(concave, v);
   return work->t[local] != thickness || memcmp(concave->top[local], end, sizeof end) != 0 ||

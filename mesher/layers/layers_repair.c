@@ -7,6 +7,7 @@
 
 #include "mesher/common/box_tree.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/common/vec.h"
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/layers/layers_crossing.h"
 #include "mesher/layers/layers_gap.h"
@@ -34,6 +35,7 @@ typedef struct {
   uint8_t *uncrossed; // and since crossings were looked for
   double limit;       // prism quality asked for
   double *thickness;  // as placed
+  int finely;         // layers_turn.h
   CwLayerCrossing crossing;
 } Repair;
 
@@ -65,7 +67,7 @@ static double judge(const Repair *repair, int32_t f) {
     break;
   }
   if (quality <= cw_policy.prism_good) return quality;
-  return cw_layers_shear_quality(work, f, top, prism) < cw_policy.prism_good ? cw_policy.prism_good : quality;
+  return cw_layers_lean_quality(work, f, top, prism) < cw_policy.prism_good ? cw_policy.prism_good : quality;
 }
 
 static CwStatus judge_stale(void *context, int32_t i, void *out) {
@@ -158,37 +160,44 @@ done:
 }
 
 // Marks the columns of crossing layer top triangles; *crossing: pairs that matter.
-static CwStatus find_crossings(Repair *repair, int32_t *crossing, CwOutcome *outcome) {
+static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
-  const CwLayerInput *in = work->in;
   memset(repair->mark, 0, work->n);
   CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double(*)[3])repair->top, repair->uncrossed));
   memset(repair->uncrossed, 0, work->n);
   *crossing = repair->crossing.pair_count;
   for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
     const CwLayerPair *pair = &repair->crossing.pair[i];
-    const double *x = in->x[in->triangle[pair->f][0]];
-    const CwOutcomeKind kind = cw_layers_kind_at(work, in->triangle[pair->f][0]);
+    for (int k = 0; k < 3; k++) {
+      repair->mark[work->in->triangle[pair->f][k]] = FOR_SOUNDNESS;
+      if (pair->kind_g == 0) repair->mark[work->in->triangle[pair->g][k]] = FOR_SOUNDNESS;
+    }
+  }
+done:
+  return status;
+}
+
+// Whether thinner columns can get clear of what they cross.
+static void judge_crossings(const Repair *repair, CwOutcome *outcome) {
+  const CwLayerWork *work = repair->work;
+  const CwLayerInput *in = work->in;
+  for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
+    const CwLayerPair *pair = &repair->crossing.pair[i];
+    const int32_t *f = in->triangle[pair->f], *g = pair->kind_g == 0 ? in->triangle[pair->g] : f;
+    const double *x = in->x[f[0]];
+    const CwOutcomeKind kind = cw_layers_kind_at(work, f[0]);
     CW_END_UNLESS(pair->kind_f == 0, outcome, kind, x, "the wall crosses or touches itself");
     double share = 0;
     for (int k = 0; k < 3; k++) {
-      int32_t v = in->triangle[pair->f][k];
-      repair->mark[v] = FOR_SOUNDNESS;
-      share = fmax(share, work->t[v] / in->target[v]);
-      if (pair->kind_g == 0) {
-        v = in->triangle[pair->g][k];
-        repair->mark[v] = FOR_SOUNDNESS;
-        share = fmax(share, work->t[v] / in->target[v]);
-      }
+      share = fmax(share, fmax(work->t[f[k]] / in->target[f[k]], work->t[g[k]] / in->target[g[k]]));
     }
     CW_END_UNLESS(share > LEAST_SHARE, outcome, kind, x, "the layer top crosses %s however thin the layers are made",
                   pair->kind_g == 0   ? "itself"
                   : pair->kind_g == 1 ? "the wall"
                                       : "an open patch");
   }
-done:
-  return status;
+done:;
 }
 
 // Marked columns by groups: neighbours, of which each sees what the last one did, are in one. Groups do not see one
@@ -259,7 +268,7 @@ static CwStatus turn_group(void *context, int32_t group, void **bytes, int64_t *
   for (int32_t i = 0; i < count; i++) {
     int32_t v = groups->vertex[first + i];
     memcpy(made[i].top, top[v], sizeof *top);
-    cw_layers_turn(work, v, top, cw_layers_around);
+    cw_layers_turn(work, v, top, cw_layers_around, groups->repair->finely);
     made[i].changed = memcmp(made[i].top, top[v], sizeof *top) != 0;
     memcpy(made[i].top, top[v], sizeof *top);
     memcpy(made[i].column, work->column[v], sizeof made[i].column);
@@ -321,14 +330,55 @@ done:
   return status;
 }
 
+// Columns before they were turned.
+typedef struct {
+  uint8_t *noted; // of each vertex
+  int64_t count, space;
+  struct {
+    int32_t v;
+    double column[3];
+  } * column;
+} Before;
+
+static CwStatus note_marked(const Repair *repair, Before *before) {
+  CwStatus status = CW_OK;
+  for (int32_t v = 0; v < repair->work->n; v++) {
+    if (!repair->mark[v] || before->noted[v]) continue;
+    CW_GROW(before->column, before->space, before->count + 1);
+    before->column[before->count].v = v;
+    cw_copy(repair->work->column[v], before->column[before->count++].column);
+    before->noted[v] = 1;
+  }
+done:
+  return status;
+}
+
+// Turns marked columns back that were turned. Returns how many.
+static int32_t turn_back(Repair *repair, const Before *before) {
+  CwLayerWork *work = repair->work;
+  int32_t count = 0;
+  for (int64_t i = 0; i < before->count; i++) {
+    int32_t v = before->column[i].v;
+    if (!repair->mark[v] || !memcmp(work->column[v], before->column[i].column, sizeof work->column[v])) continue;
+    cw_copy(before->column[i].column, work->column[v]);
+    cw_layers_place(work, v, repair->top[v]);
+    set_moved(repair, v);
+    count++;
+  }
+  return count;
+}
+
 // Turns once more the columns that keep their first height although prism or layer top could be better (those were
-// turned last while they were taller), and those that lean so much that determinants are small. *turned: whether any
-// did. Collective.
-static CwStatus turn_kept(Repair *repair, int *turned) {
+// turned last while they were taller), and those that lean so much that determinants are small or that little room is
+// left beside them. What crosses or is worse than allowed then is turned back: it is not to cost thickness. Collective.
+static CwStatus turn_kept(Repair *repair) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   const double(*top)[3] = (const double(*)[3])repair->top;
-  *turned = 0;
+  Before before = {0};
+  int32_t crossing = 1, back = 1;
+  CW_NEW(before.noted, work->n);
+  repair->finely = 1;
   for (int pass = 0; pass < TURNS; pass++) {
     int marked = 0;
     memset(repair->mark, 0, (size_t)work->n);
@@ -336,17 +386,24 @@ static CwStatus turn_kept(Repair *repair, int *turned) {
       if (repair->quality[f] != cw_policy.prism_good) continue;
       double prism = cw_layers_prism_quality(work, f, top);
       double shape = fmin(prism, cw_layers_top_quality(work, f, top));
-      if (fmin(shape, cw_layers_shear_quality(work, f, top, prism)) >= cw_policy.prism_good) continue;
+      if (fmin(shape, cw_layers_lean_quality(work, f, top, prism)) >= cw_policy.prism_good) continue;
       for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[f][k]] = FOR_SHAPE;
       marked = 1;
     }
     if (!marked) break;
+    CW_TRY(note_marked(repair, &before));
     CW_TRY(turn_marked(repair));
     if (!repair->moved_count) break;
-    *turned = 1;
+    CW_TRY(find_bad(repair));
+  }
+  while (before.count && (repair->bad_count || crossing) && back) {
+    if (!repair->bad_count) CW_TRY(find_crossings(repair, &crossing));
+    back = turn_back(repair, &before);
     CW_TRY(find_bad(repair));
   }
 done:
+  free(before.column);
+  free(before.noted);
   return status;
 }
 
@@ -396,7 +453,7 @@ static CwStatus not_repaired(Repair *repair, int32_t crossing, CwOutcome *outcom
   const CwLayerWork *work = repair->work;
   int32_t last = 0;
   CW_TRY(find_bad(repair));
-  if (repair->bad_count == 0) CW_TRY_STAGE(find_crossings(repair, &crossing, outcome), outcome);
+  if (repair->bad_count == 0) CW_TRY(find_crossings(repair, &crossing));
   for (int32_t v = 0; v < work->n; v++) {
     if (repair->mark[v]) last = v;
   }
@@ -423,7 +480,6 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
   CwStatus status = CW_OK;
   Repair repair = {.work = work, .top = top};
   int32_t crossing = 0;
-  int once_more = 0;
   CW_TRY(start(&repair, tree));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
@@ -433,13 +489,13 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
       CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
     } else {
-      CW_TRY_STAGE(find_crossings(&repair, &crossing, outcome), outcome);
+      CW_TRY(find_crossings(&repair, &crossing));
       if (crossing == 0) {
-        int turned = 0;
-        if (!once_more++) CW_TRY(turn_kept(&repair, &turned));
-        if (!turned) goto done;
-        continue;
+        CW_TRY(turn_kept(&repair));
+        goto done;
       }
+      judge_crossings(&repair, outcome);
+      if (outcome->kind != CW_OUTCOME_DONE) goto done;
     }
     CW_TRY(thin_marked(&repair));
     // What is bad still leans as the old thicknesses asked; less thickness needs less lean. Once only: the turned

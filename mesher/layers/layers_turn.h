@@ -14,12 +14,14 @@ double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[
 // How good the column of v is, as cw_layers_around tells.
 typedef double (*CwLayerJudge)(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor,
                                int32_t *first);
-// Tries directions of the column of v near the present one; keeps the best.
-void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge judge);
+// Tries directions of the column of v near the present one; keeps the best. finely: also small steps, and the direction
+// to the middle of the ends around, of which a vertex on a seam has half.
+void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge judge, int finely);
 
-// What the layer top over triangle f counts beside its prism; and its shear, where its quality is
-// `prism`: prism_good where no determinant is small.
+// What the layer top over triangle f counts beside its prism.
 double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
-double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism);
+// What it costs that the columns of triangle f lean, where the quality of its prism is `prism`: prism_good where no
+// determinant of a prism is small and there is room for three good cells between the layer top and what holds its edge.
+double cw_layers_lean_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism);
 
 #endif

@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Prints the tetrahedra of a domain with the least dihedral angles: what they are, where, and what each corner lies on:
-// T layer top or bare wall, P partition plane, O open patch; - none, the mesher was free to move it. Regions are read
-// one at a time.
+// T layer top or bare wall, P partition plane, O open patch; - none, the mesher was free to move it. Of its edges
+// between two of the former: the angle that all tetrahedra of the region take up there, and how many they are (360
+// degrees: an edge inside). Regions are read one at a time.
 // Use: worst_cells MESH_DIR DOMAIN COUNT
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
 #include "mesher/region/region_file.h"
 
 enum { TOP = 1, PLANE = 2, OPEN = 4, WORST_MOST = 1000 };
 
+static const int edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
 typedef struct {
   double angle, x[4][3];
-  int32_t region;
+  int32_t region, point[4];
   uint8_t on[4];
+  double edge_angle[6];
+  int edge_cells[6];
 } Worst;
 
 typedef struct {
@@ -53,6 +60,7 @@ static CwStatus find_worst(const CwRegionMesh *region, List *list) {
     Worst cell = {.angle = shape.dihedral_least, .region = region->region};
     for (int k = 0; k < 4; k++) {
       memcpy(cell.x[k], x[k], sizeof cell.x[k]);
+      cell.point[k] = cells->tetrahedra[t][k];
       cell.on[k] = on[cells->tetrahedra[t][k]];
     }
     put(list, &cell);
@@ -62,8 +70,44 @@ done:
   return status;
 }
 
+// Angle (degrees) of a tetrahedron at the edge from a to b, with c and d across.
+static double angle_at(const double *a, const double *b, const double *c, const double *d) {
+  double along[3], to_c[3], to_d[3];
+  cw_sub(b, a, along);
+  cw_unit(along);
+  cw_sub(c, a, to_c);
+  cw_sub(d, a, to_d);
+  cw_flatten(to_c, along);
+  cw_flatten(to_d, along);
+  return acos(fmax(-1, fmin(1, cw_dot(to_c, to_d) / (cw_norm(to_c) * cw_norm(to_d))))) * 180 / M_PI;
+}
+
+// Adds up what lies round the given edges of the listed cells of a region.
+static void find_angles(const CwRegionMesh *region, List *list) {
+  const CwRegionData *cells = &region->cells;
+  for (int32_t t = 0; t < cells->tetrahedron_count; t++) {
+    const int32_t *corner = cells->tetrahedra[t];
+    for (int i = 0; i < list->count; i++) {
+      Worst *cell = &list->cell[i];
+      for (int e = 0; e < 6 && cell->region == region->region; e++) {
+        int32_t a = cell->point[edge[e][0]], b = cell->point[edge[e][1]];
+        const double *across[4];
+        int ends = 0, others = 0;
+        for (int k = 0; k < 4; k++) {
+          if (corner[k] == a || corner[k] == b)
+            ends++;
+          else
+            across[others++] = cells->points[corner[k]];
+        }
+        if (ends != 2) continue;
+        cell->edge_angle[e] += angle_at(cells->points[a], cells->points[b], across[0], across[1]);
+        cell->edge_cells[e]++;
+      }
+    }
+  }
+}
+
 static void print_cell(const Worst *cell) {
-  static const int edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   const double *x[4] = {cell->x[0], cell->x[1], cell->x[2], cell->x[3]};
   double centre[3] = {0};
   CwTetShape shape;
@@ -77,7 +121,9 @@ static void print_cell(const Worst *cell) {
   }
   printf(" ");
   for (int e = 0; e < 6; e++) { // the edges that are given: both ends are
-    if (cell->on[edge[e][0]] && cell->on[edge[e][1]]) printf(" %d-%d", edge[e][0], edge[e][1]);
+    if (cell->on[edge[e][0]] && cell->on[edge[e][1]]) {
+      printf(" %d-%d:%.1f/%d", edge[e][0], edge[e][1], cell->edge_angle[e], cell->edge_cells[e]);
+    }
   }
   printf("\n");
 }
@@ -86,21 +132,26 @@ int main(int argc, char **argv) {
   CwStatus status = CW_OK;
   static List list;
   CwRegionMesh region;
-  int regions = 0;
   memset(&region, 0, sizeof region);
   list.most = argc == 4 ? atoi(argv[3]) : 0;
   CW_REQUIRE(list.most > 0 && list.most <= WORST_MOST, CW_ERR_USAGE, "use: worst_cells MESH_DIR DOMAIN COUNT, to %d",
              WORST_MOST);
-  for (;; regions++) {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s-%04d.h5", argv[1], argv[2], regions + 1);
-    CW_REQUIRE(regions || !access(path, R_OK), CW_ERR_INPUT, "%s: no such file", path);
-    if (access(path, R_OK)) break;
-    CW_TRY(cw_region_read(path, &region));
-    CW_TRY(find_worst(&region, &list));
-    cw_region_free(&region);
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t number = 1;; number++) {
+      char path[4096];
+      int listed = pass == 0;
+      snprintf(path, sizeof path, "%s/%s-%04d.h5", argv[1], argv[2], number);
+      CW_REQUIRE(number > 1 || !access(path, R_OK), CW_ERR_INPUT, "%s: no such file", path);
+      if (access(path, R_OK)) break;
+      for (int i = 0; i < list.count; i++) listed |= list.cell[i].region == number;
+      if (!listed) continue;
+      CW_TRY(cw_region_read(path, &region));
+      if (pass == 0) CW_TRY(find_worst(&region, &list));
+      if (pass == 1) find_angles(&region, &list);
+      cw_region_free(&region);
+    }
   }
-  printf("least_deg greatest_deg region x_mm y_mm z_mm shortest_mm longest_mm corners given_edges\n");
+  printf("least_deg greatest_deg region x_mm y_mm z_mm shortest_mm longest_mm corners given_edges_deg\n");
   for (int i = 0; i < list.count; i++) print_cell(&list.cell[i]);
 done:
   cw_region_free(&region);

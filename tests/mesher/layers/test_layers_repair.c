@@ -2,6 +2,7 @@
 // Columns that lean: turned, then thinned.
 #include "layers_case.h"
 #include "mesher/common/box_tree.h"
+#include "mesher/common/vec.h"
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/layers/layers_gap.h"
 #include "mesher/layers/layers_normal.h"
@@ -109,10 +110,55 @@ static void sheared_prism(void **state) {
   }
 }
 
+// A triangle with an edge in the plane x = 0, under a layer top that rises from the plane so steeply that it leaves a
+// wedge of less than 54 degrees between them: its free column is turned away from the plane, where a plane is. Where it
+// would cross another layer top it is turned back, and nothing is thinned.
+static void wedge_beside_plane(void **state) {
+  for (int i = 0; i < 3; i++) {
+    int held = i > 0, faced = i == 2, points = faced ? 6 : 3;
+    Case c = {.target = 7 * MM};
+    const double x[3][3] = {{0, 0, 0}, {0, 10 * MM, 0}, {8 * MM, 5 * MM, 0}}, up[3] = {0, 0, 1};
+    double top[6][3], column[3];
+    int32_t rounds = 0;
+    for (int v = 0; v < 3; v++) assert_int_equal(surface_point(&c.wall, x[v]), v);
+    surface_triangle(&c.wall, 0, 1, 2);
+    const double at[3][3] = {{8.3 * MM, 0, 6 * MM}, {8.3 * MM, 10 * MM, 6 * MM}, {8.3 * MM, 5 * MM, 9 * MM}};
+    for (int v = 0; v < 3 && faced; v++) assert_int_equal(surface_point(&c.wall, at[v]), 3 + v);
+    if (faced) surface_triangle(&c.wall, 3, 4, 5);
+    assert_int_equal(case_make(&c), CW_OK);
+    for (int v = 0; v < 2 && held; v++) {
+      ((int32_t *)c.in.constraint_count)[v] = 1;
+      ((double(*)[2][3])c.in.constraint_normal)[v][0][0] = v ? -1 : 1;
+    }
+    CwLayerWork work = {0};
+    CwBoxTree tree = {0};
+    assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
+    assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
+    assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
+    for (int v = 0; v < points; v++) {
+      work.t[v] = v == 2 ? c.target : v < 2 ? 0.5 * MM : 0.2 * MM;
+      if (v < 3) memcpy(work.column[v], up, sizeof up);
+    }
+    assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
+    cw_sub(top[2], x[2], column);
+    assert_float_equal(column[2], c.target, 1e-15);
+    double wedge = atan2(top[2][0], top[2][2] - 0.5 * MM) * 180 / M_PI;
+    print_message("  %s plane%s: a wedge of %.1f degrees\n", held ? "with a" : "without", faced ? " and a wall" : "",
+                  wedge);
+    assert_true(i == 1 ? wedge >= 54 : wedge < 52 && column[0] == 0);
+    if (faced) assert_float_equal(top[3][0], 8.1 * MM, 1e-15);
+    cw_box_tree_free(&tree);
+    cw_smoothing_free(&work.smoothing);
+    cw_layers_work_free(&work);
+    case_free(&c);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(leaning_column),
       cmocka_unit_test(sheared_prism),
+      cmocka_unit_test(wedge_beside_plane),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
