@@ -144,6 +144,8 @@ def plain_files(path, work):
     """A file unpacked: name and path of what OpenCASCADE reads."""
     name = re.sub(r"\.gz$", "", path.name)
     if name.lower().endswith(".fcstd"):
+        if not zipfile.is_zipfile(path):
+            return
         with zipfile.ZipFile(path) as archive:
             for part in sorted(archive.namelist()):
                 if part.endswith((".brp", ".brep")):
