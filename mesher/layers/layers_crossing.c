@@ -11,10 +11,12 @@
 #include "mesher/common/box_tree.h"
 #include "mesher/common/intersect.h"
 #include "mesher/common/vec.h"
+#include "mesher/layers/layers_normal.h"
 #include "mesher/parallel/schedule.h"
 
-enum { BLOCK = 2048, GROUP = 16 }; // triangles of a task; neighbours that are looked for together
-static const double CLEAR = 1e-9; // way between plane and triangle, over the longest edge, beyond any rounding
+enum { BLOCK = 2048, GROUP = 16 };      // triangles of a task; neighbours that are looked for together
+static const double LEAST_SHARE = 0.01; // of its target: a column this thin that still crosses will not get clear
+static const double CLEAR = 1e-9;       // way between plane and triangle, over the longest edge, beyond any rounding
 
 // Corners of triangle f of the kind: 0 layer top, 1 wall, 2 open patches. Points are numbered through: layer top, wall,
 // open patches.
@@ -330,4 +332,25 @@ done:
   free(bytes);
   free(size);
   return status;
+}
+
+void cw_layers_crossing_judge(const CwLayerCrossing *crossing, CwOutcome *outcome) {
+  const CwLayerWork *work = crossing->work;
+  const CwLayerInput *in = work->in;
+  for (int32_t i = 0; i < crossing->pair_count; i++) {
+    const CwLayerPair *pair = &crossing->pair[i];
+    const int32_t *f = in->triangle[pair->f], *g = pair->kind_g == 0 ? in->triangle[pair->g] : f;
+    const double *x = in->x[f[0]];
+    const CwOutcomeKind kind = cw_layers_kind_at(work, f[0]);
+    CW_END_UNLESS(pair->kind_f == 0, outcome, kind, x, "the wall crosses or touches itself");
+    double share = 0;
+    for (int k = 0; k < 3; k++) {
+      share = fmax(share, fmax(work->t[f[k]] / in->target[f[k]], work->t[g[k]] / in->target[g[k]]));
+    }
+    CW_END_UNLESS(share > LEAST_SHARE, outcome, kind, x, "the layer top crosses %s however thin the layers are made",
+                  pair->kind_g == 0   ? "itself"
+                  : pair->kind_g == 1 ? "the wall"
+                                      : "an open patch");
+  }
+done:;
 }

@@ -6,6 +6,7 @@
 
 #include "mesher/common/box_tree.h"
 #include "mesher/layers/layer_columns.h"
+#include "mesher/parallel/outcome.h"
 
 // Two triangles that cross; kinds are 0 layer top, 1 wall, 2 open patches.
 typedef struct {
@@ -30,5 +31,7 @@ void cw_layers_crossing_free(CwLayerCrossing *crossing);
 // Brings the pairs up to date with the layer top; moved: vertices that moved since the last time; the first time all
 // those not known to be clear of one another. Collective.
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[3], const uint8_t *moved);
+// Whether thinner columns can get clear of what they cross; outcome: that of cw_layers_kind_at where not.
+void cw_layers_crossing_judge(const CwLayerCrossing *crossing, CwOutcome *outcome);
 
 #endif

@@ -21,7 +21,6 @@ enum { ROUNDS = 120, TURNS = 4, RESMOOTH = 3 };
 enum { TOGETHER = 16 };                 // columns at least that are turned in one task
 enum { MANY = 2048 };                   // prisms that are worth handing round the ranks
 enum { FOR_SHAPE = 1, FOR_SOUNDNESS };  // what a column is turned and thinned for
-static const double LEAST_SHARE = 0.01; // of its target: a column this thin that still crosses will not get clear
 
 typedef struct {
   CwLayerWork *work;
@@ -176,28 +175,6 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
   }
 done:
   return status;
-}
-
-// Whether thinner columns can get clear of what they cross.
-static void judge_crossings(const Repair *repair, CwOutcome *outcome) {
-  const CwLayerWork *work = repair->work;
-  const CwLayerInput *in = work->in;
-  for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
-    const CwLayerPair *pair = &repair->crossing.pair[i];
-    const int32_t *f = in->triangle[pair->f], *g = pair->kind_g == 0 ? in->triangle[pair->g] : f;
-    const double *x = in->x[f[0]];
-    const CwOutcomeKind kind = cw_layers_kind_at(work, f[0]);
-    CW_END_UNLESS(pair->kind_f == 0, outcome, kind, x, "the wall crosses or touches itself");
-    double share = 0;
-    for (int k = 0; k < 3; k++) {
-      share = fmax(share, fmax(work->t[f[k]] / in->target[f[k]], work->t[g[k]] / in->target[g[k]]));
-    }
-    CW_END_UNLESS(share > LEAST_SHARE, outcome, kind, x, "the layer top crosses %s however thin the layers are made",
-                  pair->kind_g == 0   ? "itself"
-                  : pair->kind_g == 1 ? "the wall"
-                                      : "an open patch");
-  }
-done:;
 }
 
 // Marked columns by groups: neighbours, of which each sees what the last one did, are in one. Groups do not see one
@@ -494,7 +471,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
         CW_TRY(turn_kept(&repair));
         goto done;
       }
-      judge_crossings(&repair, outcome);
+      cw_layers_crossing_judge(&repair.crossing, outcome);
       if (outcome->kind != CW_OUTCOME_DONE) goto done;
     }
     CW_TRY(thin_marked(&repair));

@@ -25,16 +25,20 @@ static const char *unit_text(const char *suffix) {
   return unit ? unit->text : "";
 }
 
+// What is left open stands among the derived dimensions, or follows from others.
+static int has_row(const CwCaseKey *key, const CwCase *table) {
+  if (!*key->section || key->type == CW_KEY_NAME) return 0;
+  double value = cw_case_key_value(key, table);
+  return key->presence != CW_KEY_COMPUTED || !(isnan(value) || value == key->fallback);
+}
+
 static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
   size_t length;
   const char *origin = "case file";
-  if (key->type == CW_KEY_NAME) return;
   cw_unit_of_key(key->key, &length);
   snprintf(stem, sizeof stem, "%.*s", (int)length, key->key);
   double value = cw_case_key_value(key, table);
-  if (key->presence == CW_KEY_COMPUTED && (isnan(value) || value == key->fallback))
-    return; // left open: stands among the derived dimensions, or follows from others
   int automatic = key->presence == CW_KEY_AUTO && (isnan(value) || value == key->fallback);
   if (automatic || (key->presence == CW_KEY_DEFAULT && value == key->fallback)) origin = "default";
   cw_quantity_start(page, stem, NULL);
@@ -62,7 +66,7 @@ CwStatus cw_page_input(FILE *page, const CwReportData *data) {
         page);
   for (size_t k = 0; k < cw_case_key_count; k++) {
     const CwCaseKey *key = &cw_case_keys[k];
-    if (!*key->section) continue;
+    if (!has_row(key, data->table)) continue;
     if (!section || strcmp(section, key->section)) {
       if (section) fputs("</table>\n", page);
       section = key->section;

@@ -134,12 +134,23 @@
 
   // State of the view. turn: rows of the rotation from x, y, z to right, up, towards.
   const distance = 3.4 * radius + reach; // of the eye from the middle, m
-  const state = {turn: null, zoom: 1, shift: [0, 0], quantity: -1};
+  const state = {turn: null, extent: null, zoom: 1, shift: [0, 0], quantity: -1};
+  // How far the corners of what is shown at first lie from the middle of the picture, to the right and up.
+  function extentOf([right, up, towards]) {
+    const extent = [0, 0], dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    for (let corner = 0; corner < 8; corner++) {
+      const x = middle.map((m, i) => seen[(corner >> i) & 1][i] - m), depth = distance - dot(towards, x);
+      extent[0] = Math.max(extent[0], Math.abs(dot(right, x)) / depth);
+      extent[1] = Math.max(extent[1], Math.abs(dot(up, x)) / depth);
+    }
+    return extent;
+  }
   function face(towards, up) {
     const unit = (v) => v.map((x) => x / Math.hypot(...v));
     const cross = (a, b) => [0, 1, 2].map((i) => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
     const t = unit(towards), right = unit(cross(up, t));
     state.turn = [right, cross(t, right), t];
+    state.extent = extentOf(state.turn);
     state.zoom = 1;
     state.shift = [0, 0];
   }
@@ -196,7 +207,7 @@
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     const [r, u, t] = state.turn, eye = distance, near = eye - reach, far = eye + reach, sides = width / height;
-    const focus = distance / radius * state.zoom * Math.min(1, sides) * 1.45;
+    const focus = 0.97 * state.zoom * Math.min(sides / state.extent[0], 1 / state.extent[1]);
     gl.uniformMatrix4fv(uniforms.turn, false, [r[0], u[0], t[0], 0, r[1], u[1], t[1], 0, r[2], u[2], t[2], 0,
                                                0, 0, 0, 1]);
     gl.uniformMatrix4fv(uniforms.look, false, [focus / sides, 0, 0, 0, 0, focus, 0, 0,

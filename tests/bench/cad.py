@@ -22,6 +22,7 @@ import pathlib
 import re
 import resource
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -81,7 +82,8 @@ def run(line, seconds):
         said.seek(0)
         text = said.read().decode(errors="replace")
     took = used.ru_utime + used.ru_stime
-    return ("timeout" if took >= seconds else child.returncode), text, took
+    over = took >= seconds or child.returncode == -signal.SIGXCPU
+    return ("timeout" if over else child.returncode), text, took
 
 
 def files(folder):
