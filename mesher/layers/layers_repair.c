@@ -18,9 +18,9 @@
 #include "mesher/policy.h"
 
 enum { ROUNDS = 120, TURNS = 4, RESMOOTH = 3 };
-enum { TOGETHER = 16 };                 // columns at least that are turned in one task
-enum { MANY = 2048 };                   // prisms that are worth handing round the ranks
-enum { FOR_SHAPE = 1, FOR_SOUNDNESS };  // what a column is turned and thinned for
+enum { TOGETHER = 16 };                // columns at least that are turned in one task
+enum { MANY = 2048 };                  // prisms that are worth handing round the ranks
+enum { FOR_SHAPE = 1, FOR_SOUNDNESS }; // what a column is turned and thinned for
 
 typedef struct {
   CwLayerWork *work;
@@ -158,14 +158,13 @@ done:
   return status;
 }
 
-// Marks the columns of crossing layer top triangles; *crossing: pairs that matter.
-static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
+// Finds the pairs of triangles that cross and marks their columns.
+static CwStatus find_crossings(Repair *repair) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   memset(repair->mark, 0, work->n);
   CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double(*)[3])repair->top, repair->uncrossed));
   memset(repair->uncrossed, 0, work->n);
-  *crossing = repair->crossing.pair_count;
   for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
     const CwLayerPair *pair = &repair->crossing.pair[i];
     for (int k = 0; k < 3; k++) {
@@ -353,7 +352,6 @@ static CwStatus turn_kept(Repair *repair) {
   const CwLayerWork *work = repair->work;
   const double(*top)[3] = (const double(*)[3])repair->top;
   Before before = {0};
-  int32_t crossing = 1, back = 1;
   CW_NEW(before.noted, work->n);
   repair->finely = 1;
   for (int pass = 0; pass < TURNS; pass++) {
@@ -373,8 +371,8 @@ static CwStatus turn_kept(Repair *repair) {
     if (!repair->moved_count) break;
     CW_TRY(find_bad(repair));
   }
-  while (before.count && (repair->bad_count || crossing) && back) {
-    if (!repair->bad_count) CW_TRY(find_crossings(repair, &crossing));
+  for (int32_t back = before.count > 0; back;) {
+    if (!repair->bad_count) CW_TRY(find_crossings(repair));
     back = turn_back(repair, &before);
     CW_TRY(find_bad(repair));
   }
@@ -425,18 +423,18 @@ done:
   return status;
 }
 
-static CwStatus not_repaired(Repair *repair, int32_t crossing, CwOutcome *outcome) {
+static CwStatus not_repaired(Repair *repair, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   int32_t last = 0;
   CW_TRY(find_bad(repair));
-  if (repair->bad_count == 0) CW_TRY(find_crossings(repair, &crossing));
+  if (repair->bad_count == 0) CW_TRY(find_crossings(repair));
   for (int32_t v = 0; v < work->n; v++) {
     if (repair->mark[v]) last = v;
   }
   cw_outcome_set(outcome, cw_layers_kind_at(work, last), work->in->x[last],
                  "no valid layer top after %d rounds: %d prisms without positive volume, %d pairs crossing", ROUNDS,
-                 repair->bad_count, crossing);
+                 repair->bad_count, repair->crossing.pair_count);
 done:
   return status;
 }
@@ -456,7 +454,6 @@ static void repair_free(Repair *repair) {
 CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], int32_t *rounds, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Repair repair = {.work = work, .top = top};
-  int32_t crossing = 0;
   CW_TRY(start(&repair, tree));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
@@ -466,8 +463,8 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
       CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
     } else {
-      CW_TRY(find_crossings(&repair, &crossing));
-      if (crossing == 0) {
+      CW_TRY(find_crossings(&repair));
+      if (repair.crossing.pair_count == 0) {
         CW_TRY(turn_kept(&repair));
         goto done;
       }
@@ -479,7 +476,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
     // columns are lost by it, and only thinning is sure to come to an end.
     if (*rounds == RESMOOTH) CW_TRY(smoothing_again(&repair));
   }
-  CW_TRY(not_repaired(&repair, crossing, outcome));
+  CW_TRY(not_repaired(&repair, outcome));
 done:
   repair_free(&repair);
   return status;

@@ -89,7 +89,8 @@ static void find_angles(const CwRegionMesh *region, List *list) {
     const int32_t *corner = cells->tetrahedra[t];
     for (int i = 0; i < list->count; i++) {
       Worst *cell = &list->cell[i];
-      for (int e = 0; e < 6 && cell->region == region->region; e++) {
+      if (cell->region != region->region) continue;
+      for (int e = 0; e < 6; e++) {
         int32_t a = cell->point[edge[e][0]], b = cell->point[edge[e][1]];
         const double *across[4];
         int ends = 0, others = 0;

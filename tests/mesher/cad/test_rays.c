@@ -12,15 +12,20 @@
 #include "mesher/cad/rays.h"
 #include "octahedron.h"
 
+static CwRays *rays_through(const CwBackground *background) {
+  CwRays *rays = NULL;
+  assert_int_equal(cw_rays_make(NULL, background->point_count, (const double(*)[3])background->x,
+                                background->triangle_count, (const int32_t(*)[3])background->triangle, &rays),
+                   CW_OK);
+  return rays;
+}
+
 static void rays_leave_where_they_should(void **state) {
   Octahedron shape;
   CwBackground background = octahedron(&shape, 1);
-  CwRays *rays = NULL;
+  CwRays *rays = rays_through(&background);
   double s = 0;
   assert_true(fabs(cw_background_volume(&background) - 4.0 / 3 * (1 - 1.0 / 64)) < 1e-15);
-  assert_int_equal(cw_rays_make(NULL, background.point_count, (const double(*)[3])background.x,
-                                background.triangle_count, (const int32_t(*)[3])background.triangle, &rays),
-                   CW_OK);
 
   // From (0.3, 0.1, 0.1) along +x: to |x| = 0.8, through the triangle of the octant + + +.
   const double right[3] = {1, 0, 0}, left[3] = {-1, 0, 0}, start[3] = {0.3, 0.1, 0.1};
@@ -42,13 +47,10 @@ static void rays_leave_where_they_should(void **state) {
 static void a_line_meets_the_walls_in_order(void **state) {
   Octahedron shape;
   CwBackground background = octahedron(&shape, 1);
-  CwRays *rays = NULL;
+  CwRays *rays = rays_through(&background);
   CwRayHit hit[8];
   const double place[4] = {-0.8, -0.05, 0.05, 0.8}, right[3] = {1, 0, 0}, point[3] = {0, 0.1, 0.1};
   const int32_t triangle[4] = {1, 9, 8, 0};
-  assert_int_equal(cw_rays_make(NULL, background.point_count, (const double(*)[3])background.x,
-                                background.triangle_count, (const int32_t(*)[3])background.triangle, &rays),
-                   CW_OK);
   assert_int_equal(cw_rays_hits(rays, point, right, -2, 2, 8, hit), 4);
   for (int i = 0; i < 4; i++) {
     assert_true(fabs(hit[i].place - place[i]) < 1e-14);
@@ -64,11 +66,8 @@ static void a_line_meets_the_walls_in_order(void **state) {
 static void many_rays_agree_with_the_formula(void **state) {
   Octahedron shape;
   CwBackground background = octahedron(&shape, 0);
-  CwRays *rays = NULL;
+  CwRays *rays = rays_through(&background);
   uint64_t seed = 7;
-  assert_int_equal(cw_rays_make(NULL, background.point_count, (const double(*)[3])background.x,
-                                background.triangle_count, (const int32_t(*)[3])background.triangle, &rays),
-                   CW_OK);
   for (int i = 0; i < 10000; i++) {
     double x[3], d[3], size = 0, s = 0;
     for (int k = 0; k < 3; k++) {
