@@ -60,14 +60,12 @@ static int round_of(uint64_t number, int rounds) {
   return round;
 }
 
-CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
+static CwStatus order_points(int32_t count, const double (*x)[3], int rounds, int32_t *order) {
   CwStatus status = CW_OK;
   CwRadix *record = NULL;
   CwBox box = cw_box_of_points(count, x);
   double extent = cw_box_longest(&box);
-  int rounds = 1;
   CW_NEW_UNSET(record, count);
-  for (int32_t n = count; n > 64; n /= 8) rounds++;
   double cells = extent > 0.0 ? (double)(1 << BITS) / extent : 0.0;
   for (int32_t first = 0; first < count; first += LANES) {
     int32_t lanes = count - first < LANES ? count - first : LANES;
@@ -90,4 +88,14 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
 done:
   free(record);
   return status;
+}
+
+CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
+  return order_points(count, x, 1, order);
+}
+
+CwStatus cw_hilbert_rounds(int32_t count, const double (*x)[3], int32_t *order) {
+  int rounds = 1;
+  for (int32_t n = count; n > 64; n /= 8) rounds++;
+  return order_points(count, x, rounds, order);
 }

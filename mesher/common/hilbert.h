@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// An order of points in which neighbours in memory are neighbours in space, and which is random enough for
-// incremental insertion: rounds of eight times as many points each, along Hilbert's curve within a round (N.
-// Amenta, S. Choi, G. Rote, Incremental constructions con BRIO, 2003).
+// Orders of points in which neighbours in memory are neighbours in space: along Hilbert's curve.
 #ifndef CUTWATER_MESHER_COMMON_HILBERT_H
 #define CUTWATER_MESHER_COMMON_HILBERT_H
 
@@ -15,6 +13,10 @@ extern "C" {
 
 // order[k] is the point that comes k-th. Deterministic.
 CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order);
+
+// The same, random enough for incremental insertion: rounds of eight times as many points each, along the curve within
+// a round (N. Amenta, S. Choi, G. Rote, Incremental constructions con BRIO, 2003).
+CwStatus cw_hilbert_rounds(int32_t count, const double (*x)[3], int32_t *order);
 
 // Place of cell (i, j, k) of a cube with 2^bits cells along each axis on Hilbert's curve; cells next to each
 // other on the curve share a face. bits <= 21.

@@ -304,7 +304,7 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwTetMesh *mesh)
   CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed", count,
              INT32_MAX / 32 - 1);
   CW_NEW_UNSET(order, count);
-  CW_TRY(cw_hilbert_order(count, x, order));
+  CW_TRY(cw_hilbert_rounds(count, x, order));
   CW_NEW_UNSET(mesh->point, count + CW_ENCLOSING_POINTS);
   CW_NEW_UNSET(mesh->source, count + CW_ENCLOSING_POINTS);
   mesh->point_count = mesh->point_space = count + CW_ENCLOSING_POINTS;

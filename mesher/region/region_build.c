@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/hilbert.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/common/radix.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_with_fallback.h"
 #include "mesher/policy.h"
@@ -145,13 +147,35 @@ typedef struct {
   int32_t *column; // first point of the layers below each local node that stands on the layer top, by level
 } Build;
 
-// Numbers the points of the region file, shared ones first, and places them.
+// A point of the fill and, on the layer top, its column: from number `*next` of the region file on.
+static void place_point(Build *build, int32_t i, int32_t *next, CwRegionMesh *mesh) {
+  const CwRegionContext *context = build->context;
+  const CwRegionInput *from = &context->from;
+  const int32_t levels = context->layer_count, node = i < build->inner.node_count ? build->inner.node[i] : -1;
+  const int64_t base = node >= 0 ? context->shared_base[node] : -1;
+  const int on_top = node >= 0 && node < from->surface->vertex_count;
+  double fraction[CW_LAYERS_MOST + 1];
+  if (on_top) {
+    build->column[i] = *next;
+    cw_layer_fractions(from->layers->thickness[node], context->first_height[node], levels, context->growth[node],
+                       fraction);
+    for (int k = 0; k < levels; k++) {
+      if (base >= 0) mesh->cells.shared_id[*next] = base + k;
+      cw_column_place(from, &context->open_edge_places, node, fraction[k], mesh->cells.points[(*next)++]);
+    }
+  }
+  if (base >= 0) mesh->cells.shared_id[*next] = base + (on_top ? levels : 0);
+  build->place[i] = *next;
+  cw_copy(build->fill.x[i], mesh->cells.points[(*next)++]);
+}
+
+// Numbers the points of the region file and places them: shared ones first, then the region's own along Hilbert's
+// curve, so that what is near in space is near in memory, for all who read the mesh.
 static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
   const CwRegionInput *from = &context->from;
-  int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
-  double fraction[CW_LAYERS_MOST + 1];
+  int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0, next = 0, *order = NULL;
   for (int32_t i = 0; i < build->inner.node_count; i++) {
     int on_top = build->inner.node[i] < from->surface->vertex_count,
         is_shared = context->shared_base[build->inner.node[i]] >= 0;
@@ -164,26 +188,41 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   CW_NEW(mesh->cells.shared_id, shared);
   CW_NEW(build->place, build->fill.point_count);
   CW_NEW(build->column, build->inner.node_count);
-  int32_t next_shared = 0, next_own = shared;
-  for (int32_t i = 0; i < build->fill.point_count; i++) {
-    int32_t node = i < build->inner.node_count ? build->inner.node[i] : -1;
-    int64_t base = node >= 0 ? context->shared_base[node] : -1;
-    int on_top = node >= 0 && node < from->surface->vertex_count;
-    int32_t *next = base >= 0 ? &next_shared : &next_own;
-    if (on_top) {
-      build->column[i] = *next;
-      cw_layer_fractions(from->layers->thickness[node], context->first_height[node], levels, context->growth[node],
-                         fraction);
-      for (int k = 0; k < levels; k++) {
-        if (base >= 0) mesh->cells.shared_id[*next] = base + k;
-        cw_column_place(from, &context->open_edge_places, node, fraction[k], mesh->cells.points[(*next)++]);
-      }
-    }
-    if (base >= 0) mesh->cells.shared_id[*next] = base + (on_top ? levels : 0);
-    build->place[i] = *next;
-    cw_copy(build->fill.x[i], mesh->cells.points[(*next)++]);
+  for (int32_t i = 0; i < build->inner.node_count; i++) {
+    if (context->shared_base[build->inner.node[i]] >= 0) place_point(build, i, &next, mesh);
+  }
+  CW_NEW_UNSET(order, build->fill.point_count);
+  CW_TRY(cw_hilbert_order(build->fill.point_count, (const double(*)[3])build->fill.x, order));
+  for (int32_t k = 0; k < build->fill.point_count; k++) {
+    int32_t i = order[k];
+    if (i >= build->inner.node_count || context->shared_base[build->inner.node[i]] < 0)
+      place_point(build, i, &next, mesh);
   }
 done:
+  free(order);
+  return status;
+}
+
+// The tetrahedra of the fill by the greatest number of their points, which brings them along the curve too.
+static CwStatus order_tetrahedra(Build *build) {
+  CwStatus status = CW_OK;
+  const int32_t count = build->fill.tetrahedron_count, *place = build->place;
+  int32_t(*corner)[4] = build->fill.tetrahedron, (*ordered)[4] = NULL;
+  CwRadix *record = NULL;
+  CW_NEW_UNSET(record, count);
+  CW_NEW_UNSET(ordered, count);
+  for (int32_t t = 0; t < count; t++) {
+    int32_t greatest = place[corner[t][0]];
+    for (int k = 1; k < 4; k++) greatest = place[corner[t][k]] > greatest ? place[corner[t][k]] : greatest;
+    record[t] = (CwRadix){(uint64_t)greatest, t, 0};
+  }
+  CW_TRY(cw_radix_sort(count, record));
+  for (int32_t t = 0; t < count; t++) memcpy(ordered[t], corner[record[t].item], sizeof *ordered);
+  build->fill.tetrahedron = ordered;
+  ordered = corner;
+done:
+  free(record);
+  free(ordered);
   return status;
 }
 
@@ -355,6 +394,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_TRY(cw_fill_with_fallback(&input, context->fill, &build.fill));
   mesh->recovery = build.fill.recovery;
   CW_TRY(place_points(&build, mesh));
+  CW_TRY(order_tetrahedra(&build));
   mesh->cells.tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->cells.tetrahedra, mesh->cells.tetrahedron_count);
   for (int32_t t = 0; t < mesh->cells.tetrahedron_count; t++) {

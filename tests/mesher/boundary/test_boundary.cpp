@@ -27,6 +27,7 @@ extern "C" {
 }
 
 #include "domain_surfaces.h"
+#include "point_order.h"
 #include "shared_points.h"
 
 static double even_size(const void *, const double *) {
@@ -297,8 +298,7 @@ static void make_surfaces(Box &box) {
   std::vector<void *> open_patches(faces, nullptr), interfaces;
   int64_t size;
   make_layers(box);
-  for (int v = 0; v < boundary.surface.vertex_count;
-       v++) { // corners and edges of a box keep the asked thickness to the walls
+  for (int v = 0; v < boundary.surface.vertex_count; v++) { // corners and edges keep the asked thickness to the walls
     for (int k = 1; k < 3; k++) {
       double side = k == 1 ? 0.030 : 0.020, x = boundary.layers.top[v][k];
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
@@ -361,12 +361,12 @@ static void fill_the_box(int rule) {
     assert_int_equal(quality.beside.count + quality.apart.count, mesh.cells.tetrahedron_count);
     open_faces += quality.open_faces;
     shared.add(mesh);
+    check_point_order(mesh, even_size(nullptr, nullptr));
     cw_region_free(&mesh);
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
   assert_int_equal(open_faces, 0);
   shared.check(context.shared_count);
-
   cw_region_context_free(&context);
   free(pair);
 }

@@ -37,27 +37,35 @@ static double distance(const double a[3], const double b[3]) {
   return square;
 }
 
-static void order_is_a_permutation_with_short_steps(void **unused) {
-  enum { SIDE = 20, COUNT = SIDE * SIDE * SIDE };
-  double(*x)[3] = malloc(COUNT * sizeof *x);
-  int32_t *order = malloc(COUNT * sizeof *order);
+enum { SIDE = 20, COUNT = SIDE * SIDE * SIDE };
+
+// How many of the steps from point to point in this order, of which each comes once, are at most this long.
+static int short_steps(const double (*x)[3], const int32_t *order, double most) {
   uint8_t *seen = calloc(COUNT, 1);
-  for (int k = 0; k < COUNT; k++) x[k][0] = k % SIDE, x[k][1] = k / SIDE % SIDE, x[k][2] = k / SIDE / SIDE;
-  assert_int_equal(cw_hilbert_order(COUNT, (const double(*)[3])x, order), CW_OK);
-  int near = 0;
+  int count = 0;
   for (int k = 0; k < COUNT; k++) {
     assert_true(order[k] >= 0 && order[k] < COUNT && !seen[order[k]]);
     seen[order[k]] = 1;
-    near += k && distance(x[order[k]], x[order[k - 1]]) <= 4.0;
+    count += k && distance(x[order[k]], x[order[k - 1]]) <= most * most;
   }
-  assert_true(near > COUNT * 3 / 4);
+  free(seen);
+  return count;
+}
+
+static void orders_are_permutations_with_short_steps(void **unused) {
+  double(*x)[3] = malloc(COUNT * sizeof *x);
+  int32_t *order = malloc(COUNT * sizeof *order);
+  for (int k = 0; k < COUNT; k++) x[k][0] = k % SIDE, x[k][1] = k / SIDE % SIDE, x[k][2] = k / SIDE / SIDE;
+  assert_int_equal(cw_hilbert_order(COUNT, (const double(*)[3])x, order), CW_OK);
+  assert_true(short_steps((const double(*)[3])x, order, 1.8) > COUNT * 9 / 10); // along the curve: to a neighbour
+  assert_int_equal(cw_hilbert_rounds(COUNT, (const double(*)[3])x, order), CW_OK);
+  assert_true(short_steps((const double(*)[3])x, order, 2.0) > COUNT * 3 / 4);
   // The first rounds are thin: among the first 64th no two points are neighbours but by chance.
   int touching = 0;
   for (int k = 1; k < COUNT / 64; k++) touching += distance(x[order[k]], x[order[k - 1]]) <= 1.0;
   assert_true(touching < COUNT / 64 / 8);
   free(x);
   free(order);
-  free(seen);
 }
 
 static void points_without_extent(void **unused) {
@@ -70,7 +78,7 @@ static void points_without_extent(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(curve_visits_neighbours),
-      cmocka_unit_test(order_is_a_permutation_with_short_steps),
+      cmocka_unit_test(orders_are_permutations_with_short_steps),
       cmocka_unit_test(points_without_extent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
