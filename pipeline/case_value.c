@@ -123,19 +123,20 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
   return 0;
 }
 
-// Levenshtein distance without regard to case; -1 when a text is too long to be worth it.
+// Levenshtein distance of what was written from a key, without regard to case; a letter left out counts less than a
+// wrong one, since people shorten. -1 when a text is too long to be worth it.
 static int edit_distance(const char *a, const char *b) {
-  enum { LIMIT = 80 };
+  enum { LIMIT = 80, WRONG = 3 };
   int row[LIMIT + 1];
   size_t n = strlen(a), m = strlen(b);
   if (n > LIMIT || m > LIMIT) return -1;
   for (size_t j = 0; j <= m; ++j) row[j] = (int)j;
   for (size_t i = 1; i <= n; ++i) {
     int diagonal = row[0];
-    row[0] = (int)i;
+    row[0] = WRONG * (int)i;
     for (size_t j = 1; j <= m; ++j) {
-      int change = diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
-      int least = row[j] < row[j - 1] ? row[j] + 1 : row[j - 1] + 1;
+      int change = diagonal + WRONG * (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
+      int least = row[j] + WRONG < row[j - 1] + 1 ? row[j] + WRONG : row[j - 1] + 1;
       diagonal = row[j];
       row[j] = change < least ? change : least;
     }

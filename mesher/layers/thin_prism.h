@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Prisms so long for their height that checkMesh calls their determinant small. It takes that of sum S S^T / a^2 over
-// the inner faces of a cell, S being their area vectors and a the mean of their areas, over 8: of a right prism it
-// falls with the fourth power of height over length. Such prisms are sound, but the user should know whence they come.
+// Prisms so long for their height that checkMesh calls their determinant small (pipeline/mesh/cell.h): that of a right
+// prism falls with the fourth power of height over length. They are sound, but the user should know whence they come.
 #ifndef CUTWATER_MESHER_LAYERS_THIN_PRISM_H
 #define CUTWATER_MESHER_LAYERS_THIN_PRISM_H
 

@@ -3,38 +3,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
+#include "mesher/region/tets_on.h"
 #include "pipeline/mesh/cell.h"
 
 static const double BINS_AN_OCTAVE = 8;
-
-// The end of a column.
-typedef struct {
-  int32_t corner[3]; // ascending
-  int32_t triangle;  // of the wall
-} End;
-
-static End end_of(int32_t a, int32_t b, int32_t c, int32_t triangle) {
-  End end = {{a, b, c}, triangle};
-  for (int pass = 0; pass < 2; pass++) {
-    for (int k = 0; k < 2 - pass; k++) {
-      if (end.corner[k] <= end.corner[k + 1]) continue;
-      int32_t swap = end.corner[k];
-      end.corner[k] = end.corner[k + 1];
-      end.corner[k + 1] = swap;
-    }
-  }
-  return end;
-}
-
-static int compare_ends(const void *p, const void *q) {
-  const End *a = p, *b = q;
-  for (int k = 0; k < 3; k++) {
-    if (a->corner[k] != b->corner[k]) return a->corner[k] < b->corner[k] ? -1 : 1;
-  }
-  return 0;
-}
 
 // The cells on both sides of a face of the layer top.
 typedef struct {
@@ -78,37 +54,32 @@ static void count(const Meeting *meeting, CwLayerRatio *ratio) {
 
 CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, CwLayerRatio *ratio) {
   CwStatus status = CW_OK;
-  End *end = NULL;
-  uint8_t *on_end = NULL;
-  int32_t ends = 0, met = 0,
-          last = layers - 1 - mesh->cells.tetrahedron_count - mesh->cells.pyramid_count; // beside the first
-  CW_NEW(end, mesh->cells.triangle_count);
-  CW_NEW(on_end, mesh->cells.point_count);
-  for (int32_t t = 0; t < mesh->cells.triangle_count; t++) {
-    if (mesh->cells.triangle_cell[t] < mesh->cells.tetrahedron_count) continue;
-    const int32_t *top = mesh->cells.prisms[mesh->cells.triangle_cell[t] + last] + 3;
-    end[ends++] = end_of(top[0], top[1], top[2], t);
-    for (int k = 0; k < 3; k++) on_end[top[k]] = 1;
+  const CwRegionData *cells = &mesh->cells;
+  const int32_t last = layers - 1 - cells->tetrahedron_count - cells->pyramid_count; // beside the first of a column
+  int32_t(*end)[3] = NULL, *wall = NULL, *above = NULL, ends = 0;
+  CW_NEW_UNSET(end, cells->triangle_count);
+  CW_NEW_UNSET(wall, cells->triangle_count);
+  CW_NEW_UNSET(above, cells->triangle_count);
+  for (int32_t t = 0; t < cells->triangle_count; t++) {
+    if (cells->triangle_cell[t] < cells->tetrahedron_count) continue;
+    memcpy(end[ends], cells->prisms[cells->triangle_cell[t] + last] + 3, sizeof *end);
+    wall[ends++] = t;
   }
-  qsort(end, (size_t)ends, sizeof *end, compare_ends);
-  for (int32_t c = 0; c < mesh->cells.tetrahedron_count; c++) {
-    const int32_t *corner = mesh->cells.tetrahedra[c];
-    if (on_end[corner[0]] + on_end[corner[1]] + on_end[corner[2]] + on_end[corner[3]] < 3) continue;
-    for (int k = 0; k < 4; k++) {
-      End key = end_of(corner[(k + 1) % 4], corner[(k + 2) % 4], corner[(k + 3) % 4], 0);
-      const End *found = bsearch(&key, end, (size_t)ends, sizeof *end, compare_ends);
-      if (!found) continue;
-      int32_t patch = mesh->cells.triangle_patch[found->triangle];
-      Meeting meeting = meet(mesh, mesh->cells.triangle_cell[found->triangle] + last, corner);
-      met++;
-      if (patch < patches) count(&meeting, &ratio[patch]);
-    }
+  CW_TRY(cw_tets_on(cells->point_count, ends, (const int32_t(*)[3])end, cells->tetrahedron_count,
+                    (const int32_t(*)[4])cells->tetrahedra, above));
+  for (int32_t e = 0; e < ends; e++) {
+    const int32_t patch = cells->triangle_patch[wall[e]];
+    const double *x = cells->points[end[e][0]];
+    CW_REQUIRE(above[e] >= 0, CW_ERR_MESH,
+               "%s region %d: the column that ends at (%.6g, %.6g, %.6g) mm has no tetrahedron there", mesh->domain,
+               mesh->region, CW_MM(x));
+    Meeting meeting = meet(mesh, cells->triangle_cell[wall[e]] + last, cells->tetrahedra[above[e]]);
+    if (patch < patches) count(&meeting, &ratio[patch]);
   }
-  CW_REQUIRE(met == ends, CW_ERR_MESH, "%s region %d: %d of %d columns have no tetrahedron on their ends", mesh->domain,
-             mesh->region, ends - met, ends);
 done:
   free(end);
-  free(on_end);
+  free(wall);
+  free(above);
   return status;
 }
 

@@ -13,6 +13,7 @@
 #include "mesher/policy.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
+#include "mesher/region/tets_on.h"
 #include "mesher/source_hash.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/hash.h"
@@ -311,64 +312,28 @@ done:
   return status;
 }
 
-typedef struct {
-  int32_t corner[3], index; // corners ascending
-} Face;
-
-static Face face_of(int32_t a, int32_t b, int32_t c, int32_t index) {
-  Face face = {{a, b, c}, index};
-  for (int pass = 0; pass < 2; pass++) {
-    for (int k = 0; k < 2 - pass; k++) {
-      if (face.corner[k] <= face.corner[k + 1]) continue;
-      int32_t swap = face.corner[k];
-      face.corner[k] = face.corner[k + 1];
-      face.corner[k + 1] = swap;
-    }
-  }
-  return face;
-}
-
-static int compare_faces(const void *p, const void *q) {
-  return memcmp(((const Face *)p)->corner, ((const Face *)q)->corner, sizeof(int32_t[3]));
-}
-
 // Triangles of the open patches with the tetrahedron behind each.
 static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwRegionInput *from = &build->context->from;
-  Face *face = NULL;
-  int32_t first = build->inner.wall_count;
-  CW_NEW(face, build->inner.open_patch_count);
-  for (int32_t t = 0; t < build->inner.open_patch_count; t++) {
-    const int32_t *corner = build->inner.triangle[first + t];
-    face[t] = face_of(corner[0], corner[1], corner[2], t);
-    int32_t made = mesh->cells.triangle_count++;
-    for (int c = 0; c < 3; c++) mesh->cells.triangles[made][c] = build->place[corner[c]];
-    int32_t open_patch = from->interfaces->open_patch.face[build->inner.source[first + t]];
-    mesh->cells.triangle_patch[made] = cw_cad_face_patch(from->in->cad, open_patch);
-    mesh->cells.triangle_cell[made] = -1;
-    CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made], 3));
-  }
-  qsort(face, (size_t)build->inner.open_patch_count, sizeof *face, compare_faces);
-  for (int32_t t = 0; t < build->fill.tetrahedron_count; t++) {
-    const int32_t *corner = build->fill.tetrahedron[t];
-    for (int k = 0; k < 4; k++) {
-      int32_t a = corner[(k + 1) % 4], b = corner[(k + 2) % 4], c = corner[(k + 3) % 4];
-      if (a >= build->inner.node_count || b >= build->inner.node_count || c >= build->inner.node_count) continue;
-      Face key = face_of(a, b, c, 0);
-      const Face *found = bsearch(&key, face, (size_t)build->inner.open_patch_count, sizeof *face, compare_faces);
-      if (found) mesh->cells.triangle_cell[build->inner.wall_count + found->index] = t;
-    }
-  }
-  for (int32_t t = 0; t < build->inner.open_patch_count; t++) {
-    const double *x = mesh->cells.points[mesh->cells.triangles[build->inner.wall_count + t][0]];
-    CW_REQUIRE(mesh->cells.triangle_cell[build->inner.wall_count + t] >= 0, CW_ERR_MESH,
+  const int32_t first = build->inner.wall_count, made = mesh->cells.triangle_count;
+  const int32_t count = build->inner.open_patch_count;
+  const int32_t(*corner)[3] = (const int32_t(*)[3])build->inner.triangle + first;
+  CW_TRY(cw_tets_on(build->fill.point_count, count, corner, build->fill.tetrahedron_count,
+                    (const int32_t(*)[4])build->fill.tetrahedron, mesh->cells.triangle_cell + made));
+  for (int32_t t = 0; t < count; t++) {
+    const int32_t open_patch = from->interfaces->open_patch.face[build->inner.source[first + t]];
+    const int patch = cw_cad_face_patch(from->in->cad, open_patch);
+    for (int c = 0; c < 3; c++) mesh->cells.triangles[made + t][c] = build->place[corner[t][c]];
+    mesh->cells.triangle_patch[made + t] = patch;
+    CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made + t], 3));
+    const double *x = mesh->cells.points[mesh->cells.triangles[made + t][0]];
+    CW_REQUIRE(mesh->cells.triangle_cell[made + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
-               build->region + 1,
-               cw_cad_patch_name(from->in->cad, mesh->cells.triangle_patch[build->inner.wall_count + t]), CW_MM(x));
+               build->region + 1, cw_cad_patch_name(from->in->cad, patch), CW_MM(x));
   }
+  mesh->cells.triangle_count += count;
 done:
-  free(face);
   return status;
 }
 

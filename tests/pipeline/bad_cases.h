@@ -32,6 +32,9 @@ static const BadCase bad_cases[] = {
     {8, "  blade_cuont: 6",
      "8:3: impeller.blade_cuont: unknown key; allowed: the keys of docs/case-reference.md, the nearest is "
      "blade_count"},
+    {4, "  flow_m3_h: 25",
+     "4:3: operating_point.flow_m3_h: unknown key; allowed: the keys of docs/case-reference.md, the nearest is "
+     "flow_rate_m3_per_h"},
     {19, "mseh:", "19:1: mseh: unknown key; allowed: the keys of docs/case-reference.md, the nearest is mesh"},
     {20, "  layer_count: 5", "20:3: mesh.layer_count: unknown key here; allowed: the key layer_count in section walls"},
     {20, "  name: x", "20:3: mesh.name: unknown key here; allowed: the key name in the top of the file"},

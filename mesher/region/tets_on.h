@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Tetrahedra that stand on given triangles.
+#ifndef CUTWATER_MESHER_REGION_TETS_ON_H
+#define CUTWATER_MESHER_REGION_TETS_ON_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// on[t] becomes the tetrahedron of which triangle t is a face, -1 where there is none; of two, the later. Triangles
+// stand once. CW_ERR_MEMORY.
+CwStatus cw_tets_on(int32_t point_count, int32_t triangle_count, const int32_t (*triangle)[3], int32_t tet_count,
+                    const int32_t (*tet)[4], int32_t *on);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
