@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
@@ -15,6 +16,7 @@
 #include <ShapeAnalysis_ShapeTolerance.hxx>
 #include <ShapeFix_FixSmallFace.hxx>
 #include <ShapeFix_Shape.hxx>
+#include <ShapeFix_ShapeTolerance.hxx>
 #include <ShapeFix_Wireframe.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -126,6 +128,13 @@ TopoDS_Shape fixed(const TopoDS_Shape &shape, double tolerance) {
   return one_solid(fix.Shape());
 }
 
+// A copy without tolerances above the largest allowed: files give greater ones than their edges and faces need.
+TopoDS_Shape limited(const TopoDS_Shape &shape, double tolerance) {
+  const TopoDS_Shape copy = BRepBuilderAPI_Copy(shape).Shape();
+  ShapeFix_ShapeTolerance().LimitTolerance(copy, 0, LARGEST_TOLERANCE * tolerance);
+  return copy;
+}
+
 // Edges and faces smaller than the tolerance go.
 TopoDS_Shape without_small(const TopoDS_Shape &shape, double tolerance) {
   const Handle(ShapeFix_Wireframe) wires = new ShapeFix_Wireframe(shape);
@@ -157,7 +166,8 @@ CwStatus heal_part(double tolerance, const CwCadFrame &frame, CwLog *log, double
   const TopoDS_Shape given = part.solid;
   const Fault first = fault_of(given, tolerance);
   Fault fault = first;
-  if (!fault.what.empty()) part.solid = fixed(part.solid, tolerance), fault = fault_of(part.solid, tolerance);
+  if (!fault.what.empty()) part.solid = limited(given, tolerance), fault = fault_of(part.solid, tolerance);
+  if (!fault.what.empty()) part.solid = fixed(given, tolerance), fault = fault_of(part.solid, tolerance);
   if (!fault.what.empty())
     part.solid = fixed(sewn(given, tolerance), tolerance), fault = fault_of(part.solid, tolerance);
   if (!fault.what.empty()) {

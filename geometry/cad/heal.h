@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Makes the parts sound: valid and closed solids, without edges and faces that are smaller than the tolerance. A part
-// that is sound already stays as it is, bit by bit. Method: OpenCASCADE's ShapeFix and sewing.
+// that is sound already stays as it is, bit by bit. Method: tolerances that are greater than edges and faces need are
+// taken back, then OpenCASCADE's ShapeFix and sewing.
 #ifndef CUTWATER_GEOMETRY_CAD_HEAL_H
 #define CUTWATER_GEOMETRY_CAD_HEAL_H
 

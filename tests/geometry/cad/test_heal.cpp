@@ -74,24 +74,42 @@ static void what_stays_open_is_refused_with_its_place(void **) {
   small_near(fault.at[2], 3e-3, 1e-9); // the lid is missing
 }
 
+// A box one corner of which lies at `at`, and is said to be within 0.9 mm of its edges.
+static TopoDS_Shape wide_cornered_box(const gp_Pnt &at) {
+  const TopoDS_Shape box = small_box(0, 0, 0, 1, 2, 3);
+  for (TopExp_Explorer corner(box, TopAbs_VERTEX); corner.More(); corner.Next()) {
+    const TopoDS_Vertex &vertex = TopoDS::Vertex(corner.Current());
+    if (BRep_Tool::Pnt(vertex).Distance(gp_Pnt(1, 2, 3)) < 1e-9) BRep_Builder().UpdateVertex(vertex, at, 0.9);
+  }
+  return box;
+}
+
+static void tolerances_that_are_not_needed_go(void **) {
+  SmallParts small({{"water", wide_cornered_box(gp_Pnt(1, 2, 3))}});
+  CwCadFault fault;
+  if (cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault)) fail_msg("%s", cw_fail_message());
+  assert_true(BRepCheck_Analyzer(small.parts.part[0].solid).IsValid());
+  for (TopExp_Explorer at(small.parts.part[0].solid, TopAbs_VERTEX); at.More(); at.Next())
+    assert_true(BRep_Tool::Tolerance(TopoDS::Vertex(at.Current())) <= 0.1);
+  small_near(volume(small.parts.part[0].solid), 6, 1e-9);
+}
+
 // Edges that meet in a corner within 0.7 mm alone, where 0.01 mm are allowed: the refusal names that corner.
 static void wide_corners_are_refused_with_their_place(void **) {
-  SmallParts small({{"water", small_box(0, 0, 0, 1, 2, 3)}});
-  for (TopExp_Explorer at(small.parts.part[0].solid, TopAbs_VERTEX); at.More(); at.Next()) {
-    const TopoDS_Vertex &vertex = TopoDS::Vertex(at.Current());
-    if (BRep_Tool::Pnt(vertex).Distance(gp_Pnt(1, 2, 3)) < 1e-9) BRep_Builder().UpdateVertex(vertex, 0.7);
-  }
+  SmallParts small({{"water", wide_cornered_box(gp_Pnt(1.4, 2.4, 3.4))}});
   CwCadFault fault;
   assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_ERR_GEOMETRY);
-  assert_non_null(strstr(cw_fail_message(), "fit one another within no less than 0.7"));
+  assert_non_null(strstr(cw_fail_message(), "fit one another within no less than 0.9"));
   assert_true(fault.found);
-  for (int k = 0; k < 3; k++) small_near(fault.at[k], 1e-3 * (k + 1), 1e-9);
+  for (int k = 0; k < 3; k++) small_near(fault.at[k], 1e-3 * (k + 1.4), 1e-9);
 }
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sound_solids_stay),
-                                     cmocka_unit_test(solids_inside_out_are_turned), cmocka_unit_test(gaps_are_sewn),
+                                     cmocka_unit_test(solids_inside_out_are_turned),
+                                     cmocka_unit_test(gaps_are_sewn),
                                      cmocka_unit_test(what_stays_open_is_refused_with_its_place),
+                                     cmocka_unit_test(tolerances_that_are_not_needed_go),
                                      cmocka_unit_test(wide_corners_are_refused_with_their_place)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
