@@ -348,19 +348,16 @@ CW_AVX2 static CwStatus add_points_avx2(CwTetMesh *mesh, Work *work, int32_t end
   return add_points(mesh, work, end);
 }
 
-CwStatus cw_delaunay_connect(CwTetMesh *mesh) {
+static CwStatus work_make(const CwTetMesh *mesh, Work **work) {
   CwStatus status = CW_OK;
-  Work *work = NULL;
-  int32_t end = mesh->point_count;
-  CW_NEW(work, 1);
-  // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
-  CW_TRY(cw_tet_mesh_make_room(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
-  work->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
-  work->none = (CwTet){.centre = {8.0f}};
-  first_tet(mesh);
-  mesh->point_count = CW_ENCLOSING_POINTS;
-  CW_TRY(CW_HAS_AVX2 ? add_points_avx2(mesh, work, end) : add_points(mesh, work, end));
+  CW_NEW(*work, 1);
+  (*work)->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
+  (*work)->none = (CwTet){.centre = {8.0f}};
 done:
+  return status;
+}
+
+static void work_free(Work *work) {
   if (work) {
     free(work->cavity);
     free(work->side);
@@ -369,6 +366,20 @@ done:
     free(work->round);
   }
   free(work);
+}
+
+CwStatus cw_delaunay_connect(CwTetMesh *mesh) {
+  CwStatus status = CW_OK;
+  Work *work = NULL;
+  int32_t end = mesh->point_count;
+  // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
+  CW_TRY(cw_tet_mesh_make_room(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
+  CW_TRY(work_make(mesh, &work));
+  first_tet(mesh);
+  mesh->point_count = CW_ENCLOSING_POINTS;
+  CW_TRY(CW_HAS_AVX2 ? add_points_avx2(mesh, work, end) : add_points(mesh, work, end));
+done:
+  work_free(work);
   if (status != CW_OK) cw_tet_mesh_free(mesh);
   return status;
 }
@@ -379,4 +390,47 @@ CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwTetMesh *mesh) 
   CW_TRY(cw_delaunay_connect(mesh));
 done:
   return status;
+}
+
+struct CwDelaunayInsertion {
+  CwTetMesh *mesh;
+  Work *work;
+  int32_t last; // a tetrahedron of the last point
+};
+
+CwStatus cw_delaunay_open(CwTetMesh *mesh, CwDelaunayInsertion **insertion) {
+  CwStatus status = CW_OK;
+  CW_NEW(*insertion, 1);
+  (*insertion)->mesh = mesh;
+  while (mesh->tet[(*insertion)->last].corner[0] < 0) (*insertion)->last++;
+  CW_TRY(work_make(mesh, &(*insertion)->work));
+done:
+  if (status != CW_OK) cw_delaunay_close(insertion);
+  return status;
+}
+
+CwStatus cw_delaunay_insert(CwDelaunayInsertion *insertion, const double x[3], int32_t source, int32_t near,
+                            int32_t *point) {
+  CwStatus status = CW_OK;
+  CwTetMesh *mesh = insertion->mesh;
+  Work *work = insertion->work;
+  double place[3];
+  int32_t found = 0;
+  *point = -1;
+  cw_sphere_place(&work->frame, x, place);
+  const float seen[3] = {(float)place[0], (float)place[1], (float)place[2]};
+  int32_t start = walk(mesh, near < 0 ? insertion->last : near, x, seen, &found);
+  if (start < 0) goto done;
+  CW_TRY(cw_tet_mesh_add_point(mesh, x, source, point));
+  CW_TRY(find_cavity(mesh, work, start, x, seen));
+  CW_TRY(fill_cavity(mesh, work, *point, place));
+  insertion->last = work->side[0].tet;
+done:
+  return status;
+}
+
+void cw_delaunay_close(CwDelaunayInsertion **insertion) {
+  if (*insertion) work_free((*insertion)->work);
+  free(*insertion);
+  *insertion = NULL;
 }

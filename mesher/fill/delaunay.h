@@ -19,6 +19,15 @@ CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwTetMesh *mesh);
 CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwTetMesh *mesh);
 CwStatus cw_delaunay_connect(CwTetMesh *mesh);
 
+// Points one by one into a mesh so made, which nothing else changes meanwhile and which outlives the insertion.
+typedef struct CwDelaunayInsertion CwDelaunayInsertion;
+CwStatus cw_delaunay_open(CwTetMesh *mesh, CwDelaunayInsertion **insertion);
+// A point with the given source. `near`: the tetrahedron from which its place is looked for; -1: one of the last point.
+// [out] point: its number in the mesh, -1 where another stands at its place.
+CwStatus cw_delaunay_insert(CwDelaunayInsertion *insertion, const double x[3], int32_t source, int32_t near,
+                            int32_t *point);
+void cw_delaunay_close(CwDelaunayInsertion **insertion);
+
 #ifdef __cplusplus
 }
 #endif

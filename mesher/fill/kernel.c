@@ -168,13 +168,39 @@ done:
   return status;
 }
 
+// From the Delaunay mesh of all points, without the core's tetrahedra, to the fill.
+static CwStatus finish(const CwFillInput *input, const CwKernelCore *core, CwTetMesh *mesh, int32_t count, CwFill *fill,
+                       CwKernelOutcome *outcome) {
+  CwStatus status = CW_OK;
+  CwFacets facets = {0};
+  CwTetChanges changes;
+  CwFillRecovery recovery = {0};
+  CW_TRY(cw_facets_make(input, mesh, &facets));
+  CW_TRY(recover(input, mesh, &facets, &count, &recovery));
+  if (facets.missing_count) goto done;
+  CW_TRY(keep_inside(input, &facets, mesh));
+  cw_facets_free(&facets);
+  give_back();
+  CW_TRY(cw_tet_improve_mesh(mesh, core->fixed_count, &count, &changes));
+  CW_TRY(cw_fill_from_mesh(mesh, core->fixed_count, count, fill));
+  CW_TRY(cw_kernel_core_append(core, fill));
+  *outcome = CW_KERNEL_FILLED;
+  cw_log_debug(input->log,
+               "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
+               "added, least sine %.3g to %.3g",
+               input->name, fill->tetrahedron_count, core->tet_count, changes.edges_removed, changes.faces_removed,
+               changes.points_moved, changes.points_added, changes.least_before, changes.least_after);
+done:
+  cw_facets_free(&facets);
+  fill->recovery = recovery;
+  return status;
+}
+
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome *outcome) {
   CwStatus status = CW_OK;
   CwTetMesh mesh = {0};
   CwKernelCore core = {0};
-  CwFacets facets = {0};
-  CwTetChanges changes;
-  CwFillRecovery recovery = {0};
+  CwFillRecovery recovery;
   int32_t count = 0;
   memset(fill, 0, sizeof *fill);
   *outcome = CW_KERNEL_NOT_RECOVERED;
@@ -183,26 +209,26 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   give_back();
   CW_TRY(cw_delaunay_connect(&mesh));
   CW_TRY(cw_kernel_core_carve(&core, &mesh));
-  CW_TRY(cw_facets_make(input, &mesh, &facets));
-  CW_TRY(recover(input, &mesh, &facets, &count, &recovery));
-  if (facets.missing_count) goto done;
-  CW_TRY(keep_inside(input, &facets, &mesh));
-  cw_facets_free(&facets);
-  give_back();
-  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &changes));
-  CW_TRY(cw_fill_from_mesh(&mesh, core.fixed_count, count, fill));
-  CW_TRY(cw_kernel_core_append(&core, fill));
-  *outcome = CW_KERNEL_FILLED;
-  cw_log_debug(input->log,
-               "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
-               "added, least sine %.3g to %.3g",
-               input->name, fill->tetrahedron_count, core.tet_count, changes.edges_removed, changes.faces_removed,
-               changes.points_moved, changes.points_added, changes.least_before, changes.least_after);
+  CW_TRY(finish(input, &core, &mesh, count, fill, outcome));
 done:
-  cw_facets_free(&facets);
   cw_kernel_core_free(&core);
   cw_tet_mesh_free(&mesh);
+  recovery = fill->recovery;
   if (status != CW_OK) cw_fill_free(fill);
   fill->recovery = recovery;
+  return status;
+}
+
+CwStatus cw_kernel_finish(const CwFillInput *input, CwTetMesh *mesh, int32_t source_count, CwFill *fill,
+                          CwKernelOutcome *outcome) {
+  CwStatus status = CW_OK;
+  const CwKernelCore core = {.fixed_count = input->point_count};
+  memset(fill, 0, sizeof *fill);
+  *outcome = CW_KERNEL_NOT_RECOVERED;
+  CW_TRY(cw_boundary_check(input));
+  CW_TRY(finish(input, &core, mesh, source_count, fill, outcome));
+done:
+  cw_tet_mesh_free(mesh);
+  if (status != CW_OK) cw_fill_free(fill);
   return status;
 }

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_FILL_KERNEL_H
 
 #include "mesher/fill/fill.h"
+#include "mesher/fill/tet_mesh.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,6 +19,12 @@ typedef enum {
 // Promises and errors of cw_tetgen_fill. Where the boundary is not recovered *fill is empty but for fill->recovery,
 // which tells how far it got. Thread-safe if the size field is. Caller frees *fill.
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome *outcome);
+
+// The steps of that from a Delaunay mesh on (delaunay.h), which it uses up: its sources below input->point_count are
+// the boundary's points, all of them, those from there to source_count inner ones. The input's inner points are not
+// read.
+CwStatus cw_kernel_finish(const CwFillInput *input, CwTetMesh *mesh, int32_t source_count, CwFill *fill,
+                          CwKernelOutcome *outcome);
 
 #ifdef __cplusplus
 }

@@ -78,6 +78,32 @@ static void random_points(void **unused) {
   free(x);
 }
 
+// Half of the points come one by one, from any tetrahedron on; one of them is there already.
+static void one_by_one(void **unused) {
+  double(*x)[3] = malloc(600 * sizeof *x);
+  CwTetMesh mesh;
+  CwDelaunayInsertion *insertion;
+  int32_t point;
+  state = 11;
+  for (int i = 0; i < 1800; i++) x[i / 3][i % 3] = draw(&state);
+  assert_int_equal(cw_delaunay_make(300, (const double(*)[3])x, &mesh), CW_OK);
+  assert_int_equal(cw_delaunay_open(&mesh, &insertion), CW_OK);
+  for (int32_t p = 300; p < 600; p++) {
+    int32_t near = p % 2 ? -1 : (int32_t)(draw(&state) * mesh.tet_count);
+    if (near >= 0 && mesh.tet[near].corner[0] < 0) near = -1;
+    assert_int_equal(cw_delaunay_insert(insertion, x[p], p, near, &point), CW_OK);
+    assert_int_equal(point, CW_ENCLOSING_POINTS + p);
+    assert_int_equal(mesh.source[point], p);
+    assert_memory_equal(mesh.point[point].x, x[p], sizeof *x);
+  }
+  assert_int_equal(cw_delaunay_insert(insertion, x[450], 600, -1, &point), CW_OK);
+  assert_int_equal(point, -1);
+  cw_delaunay_close(&insertion);
+  check(&mesh, 600);
+  cw_tet_mesh_free(&mesh);
+  free(x);
+}
+
 // Every other tetrahedron is freed: the rest keeps its order and its neighbours, with nothing between.
 static void packed(void **unused) {
   double(*x)[3] = malloc(300 * sizeof *x);
@@ -268,6 +294,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(few_points),
       cmocka_unit_test(random_points),
+      cmocka_unit_test(one_by_one),
       cmocka_unit_test(packed),
       cmocka_unit_test(grid),
       cmocka_unit_test(body_centred_grid),

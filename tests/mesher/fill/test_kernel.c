@@ -10,6 +10,7 @@
 
 #include "fill_fault.h"
 #include "mesher/common/quality.h"
+#include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel.h"
 #include "surface_shapes.h"
 
@@ -61,6 +62,31 @@ static void cube(void **unused) {
   surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){12, 12, 12}, 1);
   Shape shape = fill_and_check(&s, 0.04 / 12);
   assert_true(shape.dihedral_least > 10.0);
+  surface_free(&s);
+}
+
+// From a mesh that is Delaunay already: its points come one by one, an inner one among those of the boundary.
+static void from_a_delaunay_mesh(void **unused) {
+  Surface s = {0};
+  CwTetMesh mesh;
+  CwDelaunayInsertion *insertion;
+  CwFill fill;
+  CwKernelOutcome outcome;
+  double size = 0.01;
+  int32_t point;
+  surface_add_sphere(&s, origin, 0.05, 3, 1);
+  CwFillInput input = fill_input(&s, &size);
+  assert_int_equal(cw_delaunay_make(input.point_count - 1, input.x, &mesh), CW_OK);
+  assert_int_equal(cw_delaunay_open(&mesh, &insertion), CW_OK);
+  assert_int_equal(cw_delaunay_insert(insertion, origin, input.point_count, -1, &point), CW_OK);
+  assert_int_equal(cw_delaunay_insert(insertion, input.x[input.point_count - 1], input.point_count - 1, -1, &point),
+                   CW_OK);
+  cw_delaunay_close(&insertion);
+  if (cw_kernel_finish(&input, &mesh, input.point_count + 1, &fill, &outcome) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  assert_int_equal(outcome, CW_KERNEL_FILLED);
+  assert_true(check(&s, &fill).dihedral_least > 5.0);
+  cw_fill_free(&fill);
   surface_free(&s);
 }
 
@@ -159,6 +185,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sphere),
       cmocka_unit_test(cube),
+      cmocka_unit_test(from_a_delaunay_mesh),
       cmocka_unit_test(coarse_without_inner_points),
       cmocka_unit_test(shell_in_a_void_of_a_shell),
       cmocka_unit_test(thin_slabs),
