@@ -54,7 +54,7 @@ def run_ours(program, way, surface, growth):
     return [int(words[0]), int(words[1]), float(words[2]), float(words[4]), *map(float, words[5:9])]
 
 
-def run_gmsh(folder, surface, shells, sizes, *options):
+def run_gmsh(folder, surface, shells, sizes, *options, limit=LIMIT):
     """gmsh within a surface of so many closed parts, with a file of sizes, or None for its own rule: the run, and the
     file of its mesh, if it made one."""
     mesh = folder / "gmsh.msh"
@@ -65,7 +65,7 @@ def run_gmsh(folder, surface, shells, sizes, *options):
              f'Field[1].FileName = "{sizes}";\nField[1].TextFormat = 1;\nBackground Field = 1;\n') if sizes else ""
     script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n{field}')
     mesh.unlink(missing_ok=True)
-    return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False, limit=LIMIT), mesh
+    return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False, limit=limit), mesh
 
 
 def fill_by_gmsh(program, surface, shells, algorithm, sizes=None):

@@ -1,27 +1,43 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Table 1 of the paper again: shapes of the tetrahedra of the serial mesh (one region a domain), of the mesh by region
-numbers, and of Gmsh's own Delaunay method on the surfaces that the serial mesh was filled from.
+"""Table 1 of the paper again, with time and messages beside the shapes of the tetrahedra.
 
-  tests/bench/table1.py [--cells 2M] [--build build] [--case cases/paper/case.yaml] [--algorithm del3d]
+  tests/bench/table1.py [--cells 2M] [--build build] [--case cases/paper/case.yaml] [--domains rotor] [--ranks 2]
+    [--radius R] [--ratio B] [--algorithms del3d hxt] [--limit 3600]
 
-The classes are shares of the tetrahedra by longest over shortest edge. `beside` are the tetrahedra with a corner on a
-partition plane, `apart` the others. Fails where the mean ratio of those beside is worse in the mean than that of the
-others by more than 5 %, or that of the mesh by region numbers worse than that of the serial one by more than 2 %."""
+All rows of a domain have the same walls and layers; those of several regions have the same partition planes too. The
+impeller is meshed whole, since the other rows have no periodic images.
+
+  serial       one region, one rank, by the mesher
+  proposed     the mesher's regions, by the rule of region numbers
+  Chew         the same regions by Delaunay refinement, interfaces split from both sides (L. P. Chew, N. Chrisochoides,
+               F. Sukup, 1997; tests/measure/chew_points.h), and the fill's own improvement
+  Chew, one    that refinement in one region: what it makes where there are no interfaces
+  Gmsh         its own sizes, inside the layer top of the serial row
+
+The classes are shares of the tetrahedra by longest over shortest edge, %. `beside` are the tetrahedra with a corner on
+a partition plane, `apart` the others. Seconds are of the processor, summed over the ranks, from the finished surfaces
+to the finished tetrahedra (`wall`: by the clock; Gmsh: its own steps). Messages and bytes are those between regions,
+each on a rank of its own; `sent`, those between the ranks of this run. The mesher itself sends the refined interfaces
+to all ranks. Fails where the mean ratio of the tetrahedra beside is worse in the mean than that of the others by more
+than 5 %, or that of the proposed mesh worse than that of the serial one by more than 2 %."""
 import argparse
+import json
 import shutil
 import sys
 import tempfile
+from collections import namedtuple
 from pathlib import Path
 
 from fill import compile_program, run_gmsh
-from programs import MPIRUN, SOURCE, execute
+from programs import MPIRUN, SOURCE, execute, gmsh_steps
 
 CLASSES = ["1-1.5", "1.5-2", "2-3", "3-4", "4-5", "5-7", "7-10", ">10"]
 PAPER = {"paper, serial (Gmsh)": ([4.5, 43.3, 32.2, 8.5, 7.3, 3.5, 0.7], 2.90, 8.6),
          "paper, proposed": ([4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1], 2.98, 8.8),
          "paper, Chew": ([3.0, 40.1, 31.2, 11.5, 7.6, 4.1, 1.5], 3.12, 9.4)}
-DOMAINS = ("rotor", "stator")
+
+Shapes = namedtuple("Shapes", "count classes mean most least greatest ratio worst")
 
 
 def shapes(program, files):
@@ -30,24 +46,134 @@ def shapes(program, files):
     for line in execute(program, "shape", *files).text.splitlines():
         name, *words = line.split()
         count = int(words[0])
-        result[name] = (count, [100 * int(word) / max(count, 1) for word in words[1:9]], *map(float, words[9:]))
+        result[name] = Shapes(count, [100 * int(word) / max(count, 1) for word in words[1:9]], *map(float, words[9:]))
     return result
 
 
-def print_row(title, row):
-    count, classes, mean, most, least, greatest, ratio, worst = row
-    if count == 0:
+def seconds_of(figures):
+    return figures["interface_seconds"] + figures["refine_seconds"] + figures["fill_seconds"]
+
+
+def print_row(title, row, figures=None, gmsh=None):
+    if row.count == 0:
         return
-    print(f"{title:26s} {count:9d} " + " ".join(f"{share:6.2f}" for share in classes) +
-          f" {most:6.2f} {mean:6.3f} {least:7.2f} {greatest:7.2f} {ratio:7.4f} {worst:6.3f}", flush=True)
+    text = (f"{title:24s} {row.count:9d} " + " ".join(f"{share:6.2f}" for share in row.classes) +
+            f" {row.most:6.2f} {row.mean:6.3f} {row.least:7.2f} {row.greatest:7.2f} {row.ratio:7.4f} {row.worst:6.3f}")
+    if figures:
+        text += (f" {seconds_of(figures):8.1f} {figures['wall_seconds']:7.1f} {figures['messages']:8d} "
+                 f"{figures['bytes']:10d} {figures['sent_messages']:6d} {figures['sent_bytes']:9d}")
+    if gmsh is not None:
+        text += f" {gmsh:8.1f}"
+    print(text, flush=True)
 
 
-def mesh(options, case, folder, geometry, ranks):
-    folder.mkdir()
-    shutil.copytree(geometry, folder / "geometry")
-    execute(*MPIRUN, ranks, options.build / "bin/cutwater-mesh", "--case", case, "--run", folder, "--cells",
-            options.cells)
-    return folder / "mesh"
+def print_head():
+    print(f"{'':24s} {'tets':>9s} " + " ".join(f"{label:>6s}" for label in CLASSES) +
+          f" {'max':>6s} {'mean':>6s} {'least':>7s} {'most':>7s} {'ratio':>7s} {'worst':>6s} {'seconds':>8s} "
+          f"{'wall':>7s} {'messages':>8s} {'bytes':>10s} {'sent':>6s} {'bytes':>9s}")
+    for title, (classes, mean, most) in PAPER.items():
+        print(f"{title:24s} {'':9s} " + " ".join(f"{share:6.2f}" for share in classes) +
+              f" {'':6s} {most:6.2f} {mean:6.3f}")
+
+
+def mesh(options, case, folder, geometry, ranks, domain, *more):
+    """The run of a case, and what both ways took in the domain; what an earlier domain has left is taken up."""
+    if not folder.exists():
+        folder.mkdir()
+        shutil.copytree(geometry, folder / "geometry")
+    execute(*MPIRUN, ranks, options.build / "bin/chew", "--case", case, "--run", folder, "--cells", options.cells,
+            "--domain", domain, "--radius", options.radius, "--ratio", options.ratio, *more)
+    return json.loads((folder / f"chew/{domain}.json").read_text())
+
+
+def regions_of(folder, domain):
+    return sorted(folder.glob(f"{domain}-*.h5"))
+
+
+def whole_case(options, folder):
+    """The case with the impeller meshed whole."""
+    text = options.case.read_text()
+    if "\nmesh:\n" not in text:
+        sys.exit(f"table1: {options.case}: no mesh section")
+    case = folder / "case.yaml"
+    case.write_text(text.replace("\nmesh:\n", "\nmesh:\n  periodic_impeller: false\n", 1))
+    return case
+
+
+def print_way(title, figures):
+    """Where the seconds of a row went, and what its interfaces came to."""
+    print(f"  {title}: {figures['interface_seconds']:.1f} s at interfaces, {figures['refine_seconds']:.1f} s for inner "
+          f"points, {figures['fill_seconds']:.1f} s to fill; {figures['rounds']} rounds; {figures['inserted']} "
+          f"interface points, {figures['refused']} triangles still encroached")
+
+
+def compare(title, here, there):
+    """Shares by which one row differs from another."""
+    print(f"  {title}: mean aspect {100 * (here.mean / there.mean - 1):+.2f} %, mean ratio "
+          f"{100 * (here.ratio / there.ratio - 1):+.2f} %, greatest aspect {here.most:.2f} for {there.most:.2f}, least "
+          f"angle {here.least:.2f} for {there.least:.2f}")
+
+
+def print_verdict(rule, chew, rule_shapes, chew_shapes):
+    """What the rule costs and gives beside Chew's algorithm, in the same regions."""
+    compare("Chew against proposed", chew_shapes["all"], rule_shapes["all"])
+    compare("Chew against proposed, beside partition planes", chew_shapes["beside"], rule_shapes["beside"])
+    ratios = [("seconds a tetrahedron", seconds_of(chew) / chew["tetrahedra"], seconds_of(rule) / rule["tetrahedra"]),
+              ("interface seconds", chew["interface_seconds"], rule["interface_seconds"]),
+              ("messages", chew["messages"], rule["messages"]), ("bytes", chew["bytes"], rule["bytes"]),
+              ("rounds", chew["rounds"], rule["rounds"]), ("interface points", chew["inserted"], rule["inserted"]),
+              ("mean aspect less 1", chew_shapes["all"].mean - 1, rule_shapes["all"].mean - 1),
+              ("the same, beside", chew_shapes["beside"].mean - 1, rule_shapes["beside"].mean - 1),
+              ("1 less mean ratio", 1 - chew_shapes["all"].ratio, 1 - rule_shapes["all"].ratio)]
+    for title, less in (("the rule wins by", 1), ("Chew's wins by", -1)):
+        won = [f"{name} ({(there / max(here, 1e-300)) ** less:.3g})" for name, there, here in ratios
+               if less * there > less * here]
+        print(f"  {title}: {', '.join(won) or 'nothing'}")
+
+
+def gmsh_rows(options, folder, program, domain, surface):
+    for algorithm in options.algorithms:
+        run, made = run_gmsh(folder, surface, 1, None, "-3", "-algo", algorithm, limit=options.limit)
+        if not made.exists():
+            print(f"{domain}, Gmsh {algorithm}: no mesh in {options.limit} s, or none at all: "
+                  f"{' '.join(run.text.split()[-12:])}", flush=True)
+            continue
+        steps = gmsh_steps(run.text)
+        print_row(f"{domain}, Gmsh {algorithm}", shapes(program, [made])["all"],
+                  gmsh=steps.get("meshing 3D", 0) + steps.get("optimizing mesh", 0))
+
+
+def table(options, folder, program, case, geometry, domain):
+    """Prints the rows of a domain; what falls short."""
+    serial, numbered = folder / "serial", folder / "numbered"
+    alone = mesh(options, case, serial, geometry, 1, domain, "--undivided")
+    both = mesh(options, case, numbered, geometry, options.ranks, domain)
+    one, many = regions_of(serial / "mesh", domain), regions_of(numbered / "mesh", domain)
+    if len(one) != 1:
+        sys.exit(f"table1: the serial {domain} has {len(one)} regions")
+    by_one = shapes(program, one)["all"]
+    by_rule, by_chew = shapes(program, many), shapes(program, regions_of(numbered / "chew", domain))
+    print_row(f"{domain}, serial", by_one, alone["rule"])
+    for title, row, figures in (("proposed", by_rule, both["rule"]), ("Chew", by_chew, both["chew"])):
+        print_row(f"{domain}, {title}, {len(many)} regions", row["all"], figures)
+        print_row("  beside partition planes", row["beside"])
+        print_row("  apart from them", row["apart"])
+    print_row(f"{domain}, Chew, one", shapes(program, regions_of(serial / "chew", domain))["all"], alone["chew"])
+    execute(program, "region", one[0], folder / "surface.msh")
+    gmsh_rows(options, folder, program, domain, folder / "surface.msh")
+    print_way("serial", alone["rule"])
+    print_way("proposed", both["rule"])
+    print_way("Chew", both["chew"])
+    print_way("Chew, one", alone["chew"])
+    print_verdict(both["rule"], both["chew"], by_rule, by_chew)
+    failures = []
+    for title, here, there, most in (("beside partition planes against the others", by_rule["beside"],
+                                      by_rule["apart"], 0.05),
+                                     ("proposed against serial", by_rule["all"], by_one, 0.02)):
+        compare(title, here, there)
+        if 1 - here.ratio / there.ratio > most:
+            failures.append(f"{domain}: {title}")
+    return failures
 
 
 def main():
@@ -55,50 +181,22 @@ def main():
     parser.add_argument("--cells", default="2M")
     parser.add_argument("--build", type=Path, default=SOURCE / "build")
     parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
-    parser.add_argument("--algorithm", default="del3d", help="of Gmsh: del3d, front3d, hxt")
+    parser.add_argument("--domains", nargs="*", default=["rotor"])
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--radius", type=float, default=0.8, help="of Chew's spheres, in h: sets his number of cells")
+    parser.add_argument("--ratio", type=float, default=1.4, help="of these to the shortest edge")
+    parser.add_argument("--algorithms", nargs="*", default=["del3d", "hxt"], help="of Gmsh: del3d, front3d, hxt")
+    parser.add_argument("--limit", type=int, default=3600, help="seconds for a run of Gmsh")
     options = parser.parse_args()
     failures = []
     with tempfile.TemporaryDirectory(prefix="cutwater-table1-") as name:
         folder = Path(name)
         program = compile_program(options.build, folder)
-        text = options.case.read_text()
-        if "\nmesh:\n" not in text:
-            sys.exit(f"table1: {options.case}: no mesh section")
-        case = folder / "serial.yaml"
-        serially = "\nmesh:\n  least_regions: 1\n  cells_per_region: 4000000\n  periodic_impeller: false\n"
-        case.write_text(text.replace("\nmesh:\n", serially, 1))
         execute(options.build / "bin/cutwater-geometry", "--case", options.case, "--run", folder / "first")
-        serial = mesh(options, case, folder / "serial", folder / "first/geometry", 1)
-        numbered = mesh(options, options.case, folder / "numbered", folder / "first/geometry", 2)
-        print(f"{'':26s} {'tets':>9s} " + " ".join(f"{label:>6s}" for label in CLASSES) +
-              f" {'max':>6s} {'mean':>6s} {'least':>7s} {'most':>7s} {'ratio':>7s} {'worst':>6s}")
-        for title, (classes, mean, most) in PAPER.items():
-            print(f"{title:26s} {'':9s} " + " ".join(f"{share:6.2f}" for share in classes) +
-                  f" {'':6s} {most:6.2f} {mean:6.3f}")
-        found = {}
-        for domain in DOMAINS:
-            one, many = sorted(serial.glob(f"{domain}-*.h5")), sorted(numbered.glob(f"{domain}-*.h5"))
-            if len(one) != 1:
-                sys.exit(f"table1: the serial {domain} has {len(one)} regions; take fewer cells")
-            found[domain] = shapes(program, one)["all"], shapes(program, many)
-            print_row(f"{domain}, serial", found[domain][0])
-            print_row(f"{domain}, {len(many)} regions", found[domain][1]["all"])
-            print_row("  beside partition planes", found[domain][1]["beside"])
-            print_row("  apart from them", found[domain][1]["apart"])
-            execute(program, "region", one[0], folder / "surface.msh")
-            run, made = run_gmsh(folder, folder / "surface.msh", 1, None, "-3", "-algo", options.algorithm)
-            if not made.exists():
-                sys.exit(f"table1: Gmsh failed on the {domain}:\n{run.text[-1000:]}")
-            print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
-            all_of, by_region = found[domain]
-            comparisons = (("beside partition planes against the others", by_region["beside"], by_region["apart"],
-                            0.05),
-                           ("by region numbers against the serial mesh", by_region["all"], all_of, 0.02))
-            for label, here, there, most in comparisons:
-                aspect, ratio = here[2] / there[2] - 1, 1 - here[6] / there[6]
-                print(f"  {label}: mean aspect {100 * aspect:+.2f} %, mean ratio {-100 * ratio:+.2f} %")
-                if ratio > most:
-                    failures.append(f"{domain}: {label}")
+        case = whole_case(options, folder)
+        print_head()
+        for domain in options.domains:
+            failures += table(options, folder, program, case, folder / "first/geometry", domain)
     for failure in failures:
         print(f"worse than allowed: {failure}")
     return 1 if failures else 0
