@@ -183,7 +183,7 @@ def main():
     parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
     parser.add_argument("--domains", nargs="*", default=["rotor"])
     parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--radius", type=float, default=0.8, help="of Chew's spheres, in h: sets his number of cells")
+    parser.add_argument("--radius", type=float, default=0.71, help="of Chew's spheres, in h: sets his number of cells")
     parser.add_argument("--ratio", type=float, default=1.4, help="of these to the shortest edge")
     parser.add_argument("--algorithms", nargs="*", default=["del3d", "hxt"], help="of Gmsh: del3d, front3d, hxt")
     parser.add_argument("--limit", type=int, default=3600, help="seconds for a run of Gmsh")

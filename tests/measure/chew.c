@@ -21,7 +21,7 @@
 
 static const CwStageOption OPTIONS[] = {
     {"domain", "NAME", "whose regions are filled; rotor by default"},
-    {"radius", "R", "greatest radius of a tetrahedron's sphere by Chew's algorithm, in h; 0.8 by default"},
+    {"radius", "R", "greatest radius of a tetrahedron's sphere by Chew's algorithm, in h; 0.71 by default"},
     {"ratio", "B", "greatest ratio of that radius to the shortest edge; 1.4 by default"},
     {"undivided", NULL, "each domain is one region, however many cells it has"},
 };
@@ -104,7 +104,7 @@ int main(int argc, char **argv) {
   run.context.log = args.log;
   CW_TRY(cw_team_agree(team, cw_policy_start()));
   CW_TRY(cw_team_agree(team, cw_stop_watch(args.run_path, "mesh", run.rank == 0)));
-  CW_TRY(number_of(args.options[RADIUS], 0.8, &bounds.radius));
+  CW_TRY(number_of(args.options[RADIUS], 0.71, &bounds.radius));
   CW_TRY(number_of(args.options[RATIO], 1.4, &bounds.ratio));
   if (args.options[UNDIVIDED]) table.mesh.least_regions = 1, table.mesh.cells_per_region = INT64_MAX / 2;
   run.table = &table;

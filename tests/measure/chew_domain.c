@@ -159,8 +159,8 @@ done:
 }
 
 // The interfaces that a region's rule gives, to each of the regions beside it.
-static CwStatus count_rule(const CwRegionInput *from, const CwChewOwners *owners, const int32_t *number, int32_t r,
-                           const char *bytes, CwChewFigures *figures) {
+static CwStatus count_rule(const CwRegionInput *from, const CwChewOwners *owners, int32_t r, const char *bytes,
+                           CwChewFigures *figures) {
   CwStatus status = CW_OK;
   enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER }; // as interface_rule.c packs them
   int64_t *size = NULL;
@@ -189,7 +189,6 @@ static CwStatus count_rule(const CwRegionInput *from, const CwChewOwners *owners
   }
 done:
   free(size);
-  (void)number;
   return status;
 }
 
@@ -234,11 +233,13 @@ CwStatus cw_rule_domain(const CwRegionInput *from, const CwChewOwners *owners, c
   double start = MPI_Wtime();
   for (int32_t r = 0; r < owners->region_count; r++) {
     int64_t size;
-    if (!owned(owners, r)) continue;
+    int refines = 0;
+    for (int32_t i = 0; i < planned.outline_count; i++) refines |= cw_interface_refiner(&before, number, i) == r;
+    if (!refines || !owned(owners, r)) continue;
     double began = processor_seconds();
     CW_TRY(cw_interface_rule(&before, number, r, "region", &bytes, &size));
     figures->interface_seconds += processor_seconds() - began;
-    CW_TRY(count_rule(&before, owners, number, r, bytes, figures));
+    CW_TRY(count_rule(&before, owners, r, bytes, figures));
     free(bytes);
     bytes = NULL;
   }

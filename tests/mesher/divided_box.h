@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A box with partition planes placed by hand, and its surfaces, for tests that fill its regions.
+#ifndef CUTWATER_TESTS_MESHER_DIVIDED_BOX_H
+#define CUTWATER_TESTS_MESHER_DIVIDED_BOX_H
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <BRepPrimAPI_MakeBox.hxx>
+
+extern "C" {
+#include "mesher/cad/background_make.h"
+}
+
+#include "domain_surfaces.h"
+#include "solids.h"
+
+static inline double even_size(const void *, const double *) {
+  return 2.5e-3;
+}
+
+// A box of 40 x 30 x 20 mm with inlet at x = 0 and outlet at x = 40. Plane 0: x = 21. Plane 1, behind it: y = 14, a
+// little askew. Plane 2, before it: z = 9, or as given.
+struct Box {
+  CwCad *cad;
+  CwBackground background;
+  CwInside *inside = nullptr;
+  CwPlanNode node[3];
+  double none[4] = {0, 0, 0, 0};
+  CwPlan plan;
+  DomainSurfaces boundary;
+  CwOutcome outcome = {};
+
+  explicit Box(int nodes, double across = 0.009, const TopoDS_Shape &solid = BRepPrimAPI_MakeBox(40, 30, 20).Shape())
+      : cad(open_solid(solid, [](const TopoDS_Face &face) -> std::string {
+          BRepAdaptor_Surface surface(face);
+          double x = surface.Value(0.5, 0.5).X(), y = surface.Value(0.6, 0.7).X();
+          if (std::fabs(x - y) > 1e-9 || (x > 1e-9 && x < 40 - 1e-9)) return "side,wall";
+          if (std::fabs(x) < 1e-9) return "in,inlet";
+          return "out,outlet";
+        })) {
+    double tilt = 0.1, c = std::cos(tilt), s = std::sin(tilt);
+    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, -2}};
+    node[1] = {{{s, c, 0}, 0.014 * c + 0.030 * s}, 0, {-2, -3}};
+    node[2] = {{{0, 0, 1}, across}, 0, {-1, -4}};
+    if (nodes >= 2) node[0].child[1] = 1;
+    if (nodes >= 3) node[0].child[0] = 2;
+    plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
+    assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
+    assert_int_equal(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
+        CW_OK);
+    boundary.input.cad = cad;
+    boundary.input.plan = &plan;
+    boundary.input.size_at = even_size;
+    check(cw_network_make(NULL, cad, &background, inside, &plan, &boundary.network, &outcome));
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
+  }
+  ~Box() {
+    boundary.free();
+    cw_inside_free(&inside);
+    cw_background_free(&background);
+    cw_cad_close(&cad);
+  }
+  static void check(CwStatus status) {
+    if (status != CW_OK) fail_msg("%s", cw_fail_message());
+  }
+  int count(CwCurveKind kind) const {
+    int found = 0;
+    for (int i = 0; i < boundary.network.curve_count; i++) found += boundary.network.curve[i].kind == kind;
+    return found;
+  }
+};
+
+static inline void make_walls(Box &box) {
+  DomainSurfaces &boundary = box.boundary;
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> walls(faces, nullptr);
+  int64_t size;
+  Box::check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
+  Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
+  for (int f = 0; f < faces; f++) {
+    if (cw_cad_face_is_wall(box.cad, f))
+      Box::check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
+  }
+  Box::check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
+                                  &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
+  for (void *bytes : walls) free(bytes);
+}
+
+// Walls, and layers of 1.5 mm on them.
+static inline void make_layers(Box &box) {
+  DomainSurfaces &boundary = box.boundary;
+  make_walls(box);
+  std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
+  Box::check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &box.background, target.data(), nullptr,
+                              nullptr, &boundary.layers, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
+}
+
+// All surfaces of the box, as far as the inner ones.
+static inline void make_surfaces(Box &box) {
+  DomainSurfaces &boundary = box.boundary;
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> open_patches(faces, nullptr), interfaces;
+  int64_t size;
+  make_layers(box);
+  for (int v = 0; v < boundary.surface.vertex_count;
+       v++) { // corners and edges of a box keep the asked thickness to the walls
+    for (int k = 1; k < 3; k++) {
+      double side = k == 1 ? 0.030 : 0.020, x = boundary.layers.top[v][k];
+      assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
+    }
+  }
+  Box::check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
+                                 &boundary.free_curves, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  for (int f = 0; f < faces; f++) {
+    if (!cw_cad_face_is_wall(box.cad, f))
+      Box::check(cw_interfaces_open_patch(&boundary.input, &boundary.wall_curves, &boundary.free_curves, f,
+                                          &open_patches[f], &size));
+  }
+  interfaces.resize(boundary.free_curves.outline_count);
+  for (int i = 0; i < boundary.free_curves.outline_count; i++)
+    Box::check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
+  Box::check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
+                                &boundary.interfaces, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
+  Box::check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
+  for (void *bytes : open_patches) free(bytes);
+  for (void *bytes : interfaces) free(bytes);
+}
+
+#endif
