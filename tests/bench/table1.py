@@ -11,7 +11,7 @@ impeller is meshed whole, since the other rows have no periodic images.
   serial       one region, one rank, by the mesher
   proposed     the mesher's regions, by the rule of region numbers
   Chew         the same regions by Delaunay refinement, interfaces split from both sides (L. P. Chew, N. Chrisochoides,
-               F. Sukup, 1997; tests/measure/chew_points.h), and the fill's own improvement
+               F. Sukup, 1997; tests/measure/chew_points.h) to about as many tetrahedra, and the fill's improvement
   Chew, one    that refinement in one region: what it makes where there are no interfaces
   Gmsh         its own sizes, inside the layer top of the serial row
 
@@ -82,7 +82,8 @@ def mesh(options, case, folder, geometry, ranks, domain, *more):
         folder.mkdir()
         shutil.copytree(geometry, folder / "geometry")
     execute(*MPIRUN, ranks, options.build / "bin/chew", "--case", case, "--run", folder, "--cells", options.cells,
-            "--domain", domain, "--radius", options.radius, "--ratio", options.ratio, *more)
+            "--domain", domain, "--ratio", options.ratio,
+            *(("--radius", options.radius) if options.radius else ()), *more)
     return json.loads((folder / f"chew/{domain}.json").read_text())
 
 
@@ -100,11 +101,12 @@ def whole_case(options, folder):
     return case
 
 
-def print_way(title, figures):
+def print_way(title, figures, radius=None):
     """Where the seconds of a row went, and what its interfaces came to."""
     print(f"  {title}: {figures['interface_seconds']:.1f} s at interfaces, {figures['refine_seconds']:.1f} s for inner "
           f"points, {figures['fill_seconds']:.1f} s to fill; {figures['rounds']} rounds; {figures['inserted']} "
-          f"interface points, {figures['refused']} triangles still encroached")
+          f"interface points, {figures['refused']} triangles still encroached" +
+          (f"; radius {radius:.3f} h" if radius else ""))
 
 
 def compare(title, here, there):
@@ -114,8 +116,9 @@ def compare(title, here, there):
           f"angle {here.least:.2f} for {there.least:.2f}")
 
 
-def print_verdict(rule, chew, rule_shapes, chew_shapes):
-    """What the rule costs and gives beside Chew's algorithm, in the same regions."""
+def print_verdict(rule, chew, rule_shapes, chew_shapes, chew_one):
+    """What the rule costs and gives beside Chew's algorithm, in the same regions, and what Chew's interfaces cost."""
+    compare("Chew against Chew, one", chew_shapes["all"], chew_one)
     compare("Chew against proposed", chew_shapes["all"], rule_shapes["all"])
     compare("Chew against proposed, beside partition planes", chew_shapes["beside"], rule_shapes["beside"])
     ratios = [("seconds a tetrahedron", seconds_of(chew) / chew["tetrahedra"], seconds_of(rule) / rule["tetrahedra"]),
@@ -158,14 +161,15 @@ def table(options, folder, program, case, geometry, domain):
         print_row(f"{domain}, {title}, {len(many)} regions", row["all"], figures)
         print_row("  beside partition planes", row["beside"])
         print_row("  apart from them", row["apart"])
-    print_row(f"{domain}, Chew, one", shapes(program, regions_of(serial / "chew", domain))["all"], alone["chew"])
+    chew_one = shapes(program, regions_of(serial / "chew", domain))["all"]
+    print_row(f"{domain}, Chew, one", chew_one, alone["chew"])
     execute(program, "region", one[0], folder / "surface.msh")
     gmsh_rows(options, folder, program, domain, folder / "surface.msh")
     print_way("serial", alone["rule"])
     print_way("proposed", both["rule"])
-    print_way("Chew", both["chew"])
-    print_way("Chew, one", alone["chew"])
-    print_verdict(both["rule"], both["chew"], by_rule, by_chew)
+    print_way("Chew", both["chew"], both["radius"])
+    print_way("Chew, one", alone["chew"], alone["radius"])
+    print_verdict(both["rule"], both["chew"], by_rule, by_chew, chew_one)
     failures = []
     for title, here, there, most in (("beside partition planes against the others", by_rule["beside"],
                                       by_rule["apart"], 0.05),
@@ -183,7 +187,7 @@ def main():
     parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
     parser.add_argument("--domains", nargs="*", default=["rotor"])
     parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--radius", type=float, default=0.71, help="of Chew's spheres, in h: sets his number of cells")
+    parser.add_argument("--radius", type=float, help="of Chew's spheres, in h; else as many tetrahedra as proposed")
     parser.add_argument("--ratio", type=float, default=1.4, help="of these to the shortest edge")
     parser.add_argument("--algorithms", nargs="*", default=["del3d", "hxt"], help="of Gmsh: del3d, front3d, hxt")
     parser.add_argument("--limit", type=int, default=3600, help="seconds for a run of Gmsh")

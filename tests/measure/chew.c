@@ -4,6 +4,7 @@
 // Writes RUN/chew/DOMAIN-0001.h5 ... and RUN/chew/DOMAIN.json. For tests/bench/table1.py.
 #include <hdf5.h>
 #include <jansson.h>
+#include <math.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,11 +22,15 @@
 
 static const CwStageOption OPTIONS[] = {
     {"domain", "NAME", "whose regions are filled; rotor by default"},
-    {"radius", "R", "greatest radius of a tetrahedron's sphere by Chew's algorithm, in h; 0.71 by default"},
+    {"radius", "R",
+     "greatest radius of a sphere by Chew's algorithm, in h; by default as many tetrahedra as the rule's"},
     {"ratio", "B", "greatest ratio of that radius to the shortest edge; 1.4 by default"},
     {"undivided", NULL, "each domain is one region, however many cells it has"},
 };
 enum { DOMAIN, RADIUS, RATIO, UNDIVIDED, OPTION_COUNT };
+
+enum { TRIES = 5 }; // of a radius that gives as many tetrahedra
+static const double FIRST_RADIUS = 0.75, NEAR = 0.02;
 
 static const CwStageUsage USAGE = {
     .stage = "mesh",
@@ -45,11 +50,12 @@ static json_t *json_of(const CwChewFigures *f) {
                    (json_int_t)f->inserted, "refused", (json_int_t)f->refused, "tetrahedra", (json_int_t)f->tetrahedra);
 }
 
-static CwStatus write_figures(const char *path, const char *domain, int32_t regions, const CwChewFigures *rule,
-                              const CwChewFigures *chew) {
+static CwStatus write_figures(const char *path, const char *domain, int32_t regions, double radius,
+                              const CwChewFigures *rule, const CwChewFigures *chew) {
   CwStatus status = CW_OK;
   char name[4200];
-  json_t *all = json_pack("{s:i s:o s:o}", "regions", (int)regions, "rule", json_of(rule), "chew", json_of(chew));
+  json_t *all = json_pack("{s:i s:f s:o s:o}", "regions", (int)regions, "radius", radius, "rule", json_of(rule), "chew",
+                          json_of(chew));
   snprintf(name, sizeof name, "%s/%s.json", path, domain);
   CW_REQUIRE(all && json_dump_file(all, name, JSON_INDENT(2)) == 0, CW_ERR_IO, "%s: cannot be written", name);
 done:
@@ -57,8 +63,9 @@ done:
   return status;
 }
 
-// Both ways, once the run is done.
-static CwStatus measure(CwMeshRun *run, const CwDomain *domain, const CwChewBounds *bounds) {
+// Both ways, once the run is done. Where no radius is given (0) Chew's algorithm is run until it makes about as many
+// tetrahedra as the rule; the last try counts.
+static CwStatus measure(CwMeshRun *run, const CwDomain *domain, CwChewBounds bounds) {
   CwStatus status = CW_OK;
   CwChewOwners owners = {0};
   CwChewFigures rule, chew;
@@ -69,9 +76,16 @@ static CwStatus measure(CwMeshRun *run, const CwDomain *domain, const CwChewBoun
   CW_TRY(cw_chew_owners_make(&domain->interfaces, domain->plan.region_count, domain->plan.predicted_cells, &owners));
   CW_TRY(cw_rule_domain(&from, &owners, domain->number, &rule));
   cw_chew_sum(&owners, &rule);
-  CW_TRY(cw_chew_domain(&from, &owners, bounds, domain->name, path, &chew));
-  cw_chew_sum(&owners, &chew);
-  if (run->rank == 0) CW_TRY(write_figures(path, domain->name, owners.region_count, &rule, &chew));
+  int given = bounds.radius > 0;
+  double scale = 1;
+  if (!given) bounds.radius = FIRST_RADIUS;
+  for (int tries = 0; tries < TRIES && (tries == 0 || (!given && fabs(scale * scale * scale - 1) > NEAR)); tries++) {
+    bounds.radius *= scale;
+    CW_TRY(cw_chew_domain(&from, &owners, &bounds, domain->name, path, &chew));
+    cw_chew_sum(&owners, &chew);
+    scale = cbrt((double)chew.tetrahedra / (double)rule.tetrahedra);
+  }
+  if (run->rank == 0) CW_TRY(write_figures(path, domain->name, owners.region_count, bounds.radius, &rule, &chew));
 done:
   cw_chew_owners_free(&owners);
   return status;
@@ -80,8 +94,10 @@ done:
 static CwStatus number_of(const char *text, double otherwise, double *value) {
   CwStatus status = CW_OK;
   char *end = NULL;
-  *value = text ? strtod(text, &end) : otherwise;
-  CW_REQUIRE(*value > 0 && (!text || *end == '\0'), CW_ERR_USAGE, "%s: a number above 0 is wanted", text);
+  *value = otherwise;
+  if (!text) return CW_OK;
+  *value = strtod(text, &end);
+  CW_REQUIRE(*value > 0 && *end == '\0', CW_ERR_USAGE, "%s: a number above 0 is wanted", text);
 done:
   return status;
 }
@@ -104,7 +120,7 @@ int main(int argc, char **argv) {
   run.context.log = args.log;
   CW_TRY(cw_team_agree(team, cw_policy_start()));
   CW_TRY(cw_team_agree(team, cw_stop_watch(args.run_path, "mesh", run.rank == 0)));
-  CW_TRY(number_of(args.options[RADIUS], 0.71, &bounds.radius));
+  CW_TRY(number_of(args.options[RADIUS], 0, &bounds.radius));
   CW_TRY(number_of(args.options[RATIO], 1.4, &bounds.ratio));
   if (args.options[UNDIVIDED]) table.mesh.least_regions = 1, table.mesh.cells_per_region = INT64_MAX / 2;
   run.table = &table;
@@ -115,7 +131,7 @@ int main(int argc, char **argv) {
   int d = 0;
   while (d < run.model.domain_count && strcmp(run.domain[d].name, wanted)) d++;
   CW_REQUIRE(d < run.model.domain_count, CW_ERR_USAGE, "there is no domain %s", wanted);
-  CW_TRY(measure(&run, &run.domain[d], &bounds));
+  CW_TRY(measure(&run, &run.domain[d], bounds));
 done:
   if (status != CW_OK) return cw_mpi_fail(args.log, status);
   cw_mesh_run_free(&run);

@@ -164,7 +164,7 @@ static int note_sphere(void *context, int32_t t) {
 }
 
 // Whether the first hit of a ray leads out of the region.
-static int is_inside(const CwChewRegion *region, const double x[3]) {
+static int ray_leads_out(const CwChewRegion *region, const double x[3]) {
   CwRayHit hit[HITS];
   double direction[3], normal[3];
   cw_copy(RAY, direction);
@@ -176,12 +176,23 @@ static int is_inside(const CwChewRegion *region, const double x[3]) {
   return cw_dot(normal, direction) > 0;
 }
 
-// The centre of a tetrahedron without a corner on the boundary lies inside, since its sphere is empty.
-static int on_boundary(const CwChewRegion *region, const CwTet *tet) {
+// Whether the centre of a tetrahedron lies in the region. With all corners inside it does, since its sphere is empty;
+// with one of them, where the way from there does not lead out; with none, by a ray.
+static int is_inside(const CwChewRegion *region, const CwTet *tet, const double centre[3]) {
+  int corner = -1, inside = 0;
   for (int i = 0; i < 4; i++) {
-    if (region->mesh.source[tet->corner[i]] < region->inner.node_count) return 1;
+    if (region->mesh.source[tet->corner[i]] < region->inner.node_count) continue;
+    corner = i;
+    inside++;
   }
-  return 0;
+  if (inside == 4) return 1;
+  if (inside == 0) return ray_leads_out(region, centre);
+  double way[3], distance;
+  const double *x = region->mesh.point[tet->corner[corner]].x;
+  cw_sub(centre, x, way);
+  double length = cw_norm(way);
+  cw_unit(way);
+  return cw_rays_exit(region->rays, x, way, 0, length, &distance) < 0;
 }
 
 // Puts the tetrahedron aside where a sphere that holds its centre can be split; asks for that once a sphere.
@@ -216,7 +227,7 @@ static CwStatus try_centre(const CwRegionInput *from, const CwChewInterface *int
   for (int k = 0; k < 3; k++) place.single[k] = (float)centre[k];
   cw_box_tree_overlaps(&region->fixed, &box, note_near, &place);
   if (place.count) goto done;
-  if (on_boundary(region, &region->mesh.tet[tet.tet]) && !is_inside(region, centre)) goto done;
+  if (!is_inside(region, &region->mesh.tet[tet.tet], centre)) goto done;
   if (region->sphere_count) cw_box_tree_overlaps(&region->spheres, &box, note_sphere, &place);
   if (place.count) {
     CW_TRY(defer(interface, &place, tet, region));
