@@ -58,8 +58,8 @@ SECTIONS = {
     "table1": Section(
         "Table 1 of the paper: shapes of the tetrahedra, time and messages", "tests/bench/table1.py --cells 21M",
         "The rotor, meshed whole, in six ways (`tests/bench/table1.py --help` says what rows and columns mean). "
-        "Chew's algorithm runs on the mesher's own regions, layers and size field; its interfaces are split by the limits of "
-        "distance that the rule has, and the lines round them stay as they are, as with the rule."),
+        "Chew's algorithm runs on the mesher's own regions, layers and size field; its interfaces are split by the "
+        "limits of distance that the rule has, and the lines round them stay as they are, as with the rule."),
     "table2": Section(
         "Table 2 of the paper: speed-up over ranks", "tests/bench/speedup.py --cells 21M",
         "1 and 2 ranks by the clock; all further rows are a model, marked so."),
