@@ -116,22 +116,31 @@ def compare(title, here, there):
           f"angle {here.least:.2f} for {there.least:.2f}")
 
 
-def print_verdict(rule, chew, rule_shapes, chew_shapes, chew_one):
-    """What the rule costs and gives beside Chew's algorithm, in the same regions, and what Chew's interfaces cost."""
-    compare("Chew against Chew, one", chew_shapes["all"], chew_one)
-    compare("Chew against proposed", chew_shapes["all"], rule_shapes["all"])
-    compare("Chew against proposed, beside partition planes", chew_shapes["beside"], rule_shapes["beside"])
-    ratios = [("seconds a tetrahedron", seconds_of(chew) / chew["tetrahedra"], seconds_of(rule) / rule["tetrahedra"]),
-              ("interface seconds", chew["interface_seconds"], rule["interface_seconds"]),
-              ("messages", chew["messages"], rule["messages"]), ("bytes", chew["bytes"], rule["bytes"]),
-              ("rounds", chew["rounds"], rule["rounds"]), ("interface points", chew["inserted"], rule["inserted"]),
-              ("mean aspect less 1", chew_shapes["all"].mean - 1, rule_shapes["all"].mean - 1),
-              ("the same, beside", chew_shapes["beside"].mean - 1, rule_shapes["beside"].mean - 1),
-              ("1 less mean ratio", 1 - chew_shapes["all"].ratio, 1 - rule_shapes["all"].ratio)]
-    for title, less in (("the rule wins by", 1), ("Chew's wins by", -1)):
-        won = [f"{name} ({(there / max(here, 1e-300)) ** less:.3g})" for name, there, here in ratios
-               if less * there > less * here]
-        print(f"  {title}: {', '.join(won) or 'nothing'}")
+VERDICT = (  # what, of figures, shapes by group and shapes of one region, and which is better
+    ("seconds a million tetrahedra", lambda of, *_: 1e6 * seconds_of(of) / of["tetrahedra"], min),
+    ("  of these at interfaces", lambda of, *_: 1e6 * of["interface_seconds"] / of["tetrahedra"], min),
+    ("rounds", lambda of, *_: of["rounds"], min),
+    ("messages", lambda of, *_: of["messages"], min),
+    ("bytes", lambda of, *_: of["bytes"], min),
+    ("mean aspect", lambda _, shape, one: shape["all"].mean, min),
+    ("mean aspect beside partition planes", lambda _, shape, one: shape["beside"].mean, min),
+    ("mean aspect beside over apart", lambda _, shape, one: shape["beside"].mean / shape["apart"].mean, min),
+    ("mean aspect over that of one region", lambda _, shape, one: shape["all"].mean / one.mean, min),
+    ("greatest aspect", lambda _, shape, one: shape["all"].most, min),
+    ("mean ratio", lambda _, shape, one: shape["all"].ratio, max),
+    ("mean ratio beside partition planes", lambda _, shape, one: shape["beside"].ratio, max),
+    ("least mean ratio", lambda _, shape, one: shape["all"].worst, max),
+    ("least angle, degrees", lambda _, shape, one: shape["all"].least, max),
+)
+
+
+def print_verdict(rule, chew):
+    """Where the rule wins over Chew's algorithm in the same regions, and where it does not."""
+    print(f"  {'':40s} {'proposed':>10s} {'Chew':>10s}  better")
+    for title, value, better in VERDICT:
+        here, there = value(*rule), value(*chew)
+        winner = "neither" if here == there else "proposed" if better(here, there) == here else "Chew"
+        print(f"  {title:40s} {here:10.5g} {there:10.5g}  {winner}")
 
 
 def gmsh_rows(options, folder, program, domain, surface):
@@ -169,7 +178,7 @@ def table(options, folder, program, case, geometry, domain):
     print_way("proposed", both["rule"])
     print_way("Chew", both["chew"], both["radius"])
     print_way("Chew, one", alone["chew"], alone["radius"])
-    print_verdict(both["rule"], both["chew"], by_rule, by_chew, chew_one)
+    print_verdict((both["rule"], by_rule, by_one), (both["chew"], by_chew, chew_one))
     failures = []
     for title, here, there, most in (("beside partition planes against the others", by_rule["beside"],
                                       by_rule["apart"], 0.05),
