@@ -109,8 +109,7 @@ static inline void make_surfaces(Box &box) {
   std::vector<void *> open_patches(faces, nullptr), interfaces;
   int64_t size;
   make_layers(box);
-  for (int v = 0; v < boundary.surface.vertex_count;
-       v++) { // corners and edges of a box keep the asked thickness to the walls
+  for (int v = 0; v < boundary.surface.vertex_count; v++) { // corners and edges keep the asked thickness to the walls
     for (int k = 1; k < 3; k++) {
       double side = k == 1 ? 0.030 : 0.020, x = boundary.layers.top[v][k];
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
