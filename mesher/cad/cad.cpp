@@ -199,17 +199,6 @@ void cw_cad_face_normal(const CwCad *cad, int face, const double uv[2], double n
   for (int k = 0; k < 3 && cw_cad_face_reversed(cad, face); k++) n[k] = -n[k];
 }
 
-void cw_cad_edge_into(const CwCad *cad, int edge, int face, double t, double into[3]) {
-  const CwCadEdge &e = cad->edge[edge];
-  double x[3], along[3], uv[2], n[3];
-  cw_cad_edge_point(cad, edge, t, x, along);
-  cw_cad_edge_uv(cad, edge, face, t, uv);
-  cw_cad_face_normal(cad, face, uv, n);
-  cw_cross(n, along, into);
-  cw_unit(into);
-  for (int k = 0; k < 3 && e.against[e.face[0] == face ? 0 : 1] != cad->inside_out; k++) into[k] = -into[k];
-}
-
 double cw_cad_face_volume(const CwCad *cad, int face) {
   try {
     const TopoDS_Face &shape = TopoDS::Face(cad->face_map(face + 1));

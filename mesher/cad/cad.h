@@ -78,8 +78,6 @@ void cw_cad_edge_faces(const CwCad *cad, int edge, int face[2]);
 // Point and tangent dx/dt (NULL: not wanted) at t; (u,v) of that point on one of its faces.
 void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double xt[3]);
 void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]);
-// Unit vector at t that leads from the edge into one of its faces, across the edge and in the face's tangent plane.
-void cw_cad_edge_into(const CwCad *cad, int edge, int face, double t, double into[3]);
 
 int cw_cad_vertex_count(const CwCad *cad);
 void cw_cad_vertex_point(const CwCad *cad, int vertex, double x[3]);

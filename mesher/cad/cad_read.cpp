@@ -140,8 +140,6 @@ static CwStatus read_edge(const char *path, CwCad *cad, int index, const TopTool
     if (pcurve.IsNull()) return edge_failure(path, cad, shape, edge.face[side], "has no curve in (u,v) of that face");
     edge.pcurve[side].Load(pcurve);
     edge.pcurve_knots[side] = knots_of_curve(edge.pcurve[side]);
-    for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next())
-      if (at.Current().IsSame(shape)) edge.against[side] = at.Current().Orientation() == TopAbs_REVERSED;
   }
   TopoDS_Vertex begin, end;
   TopExp::Vertices(shape, begin, end);

@@ -70,7 +70,6 @@ struct CwCadEdge {
   int face[2];
   Geom2dAdaptor_Curve pcurve[2]; // on face[0], face[1], with the parameter of the curve
   CwCadKnots pcurve_knots[2];
-  bool against[2];                               // the loops of face[0], face[1], which have the face on the left
   std::shared_ptr<const CwCadReplaced> replaced; // null: of no left-out face
   CwCadMovedEnd moved[2];                        // at range[0], range[1]
 };

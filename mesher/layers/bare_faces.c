@@ -9,30 +9,22 @@
 #include "mesher/layers/layers_normal.h"
 
 enum { SAMPLES = 9, FACES_MOST = CW_LAYER_NORMALS };
-enum { OPEN_MOST = 2 };                    // open faces that a column slides on
+enum { OPEN_MOST = 2 }; // open faces that a column slides on
 static const double SAME_PLANE = 1 - 1e-6; // cosine of normals that hold a column in one plane
-static const double ALONG = 1e-3;          // sine of the angle to an edge of what runs along it
 
 // A place on an edge, or at a corner, and the faces about it.
 typedef struct {
   double x[3];
   int32_t count, face[FACES_MOST];
   double normal[FACES_MOST][3]; // out of the fluid
-  double into[FACES_MOST][3];   // the face, from its edge there
-  double out[FACES_MOST][3];    // along that edge, from a corner; 0 on an edge
 } Place;
 
-// `away`: 0 on the edge, 1 or -1 at a corner where it begins or ends.
-static void add_face(const CwCad *cad, int32_t edge, int32_t face, double t, double away, Place *place) {
-  double uv[2], n[3], x[3], *out = place->out[place->count % FACES_MOST];
+static void add_face(const CwCad *cad, int32_t edge, int32_t face, double t, Place *place) {
+  double uv[2], n[3];
   if (place->count == FACES_MOST) return;
   cw_cad_edge_uv(cad, edge, face, t, uv);
   cw_cad_face_normal(cad, face, uv, n);
   if (!(fabs(cw_norm(n) - 1) < 1e-6)) return; // a pole
-  cw_cad_edge_into(cad, edge, face, t, place->into[place->count]);
-  cw_cad_edge_point(cad, edge, t, x, out);
-  cw_unit(out);
-  for (int k = 0; k < 3; k++) out[k] *= away;
   place->face[place->count] = face;
   cw_copy(n, place->normal[place->count++]);
 }
@@ -43,23 +35,6 @@ static double parameter_at(const CwCad *cad, int32_t edge, double share) {
   return range[0] + share * (range[1] - range[0]);
 }
 
-static int is_layered(const CwCad *cad, const Place *place, int32_t i, int32_t without) {
-  return cw_cad_face_is_wall(cad, place->face[i]) && place->face[i] != without;
-}
-
-// Whether a direction in the plane of face i leads into it: on the inner side of its edge there, or of both of them at
-// a corner, or of one of both where the corner is reentrant.
-static int leads_into(const Place *place, int32_t i, const double g[3]) {
-  int inside = 0, edges = 0, reentrant = 0;
-  for (int32_t j = 0; j < place->count; j++) {
-    if (place->face[j] != place->face[i]) continue;
-    reentrant |= cw_dot(place->into[i], place->out[j]) < -ALONG;
-    inside += cw_dot(place->into[j], g) > -ALONG;
-    edges++;
-  }
-  return inside == edges || (reentrant && inside > 0);
-}
-
 // Whether a column can stand there if the face `without` is bare too; -1: none.
 static int can_stand(const CwCad *cad, const Place *place, int32_t without) {
   double inward[FACES_MOST][3], constraint[FACES_MOST][3], g[3];
@@ -67,7 +42,7 @@ static int can_stand(const CwCad *cad, const Place *place, int32_t without) {
   int32_t seen[FACES_MOST];
   for (int32_t i = 0; i < place->count; i++) {
     const double *n = place->normal[i];
-    if (is_layered(cad, place, i, without)) {
+    if (cw_cad_face_is_wall(cad, place->face[i]) && place->face[i] != without) {
       for (int k = 0; k < 3; k++) inward[walls][k] = -n[k];
       walls++;
       continue;
@@ -80,12 +55,8 @@ static int can_stand(const CwCad *cad, const Place *place, int32_t without) {
   }
   if (walls == 0) return 1;
   if (open > OPEN_MOST) return 0;
-  if (cw_layers_most_normal(walls, (const double(*)[3])inward, constraints, (const double(*)[3])constraint, g) <
-      CW_LAYERS_LEAST_COSINE)
-    return 0;
-  for (int32_t i = 0; i < place->count; i++)
-    if (!(is_layered(cad, place, i, without) || leads_into(place, i, g))) return 0;
-  return 1;
+  return cw_layers_most_normal(walls, (const double(*)[3])inward, constraints, (const double(*)[3])constraint, g) >=
+         CW_LAYERS_LEAST_COSINE;
 }
 
 // Leaves faces bare until a column can stand at the place; returns their number.
@@ -118,7 +89,7 @@ static int32_t settle_edges(CwCad *cad, const double *area, CwBareFaces *bare) {
       Place place = {.count = 0};
       double t = parameter_at(cad, e, (i + 0.5) / SAMPLES);
       cw_cad_edge_point(cad, e, t, place.x, NULL);
-      for (int k = 0; k < 2; k++) add_face(cad, e, face[k], t, 0, &place);
+      for (int k = 0; k < 2; k++) add_face(cad, e, face[k], t, &place);
       made += settle(cad, area, &place, bare);
     }
   }
@@ -135,8 +106,7 @@ static CwStatus settle_corners(CwCad *cad, const double *area, CwBareFaces *bare
     cw_cad_edge_faces(cad, e, face);
     cw_cad_edge_vertices(cad, e, vertex);
     for (int end = 0; end < 2; end++)
-      for (int k = 0; k < 2; k++)
-        add_face(cad, e, face[k], parameter_at(cad, e, end), end ? -1 : 1, &place[vertex[end]]);
+      for (int k = 0; k < 2; k++) add_face(cad, e, face[k], parameter_at(cad, e, end), &place[vertex[end]]);
   }
   for (int32_t v = 0; v < corners; v++) {
     cw_cad_vertex_point(cad, v, place[v].x);

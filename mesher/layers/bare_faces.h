@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Walls that cannot carry layers: where no direction sees all faces about an edge or a corner of the solid, or none
-// does that also leads into the open face beside them. Such are cusps, corners of opposite planes, walls that go on
-// smoothly as an inlet or interface, and walls on which an open face stands at a reentrant edge: columns would leave it
-// for the fluid, where their sides were walls that the solid has not.
+// does that also lies in the open face beside them. Such are cusps, corners of opposite planes, and walls that go on
+// smoothly as an inlet or interface.
 #ifndef CUTWATER_MESHER_LAYERS_BARE_FACES_H
 #define CUTWATER_MESHER_LAYERS_BARE_FACES_H
 
@@ -17,8 +16,8 @@ typedef struct {
 } CwBareFaces;
 
 // Leaves walls of the CAD bare until columns can stand on all others: at each place without a direction the face of
-// the least area that frees one, or if none does, the face of the least area. Beside a bare face columns lie in it, on
-// its inner side. `area`: of each face, > 0. Whether faces point out of the solid must be settled (cw_background_join).
+// the least area that frees one, or if none does, the face of the least area. Beside a bare face columns lie in it.
+// `area`: of each face, > 0. Whether faces point out of the solid must be settled (cw_background_join).
 CwStatus cw_bare_faces_find(CwCad *cad, const double *area, CwBareFaces *bare);
 
 #endif
