@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/tet.h"
 #include "mesher/fill/fill_with_fallback.h"
 #include "mesher/fill/kernel.h"
+#include "mesher/region/tets_on.h"
 
 // Room in the domain's numbering for the inserted points of each interface.
 static const int64_t INSERTED_MOST = 1 << 24;
@@ -115,52 +115,6 @@ done:
   return status;
 }
 
-typedef struct {
-  int32_t corner[3], index; // corners ascending
-} Face;
-
-static Face face_of(const int32_t p[3], int32_t index) {
-  Face face = {{p[0], p[1], p[2]}, index};
-  for (int pass = 0; pass < 2; pass++) {
-    for (int k = 0; k < 2 - pass; k++) {
-      int32_t a = face.corner[k], b = face.corner[k + 1];
-      face.corner[k] = a < b ? a : b;
-      face.corner[k + 1] = a < b ? b : a;
-    }
-  }
-  return face;
-}
-
-static int compare_faces(const void *p, const void *q) {
-  return memcmp(((const Face *)p)->corner, ((const Face *)q)->corner, sizeof(int32_t[3]));
-}
-
-// The tetrahedron at each boundary triangle of the mesh, by the numbers of the fill.
-static CwStatus find_cells(const CwChewSurface *surface, const CwFill *fill, int32_t *cell) {
-  CwStatus status = CW_OK;
-  const int32_t fixed = surface->fixed_count;
-  Face *face = NULL;
-  CW_NEW(face, fixed);
-  for (int32_t t = 0; t < fixed; t++) face[t] = face_of(surface->triangle[t], t);
-  qsort(face, (size_t)fixed, sizeof *face, compare_faces);
-  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
-    for (int i = 0; i < 4; i++) {
-      int32_t p[3], inside = 0;
-      for (int k = 0; k < 3; k++) {
-        p[k] = fill->tetrahedron[t][cw_tet_face[i][k]];
-        inside |= p[k] >= surface->node_count;
-      }
-      if (inside) continue;
-      Face key = face_of(p, 0);
-      const Face *found = bsearch(&key, face, (size_t)fixed, sizeof *face, compare_faces);
-      if (found) cell[found->index] = t;
-    }
-  }
-done:
-  free(face);
-  return status;
-}
-
 CwStatus cw_chew_region_mesh(const char *domain, int32_t region, const CwChewSurface *surface, const CwFill *fill,
                              CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
@@ -196,7 +150,8 @@ CwStatus cw_chew_region_mesh(const char *domain, int32_t region, const CwChewSur
   for (int32_t t = 0; t < fixed; t++) {
     for (int k = 0; k < 3; k++) cells->triangles[t][k] = place[surface->triangle[t][k]];
   }
-  CW_TRY(find_cells(surface, fill, cells->triangle_cell));
+  CW_TRY(cw_tets_on(fill->point_count, fixed, (const int32_t(*)[3])surface->triangle, fill->tetrahedron_count,
+                    (const int32_t(*)[4])fill->tetrahedron, cells->triangle_cell));
 done:
   free(place);
   if (status != CW_OK) cw_region_free(mesh);
