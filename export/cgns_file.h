@@ -3,11 +3,21 @@
 #ifndef CUTWATER_EXPORT_CGNS_FILE_H
 #define CUTWATER_EXPORT_CGNS_FILE_H
 
-#include <hdf5.h>
-
 #include "export/assembly.h"
 #include "export/interface.h"
+#include "export/place_file.h"
 #include "pipeline/case.h"
+
+// The file as the ranks fill it: HDF5 lays its arrays down, each in one piece, and tells where. Zeroed: not open.
+typedef struct {
+  const CwAssembly *assembly;
+  CwPlaceFile file;
+  CwFileSum sum;   // of what this rank has written; on rank 0 also of the nodes
+  int64_t size;    // of the file, bytes
+  int64_t *starts; // bytes of the arrays, domain by domain: three of coordinates, then those of its sections
+  int first_array[CW_DOMAINS_MOST + 1]; // of each domain
+  int wide;        // 64-bit integers
+} CwCgnsFile;
 
 // Whether the integers have 64 bits. CW_ERR_EXPORT where a zone has more than 2^31 - 1 points or elements and the case
 // asks for 32.
@@ -18,20 +28,21 @@ CwStatus cw_cgns_plan(const CwAssembly *assembly, CwIntegers integers, int *wide
 CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *assembly, const CwInterface *interfaces,
                             const CwCase *table, int wide);
 
-// Opens a laid down file on all ranks (collective), for regions to be written from any rank in any order.
-CwStatus cw_cgns_open(const char *path, const CwRanks *ranks, hid_t *file);
+// Opens FOLDER/pump.cgns, laid down, on all ranks, for regions to be written from any rank in any order. Fails on all
+// ranks alike. Collective.
+CwStatus cw_cgns_open(const char *folder, const CwAssembly *assembly, const CwRanks *ranks, int wide, CwCgnsFile *file);
 
-// Writes the coordinates of the shared points of all domains. One rank calls it.
-CwStatus cw_cgns_write_shared(hid_t file, const CwAssembly *assembly);
+// Writes the coordinates of the shared points of all domains. One rank calls it. CW_ERR_IO.
+CwStatus cw_cgns_write_shared(CwCgnsFile *file);
 
-// Writes the own points, cells and boundary faces of a region. `data` is that region.
-CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *assembly, int region, const CwRegionData *data, int wide);
+// Writes the own points, cells and boundary faces of a region. `data` is that region. CW_ERR_IO.
+CwStatus cw_cgns_write_region(CwCgnsFile *file, int region, const CwRegionData *data);
 
-// Closes it; collective for an opened one. CW_ERR_IO.
-CwStatus cw_cgns_close(hid_t file);
+// Closes it; fine where it is not open. CW_ERR_IO.
+CwStatus cw_cgns_close(CwCgnsFile *file);
 
-// Whether a file could not be closed on this rank. HDF5 then ends in a segmentation fault within MPI_Finalize: the
-// process has to end without it. Kept once a process, as the state of HDF5 that it tells of.
+// Whether HDF5 could not close a file. It then ends in a segmentation fault within MPI_Finalize: the process has to end
+// without it. Kept once a process, as the state of HDF5 that it tells of.
 int cw_cgns_stuck(void);
 
 #endif

@@ -1,123 +1,181 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The bulk arrays of pump.cgns, region by region through parallel HDF5. Every region has its own stretch of
-// every array, so ranks need not wait for each other, and the order of writing leaves no trace.
+// The bulk arrays of pump.cgns, region by region. Every region has its own stretch of every array, so ranks need not
+// wait for each other, and the order of writing leaves no trace.
+#include <hdf5.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "export/cgns_file.h"
 #include "export/cgns_sections.h"
 
-CwStatus cw_cgns_open(const char *path, const CwRanks *ranks, hid_t *file) {
+enum { COORDINATES = 3, NODE_SIZE = 100, PATH_SIZE = 2 * NODE_SIZE };
+
+// Where an array begins in the file; one without values begins nowhere.
+static CwStatus find_start(hid_t file, const char *zone, const char *node, int64_t *start) {
   CwStatus status = CW_OK;
-  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-  if (ranks->size > 1) H5Pset_fapl_mpio(access, ranks->comm, MPI_INFO_NULL);
-  *file = H5Fopen(path, H5F_ACC_RDWR, access);
-  CW_REQUIRE(*file >= 0, CW_ERR_IO, "%s: cannot be opened for parallel writing", path);
-done:
-  H5Pclose(access);
-  return status;
-}
-
-static int stuck; // a file could not be closed
-
-CwStatus cw_cgns_close(hid_t file) {
-  CwStatus status = CW_OK;
-  stuck |= H5Fclose(file) < 0;
-  CW_REQUIRE(!stuck, CW_ERR_IO, "the CGNS file cannot be written to its end (is the disk full?)");
-done:
-  return status;
-}
-
-int cw_cgns_stuck(void) {
-  return stuck;
-}
-
-static CwStatus write_stretch(hid_t file, const char *path, hid_t type, int64_t first, int64_t count,
-                              const void *values) {
-  CwStatus status = CW_OK;
-  hid_t set = -1, there = -1, here = -1;
-  if (count == 0) goto done;
-  set = H5Dopen2(file, path, H5P_DEFAULT);
+  char path[PATH_SIZE];
+  snprintf(path, sizeof path, "/pump/%s/%s/ data", zone, node);
+  hid_t set = H5Dopen2(file, path, H5P_DEFAULT);
   CW_REQUIRE(set >= 0, CW_ERR_LIBRARY, "the CGNS file has no '%s'", path);
-  there = H5Dget_space(set);
-  here = H5Screate_simple(1, (hsize_t[]){(hsize_t)count}, NULL);
-  H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count}, NULL);
-  int written = H5Dwrite(set, type, here, there, H5P_DEFAULT, values) >= 0;
-  if (H5Dclose(set) < 0) written = 0; // small stretches are written only now
-  set = -1;
-  CW_REQUIRE(written, CW_ERR_IO, "%lld values cannot be written to '%s' of the CGNS file (is the disk full?)",
-             (long long)count, path);
-done:
-  if (here >= 0) H5Sclose(here);
-  if (there >= 0) H5Sclose(there);
-  if (set >= 0) H5Dclose(set);
-  return status;
-}
-
-static CwStatus write_points(hid_t file, const CwMesh *mesh, int domain, int64_t first, int64_t count,
-                             const double (*points)[3]) {
-  CwStatus status = CW_OK;
-  double *one = NULL;
-  CW_NEW_UNSET(one, count);
-  for (int k = 0; k < 3; ++k) {
-    char path[100];
-    snprintf(path, sizeof path, "/pump/%s/GridCoordinates/Coordinate%c/ data", mesh->domains[domain].zone, "XYZ"[k]);
-    for (int64_t i = 0; i < count; ++i) one[i] = points[i][k];
-    CW_TRY(write_stretch(file, path, H5T_NATIVE_DOUBLE, first, count, one));
-  }
-done:
-  free(one);
-  return status;
-}
-
-CwStatus cw_cgns_write_shared(hid_t file, const CwAssembly *a) {
-  CwStatus status = CW_OK;
-  for (int d = 0; d < a->mesh->domain_count; ++d)
-    CW_TRY(write_points(file, a->mesh, d, 0, a->mesh->domains[d].shared_points, (const double(*)[3])a->shared[d]));
+  const haddr_t place = H5Dget_offset(set);
+  *start = place == HADDR_UNDEF ? -1 : (int64_t)place;
+  H5Dclose(set);
 done:
   return status;
 }
 
-// Writes the elements of `nodes` nodes whose patch is `patch` (patch_of NULL: all), `first` elements into a
-// section.
-static CwStatus write_elements(hid_t file, const CwAssembly *a, int region, const CwRegionData *data,
-                               const CwSection *section, int64_t first, const int32_t *elements, int64_t count,
-                               const int32_t *patch_of, int wide) {
-  CwStatus status = CW_OK;
-  int32_t *out = NULL;
-  int64_t *wide_out = NULL;
-  int64_t used = 0;
-  char path[100];
-  int local_patch = section->patch - a->mesh->domains[data->domain].first_patch;
-  if (wide)
-    CW_NEW_UNSET(wide_out, count * section->nodes);
-  else
-    CW_NEW_UNSET(out, count * section->nodes);
-  for (int64_t i = 0; i < count; ++i)
-    for (int n = 0; n < section->nodes && (!patch_of || patch_of[i] == local_patch); ++n) {
-      const int64_t number = cw_point_number(a, region, data, elements[i * section->nodes + n]) + 1;
-      if (wide)
-        wide_out[used++] = number;
-      else
-        out[used++] = (int32_t)number;
-    }
-  snprintf(path, sizeof path, "/pump/%s/%s/ElementConnectivity/ data", a->mesh->domains[data->domain].zone,
-           section->name);
-  CW_TRY(write_stretch(file, path, wide ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32, first * section->nodes, used,
-                       wide ? (const void *)wide_out : out));
-done:
-  free(out);
-  free(wide_out);
-  return status;
-}
-
-CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const CwRegionData *data, int wide) {
+static CwStatus find_starts(const char *path, const CwAssembly *a, int64_t *starts) {
   CwStatus status = CW_OK;
   CwSection *sections = NULL;
+  char node[NODE_SIZE];
   int count = 0;
+  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be opened", path);
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
+    const char *zone = a->mesh->domains[d].zone;
+    for (int k = 0; k < COORDINATES; ++k) {
+      snprintf(node, sizeof node, "GridCoordinates/Coordinate%c", "XYZ"[k]);
+      CW_TRY(find_start(file, zone, node, starts++));
+    }
+    CW_TRY(cw_cgns_sections(a, d, &sections, &count));
+    for (int s = 0; s < count; ++s) {
+      snprintf(node, sizeof node, "%s/ElementConnectivity", sections[s].name);
+      CW_TRY(find_start(file, zone, node, starts++));
+    }
+    free(sections);
+    sections = NULL;
+  }
+done:
+  free(sections);
+  if (file >= 0) H5Fclose(file);
+  return status;
+}
+
+// Numbers the arrays.
+static CwStatus count_arrays(CwCgnsFile *f) {
+  CwStatus status = CW_OK;
+  CwSection *sections = NULL;
+  for (int d = 0, count; d < f->assembly->mesh->domain_count; ++d) {
+    CW_TRY(cw_cgns_sections(f->assembly, d, &sections, &count));
+    f->first_array[d + 1] = f->first_array[d] + COORDINATES + count;
+    free(sections);
+    sections = NULL;
+  }
+done:
+  free(sections);
+  return status;
+}
+
+CwStatus cw_cgns_open(const char *folder, const CwAssembly *a, const CwRanks *ranks, int wide, CwCgnsFile *file) {
+  CwStatus status = CW_OK;
+  const int *count = &file->first_array[a->mesh->domain_count];
+  file->assembly = a;
+  file->wide = wide;
+  CW_TRY(count_arrays(file));
+  CW_NEW(file->starts, *count);
+  CW_TRY(cw_place_file_open(folder, "pump.cgns", 0, &file->file));
+  CW_TRY(cw_file_size(file->file.path, &file->size));
+  if (ranks->rank == 0) {
+    CW_TRY(find_starts(file->file.path, a, file->starts));
+    CW_TRY(cw_file_sum_blocks(file->file.path, file->size, 0, 1, &file->sum)); // all that is there yet
+  }
+done:
+  status = cw_ranks_agree(ranks, status);
+  if (status == CW_OK) cw_ranks_broadcast(ranks, file->starts, *count, sizeof *file->starts);
+  return status;
+}
+
+CwStatus cw_cgns_close(CwCgnsFile *file) {
+  free(file->starts);
+  file->starts = NULL;
+  return cw_place_file_close(&file->file);
+}
+
+// Values on their way to the file, which are summed and written while they are in the cache.
+typedef struct {
+  CwCgnsFile *file;
+  int64_t at; // byte of the file of the first one
+  int size;   // bytes of a value
+  int count;
+  union {
+    double coordinates[1 << 15];
+    int64_t wide[1 << 15];
+    int32_t narrow[1 << 16];
+  } values;
+} Stretch;
+
+static int has_space(const Stretch *s, int count) {
+  return (size_t)(s->count + count) * (size_t)s->size <= sizeof s->values;
+}
+
+static CwStatus flush(Stretch *s) {
+  CwStatus status = CW_OK;
+  const int64_t bytes = (int64_t)s->count * s->size;
+  cw_file_sum_add(&s->file->sum, s->at, &s->values, bytes);
+  CW_TRY(cw_place_file_put(&s->file->file, &s->values, bytes, s->at));
+  s->at += bytes;
+  s->count = 0;
+done:
+  return status;
+}
+
+static CwStatus write_points(CwCgnsFile *f, int array, int64_t first, int64_t count, const double (*points)[3]) {
+  CwStatus status = CW_OK;
+  for (int k = 0; k < COORDINATES; ++k) {
+    Stretch s = {.file = f, .at = f->starts[array + k] + first * (int64_t)sizeof(double), .size = sizeof(double)};
+    for (int64_t i = 0; i < count; ++i) {
+      if (!has_space(&s, 1)) CW_TRY(flush(&s));
+      s.values.coordinates[s.count++] = points[i][k];
+    }
+    CW_TRY(flush(&s));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_cgns_write_shared(CwCgnsFile *f) {
+  CwStatus status = CW_OK;
+  const CwAssembly *a = f->assembly;
+  for (int d = 0; d < a->mesh->domain_count; ++d)
+    CW_TRY(write_points(f, f->first_array[d], 0, a->mesh->domains[d].shared_points,
+                        (const double(*)[3])a->shared[d]));
+done:
+  return status;
+}
+
+// Writes the elements of a section whose patch is its (patch_of NULL: all), `first` elements into it.
+static CwStatus write_elements(CwCgnsFile *f, int array, int region, const CwRegionData *data,
+                               const CwSection *section, int64_t first, const int32_t *elements, int64_t count,
+                               const int32_t *patch_of) {
+  CwStatus status = CW_OK;
+  const CwAssembly *a = f->assembly;
+  const int local_patch = section->patch - a->mesh->domains[data->domain].first_patch, nodes = section->nodes;
+  Stretch s = {.file = f, .size = f->wide ? sizeof *s.values.wide : sizeof *s.values.narrow};
+  s.at = f->starts[array] + first * nodes * s.size;
+  for (int64_t i = 0; i < count; ++i) {
+    if (patch_of && patch_of[i] != local_patch) continue;
+    if (!has_space(&s, nodes)) CW_TRY(flush(&s));
+    for (int n = 0; n < nodes; ++n) {
+      const int64_t number = cw_point_number(a, region, data, elements[i * nodes + n]) + 1;
+      if (f->wide)
+        s.values.wide[s.count++] = number;
+      else
+        s.values.narrow[s.count++] = (int32_t)number;
+    }
+  }
+  CW_TRY(flush(&s));
+done:
+  return status;
+}
+
+CwStatus cw_cgns_write_region(CwCgnsFile *f, int region, const CwRegionData *data) {
+  CwStatus status = CW_OK;
+  const CwAssembly *a = f->assembly;
+  CwSection *sections = NULL;
+  int count = 0;
+  const int array = f->first_array[data->domain];
   const CwRegionPlace *place = &a->places[region];
-  CW_TRY(write_points(file, a->mesh, data->domain, place->own_point, data->point_count - data->shared_count,
+  CW_TRY(write_points(f, array, place->own_point, data->point_count - data->shared_count,
                       (const double(*)[3])data->points + data->shared_count));
   CW_TRY(cw_cgns_sections(a, data->domain, &sections, &count));
   for (int s = 0; s < count; ++s) {
@@ -144,8 +202,8 @@ CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const
       elements = *data->quads, elements_count = part->quads ? data->quad_count : 0;
       patch_of = data->quad_patch, first = part->quad;
     }
-    CW_TRY(write_elements(file, a, region, data, &sections[s], first, elements, elements_count, patch_of,
-                          wide));
+    CW_TRY(write_elements(f, array + COORDINATES + s, region, data, &sections[s], first, elements, elements_count,
+                          patch_of));
   }
 done:
   free(sections);

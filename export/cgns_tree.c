@@ -239,6 +239,20 @@ done:
   return status;
 }
 
+static int stuck; // a file could not be closed
+
+static CwStatus close_tree(hid_t file) {
+  CwStatus status = CW_OK;
+  stuck |= H5Fclose(file) < 0;
+  CW_REQUIRE(!stuck, CW_ERR_IO, "the CGNS file cannot be written to its end (is the disk full?)");
+done:
+  return status;
+}
+
+int cw_cgns_stuck(void) {
+  return stuck;
+}
+
 CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interfaces, const CwCase *table,
                             int wide) {
   CwStatus status = CW_OK;
@@ -262,7 +276,7 @@ done:
   if (base >= 0) H5Gclose(base);
   if (status == CW_ERR_IO) status = CW_FAIL(status, "%s: %s (is the disk full?)", path, cw_fail_message());
   if (file >= 0) {
-    CwStatus closed = cw_cgns_close(file);
+    CwStatus closed = close_tree(file);
     if (status == CW_OK) status = closed;
   }
   return status;

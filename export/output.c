@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "export/cfx_case.h"
-#include "export/cgns_file.h"
 #include "export/fluent_case.h"
 #include "export/foam_case.h"
 #include "export/foam_mesh.h"
@@ -113,18 +112,18 @@ done:
 
 CwStatus cw_output_open(CwOutput *o, const CwRanks *ranks) {
   CwStatus status = CW_OK;
-  if (cw_output_has(o, CW_FORMAT_CGNS)) status = cw_cgns_open(o->cgns_path, ranks, &o->cgns);
-  if (status == CW_OK && cw_output_has(o, CW_FORMAT_FLUENT)) status = cw_fluent_mesh_open(o->fluent_folder, &o->fluent);
+  if (cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_open(o->folder, o->assembly, ranks, o->cgns_wide, &o->cgns));
+  if (cw_output_has(o, CW_FORMAT_FLUENT)) status = cw_fluent_mesh_open(o->fluent_folder, &o->fluent);
   CW_TRY(cw_ranks_agree(ranks, status));
   if (cw_output_has(o, CW_FORMAT_OPENFOAM)) CW_TRY(cw_foam_mesh_create(&o->foam, ranks));
-  if (ranks->rank == 0 && cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_write_shared(o->cgns, o->assembly));
+  if (ranks->rank == 0 && cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_write_shared(&o->cgns));
 done:
   return status;
 }
 
-CwStatus cw_output_write_region(const CwOutput *o, int region, const CwRegionData *data, const CwRegionFaces *faces) {
+CwStatus cw_output_write_region(CwOutput *o, int region, const CwRegionData *data, const CwRegionFaces *faces) {
   CwStatus status = CW_OK;
-  if (cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_write_region(o->cgns, o->assembly, region, data, o->cgns_wide));
+  if (cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_write_region(&o->cgns, region, data));
   if (cw_output_has(o, CW_FORMAT_OPENFOAM)) CW_TRY(cw_foam_region_write(&o->foam, region, data, faces));
   if (cw_output_has(o, CW_FORMAT_FLUENT)) CW_TRY(cw_fluent_mesh_write_region(&o->fluent, region, data, faces));
 done:
@@ -137,18 +136,32 @@ static void keep_first(CwStatus *status, CwStatus next) {
 
 CwStatus cw_output_close(CwOutput *o) {
   CwStatus status = CW_OK;
-  if (o->cgns >= 0) keep_first(&status, cw_cgns_close(o->cgns));
-  o->cgns = -1;
+  keep_first(&status, cw_cgns_close(&o->cgns));
   keep_first(&status, cw_fluent_mesh_close(&o->fluent));
+  return status;
+}
+
+CwStatus cw_output_digest(const CwOutput *o, const CwRanks *ranks, char digest[CW_HASH_TEXT]) {
+  CwStatus status = CW_OK;
+  char *path = NULL;
+  if (cw_output_has(o, CW_FORMAT_CGNS)) {
+    cw_ranks_sum_digest(ranks, o->cgns.sum, o->cgns.size, digest);
+  } else {
+    CW_TRY(cw_ranks_agree(ranks, join(o->folder, cw_output_known_by(o), &path)));
+    CW_TRY(cw_ranks_file_digest(ranks, path, digest));
+  }
+done:
+  free(path);
   return status;
 }
 
 void cw_output_free(CwOutput *o) {
   cw_foam_layout_free(&o->foam);
+  cw_cgns_close(&o->cgns);
   cw_fluent_mesh_close(&o->fluent);
   free(o->folder);
   free(o->cgns_path);
   free(o->foam_folder);
   free(o->fluent_folder);
-  *o = (CwOutput){.cgns = -1};
+  *o = (CwOutput){0};
 }

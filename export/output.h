@@ -4,8 +4,7 @@
 #ifndef CUTWATER_EXPORT_OUTPUT_H
 #define CUTWATER_EXPORT_OUTPUT_H
 
-#include <hdf5.h>
-
+#include "export/cgns_file.h"
 #include "export/fluent_mesh.h"
 #include "export/foam_layout.h"
 #include "export/interface.h"
@@ -19,7 +18,7 @@ typedef struct {
   char *folder;                   // where all is written
   char *cgns_path, *foam_folder, *fluent_folder;
   int cgns_wide; // 64-bit integers
-  hid_t cgns;    // below 0: not open
+  CwCgnsFile cgns;
   CwFoamMesh foam;
   CwFluentMesh fluent;
 } CwOutput;
@@ -33,8 +32,7 @@ int cw_output_has(const CwOutput *output, CwFormat format);
 // points (of a divided mesh those of a part).
 const char *cw_output_known_by(const CwOutput *output);
 
-// Lays out the files; alike on all ranks. CW_ERR_EXPORT where no format is left. Zeroed `output` on entry but for
-// `cgns`, which is -1.
+// Lays out the files; alike on all ranks. CW_ERR_EXPORT where no format is left. Zeroed `output` on entry.
 CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const char *folder, CwOutput *output);
 
 // Makes what one rank alone makes of the files. One rank calls it.
@@ -44,11 +42,14 @@ CwStatus cw_output_begin(CwOutput *output, const CwInterface *interfaces);
 CwStatus cw_output_open(CwOutput *output, const CwRanks *ranks);
 
 // Writes a region of this rank. Collective are opening and closing alone.
-CwStatus cw_output_write_region(const CwOutput *output, int region, const CwRegionData *data,
+CwStatus cw_output_write_region(CwOutput *output, int region, const CwRegionData *data,
                                 const CwRegionFaces *faces);
 
 // Closes the files. Collective. CW_ERR_IO where the disk is full.
 CwStatus cw_output_close(CwOutput *output);
+
+// The digest of the file by which the mesh is known, closed. Collective. CW_ERR_IO.
+CwStatus cw_output_digest(const CwOutput *output, const CwRanks *ranks, char digest[CW_HASH_TEXT]);
 
 // Frees, also what cw_output_plan() left behind as it failed.
 void cw_output_free(CwOutput *output);

@@ -283,9 +283,9 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   CwMesh mesh = {0};
   CwAssembly assembly = {0};
   CwInterface *interfaces = NULL;
-  CwOutput output = {.cgns = -1};
+  CwOutput output = {0};
   CwRecord *record = NULL;
-  char *folder = NULL, *part = NULL, *path = NULL, *known = NULL, digest[CW_HASH_TEXT];
+  char *folder = NULL, *part = NULL, *path = NULL, digest[CW_HASH_TEXT];
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
   CW_TRY(join(run, "export", &folder));
   CW_TRY(join(folder, ".part", &part));
@@ -305,8 +305,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &output));
-  CW_TRY(cw_ranks_agree(ranks, join(part, cw_output_known_by(&output), &known)));
-  CW_TRY(cw_ranks_file_digest(ranks, known, digest));
+  CW_TRY(cw_output_digest(&output, ranks, digest));
   written = cw_seconds();
   int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
   for (int d = 0; d < mesh.domain_count; ++d) cells += assembly.totals[d].cells;
@@ -338,6 +337,5 @@ done:
   free(folder);
   free(part);
   free(path);
-  free(known);
   return cw_ranks_agree(ranks, status);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Digests of files. A file is digested by blocks of CW_FILE_BLOCK bytes and these together, so that ranks can share the
-// blocks of a large one.
+// Digests of files: the size, and a sum over words of eight bytes, each times a factor of its place (multilinear
+// hashing; Carter, Wegman 1979), of 128 bits. The parts of a file can be summed by several ranks in any order, by
+// whoever writes them; zeros, so the holes of a sparse file too, add nothing. Against chance, not against malice:
+// damage within one word always shows, any other goes unseen once in 2^64.
 #ifndef CUTWATER_PIPELINE_FILE_DIGEST_H
 #define CUTWATER_PIPELINE_FILE_DIGEST_H
 
@@ -11,17 +13,27 @@
 extern "C" {
 #endif
 
-enum { CW_FILE_BLOCK = 1 << 22 };
+enum { CW_FILE_BLOCK = 1 << 22, CW_SUM_PARTS = 4 };
+
+// 32 bits a part, the lowest first, in 64: sums of up to 2^32 ranks are added part by part. Zeroed to begin with.
+typedef struct {
+  uint64_t part[CW_SUM_PARTS];
+} CwFileSum;
+
+// Adds `count` bytes that stand in the file from byte `at` on.
+void cw_file_sum_add(CwFileSum *sum, int64_t at, const void *bytes, int64_t count);
+
+// Adds block `first` of a file of `size` bytes and every `stride`-th after it, CW_FILE_BLOCK bytes each; holes are
+// not read. CW_ERR_IO.
+CwStatus cw_file_sum_blocks(const char *path, int64_t size, int64_t first, int64_t stride, CwFileSum *sum);
+
+void cw_file_sum_digest(const CwFileSum *sum, int64_t size, char digest[CW_HASH_TEXT]);
+
+// In bytes. CW_ERR_IO where it cannot be read.
+CwStatus cw_file_size(const char *path, int64_t *size);
 
 // Digests a whole file. CW_ERR_IO where it cannot be read.
 CwStatus cw_file_digest(const char *path, char digest[CW_HASH_TEXT]);
-
-// The same in parts: the size of a file, by which it has blocks; the digests of block `first` and every `stride`-th
-// after it, put into blocks[first], ...; and those of all blocks joined.
-CwStatus cw_file_size(const char *path, int64_t *size);
-int64_t cw_file_block_count(int64_t size);
-CwStatus cw_file_digest_blocks(const char *path, int64_t size, int64_t first, int64_t stride, CwHash *blocks);
-void cw_file_digest_join(const CwHash *blocks, int64_t size, char digest[CW_HASH_TEXT]);
 
 #ifdef __cplusplus
 }

@@ -6,10 +6,10 @@
 set -eu
 
 build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmocka-dev libcairo2-dev
-  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libcgns-dev libcgal-dev libtet1.5-dev
+  libopenmpi-dev openmpi-bin libhdf5-dev libcgns-dev libcgal-dev libtet1.5-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libocct-data-exchange-dev"
-other_mpi="libmpich-dev mpich libhdf5-mpich-dev iproute2"
+other_mpi="libmpich-dev mpich iproute2"
 browser="chromium"
 judges="cgns-convert code-saturne gmsh python3-gmsh openfoam tetgen valgrind"
 

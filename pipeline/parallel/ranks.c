@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pipeline/file_digest.h"
 #include "pipeline/parallel/message.h"
 
 CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status) {
@@ -93,25 +92,18 @@ void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count) {
   if (ranks->rank == 0) memset(values, 0, (size_t)count * sizeof *values); // MPI leaves these as they are
 }
 
-void cw_ranks_digest_join(const CwRanks *ranks, CwHash *blocks, int64_t size, char digest[CW_HASH_TEXT]) {
-  cw_ranks_reduce(ranks, blocks, 2 * cw_file_block_count(size), MPI_UINT64_T, MPI_SUM); // the others' are 0
-  cw_file_digest_join(blocks, size, digest);
+void cw_ranks_sum_digest(const CwRanks *ranks, CwFileSum sum, int64_t size, char digest[CW_HASH_TEXT]) {
+  cw_ranks_reduce(ranks, sum.part, CW_SUM_PARTS, MPI_UINT64_T, MPI_SUM);
+  cw_file_sum_digest(&sum, size, digest);
 }
 
 CwStatus cw_ranks_file_digest(const CwRanks *ranks, const char *path, char digest[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
-  CwHash *blocks = NULL;
+  CwFileSum sum = {0};
   int64_t size = 0;
   CW_TRY(cw_ranks_agree(ranks, cw_file_size(path, &size)));
-  int64_t count = cw_file_block_count(size);
-  blocks = calloc((size_t)count + 1, sizeof *blocks);
-  if (!blocks)
-    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld blocks of %s", (long long)count, path);
-  else
-    status = cw_file_digest_blocks(path, size, ranks->rank, ranks->size, blocks);
-  CW_TRY(cw_ranks_agree(ranks, status));
-  cw_ranks_digest_join(ranks, blocks, size, digest);
+  CW_TRY(cw_ranks_agree(ranks, cw_file_sum_blocks(path, size, ranks->rank, ranks->size, &sum)));
+  cw_ranks_sum_digest(ranks, sum, size, digest);
 done:
-  free(blocks);
   return status;
 }

@@ -6,7 +6,7 @@
 #include <mpi.h>
 #include <stdint.h>
 
-#include "pipeline/hash.h"
+#include "pipeline/file_digest.h"
 #include "pipeline/log.h"
 #include "pipeline/status.h"
 
@@ -42,10 +42,10 @@ void cw_ranks_reduce(const CwRanks *ranks, void *values, int64_t count, MPI_Data
 // Each rank gets the sums over the ranks before it. [in,out] values. Collective.
 void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count);
 
-// The digest of a file (file_digest.h), of which each rank reads some blocks. CW_ERR_IO, CW_ERR_MEMORY; fails on all
-// ranks alike. Collective.
+// The digest of a file, of which each rank reads some blocks. CW_ERR_IO, CW_ERR_MEMORY; fails on all ranks alike.
+// Collective.
 CwStatus cw_ranks_file_digest(const CwRanks *ranks, const char *path, char digest[CW_HASH_TEXT]);
-// The same from the blocks of each rank, those of others 0: [in,out] blocks, on all ranks those of all. Collective.
-void cw_ranks_digest_join(const CwRanks *ranks, CwHash *blocks, int64_t size, char digest[CW_HASH_TEXT]);
+// The same of a file of `size` bytes, of which each rank has summed a share. Collective.
+void cw_ranks_sum_digest(const CwRanks *ranks, CwFileSum sum, int64_t size, char digest[CW_HASH_TEXT]);
 
 #endif

@@ -11,7 +11,7 @@
 typedef struct {
   const char *name;
   int64_t size;
-  CwHash *blocks; // those of other ranks are 0
+  CwFileSum sum; // of the blocks of this rank
 } File;
 
 struct CwExportCheck {
@@ -30,8 +30,7 @@ static CwStatus read_file(const CwExportCheck *check, File *file) {
   char path[4096];
   snprintf(path, sizeof path, "%s/export/%s", check->run, file->name);
   CW_TRY(cw_file_size(path, &file->size));
-  CW_NEW(file->blocks, cw_file_block_count(file->size) + 1);
-  CW_TRY(cw_file_digest_blocks(path, file->size, check->ranks->rank, check->ranks->size, file->blocks));
+  CW_TRY(cw_file_sum_blocks(path, file->size, check->ranks->rank, check->ranks->size, &file->sum));
 done:
   return status;
 }
@@ -76,7 +75,7 @@ static CwStatus digest_next(void *given, const char *path, char digest[CW_HASH_T
   CwExportCheck *check = given;
   File *file = &check->file[check->asked++];
   (void)path;
-  cw_ranks_digest_join(check->ranks, file->blocks, file->size, digest);
+  cw_ranks_sum_digest(check->ranks, file->sum, file->size, digest);
   return CW_OK;
 }
 
@@ -95,7 +94,6 @@ void cw_export_check_free(CwExportCheck **given) {
   CwExportCheck *check = *given;
   if (!check) return;
   wait_for(check);
-  for (int i = 0; check->file && i < check->count; i++) free(check->file[i].blocks);
   free(check->file);
   free(check);
   *given = NULL;

@@ -34,7 +34,7 @@ HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {
 
 def compile_program(build, folder):
     program = folder / "fill"
-    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5-openmpi", "libfyaml", "jansson"],
+    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5", "libfyaml", "jansson"],
                            check=True, capture_output=True, text=True).stdout.split()
     subprocess.run(["mpicc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", f"-I{SOURCE}",
                     str(SOURCE / "tests/bench/fill.c"), "-o", str(program),

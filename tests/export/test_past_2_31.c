@@ -90,15 +90,15 @@ static void cgns_has_its_integers(void **state) {
   Large l;
   char path[100];
   int wide = 0;
-  hid_t out = -1;
+  CwCgnsFile out = {0};
   large_make(before, &l);
   snprintf(path, sizeof path, "%s/pump.cgns", folder);
   assert_int_equal(cw_cgns_plan(&l.assembly, CW_INTEGERS_AUTO, &wide), CW_OK);
   assert_true(wide);
   assert_int_equal(cw_cgns_tree_write(path, &l.assembly, NULL, &table, wide), CW_OK);
-  assert_int_equal(cw_cgns_open(path, &ranks, &out), CW_OK);
-  assert_int_equal(cw_cgns_write_region(out, &l.assembly, 1, &data, wide), CW_OK);
-  assert_int_equal(cw_cgns_close(out), CW_OK);
+  assert_int_equal(cw_cgns_open(folder, &l.assembly, &ranks, wide, &out), CW_OK);
+  assert_int_equal(cw_cgns_write_region(&out, 1, &data), CW_OK);
+  assert_int_equal(cw_cgns_close(&out), CW_OK);
 
   int64_t range[2], node[12];
   double x[4];

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Built with MPICH (libmpich-dev, mpich, libhdf5-mpich-dev): mesher and exporter give the bytes that they give with the
+"""Built with MPICH (libmpich-dev, mpich): mesher and exporter give the bytes that they give with the
 MPI of the tests. Ends with 77, skipped, where these packages are missing."""
 import shutil
 import sys
@@ -32,7 +32,7 @@ class Mpich(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    missing = [name for name in ("mpicc.mpich", "mpiexec.mpich", "h5pcc.mpich") if not shutil.which(name)]
+    missing = [name for name in ("mpicc.mpich", "mpiexec.mpich") if not shutil.which(name)]
     if missing:
         print(f"{', '.join(missing)} missing: skipped")
         sys.exit(77)

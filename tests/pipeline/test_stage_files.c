@@ -145,22 +145,70 @@ static void shared_blocks_give_the_same_digest(void **state) {
   char before[CW_HASH_TEXT] = "", digest[CW_HASH_TEXT], shared[CW_HASH_TEXT];
   for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (char)(i * 7 >> 3);
   for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-    CwHash blocks[3];
+    CwFileSum sum = {0};
     int64_t size = -1;
     write_bytes("blocks", bytes, sizes[s]);
     assert_int_equal(cw_file_digest(path, digest), CW_OK);
     assert_int_equal(cw_file_size(path, &size), CW_OK);
     assert_int_equal(size, sizes[s]);
-    for (int rank = 1; rank >= 0; rank--) assert_int_equal(cw_file_digest_blocks(path, size, rank, 2, blocks), CW_OK);
-    cw_file_digest_join(blocks, size, shared);
+    for (int rank = 1; rank >= 0; rank--) assert_int_equal(cw_file_sum_blocks(path, size, rank, 2, &sum), CW_OK);
+    cw_file_sum_digest(&sum, size, shared);
     assert_string_equal(shared, digest);
     assert_string_not_equal(digest, before);
     strcpy(before, digest);
   }
   assert_int_equal(truncate(path, 3 * CW_FILE_BLOCK / 2), 0);
-  CwHash blocks[3];
-  assert_int_equal(cw_file_digest_blocks(path, sizeof bytes, 0, 1, blocks), CW_ERR_IO);
+  CwFileSum sum = {0};
+  assert_int_equal(cw_file_sum_blocks(path, sizeof bytes, 0, 1, &sum), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "blocks: cannot be read: it has become shorter"));
+}
+
+static void digest_of_pieces(const char *bytes, int64_t size, const int64_t *cut, int count, char *digest) {
+  CwFileSum sums[2] = {{{0}}, {{0}}};
+  for (int i = count; i >= 0; i--) {
+    const int64_t from = i ? cut[i - 1] : 0, to = i < count ? cut[i] : size;
+    cw_file_sum_add(&sums[i % 2], from, bytes + from, to - from);
+  }
+  for (int k = 0; k < CW_SUM_PARTS; k++) sums[0].part[k] += sums[1].part[k]; // as MPI adds them
+  cw_file_sum_digest(&sums[0], size, digest);
+}
+
+static int compare_cuts(const void *a, const void *b) {
+  return (int)(*(const int64_t *)a - *(const int64_t *)b);
+}
+
+// Whoever sums which bytes, in pieces of any length and order; and any bit that is another shows.
+static void any_pieces_give_the_same_digest(void **state) {
+  enum { SIZE = 1000, CUTS = 20 };
+  char bytes[SIZE], whole[CW_HASH_TEXT], parts[CW_HASH_TEXT];
+  srand(5);
+  for (int i = 0; i < SIZE; i++) bytes[i] = (char)(rand() >> 7);
+  digest_of_pieces(bytes, SIZE, NULL, 0, whole);
+  for (int round = 0; round < 200; round++) {
+    int64_t cut[CUTS];
+    for (int i = 0; i < CUTS; i++) cut[i] = rand() % (SIZE + 1);
+    qsort(cut, CUTS, sizeof *cut, compare_cuts);
+    digest_of_pieces(bytes, SIZE, cut, CUTS, parts);
+    assert_string_equal(parts, whole);
+    const int at = rand() % SIZE;
+    const char was = bytes[at];
+    bytes[at] ^= (char)(1 << round % 8);
+    digest_of_pieces(bytes, SIZE, cut, CUTS, parts);
+    assert_string_not_equal(parts, whole);
+    bytes[at] = was;
+  }
+}
+
+// A hole adds nothing, wherever it stands; the size counts.
+static void holes_add_nothing(void **state) {
+  static const char zeros[100];
+  CwFileSum sum = {0};
+  char shorter[CW_HASH_TEXT], longer[CW_HASH_TEXT];
+  for (int64_t at = 0; at < 20; at++) cw_file_sum_add(&sum, at, zeros, (int64_t)sizeof zeros);
+  for (int k = 0; k < CW_SUM_PARTS; k++) assert_int_equal(sum.part[k], 0);
+  cw_file_sum_digest(&sum, 100, shorter);
+  cw_file_sum_digest(&sum, 101, longer);
+  assert_string_not_equal(shorter, longer);
 }
 
 int main(void) {
@@ -171,6 +219,8 @@ int main(void) {
       cmocka_unit_test_setup_teardown(no_bit_of_a_record_may_change, make_run, remove_run),
       cmocka_unit_test_setup_teardown(any_object_comes_back, make_run, remove_run),
       cmocka_unit_test_setup_teardown(shared_blocks_give_the_same_digest, make_run, remove_run),
+      cmocka_unit_test(any_pieces_give_the_same_digest),
+      cmocka_unit_test(holes_add_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
