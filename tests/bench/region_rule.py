@@ -7,11 +7,12 @@ interfaces of each domain, and the tetrahedra beside them with it and without. B
 -DCUTWATER_EXPERIMENT=ON.
 
 rule       the mesher as it is
-without    interfaces as planned, and no candidate dropped for their sake
+without    interfaces as planned, and no candidate dropped in their spheres
 triangles  of the planned interfaces, periodic images included
 spheres    those of them with candidates of the owner in their spheres
 centres    inserted into the interfaces
 left       triangles that still have candidates in their spheres, which both sides drop
+missing    boundary triangles of the regions, layer tops included, that their Delaunay mesh did not have
 beside     tetrahedra with a corner on a partition plane. All columns after it are of these: mean of longest over
            shortest edge, share with more than 2, %, the greatest, least dihedral angle, mean and least mean ratio"""
 import argparse
@@ -37,11 +38,12 @@ def run_mesher(options, case, run, cells, setting, *more):
 
 def row(program, name, way, run, domain):
     rule = domain["region_rule"]
+    missing = sum(region["recovered_triangles"] for region in domain["region_list"])
     beside = shapes(program, regions_of(run / "mesh", domain["name"]))["beside"]
     return (f"{name:10} {domain['name']:10} {way:8}{domain['regions']:8}{rule['planned_triangles']:10}"
-            f"{rule['encroached_triangles']:8}{rule['inserted_centres']:8}{rule['left_triangles']:5}{beside.count:8}"
-            f"{beside.mean:8.3f}{sum(beside.classes[2:]):7.2f}{beside.most:6.2f}{beside.least:7.2f}{beside.ratio:8.4f}"
-            f"{beside.worst:7.3f}")
+            f"{rule['encroached_triangles']:8}{rule['inserted_centres']:8}{rule['left_triangles']:5}{missing:8}"
+            f"{beside.count:8}{beside.mean:8.3f}{sum(beside.classes[2:]):7.2f}{beside.most:6.2f}{beside.least:7.2f}"
+            f"{beside.ratio:8.4f}{beside.worst:7.3f}")
 
 
 def main():
@@ -56,7 +58,8 @@ def main():
         program = compile_program(options.build, Path(folder))
         for cells in options.cells:
             print(f"{cells:10} {'domain':10} {'way':8}{'regions':>8}{'triangles':>10}{'spheres':>8}{'centres':>8}"
-                  f"{'left':>5}{'beside':>8}{'aspect':>8}{'>2':>7}{'most':>6}{'angle':>7}{'ratio':>8}{'least':>7}")
+                  f"{'left':>5}{'missing':>8}{'beside':>8}{'aspect':>8}{'>2':>7}{'most':>6}{'angle':>7}{'ratio':>8}"
+                  f"{'least':>7}")
             for name in names:
                 case, run = SOURCE / "cases" / name / "case.yaml", Path(folder) / f"{name}-{cells}"
                 execute(options.build / "bin/cutwater-geometry", "--case", case, "--run", run)
