@@ -94,7 +94,7 @@ NUMBER(double, surface_steep_cosine, 0.5, -1, "cosine",
        "between a triangle's normal and the surface's at a corner: below it the triangle is divided")
 NUMBER(double, surface_clearly_less, 0.9, 1, "1",
        "of the longest: triangles are too large only where edges are wanted that are shorter")
-NUMBER(double, interface_sphere, 1.05, none, "1",
+NUMBER(double, interface_sphere, 1.05, 0, "1",
        "radius over that of the circumscribed circle, kept free by the rule of region numbers")
 NUMBER(double, interface_least_distance, 0.62, 0, "h",
        "of new points there: as far apart as lattice points keep from the boundary")

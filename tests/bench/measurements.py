@@ -55,6 +55,11 @@ SECTIONS = {
         "Effects of the numbers of `mesher/policy_table.h` on failures, quality, layers, count and time, by a "
         "screening design (`tests/bench/ablate.py --help`). Needs `make programs BUILD=build/experiment "
         "OPTIONS=-DCUTWATER_EXPERIMENT=ON`; takes hours, so it is measured only where it is named."),
+    "region_rule": Section(
+        "With the rule of region numbers and without it", "tests/bench/region_rule.py",
+        "What the rule does to the interfaces of each case, and the tetrahedra beside them "
+        "(`tests/bench/region_rule.py --help`). Needs the experimental build of `tests/bench/ablate.py`; measured only "
+        "where it is named."),
     "table1": Section(
         "Table 1 of the paper: shapes of the tetrahedra, time and messages", "tests/bench/table1.py --cells 21M",
         "The rotor, meshed whole, in six ways (`tests/bench/table1.py --help` says what rows and columns mean). "
@@ -80,7 +85,7 @@ SECTIONS = {
                         "Processor seconds on one rank."),
 }
 
-ONLY_NAMED = {"ablation", "scale_1G"}  # by far the longest, and the largest
+ONLY_NAMED = {"ablation", "region_rule", "scale_1G"}  # what needs another build, and the largest
 
 
 def run_text(*line):

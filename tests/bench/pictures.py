@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """pictures.py [--cells 500k] [--bin build/bin]
 
-Makes the pictures of docs/mesher.md anew: runs the paper's pump through all stages and takes them from its report."""
+Makes the pictures of docs/mesher.md anew, but for that of the rule of region numbers (rule_picture.py): runs the
+paper's pump through all stages and takes them from its report."""
 import argparse
 import base64
 import re

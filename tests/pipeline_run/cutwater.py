@@ -81,6 +81,33 @@ def seal(test, folder):
     test.assertEqual(result.returncode, 0, result.stdout)
 
 
+def interface_sides(folder, domains):
+    """What the program of that name tells of a folder of region files."""
+    return execute([BIN / "interface_sides", folder, *domains])
+
+
+def interfaces_agree(test, run):
+    """The two sides of all interfaces have the same faces, as many as the rule of region numbers has made, though no
+    region has waited for another: only a periodic image waits for the region that it is made from."""
+    results = record(run, "mesh")["results"]
+    domains = results["domains"]
+    told = interface_sides(run / "mesh", [domain["name"] for domain in domains])
+    test.assertEqual(told.returncode, 0, told.stdout)
+    after = []
+    for domain, line in zip(domains, told.stdout.splitlines(), strict=True):
+        rule, (name, *counts) = domain["region_rule"], line.split()
+        regions, _, triangles, _ = map(int, counts)
+        test.assertEqual((name, regions), (domain["name"], domain["regions"]))
+        test.assertGreater(regions, 1)
+        test.assertEqual(triangles, rule["final_triangles"], name)
+        test.assertEqual(triangles, rule["planned_triangles"] + 2 * rule["inserted_centres"], name)
+        before = len(after)
+        after += [-1 if region["copy_of"] == region["region"] else before + region["copy_of"] - 1
+                  for region in domain["region_list"]]
+    step = [tasks for tasks in results["together"]["tasks"] if tasks["step"] == "regions"][-1]
+    test.assertEqual(step["task_after"] or [-1] * len(after), after)
+
+
 def digests(folder, pattern="*", leave_out=("record.json",)):
     """SHA-256 of every file of a folder, by its path in it."""
     folder = Path(folder)

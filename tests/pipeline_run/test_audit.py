@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Figures of the shared run: the count that was asked, the volume of the solids, equal interfaces, layers."""
 import json
+import shutil
 import unittest
 
-from cutwater import CELLS, RUN, record
+from cutwater import CELLS, RUN, fresh, interface_sides, interfaces_agree, record
 
 # Chords cut the curved walls: the volume comes short by about h2/8R2, which a coarse mesh shows.
 VOLUME_TOLERANCE = 0.002 if CELLS >= 500000 else 0.008
@@ -55,6 +56,18 @@ class Audit(unittest.TestCase):
         # A cylinder as wide as the impeller's outlet.
         area = 2 * 3.141592653589793 * self.design["interface_radius_m"] * 0.008
         self.assertAlmostEqual(rotor / area, 1, delta=2e-3)
+
+    def test_both_sides_of_partition_planes_have_the_same_faces(self):
+        interfaces_agree(self, RUN)
+
+    def test_a_side_without_the_other_is_told(self):
+        folder = fresh("one-side")
+        for region in self.mesh["domains"][0]["region_list"][:-1]:
+            shutil.copy(RUN / f"mesh/rotor-{region['region']:04d}.h5", folder)
+        told = interface_sides(folder, ["rotor"])
+        self.assertEqual(told.returncode, 1)
+        self.assertIn("is not that of one other region", told.stdout)
+        shutil.rmtree(folder)
 
     def test_inlet_and_outlet_have_their_areas(self):
         areas = {patch["name"]: patch["area_m2"] for domain in self.mesh["domains"] for patch in domain["patches"]}

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""region_rule.py [NAME ...] [--cells 300k 1M] [--build build/experiment] [--ranks 2]
+
+The rule of region numbers in all pumps of cases/, or those named, at each number of cells: what it does to the
+interfaces of each domain, and the tetrahedra beside them with it and without. BUILD is configured with
+-DCUTWATER_EXPERIMENT=ON.
+
+rule       the mesher as it is
+without    interfaces as planned, and no candidate dropped in their spheres
+triangles  of the planned interfaces, periodic images included
+spheres    those of them with candidates of the owner in their spheres
+centres    inserted into the interfaces
+left       triangles that still have candidates in their spheres, which both sides drop
+missing    boundary triangles of the regions, layer tops included, that their Delaunay mesh did not have
+beside     tetrahedra with a corner on a partition plane. All columns after it are of these: mean of longest over
+           shortest edge, share with more than 2, %, the greatest, least dihedral angle, mean and least mean ratio"""
+import argparse
+import json
+import tempfile
+from pathlib import Path
+
+from fill import compile_program
+from programs import MPIRUN, SOURCE, execute
+from table1 import regions_of, shapes
+
+# The numbers of mesher/policy_table.h that make each way.
+WAYS = {"rule": {}, "without": {"interface_sphere": 0}}
+
+
+def run_mesher(options, case, run, cells, setting, *more):
+    """Runs the mesher with these numbers."""
+    policy = run / "policy"
+    policy.write_text("".join(f"{name} {value:g}\n" for name, value in setting.items()))
+    execute("env", f"CUTWATER_POLICY={policy}", *MPIRUN, options.ranks, options.build / "bin/cutwater-mesh", "--case",
+            case, "--run", run, "--cells", cells, *more)
+
+
+def row(program, name, way, run, domain):
+    rule = domain["region_rule"]
+    missing = sum(region["recovered_triangles"] for region in domain["region_list"])
+    beside = shapes(program, regions_of(run / "mesh", domain["name"]))["beside"]
+    return (f"{name:10} {domain['name']:10} {way:8}{domain['regions']:8}{rule['planned_triangles']:10}"
+            f"{rule['encroached_triangles']:8}{rule['inserted_centres']:8}{rule['left_triangles']:5}{missing:8}"
+            f"{beside.count:8}{beside.mean:8.3f}{sum(beside.classes[2:]):7.2f}{beside.most:6.2f}{beside.least:7.2f}"
+            f"{beside.ratio:8.4f}{beside.worst:7.3f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    parser.add_argument("--cells", nargs="*", default=["300k", "1M"])
+    parser.add_argument("--build", type=Path, default=SOURCE / "build/experiment")
+    parser.add_argument("--ranks", type=int, default=2)
+    options = parser.parse_args()
+    names = options.names or sorted(path.parent.name for path in (SOURCE / "cases").glob("*/case.yaml"))
+    with tempfile.TemporaryDirectory(prefix="cutwater-rule-") as folder:
+        program = compile_program(options.build, Path(folder))
+        for cells in options.cells:
+            print(f"{cells:10} {'domain':10} {'way':8}{'regions':>8}{'triangles':>10}{'spheres':>8}{'centres':>8}"
+                  f"{'left':>5}{'missing':>8}{'beside':>8}{'aspect':>8}{'>2':>7}{'most':>6}{'angle':>7}{'ratio':>8}"
+                  f"{'least':>7}")
+            for name in names:
+                case, run = SOURCE / "cases" / name / "case.yaml", Path(folder) / f"{name}-{cells}"
+                execute(options.build / "bin/cutwater-geometry", "--case", case, "--run", run)
+                rows = []
+                for way, setting in WAYS.items():
+                    run_mesher(options, case, run, cells, setting)
+                    domains = json.loads((run / "mesh/record.json").read_text())["results"]["domains"]
+                    rows.append([row(program, name, way, run, domain) for domain in domains])
+                print("\n".join(line for of_domain in zip(*rows) for line in of_domain), flush=True)
+
+
+if __name__ == "__main__":
+    main()
