@@ -170,16 +170,17 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   return face;
 }
 
-CwStatus cw_each_region(const CwAssembly *a, const CwRanks *ranks, const char *title, CwRegionWork work,
-                        void *context) {
+CwStatus cw_each_region(const CwAssembly *a, const CwRanks *ranks, const char *title, CwDirection direction,
+                        CwRegionWork work, void *context) {
   CwStatus status = CW_OK;
-  const int *own = a->share.own, count = a->share.own_count;
+  const int count = a->share.own_count, step = direction == CW_FORWARDS ? 1 : -1;
+  const int *own = direction == CW_FORWARDS ? a->share.own : a->share.own + count - 1;
   cw_progress_start(ranks->log, title, a->mesh->region_count, "regions");
   for (int i = 0; i < count && status == CW_OK; ++i) {
     CwRegionData data = {0};
-    if (i + 1 < count) cw_mesh_region_ahead(a->mesh, own[i + 1]);
-    status = cw_mesh_region_read(a->mesh, own[i], CW_REGION_WHOLE, &data);
-    if (status == CW_OK) status = work(context, own[i], &data);
+    if (i + 1 < count) cw_mesh_region_ahead(a->mesh, own[(i + 1) * step]);
+    status = cw_mesh_region_read(a->mesh, own[i * step], CW_REGION_WHOLE, &data);
+    if (status == CW_OK) status = work(context, own[i * step], &data);
     cw_mesh_region_free(&data);
     cw_progress(ranks->log, (int64_t)(i + 1) * a->mesh->region_count / count);
   }
@@ -416,7 +417,7 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CwStatus status = CW_OK;
   Collected c = {.assembly = a};
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, ranks, a, &c)));
-  status = cw_each_region(a, ranks, "number the mesh", collect_region, &c);
+  status = cw_each_region(a, ranks, "number the mesh", CW_FORWARDS, collect_region, &c);
   CW_TRY(cw_ranks_agree(ranks, status));
   spread(ranks, a, &c);
   CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));

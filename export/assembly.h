@@ -66,10 +66,14 @@ void cw_assembly_free(CwAssembly *assembly);
 // What is done with a region of this rank. `data` may be taken over, zeros left in its place.
 typedef CwStatus (*CwRegionWork)(void *context, int region, CwRegionData *data);
 
+// One pass goes forwards and the last one, that writes, backwards, after which the report goes forwards: of a mesh that
+// is larger than the memory, the system still has what was read last.
+typedef enum { CW_FORWARDS, CW_BACKWARDS } CwDirection;
+
 // Reads each of this rank's regions whole, and the next one ahead, and gives it to `work`, those that are alike one
 // after another; tells `title` as progress. Returns the first failure of this rank, after which it goes no further.
-CwStatus cw_each_region(const CwAssembly *assembly, const CwRanks *ranks, const char *title, CwRegionWork work,
-                        void *context);
+CwStatus cw_each_region(const CwAssembly *assembly, const CwRanks *ranks, const char *title, CwDirection direction,
+                        CwRegionWork work, void *context);
 
 // Number of a point of a region in its domain, 0-based.
 static inline int64_t cw_point_number(const CwAssembly *assembly, int region, const CwRegionData *data, int32_t point) {

@@ -443,7 +443,7 @@ CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
   found.open_sides = calloc((size_t)a->open_count + 1, sizeof *found.open_sides);
   if (!v->open_cell || !v->open_part || !found.open_sides)
     status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on partition planes", (long long)a->open_count);
-  if (status == CW_OK) status = cw_each_region(a, ranks, "count the parts", count_region, &found);
+  if (status == CW_OK) status = cw_each_region(a, ranks, "count the parts", CW_FORWARDS, count_region, &found);
   CW_TRY(cw_ranks_agree(ranks, status));
   cw_ranks_reduce(ranks, v->open_cell, a->open_count, MPI_INT64_T, MPI_SUM);
   cw_ranks_reduce(ranks, v->open_part, a->open_count, MPI_INT32_T, MPI_SUM);

@@ -131,7 +131,7 @@ done:
 
 void cw_region_model_keep(const CwAssembly *a, int region, CwRegionData *data, CwRegionModel *model) {
   int more = 0;
-  for (int r = region + 1; r < a->mesh->region_count; ++r) more |= a->share.alike[r] == a->share.alike[region];
+  for (int r = 0; r < region; ++r) more |= a->share.alike[r] == a->share.alike[region];
   if (!more) {
     cw_region_model_free(model);
   } else if (!model->kept) {

@@ -10,7 +10,8 @@ typedef struct {
   CwFaceQuality faces;         // between its cells and on patches
 } CwRegionFigures;
 
-// A region that has been checked, and kept where regions that are alike are still to come. Zeroed to begin with.
+// A region that has been checked, and kept where regions that are alike are still to come: those before it, for they
+// come backwards. Zeroed to begin with.
 typedef struct {
   int region;
   int kept; // 1: `data` is its
