@@ -7,6 +7,7 @@
 
 #include "pipeline/log.h"
 #include "pipeline/mesh/cell.h"
+#include "pipeline/vec.h"
 
 static const double ROUNDING = 1e-11; // of the greatest coordinate
 
@@ -111,7 +112,7 @@ static void add_patch_face(CwPatchPart *part, const CwRegionData *data, const in
   cw_face_area((const double(*)[3])data->points, nodes, count, vector);
   ++*(count == 3 ? &part->triangles : &part->quads);
   for (int k = 0; k < 3; ++k) part->vector[k] += vector[k];
-  part->area += sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+  part->area += cw_norm(vector);
 }
 
 static void add_interface_face(CwInterfaceFace *face, int64_t place, const CwRegionData *data, const int32_t *nodes,
@@ -384,7 +385,7 @@ static CwStatus check_surface(const CwAssembly *a) {
       area += sum->area;
       for (int k = 0; k < 3; ++k) vector[k] += sum->vector[k];
     }
-    double open = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+    double open = cw_norm(vector);
     CW_REQUIRE(open <= 1e-9 * area, CW_ERR_INPUT,
                "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name, area,
                open);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "pipeline/mesh/cell.h"
+#include "pipeline/vec.h"
 
 // Of the distance of the centroids, or of that of the centroid to its foot on a patch, that skewness is measured by
 // where the face itself is smaller.
@@ -24,10 +25,6 @@ void cw_face_quality_start(CwFaceQuality *q) {
   *q = (CwFaceQuality){.least = 1};
 }
 
-static inline double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // The line of a face from centroid to centroid, on a patch to the foot of the centroid.
 typedef struct {
   double squares, along, own; // of the area vector with itself, with the line, with the way to the centre
@@ -39,18 +36,18 @@ static inline Line line_of(const double area[3], const double centre[3], const d
   Line line;
   double d[3];
   const double c[3] = {centre[0] - from[0], centre[1] - from[1], centre[2] - from[2]};
-  line.own = dot(area, c);
-  line.squares = dot(area, area);
+  line.own = cw_dot(area, c);
+  line.squares = cw_dot(area, area);
   if (to) {
     for (int k = 0; k < 3; ++k) d[k] = to[k] - from[k];
   } else {
     for (int k = 0; k < 3; ++k) d[k] = line.squares > 0 ? line.own / line.squares * area[k] : 0;
   }
-  line.along = dot(area, d);
+  line.along = cw_dot(area, d);
   double share = line.along != 0 ? line.own / line.along : 0;
   for (int k = 0; k < 3; ++k) line.off[k] = c[k] - share * d[k];
-  line.off_squares = dot(line.off, line.off);
-  line.line_squares = dot(d, d);
+  line.off_squares = cw_dot(line.off, line.off);
+  line.line_squares = cw_dot(d, d);
   return line;
 }
 
@@ -65,7 +62,7 @@ static int is_skew(int count, const double *const *x, const double centre[3], co
   double length = sqrt(line->off_squares), most = extent * sqrt(line->line_squares);
   for (int i = 0; i < count; ++i) {
     const double to[3] = {x[i][0] - centre[0], x[i][1] - centre[1], x[i][2] - centre[2]};
-    most = fmax(most, fabs(dot(line->off, to)) / length);
+    most = fmax(most, fabs(cw_dot(line->off, to)) / length);
   }
   return length > CW_SKEWNESS_MOST * most;
 }
@@ -94,12 +91,12 @@ static inline double cosine_between(int count, const double *const *x, const dou
     line[k] = to[k] - from[k];
   }
   // The way from where the line meets the face to the centre is way - own / along * line.
-  const double own = dot(area, way), along = dot(area, line), length = dot(line, line);
-  const double off = along * (along * dot(way, way) - 2 * own * dot(way, line)) + own * own * length;
+  const double own = cw_dot(area, way), along = cw_dot(area, line), length = cw_dot(line, line);
+  const double off = along * (along * cw_dot(way, way) - 2 * own * cw_dot(way, line)) + own * own * length;
   const double limit = CW_SKEWNESS_MOST * LEAST_EXTENT * (count == 3 ? 0.99 : 0.5);
   const double near = fabs(own), far = fabs(along - own), light = 2 * CW_WEIGHT_LEAST * (near + far);
   if (off > limit * limit * length * along * along || near < light || far < light) measure(count, x, from, to, kind, q);
-  const double product = dot(area, area) * length;
+  const double product = cw_dot(area, area) * length;
   return product > 0 ? along / sqrt(product) : 0;
 }
 
@@ -145,8 +142,9 @@ static void face_on_patch(const CwRegionData *data, int32_t ref, const CwMiddle 
 }
 
 static inline double squared_distance(const double a[3], const double b[3]) {
-  const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  return dot(d, d);
+  double d[3];
+  cw_sub(b, a, d);
+  return cw_dot(d, d);
 }
 
 // Counts a cell of a small determinant; whether it is a prism that may have a great aspect ratio. These are about the

@@ -228,7 +228,6 @@ done:
 }
 
 static int is_blade(const CwMesh *mesh, const CwModelPatch *patch) {
-  (void)mesh;
   return patch->kind == CW_PATCH_WALL && patch->group == CW_GROUP_BLADE;
 }
 

@@ -2,7 +2,6 @@
 #include "export/foam_zones.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "export/blocks.h"
 

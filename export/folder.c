@@ -10,9 +10,6 @@
 #include "pipeline/atomic_file.h"
 
 static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
-  (void)info;
-  (void)kind;
-  (void)place;
   return remove(path);
 }
 
@@ -25,8 +22,6 @@ done:
 }
 
 static int sync_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
-  (void)kind;
-  (void)place;
   return (S_ISREG(info->st_mode) || S_ISDIR(info->st_mode)) && cw_sync(path) != CW_OK;
 }
 
@@ -38,8 +33,6 @@ CwStatus cw_folder_sync(const char *path) {
 }
 
 static int sync_one_begin(const char *path, const struct stat *info, int kind, struct FTW *place) {
-  (void)kind;
-  (void)place;
   if (S_ISREG(info->st_mode)) cw_sync_begin(path);
   return 0;
 }

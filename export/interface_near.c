@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/vec.h"
+
 // Faces by the cubes of a grid that their boxes reach into.
 typedef struct {
   int number[3];
@@ -12,14 +14,6 @@ typedef struct {
   int64_t *start; // number[0] * number[1] * number[2] + 1
   int64_t *faces;
 } Cubes;
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void subtract(const double a[3], const double b[3], double out[3]) {
-  for (int k = 0; k < 3; ++k) out[k] = a[k] - b[k];
-}
 
 static void centre_of(const CwInterfaceFace *face, double x[3]) {
   memset(x, 0, sizeof(double[3]));
@@ -30,8 +24,8 @@ static void centre_of(const CwInterfaceFace *face, double x[3]) {
 static double longest_edge(const CwInterfaceFace *face) {
   double longest = 0, u[3];
   for (int n = 0; n < face->count; ++n) {
-    subtract(face->nodes[(n + 1) % face->count], face->nodes[n], u);
-    longest = fmax(longest, dot(u, u));
+    cw_sub(face->nodes[(n + 1) % face->count], face->nodes[n], u);
+    longest = fmax(longest, cw_dot(u, u));
   }
   return sqrt(longest);
 }
@@ -62,30 +56,30 @@ static double nearest_in(const CwInterfaceFace *face, const double point[3], dou
       w[k] = v[face->count - 1][k] - v[0][k] + try[0] * bend;
     }
     point_at(face, try, at);
-    subtract(point, at, off);
-    double uu = dot(u, u), uw = dot(u, w), ww = dot(w, w), determinant = uu * ww - uw * uw;
+    cw_sub(point, at, off);
+    double uu = cw_dot(u, u), uw = cw_dot(u, w), ww = cw_dot(w, w), determinant = uu * ww - uw * uw;
     if (!(determinant > 0)) break;
-    try[0] += (dot(u, off) * ww - dot(w, off) * uw) / determinant;
-    try[1] += (dot(w, off) * uu - dot(u, off) * uw) / determinant;
+    try[0] += (cw_dot(u, off) * ww - cw_dot(w, off) * uw) / determinant;
+    try[1] += (cw_dot(w, off) * uu - cw_dot(u, off) * uw) / determinant;
   }
   if (try[0] >= 0 && try[1] >= 0 && (face->count == 3 ? try[0] + try[1] <= 1 : try[0] <= 1 && try[1] <= 1)) {
     point_at(face, try, at);
-    subtract(point, at, off);
+    cw_sub(point, at, off);
     memcpy(rs, try, sizeof try);
-    best = dot(off, off);
+    best = cw_dot(off, off);
   }
   static const double corner[2][4][2] = {{{0, 0}, {1, 0}, {0, 1}, {0, 0}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   for (int n = 0; n < face->count; ++n) {
     const double *a = corner[face->count - 3][n], *b = corner[face->count - 3][(n + 1) % face->count];
     double along[3], here[2];
-    subtract(face->nodes[(n + 1) % face->count], face->nodes[n], along);
-    subtract(point, face->nodes[n], off);
-    double t = clamp(dot(off, along) / dot(along, along), 1);
+    cw_sub(face->nodes[(n + 1) % face->count], face->nodes[n], along);
+    cw_sub(point, face->nodes[n], off);
+    double t = clamp(cw_dot(off, along) / cw_dot(along, along), 1);
     for (int k = 0; k < 2; ++k) here[k] = a[k] + t * (b[k] - a[k]);
     point_at(face, here, at);
-    subtract(point, at, off);
-    if (dot(off, off) >= best) continue;
-    best = dot(off, off);
+    cw_sub(point, at, off);
+    if (cw_dot(off, off) >= best) continue;
+    best = cw_dot(off, off);
     memcpy(rs, here, sizeof here);
   }
   return sqrt(best);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch) {
-  (void)mesh;
   return patch->kind == CW_PATCH_WALL && patch->turns;
 }
 

@@ -9,17 +9,14 @@
 static const char none[] = "no_group[]";
 
 static int is_inlet(const CwMesh *mesh, const CwModelPatch *patch) {
-  (void)mesh;
   return patch->kind == CW_PATCH_INLET;
 }
 
 static int is_outlet(const CwMesh *mesh, const CwModelPatch *patch) {
-  (void)mesh;
   return patch->kind == CW_PATCH_OUTLET;
 }
 
 static int is_symmetry(const CwMesh *mesh, const CwModelPatch *patch) {
-  (void)mesh;
   return patch->kind == CW_PATCH_SYMMETRY;
 }
 

@@ -6,10 +6,6 @@
 
 #include "geometry/design.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_CORRELATION_FAMILIES = 2 };
 
 #define CW_GUELICH_LEAST_FLOW 0.005 // m3/s, to which the efficiencies of his table 3.9 reach, as commonly quoted
@@ -40,8 +36,4 @@ double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesi
 int cw_correlated_quantity(CwCorrelated quantity);
 
 const char *cw_correlations_name(CwCorrelations family);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

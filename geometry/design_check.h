@@ -6,10 +6,6 @@
 
 #include "geometry/design.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_DESIGN_REMARK_LIMIT = 32 };
 
 typedef struct {
@@ -18,8 +14,4 @@ typedef struct {
 } CwDesignRemarks;
 
 void cw_design_check(const CwDesign *design, CwDesignRemarks *remarks);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -9,17 +9,9 @@
 #include "geometry/pump.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The measured values as a JSON object: lengths in m, angles in degrees. NULL where memory is out.
 json_t *cw_measured_json(const CwMeasuredPump *measured);
 
 // Writes the design and the measured values, whole or not at all.
 CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

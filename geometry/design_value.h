@@ -7,10 +7,6 @@
 
 #include "geometry/design.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // One quantity as it is shown and stored.
 typedef struct {
   const char *text, *unit; // as people read it, with its unit
@@ -24,8 +20,4 @@ CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity
 
 // One line for a person: what the quantity is, its value with a unit, and where it comes from.
 void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,15 +7,7 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Sets the design's volute and its quantities; the wheel's are known, and D3 and b3. Where the usual volute has no
 // solution, open dimensions yield. Fails with CW_ERR_DESIGN and one line.
 CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

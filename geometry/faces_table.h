@@ -6,14 +6,6 @@
 #include "geometry/solid.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Writes the faces of `count` solids, whole or not at all.
 CwStatus cw_faces_table_write(const CwSolid *const *solids, int count, const char *path);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -13,15 +13,7 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // design: [in] duty, specific speeds, efficiencies and the kinds that the case chooses; [out] the wheel and its
 // predicted head. Fails with CW_ERR_DESIGN and one line that names the keys to change.
 CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

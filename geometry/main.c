@@ -8,13 +8,12 @@
 #include "geometry/design_check.h"
 #include "geometry/design_file.h"
 #include "geometry/design_value.h"
-#include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/picture.h"
 #include "geometry/pump.h"
+#include "geometry/pump_files.h"
 #include "geometry/pump_model.h"
 #include "geometry/remedy.h"
-#include "geometry/step_file.h"
 #include "pipeline/case_read.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
@@ -122,51 +121,21 @@ done:
   return status;
 }
 
-static CwStatus write_model(const CwDesign *design, const CwPump *pump, const char *path) {
-  CwStatus status = CW_OK;
-  CwModel model = {0};
-  CW_TRY(cw_pump_model(design, pump, &model));
-  CW_TRY(cw_model_write(&model, path));
-done:
-  cw_model_free(&model);
-  return status;
-}
+static const char *const design_files[] = {
+    "design.json",     "meridional_section.svg", "blade_to_blade.svg", "velocity_triangles.svg",
+    "blade_angle.svg", "volute_sections.svg",    "volute_plan.svg"};
 
-// Files of the stage besides those of each solid. Each appears whole; record.json, written last by main(), says
-// that all are there.
-static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwMeasuredPump *measured, const char *path,
-                           int file, CwBeside **beside) {
-  const CwSolid *const *solids = (const CwSolid *const *)pump->solid;
-  switch (file) {
-  case 0:
-    return cw_faces_table_write(solids, pump->count, path);
-  case 1:
-    return write_model(design, pump, path);
-  case 2:
-    return cw_step_write(solids, pump->count, path);
-  case 3:
-    return cw_design_file_write(design, measured, path);
-  case 4:
-    return cw_picture_meridional(design, path);
-  case 5:
-    return cw_picture_blade_to_blade(design, path);
-  case 6:
-    return cw_picture_velocity_triangles(design, path);
-  case 7:
-    return cw_picture_blade_angle(design, path);
-  case 8:
-    return cw_picture_volute_sections(design, path);
-  case 9:
-    return cw_picture_volute_plan(design, path);
-  default:
-    return cw_beside_end(beside, path);
-  }
-}
+typedef struct {
+  const CwDesign *design;
+  const CwMeasuredPump *measured;
+} Designed;
 
-static CwStatus in_folder(const CwStageArgs *args, const char *name, char **path) {
-  char inside[64];
-  snprintf(inside, sizeof inside, "geometry/%s", name);
-  return cw_stage_path(args, inside, path);
+static CwStatus write_design_file(const void *given, int k, const char *path) {
+  const Designed *of = given;
+  CwStatus (*const picture[])(const CwDesign *, const char *) = {
+      cw_picture_meridional,  cw_picture_blade_to_blade,  cw_picture_velocity_triangles,
+      cw_picture_blade_angle, cw_picture_volute_sections, cw_picture_volute_plan};
+  return k == 0 ? cw_design_file_write(of->design, of->measured, path) : picture[k - 1](of->design, path);
 }
 
 // A run into a folder that held more zones must not leave their solids behind.
@@ -175,7 +144,7 @@ static CwStatus remove_old_solids(const CwStageArgs *args) {
   static const char *const names[] = {"suction.brep", "discharge.brep"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
     char *path = NULL;
-    CW_TRY(in_folder(args, names[i], &path));
+    CW_TRY(cw_geometry_path(args, names[i], &path));
     remove(path);
     free(path);
   }
@@ -184,62 +153,34 @@ done:
 }
 
 static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
-  static const char *const names[] = {"faces.csv",
-                                      "model.json",
-                                      "pump.step",
-                                      "design.json",
-                                      "meridional_section.svg",
-                                      "blade_to_blade.svg",
-                                      "velocity_triangles.svg",
-                                      "blade_angle.svg",
-                                      "volute_sections.svg",
-                                      "volute_plan.svg",
-                                      "pump_faces.step"};
-  enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
   CwDesign design;
   CwPipeStubs stubs;
   CwMeasuredPump measured = {0};
   CwPump pump = {0};
-  CwBeside *beside = NULL;
-  char *folder = NULL, *path = NULL;
-  CW_TRY(cw_stage_path(args, "geometry", &folder));
+  CwModel model = {0};
   CW_TRY(cw_hydraulic_design(table, &design));
   CW_TRY(cw_pump_pipe_stubs(table, &design, &stubs));
   show_design(args->log, &design);
   CW_TRY(build(args->log, table, &design, &stubs, record, &pump, &measured));
-  const double begin = cw_seconds();
+  CW_TRY(cw_pump_model(&design, &pump, &model));
   CW_TRY(remove_old_solids(args));
-  CW_TRY(in_folder(args, names[FILES - 1], &path));
-  CW_TRY(cw_step_write_with_faces((const CwSolid *const *)pump.solid, pump.count, path, &beside));
-  free(path);
-  path = NULL;
-  for (int i = 0; i < pump.count; i++) {
-    char name[40];
-    snprintf(name, sizeof name, "%s.brep", cw_solid_domain(pump.solid[i]));
-    CW_TRY(in_folder(args, name, &path));
-    CW_TRY(cw_solid_write_brep(pump.solid[i], path));
-    CW_TRY(cw_record_file(record, folder, name));
-    free(path);
-    path = NULL;
-  }
-  for (int i = 0; i < FILES; i++) {
-    CW_TRY(in_folder(args, names[i], &path));
-    CW_TRY(write_file(&pump, &design, &measured, path, i, &beside));
-    CW_TRY(cw_record_file(record, folder, names[i]));
-    free(path);
-    path = NULL;
-  }
-  CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + pump.count, "files"));
+  CW_TRY(cw_pump_files_write(args,
+                             &(CwPumpFiles){.count = pump.count,
+                                            .solid = pump.solid,
+                                            .model = &model,
+                                            .other_count = sizeof design_files / sizeof *design_files,
+                                            .other = design_files,
+                                            .write = write_design_file,
+                                            .given = &(Designed){&design, &measured}},
+                             record));
   CW_TRY(cw_record_case(record, table));
   CW_TRY(cw_record_json(record, "measured", cw_measured_json(&measured)));
   CW_TRY(cw_record_number(record, "predicted_head_m", design.predicted_head));
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
   CW_TRY(cw_record_number(record, "specific_speed_ns", design.specific_speed_ns));
 done:
-  cw_beside_drop(&beside);
-  free(folder);
-  free(path);
+  cw_model_free(&model);
   cw_pump_free(&pump);
   return status;
 }
@@ -277,7 +218,7 @@ int main(int argc, char **argv) {
   char *record_path = NULL;
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
   if (args.finished) goto done;
-  CW_TRY(in_folder(&args, "record.json", &record_path));
+  CW_TRY(cw_geometry_path(&args, "record.json", &record_path));
   CW_TRY(cw_record_start("geometry", args.log, &record));
   CW_TRY(table.cad ? cw_cad_stage(&args, &table, record) : make_geometry(&args, &table, record));
   CW_TRY(cw_record_write(record, record_path));

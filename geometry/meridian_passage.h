@@ -6,10 +6,6 @@
 
 #include "geometry/meridian.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   double hub[2], shroud[2]; // (r, z) of the line's ends, m
   double height;            // of the passage: the line's length, m
@@ -27,8 +23,4 @@ CwPassageStation cw_meridian_passage_at(const CwMeridianCurve *hub, const CwMeri
 // The largest step back of the area against its trend from the first to the last station, over the largest (where it
 // should grow) or least (where it should fall) area before it; 0: monotone.
 double cw_passage_reversal(const CwPassageStation *station, int count);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

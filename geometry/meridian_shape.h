@@ -6,16 +6,8 @@
 
 #include "geometry/design.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Sets hub_pole_radial, shroud_pole_axial and shroud_pole_radial of a design whose main dimensions and leading edge on
 // the shroud are known: those given (not NAN) as they are, the others solved for to 0.001. Same dimensions, same
 // shares.
 void cw_meridian_shape(const CwImpellerTable *given, CwDesign *design);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

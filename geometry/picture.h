@@ -7,10 +7,6 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Stroke styles.
 typedef enum { CW_STROKE_WALL, CW_STROKE_BLADE, CW_STROKE_THIN, CW_STROKE_AXIS, CW_STROKE_FLOW } CwStroke;
 
@@ -42,8 +38,4 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
 CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path);        // beta and area along the blade
 CwStatus cw_picture_volute_sections(const CwDesign *design, const char *path);    // areas and outlines
 CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path);        // walls at z = 0
-
-#ifdef __cplusplus
-}
-#endif
 #endif

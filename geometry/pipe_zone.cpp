@@ -15,7 +15,6 @@
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Trsf.hxx>
 

@@ -7,14 +7,6 @@
 #include "geometry/pump.h"
 #include "pipeline/model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The model of a built pump. Free with cw_model_free(), also after a failure; zeroed `model` on entry.
 CwStatus cw_pump_model(const CwDesign *design, const CwPump *pump, CwModel *model);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

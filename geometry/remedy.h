@@ -14,10 +14,6 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Whether the geometry of a case can be made; on success `design` is that of the case.
 typedef CwStatus (*CwRemedyTrial)(const CwCase *table, CwDesign *design);
 
@@ -25,8 +21,4 @@ typedef CwStatus (*CwRemedyTrial)(const CwCase *table, CwDesign *design);
 // 120 works" or "it works without impeller.wrap_angle_deg". Returns whether one was found within 60 trials; failures of
 // trials are cleared.
 int cw_remedy_find(const CwCase *table, const char *message, CwRemedyTrial trial, char *text, size_t size);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

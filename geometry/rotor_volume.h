@@ -7,14 +7,6 @@
 #include "geometry/design.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Fails as cw_meridian_make() and cw_blade_section().
 CwStatus cw_rotor_volume(const CwDesign *design, double *volume);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -5,15 +5,7 @@
 #ifndef CUTWATER_GEOMETRY_STANDARD_BORE_H
 #define CUTWATER_GEOMETRY_STANDARD_BORE_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The smallest standard bore that is not less than `least`, m; least > 0. One step of the series multiplies the area
 // by at most 1.78.
 double cw_standard_bore(double least);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

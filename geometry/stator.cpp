@@ -28,7 +28,6 @@
 
 namespace {
 
-const double PI = 3.14159265358979323846;
 const int SECTORS = 5;                      // round the axis; the last one holds the tongue and opens into the throat
 const double SECTOR = CW_VOLUTE_SECTOR;     // angle of all but the last
 const int ALONG = 33, SIDE = 25;            // points of interpolation: along the flow, other
@@ -52,7 +51,7 @@ public:
 
   CwSolid *make() {
     for (int j = 0; j <= SECTORS; j++) angle_[j] = v_.start_angle + SECTOR * j;
-    angle_[SECTORS] = v_.start_angle + 2 * PI;
+    angle_[SECTORS] = v_.start_angle + 2 * M_PI;
     make_inner_rings();
     make_outer_wall();
     make_nose();
@@ -229,7 +228,7 @@ private:
   }
 
   void make_side_walls() {
-    double cone_angle = 0.5 * PI - v_.input.side_wall_angle, b3 = 0.5 * scale_ * v_.input.inlet_width;
+    double cone_angle = 0.5 * M_PI - v_.input.side_wall_angle, b3 = 0.5 * scale_ * v_.input.inlet_width;
     for (int side : {BOTTOM, TOP}) {
       std::array<int, SECTORS> ray;
       for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
@@ -245,7 +244,7 @@ private:
         else
           for (int edge : {throat_side_[side], flank_side_[side], nose_side_[side], ray[0]}) loop.push_back(edge);
         double to = angle_[j + 1];
-        if (j == SECTORS - 1) to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
+        if (j == SECTORS - 1) to = std::max(to, 2 * M_PI + std::atan2(v_.throat_y, v_.inner_wall_x));
         gp_Ax3 at = frame(angle_[j], to, b3, side);
         Handle(Geom_Surface) wall = v_.input.side_wall_angle > 0
                                         ? Handle(Geom_Surface)(new Geom_ConicalSurface(at, cone_angle, r3()))
@@ -299,10 +298,10 @@ private:
     double inner_length = contour_length(inner_start), outer_length = contour_length(outer_start);
     double side_length = contour_length([&](double t) { return throat_side(t, TOP); });
     double whole = inner_length + outer_length + 2 * side_length;
-    double a = PI * outer_length / whole, b = PI * (1 - inner_length / whole);
+    double a = M_PI * outer_length / whole, b = M_PI * (1 - inner_length / whole);
     // Corners counter-clockwise about minus the flow from the outer wall's lower one; the fourth arc ends
     // where the first begins.
-    double corner[5] = {-a, a, b, 2 * PI - b, 2 * PI - a};
+    double corner[5] = {-a, a, b, 2 * M_PI - b, 2 * M_PI - a};
 
     double radius = 0.5 * scale_ * v_.input.outlet_diameter;
     for (int i = 0; i < 5; i++) corner_[i] = corner[i];

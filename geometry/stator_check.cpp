@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRep_Tool.hxx>

@@ -1,64 +1,20 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/step_file.h"
 
-#include <memory>
-
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRep_Builder.hxx>
-#include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <STEPCAFControl_Reader.hxx>
 #include <STEPCAFControl_Writer.hxx>
-#include <STEPControl_StepModelType.hxx>
 #include <Standard_Failure.hxx>
-#include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
-#include <TDocStd_Document.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <TopoDS_Shell.hxx>
-#include <XCAFApp_Application.hxx>
-#include <XCAFDoc_DocumentTool.hxx>
-#include <XCAFDoc_ShapeTool.hxx>
-#include <XSControl_WorkSession.hxx>
 
 #include "geometry/solid.hpp"
-#include "geometry/solid_scale.hpp"
+#include "geometry/step_document.hpp"
 #include "pipeline/atomic_file.h"
 
 namespace {
-
-// An XCAF document that is closed when it goes.
-class Document {
-public:
-  Document() {
-    Message::DefaultMessenger()->ChangePrinters().Clear(); // else the translator chats on standard output
-    XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", handle);
-  }
-  ~Document() {
-    try {
-      XCAFApp_Application::GetApplication()->Close(handle);
-    } catch (const Standard_Failure &) { // nothing is left to do about it
-    }
-  }
-  Handle(XCAFDoc_ShapeTool) shapes() const {
-    return XCAFDoc_DocumentTool::ShapeTool(handle->Main());
-  }
-  Handle(TDocStd_Document) handle;
-};
-
-std::string label_name(const TDF_Label &label) {
-  Handle(TDataStd_Name) name;
-  if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return "";
-  const TCollection_AsciiString text(name->Get());
-  return text.ToCString();
-}
 
 void set_name(const TDF_Label &label, const std::string &name) {
   TDataStd_Name::Set(label, TCollection_ExtendedString(name.c_str()));
@@ -78,8 +34,8 @@ void add_faces(const Handle(XCAFDoc_ShapeTool) & shapes, const CwSolid &solid) {
 }
 
 CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const CwAtomicFile &file) {
-  Document document;
-  const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
+  CwStepDocument document;
+  const Handle(XCAFDoc_ShapeTool) & shapes = document.shapes;
   for (int i = 0; i < count; i++) {
     const CwSolid solid = cw_solid_scaled(*solids[i], solids[i]->unit / millimetre);
     const TDF_Label label = shapes->AddShape(solid.solid, Standard_False);
@@ -104,41 +60,6 @@ CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const C
   if (writer.Write(file.temporary_path) != IFSelect_RetDone)
     return CW_FAIL(CW_ERR_IO, "%s: cannot be written (is the disk full?)", file.final_path);
   return CW_OK;
-}
-
-CwSolid *read(const char *path, const char *domain, CwStatus *status) {
-  Document document;
-  STEPCAFControl_Reader reader;
-  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
-  reader.SetNameMode(Standard_True);
-  if (reader.ReadFile(path) != IFSelect_RetDone || !reader.Transfer(document.handle)) {
-    *status = CW_FAIL(CW_ERR_IO, "%s: cannot be read as STEP", path);
-    return nullptr;
-  }
-  const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
-  TDF_LabelSequence labels;
-  shapes->GetFreeShapes(labels);
-  for (int i = 1; i <= labels.Length(); i++) {
-    if (label_name(labels(i)) != domain) continue;
-    TopExp_Explorer explorer(shapes->GetShape(labels(i)), TopAbs_SOLID);
-    if (!explorer.More()) continue;
-    std::unique_ptr<CwSolid> solid(new CwSolid);
-    solid->domain = domain;
-    solid->unit = millimetre;
-    solid->solid = TopoDS::Solid(explorer.Current());
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(solid->solid, TopAbs_FACE, faces);
-    for (int j = 1; j <= faces.Extent(); j++) {
-      CwSolidFace face;
-      face.face = TopoDS::Face(faces(j));
-      TDF_Label part;
-      if (shapes->FindSubShape(labels(i), faces(j), part)) face.patch = label_name(part);
-      solid->faces.push_back(face);
-    }
-    return solid.release();
-  }
-  *status = CW_FAIL(CW_ERR_INPUT, "%s: no solid called %s", path, domain);
-  return nullptr;
 }
 
 CwStatus write_whole(const CwSolid *const *solids, int count, bool with_faces, const char *path) {
@@ -178,17 +99,4 @@ CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path
 CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path, CwBeside **beside) {
   const FileWithFaces file = {solids, count, path};
   return cw_beside_start(write_with_faces, &file, beside);
-}
-
-CwStatus cw_step_read(const char *path, const char *domain, CwSolid **solid) {
-  CwStatus status = CW_OK;
-  *solid = nullptr;
-  try {
-    *solid = read(path, domain, &status);
-  } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
-  } catch (const std::exception &failure) {
-    status = CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
-  }
-  return status;
 }

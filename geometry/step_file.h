@@ -19,10 +19,6 @@ CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path
 // faces, where they coincide.
 CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path, CwBeside **beside);
 
-// Reads the solid of the product called `domain` back: patches from the names of the faces; kind and name
-// stay empty. Fails with CW_ERR_IO where the file cannot be read and CW_ERR_INPUT where it has no such solid.
-CwStatus cw_step_read(const char *path, const char *domain, CwSolid **solid);
-
 #ifdef __cplusplus
 }
 #endif

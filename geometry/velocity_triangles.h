@@ -9,10 +9,6 @@
 #include "geometry/meridian.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Blockage 1 / (1 - z e / (2 pi r sin beta)) of `count` blades.
 double cw_blockage(double count, double thickness, double radius, double angle);
 
@@ -26,8 +22,4 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design);
 // Sets both triangles at hub, mid-span and shroud, the throats and the estimate of NPSH. The design's blades
 // are known.
 CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure, CwDesign *design);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

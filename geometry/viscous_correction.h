@@ -10,10 +10,6 @@
 #ifndef CUTWATER_GEOMETRY_VISCOUS_CORRECTION_H
 #define CUTWATER_GEOMETRY_VISCOUS_CORRECTION_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define CW_VISCOUS_LARGEST_B 40.0  // beyond it the standard has no factors; those of it are taken
 #define CW_VISCOUS_WATER 1.004e-6  // m2/s
 #define CW_VISCOUS_LARGEST_NU 4e-3 // m2/s, the largest viscosity that the standard was held against
@@ -31,8 +27,4 @@ CwViscousCorrection cw_viscous_correction(double viscosity, double flow_rate, do
 
 // The same of the pump whose best point with the fluid is given: with water it has flow_rate / C_Q and head / C_H.
 CwViscousCorrection cw_viscous_selection(double viscosity, double flow_rate, double head, double speed);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -41,7 +41,7 @@
 #include "pipeline/case.h"
 
 // rad: from one split of the solid's faces to the next; the contour changes over the first two of them.
-#define CW_VOLUTE_SECTOR (3.14159265358979323846 * 5 / 12)
+#define CW_VOLUTE_SECTOR (M_PI * 5 / 12)
 
 // Least difference of b3 and b2, in D3.
 #define CW_VOLUTE_LEAST_STEP 5e-3

@@ -9,8 +9,6 @@
 #include "geometry/volute_section.h"
 #include "geometry/volute_tongue.h"
 
-#define PI 3.14159265358979323846
-
 // The spiral begins this share of D3/2 outside it: a section that begins at nothing has no outer wall.
 static const double START_MARGIN = 0.003;
 // The kink at the end of the spiral lies within so many D3/2: enough for nq 60 or so.
@@ -21,14 +19,14 @@ static const double SLACK = 1e-9; // of values that went through other units
 // Half angle of the outer arc at the tongue. A larger one sweeps the nose back more: with 60 degrees it leans
 // so far that its edge to the flank has a radius of 0.05 mm (0.4 mm with 35); a smaller one sharpens the kink
 // between outer and side walls (105 degrees with 35 and side walls at 20).
-static const double ARC_HALF_ANGLE = 35 * PI / 180;
+static const double ARC_HALF_ANGLE = 35 * M_PI / 180;
 // A flatter arc brings the tongue's tip nearer to the base circle. Where the tongue is given and the tip else lies too
 // far out, the arc is flattened in steps, while kink and side wall keep a corner of at least LEAST_CORNER.
-static const double ARC_STEP = 5 * PI / 180, LEAST_ARC = 5 * PI / 180, LEAST_CORNER = 75 * PI / 180;
+static const double ARC_STEP = 5 * M_PI / 180, LEAST_ARC = 5 * M_PI / 180, LEAST_CORNER = 75 * M_PI / 180;
 // Angle of the kink line to the tongue's flank where the nose begins, by default and at its limits. The
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
-static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
+static const double DEFAULT_WEDGE = 26 * M_PI / 180, LEAST_WEDGE = 15 * M_PI / 180, LARGEST_WEDGE = 42 * M_PI / 180;
 // The spiral's kink at the tongue lies within these, in D3/2: nearer, the tongue's sides would touch the base circle.
 static const double LEAST_START = 1.02, LARGEST_START = 1.35;
 // Least share of Q that the throat passes by the law: one-dimensional theory is no better than that.
@@ -98,8 +96,8 @@ static void place_tongue(CwVolute *volute, double start_angle) {
 // The same where the kink line begins at the angle `wedge` to the flank.
 static void place_tongue_by_wedge(CwVolute *volute, double wedge) {
   const Context context = {.volute = volute, .value = wedge};
-  volute->start_angle = 2 * PI; // so that the arcs keep their angle at the tongue while it is looked for
-  place_tongue(volute, cw_root_find(wedge_excess, &context, 0, 0.45 * PI));
+  volute->start_angle = 2 * M_PI; // so that the arcs keep their angle at the tongue while it is looked for
+  place_tongue(volute, cw_root_find(wedge_excess, &context, 0, 0.45 * M_PI));
 }
 
 static double gap_of(const CwVolute *volute) {
@@ -112,8 +110,8 @@ static void place_tongue_at(CwVolute *volute, double kink_radius) {
   const double arc = volute->arc_half_angle;
   const double slope =
       (cw_volute_law(volute, kink_radius + step, arc) - cw_volute_law(volute, kink_radius - step, arc)) / (2 * step);
-  const double angle = DEFAULT_WEDGE + atan(growth / (2 * PI) / slope / kink_radius);
-  volute->law_start = cw_volute_law(volute, kink_radius, arc) - growth / (2 * PI) * angle;
+  const double angle = DEFAULT_WEDGE + atan(growth / (2 * M_PI) / slope / kink_radius);
+  volute->law_start = cw_volute_law(volute, kink_radius, arc) - growth / (2 * M_PI) * angle;
   volute->law_end = volute->law_start + growth;
   place_tongue(volute, angle);
 }
@@ -204,14 +202,14 @@ static CwStatus check_input(const CwVoluteInput *in) {
       {"interface radius", in->interface_radius, 0.05 * d3, 0.5 * d3, 1e3, "mm", 0},
       {"outlet_width_mm (b2)", in->neck_width, 1e-3 * d3, 0.39 * d3, 1e3, "mm", 0},
       {"inlet_width_mm (b3)", in->inlet_width, in->neck_width + CW_VOLUTE_LEAST_STEP * d3, 0.4 * d3, 1e3, "mm", 0},
-      {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : PI / 36, PI / 5, 180 / PI, "deg", 0},
+      {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : M_PI / 36, M_PI / 5, 180 / M_PI, "deg", 0},
       {"corner_radius_mm", in->corner_radius, 2.5e-3 * d3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
       {"throat_area_mm2", in->throat_area, 1e-6 * area, 10 * area, 1e6, "mm2", 1},
       {"tongue_radius_mm", in->tongue_radius, 1e-3 * d3, 0.1 * d3, 1e3, "mm", 0},
       {"tongue_gap_mm", in->tongue_gap, 0, d3, 1e3, "mm", 1},
-      {"tongue_angle_deg", in->tongue_angle, 0, 0.45 * PI, 180 / PI, "deg", 1},
+      {"tongue_angle_deg", in->tongue_angle, 0, 0.45 * M_PI, 180 / M_PI, "deg", 1},
       {"diffuser_length_mm", in->diffuser_length, 0.02 * d3, 50 * d3, 1e3, "mm", 1},
-      {"diffuser_angle_deg", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
+      {"diffuser_angle_deg", in->diffuser_angle, M_PI / 180, M_PI / 6, 180 / M_PI, "deg", !isnan(in->diffuser_length)},
       {"outlet_diameter_mm", in->outlet_diameter, 0.01 * d3, 5 * d3, 1e3, "mm", 1},
       {"diffuser_area_ratio", in->diffuser_area_ratio, 1.05, 4, 1, "", 1},
       {"discharge_pipe_length_mm", in->discharge_pipe_length, 5e-3 * d3, 1e3 * d3, 1e3, "mm", 1},
@@ -320,12 +318,12 @@ static CwStatus check_sections(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const int steps = 72;
   for (int i = 0; i <= steps; i++) {
-    double phi = volute->start_angle + 2 * PI * i / steps;
+    double phi = volute->start_angle + 2 * M_PI * i / steps;
     double gap = cw_volute_section(volute, phi).kink_radius - base_radius(volute);
     CW_REQUIRE(gap > START_MARGIN * base_radius(volute), CW_ERR_DESIGN,
                "volute: the section %.0f deg behind the spiral's start is too small for %s; lower %s or "
                "inlet_width_mm, or take section trapezoid%s",
-               phi * 180 / PI, cw_volute_has_corners(volute) ? "its corners" : "a circle",
+               phi * 180 / M_PI, cw_volute_has_corners(volute) ? "its corners" : "a circle",
                cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
                cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
   }
@@ -349,7 +347,7 @@ done:
 // A slim spiral has no room for a circle that touches both side walls: its arc then ends sooner, at last everywhere as
 // at the tongue.
 static CwStatus design_circle(CwVolute *volute) {
-  const double touching = volute->end_half_angle, least = volute->arc_half_angle, step = PI / 18;
+  const double touching = volute->end_half_angle, least = volute->arc_half_angle, step = M_PI / 18;
   for (int i = 0; touching - i * step > least - step; i++) {
     volute->end_half_angle = fmax(least, touching - i * step);
     if (design_spiral(volute) == CW_OK) return CW_OK;
@@ -363,7 +361,7 @@ static CwStatus design_circle(CwVolute *volute) {
 static CwStatus design_with_arc(double arc, CwVolute *volute) {
   volute->arc_half_angle = volute->end_half_angle = arc;
   const int circle = volute->input.section == CW_SECTION_CIRCLE;
-  if (circle || cw_volute_has_corners(volute)) volute->end_half_angle = 0.5 * PI + volute->input.side_wall_angle;
+  if (circle || cw_volute_has_corners(volute)) volute->end_half_angle = 0.5 * M_PI + volute->input.side_wall_angle;
   volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), arc);
   return circle ? design_circle(volute) : design_spiral(volute);
 }
@@ -396,7 +394,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   volute->input = *input;
   if (input->section == CW_SECTION_RECTANGLE) volute->input.side_wall_angle = 0;
   CW_TRY(check_input(&volute->input));
-  const double least = fmax(LEAST_ARC, LEAST_CORNER - 0.5 * PI + volute->input.side_wall_angle);
+  const double least = fmax(LEAST_ARC, LEAST_CORNER - 0.5 * M_PI + volute->input.side_wall_angle);
   status = design_with_arc(ARC_HALF_ANGLE, volute);
   if ((status == CW_OK || status == CW_ERR_DESIGN) && least < ARC_HALF_ANGLE && tip_is_beyond(volute)) {
     CwVolute flatter = *volute;

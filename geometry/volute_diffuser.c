@@ -7,6 +7,7 @@
 #include "geometry/standard_bore.h"
 #include "geometry/volute_section.h"
 #include "geometry/volute_tongue.h"
+#include "pipeline/vec.h"
 
 static const double degree = M_PI / 180;
 static const double PIPE_SPEED = 4;            // m/s, economic in pipes
@@ -44,9 +45,9 @@ CwDiffuserLines cw_diffuser_lines(const CwVolute *volute, double scale) {
 void cw_diffuser_line(const CwDiffuserLines *lines, const double start[3], const double leaving[3], const double end[3],
                       double v, double point[3]) {
   const double w = 1 - v, t = v / lines->turning, bend = lines->bend;
-  const double chord = sqrt(pow(end[0] - start[0], 2) + pow(end[1] - start[1], 2) + pow(end[2] - start[2], 2));
+  const double chord = cw_distance(end, start);
   const double bent = bend > 0 ? BENT_TANGENT * chord * 0.5 * bend / sin(0.5 * bend) : 0;
-  const double whole = sqrt(leaving[0] * leaving[0] + leaving[1] * leaving[1] + leaving[2] * leaving[2]);
+  const double whole = cw_norm(leaving);
   for (int i = 0; i < 3; i++) {
     const double own = bent > 0 ? leaving[i] * (bent / whole) : leaving[i], tangent = bent > 0 ? bent : lines->tangent;
     const double first = lines->turning < 1 ? (i < 2 ? tangent * lines->axis[i] : 0) : own;

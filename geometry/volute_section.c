@@ -5,8 +5,6 @@
 
 #include "geometry/root.h"
 
-#define PI 3.14159265358979323846
-
 static double base_radius(const CwVolute *volute) {
   return 0.5 * volute->input.base_diameter;
 }
@@ -85,7 +83,7 @@ static double law_excess(double r_k, const void *context) {
 }
 
 CwVoluteSection cw_volute_section(const CwVolute *volute, double phi) {
-  double growth = (volute->law_end - volute->law_start) / (2 * PI), r3 = base_radius(volute), k_slope;
+  double growth = (volute->law_end - volute->law_start) / (2 * M_PI), r3 = base_radius(volute), k_slope;
   double k = arc_angle(volute, phi, &k_slope);
   Law law = {volute, k, fmax(cw_volute_law(volute, r3, k), volute->law_start + growth * phi)};
   double r_k = cw_root_find(law_excess, &law, r3, 3 * r3);

@@ -6,7 +6,6 @@
 #include "geometry/root.h"
 #include "geometry/volute_section.h"
 
-#define PI 3.14159265358979323846
 // Above the kink's level the nose's centre line levels out over this height, in nose radii.
 static const double LEVEL_OUT = 1.0;
 
@@ -42,7 +41,7 @@ static double contact_at_level_excess(double phi, const void *context) {
 double cw_volute_contact_angle(const CwVolute *volute, double psi) {
   if (fabs(psi) >= volute->arc_half_angle) return volute->start_angle;
   Context context = {.volute = volute, .psi = fabs(psi)};
-  return cw_root_find(contact_excess, &context, volute->start_angle, 0.45 * PI);
+  return cw_root_find(contact_excess, &context, volute->start_angle, 0.45 * M_PI);
 }
 
 double cw_volute_nose_y(const CwVolute *volute, double w) {
@@ -85,5 +84,5 @@ static double throat_excess(double phi, const void *context) {
 
 double cw_volute_throat_angle(const CwVolute *volute, double psi) {
   Context context = {.volute = volute, .psi = psi};
-  return cw_root_find(throat_excess, &context, 2 * PI, 2.4 * PI);
+  return cw_root_find(throat_excess, &context, 2 * M_PI, 2.4 * M_PI);
 }

@@ -7,10 +7,6 @@
 #include "geometry/wall_name.h"
 #include "pipeline/model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Speeds in m/s, lengths in m.
 typedef struct {
   double radius;                                 // of the wheel's interface
@@ -23,8 +19,4 @@ typedef struct {
 } CwWaterWay;
 
 void cw_wall_flows(const CwWaterWay *way, CwWallFlow flow[CW_ALONG_COUNT]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

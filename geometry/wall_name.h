@@ -5,10 +5,6 @@
 
 #include "pipeline/model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Where the water runs along a wall.
 typedef enum {
   CW_ALONG_BLADE, // blades, hub and shroud
@@ -31,8 +27,4 @@ typedef struct {
 
 // NULL: no name of these. What begins with blade, hub or shroud is of these.
 const CwWallName *cw_wall_name(const char *name);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

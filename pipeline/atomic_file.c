@@ -78,7 +78,6 @@ void cw_sync_begin(const char *path) {
   sync_file_range(handle, 0, 0, SYNC_FILE_RANGE_WRITE);
   close(handle);
 #else
-  (void)path;
 #endif
 }
 

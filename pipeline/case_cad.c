@@ -9,6 +9,7 @@
 
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
+#include "pipeline/vec.h"
 
 static const char *const section_keys[] = {"files",   "unit_mm", "axis", "tolerance_mm", "face_names", "cut",
                                            "domains", "patches", NULL};
@@ -164,12 +165,11 @@ static CwStatus read_axis(const char *path, const CwCaseNode *node, CwCaseCad *c
   const CwCaseNode *direction = member(node, "direction", &unit);
   if (!direction) goto done;
   CW_TRY(read_point(path, direction, NULL, cad->axis));
-  double *axis = cad->axis, length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+  double *axis = cad->axis, length = cw_unit(axis);
   if (!(length > 0)) {
     status = FAIL_AT(direction, "it has no length; allowed: %s", "a vector other than [0, 0, 0]");
     goto done;
   }
-  for (int i = 0; i < 3; i++) axis[i] /= length;
 done:
   return status;
 }

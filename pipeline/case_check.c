@@ -5,7 +5,6 @@
 
 #include "pipeline/case_points.h"
 
-static const double pi = 3.14159265358979323846;
 static const double gravity = 9.80665; // m/s2
 
 typedef enum { ABOVE, AT_LEAST, BELOW, AT_MOST } Relation;
@@ -91,7 +90,7 @@ static CwStatus check_operating_point(const char *path, const CwCase *table, con
   CwStatus status = CW_OK;
   const CwCasePlace *place = &places[cw_case_key_find("operating_point", "speed_rpm")];
   const CwOperatingPoint *point = &table->operating_point;
-  double rpm = point->speed * 30 / pi;
+  double rpm = point->speed * 30 / M_PI;
   // Specific speed nq = n sqrt(Q) / H^(3/4) in rpm, m3/s, m: radial and mixed-flow impellers lie in 5 to 160.
   double specific_speed = rpm * sqrt(point->flow_rate) / pow(point->head, 0.75);
   CW_REQUIRE(specific_speed >= 5 && specific_speed <= 160, CW_ERR_INPUT,
@@ -141,7 +140,7 @@ static CwStatus check_blockage(const char *path, const CwCase *table, const CwCa
   const CwImpellerTable *impeller = &table->impeller;
   const CwCasePlace *place = &places[cw_case_key_find("impeller", "blade_thickness_mm")];
   if (!cw_case_given(impeller->blade_thickness * impeller->inlet_diameter) || !impeller->blade_count) goto done;
-  double most = 0.5 * pi * impeller->inlet_diameter / impeller->blade_count;
+  double most = 0.5 * M_PI * impeller->inlet_diameter / impeller->blade_count;
   CW_REQUIRE(impeller->blade_thickness < most, CW_ERR_INPUT,
              "%s:%d:%d: impeller.blade_thickness_mm: %.6g contradicts blade_count and inlet_diameter_mm (the blades "
              "fill the inlet); allowed: below %.4g mm",

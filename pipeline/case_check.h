@@ -5,10 +5,6 @@
 
 #include "pipeline/case_schema.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Where the file gives a key, 1-based. A key left out has `given` 0 and the place of its section.
 typedef struct {
   int given;
@@ -18,8 +14,4 @@ typedef struct {
 // Checks the whole table; `places` holds one place a key of the schema, in its order. Fails with CW_ERR_INPUT
 // and "FILE:LINE:COLUMN: KEY: VALUE contradicts ...; allowed: ..." at the first contradiction.
 CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -9,10 +9,6 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The case's name and every key that the design and its solids follow from, by path ("impeller.blade_count"), values in
 // the units of the keys; keys that were left out are not there. A new reference; NULL where memory is out.
 json_t *cw_case_origin(const CwCase *table);
@@ -20,8 +16,4 @@ json_t *cw_case_origin(const CwCase *table);
 // Holds RUN/STAGE/record.json against the case. CW_ERR_IO where the record is not there (the stage has not run, or did
 // not end well), CW_ERR_INPUT with the first key that differs where the stage ran for another case.
 CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *stage);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -5,10 +5,6 @@
 
 #include "pipeline/case.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_POINT_NAME_SIZE = 24 };
 
 typedef struct {
@@ -20,8 +16,4 @@ typedef struct {
 // The points of the case [out], by ascending flow where the case is valid; their number. 0.6, 0.8, 1 and 1.2 times the
 // flow of the operating point where the case names none.
 int cw_case_points(const CwCase *table, CwCasePoint points[CW_LIST_MOST]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

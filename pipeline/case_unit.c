@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/case_unit.h"
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
-
-static const double pi = 3.14159265358979323846;
 
 // Those that keys end in, and those that people write by mistake.
 static const CwUnit units[] = {
@@ -19,11 +18,11 @@ static const CwUnit units[] = {
     {"mm2", "mm2", "area", 1, 1e6},
     {"cm2", "cm2", "area", 1, 1e4},
     {"m2", "m2", "area", 1, 1},
-    {"deg", "degrees", "angle", pi, 180},
+    {"deg", "degrees", "angle", M_PI, 180},
     {"rad", "rad", "angle", 1, 1},
-    {"rpm", "rpm", "speed", pi, 30},
+    {"rpm", "rpm", "speed", M_PI, 30},
     {"rad_per_s", "rad/s", "speed", 1, 1},
-    {"hz", "Hz", "speed", 2 * pi, 1},
+    {"hz", "Hz", "speed", 2 * M_PI, 1},
     {"m3_per_h", "m3/h", "flow rate", 1, 3600},
     {"m3_per_s", "m3/s", "flow rate", 1, 1},
     {"l_per_s", "l/s", "flow rate", 1, 1000},

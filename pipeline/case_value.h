@@ -6,10 +6,6 @@
 
 #include "pipeline/case_schema.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_SHOWN_SIZE = 64, CW_WRONG_SIZE = 400 };
 
 // Copies `text` for a message: control characters as blanks, cut at 48 bytes between characters, "" as
@@ -34,8 +30,4 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
 // key with another unit, a key of another section, or the nearest key. `text` is its value, or NULL when it
 // is no scalar.
 void cw_case_key_unknown(const char *section, const char *name, const char *text, char wrong[CW_WRONG_SIZE]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,10 +7,6 @@
 
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // How all JSON files are written: two blanks a level, and numbers with as many digits as bring every bit back.
 #define CW_JSON_FORMAT (JSON_INDENT(2) | JSON_REAL_PRECISION(17))
 
@@ -20,8 +16,4 @@ CwStatus cw_sealed_json_write(const json_t *object, const char *path);
 // Reads it. CW_ERR_IO where it cannot be read or is not as it was written; CW_ERR_INPUT where it is no such file. Free
 // with json_decref.
 CwStatus cw_sealed_json_read(const char *path, json_t **object);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

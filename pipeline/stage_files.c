@@ -87,7 +87,6 @@ done:
 }
 
 static CwStatus digest_alone(void *given, const char *path, char digest[CW_HASH_TEXT]) {
-  (void)given;
   return cw_file_digest(path, digest);
 }
 

@@ -10,10 +10,6 @@
 #include "pipeline/hash.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Holds the files of RUN/STAGE, and those it was made from, against its record. CW_ERR_IO where one is missing or not
 // as it was written, CW_ERR_INPUT where the stage was made from other files than lie there.
 CwStatus cw_stage_files_check(const char *run, const char *stage);
@@ -29,8 +25,4 @@ CwStatus cw_stage_files_source_check(const char *run, const char *stage, json_t 
 // For the record: by name the digest of the files of each stage, as its record tells of them. `stages` ends with NULL.
 // CW_ERR_IO, CW_ERR_INPUT, CW_ERR_MEMORY.
 CwStatus cw_stage_files_read(const char *run, const char *const *stages, json_t **made_from);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -3,13 +3,5 @@
 #ifndef CUTWATER_PIPELINE_VERSION_H
 #define CUTWATER_PIPELINE_VERSION_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 extern const char cw_version[];
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,17 +7,9 @@
 #include "pipeline/case.h"
 #include "pipeline/model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // What the case asks of the walls of a group, blade to pipe.
 const CwWallGroup *cw_wall_group(const CwWalls *walls, CwPatchGroup group);
 
 // Whether a first height is left open: neither given nor by a y+.
 int cw_walls_auto(const CwWalls *walls);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -8,10 +8,6 @@
 #ifndef CUTWATER_PIPELINE_WATER_H
 #define CUTWATER_PIPELINE_WATER_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define CW_WATER_COLDEST 0.01 // degrees Celsius, the triple point
 #define CW_WATER_HOTTEST 370.0
 
@@ -20,8 +16,4 @@ double cw_water_vapour_pressure(double celsius);           // Pa
 double cw_water_density(double celsius);                   // kg/m3
 double cw_water_viscosity(double celsius, double density); // dynamic, Pa s, at a density in kg/m3
 double cw_water_kinematic_viscosity(double celsius);       // m2/s
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -42,9 +42,6 @@ static int was_synced(const struct stat *now) {
 }
 
 static int is_not_synced(const char *path, const struct stat *now, int kind, struct FTW *place) {
-  (void)path;
-  (void)kind;
-  (void)place;
   return (S_ISREG(now->st_mode) || S_ISDIR(now->st_mode)) && !was_synced(now);
 }
 

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <map>
 
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
@@ -16,51 +15,27 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <Bnd_Box.hxx>
-#include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
-#include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS_Iterator.hxx>
-#include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
-#include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
-#include <XCAFDoc_ShapeTool.hxx>
 #include <gp_Trsf.hxx>
 
 #include "geometry/cad/cad_part.hpp"
+#include "geometry/step_document.hpp"
 
 namespace {
 
 const double millimetre = 1e-3; // m
 
-class Document {
-public:
-  Document() {
-    Message::DefaultMessenger()->ChangePrinters().Clear(); // else the translator chats on standard output
-    XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", handle);
-    shapes = XCAFDoc_DocumentTool::ShapeTool(handle->Main());
-    colours = XCAFDoc_DocumentTool::ColorTool(handle->Main());
-    layers = XCAFDoc_DocumentTool::LayerTool(handle->Main());
-  }
-  ~Document() {
-    try {
-      XCAFApp_Application::GetApplication()->Close(handle);
-    } catch (const Standard_Failure &) { // nothing is left to do about it
-    }
-  }
-  Handle(TDocStd_Document) handle;
-  Handle(XCAFDoc_ShapeTool) shapes;
-  Handle(XCAFDoc_ColorTool) colours;
-  Handle(XCAFDoc_LayerTool) layers;
+struct Document : CwStepDocument {
+  Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(handle->Main());
+  Handle(XCAFDoc_LayerTool) layers = XCAFDoc_DocumentTool::LayerTool(handle->Main());
 };
 
 std::string label_name(const TDF_Label &label) {
@@ -323,16 +298,6 @@ const char *cw_cad_body_name(const CwCadBodies *bodies, int body) {
 
 const char *cw_cad_body_instance(const CwCadBodies *bodies, int body) {
   return bodies->body[body].instance.c_str();
-}
-
-CwStatus cw_cad_body_box(const CwCadBodies *bodies, int body, double box[2][3]) {
-  return cw_cad_guard(bodies->body[body].file, [&] {
-    Bnd_Box bounds;
-    BRepBndLib::AddOptimal(bodies->body[body].solid, bounds, Standard_False, Standard_False);
-    bounds.Get(box[0][0], box[0][1], box[0][2], box[1][0], box[1][1], box[1][2]);
-    for (int i = 0; i < 6; i++) box[i / 3][i % 3] *= millimetre;
-    return CW_OK;
-  });
 }
 
 CwStatus cw_cad_body_holds(const CwCadBodies *bodies, int body, const double point[3], int *holds) {

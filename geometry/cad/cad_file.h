@@ -23,8 +23,6 @@ int cw_cad_body_count(const CwCadBodies *bodies);
 // Of the product and of its place in an assembly; "" where the file has none.
 const char *cw_cad_body_name(const CwCadBodies *bodies, int body);
 const char *cw_cad_body_instance(const CwCadBodies *bodies, int body);
-// Extent of a body: least and greatest coordinates, m.
-CwStatus cw_cad_body_box(const CwCadBodies *bodies, int body, double box[2][3]);
 // Whether a point, m, lies inside.
 CwStatus cw_cad_body_holds(const CwCadBodies *bodies, int body, const double point[3], int *holds);
 

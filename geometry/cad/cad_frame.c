@@ -4,34 +4,25 @@
 #include <math.h>
 #include <string.h>
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
+#include "pipeline/vec.h"
 
 void cw_cad_frame_make(const CwCaseCad *cad, CwCadFrame *frame) {
   memset(frame, 0, sizeof *frame);
   memcpy(frame->origin, cad->point, sizeof frame->origin);
   double *x = frame->axis[0], *y = frame->axis[1], *z = frame->axis[2];
   memcpy(z, cad->axis, sizeof cad->axis);
-  frame->same = z[2] == 1 && dot(cad->point, cad->point) == 0;
+  frame->same = z[2] == 1 && cw_dot(cad->point, cad->point) == 0;
   // x: the file's own x as far as it is across the axis, or its y where the axis lies near x.
   const int from = fabs(z[0]) < 0.9 ? 0 : 1;
   for (int i = 0; i < 3; i++) x[i] = (i == from) - z[from] * z[i];
-  const double length = sqrt(dot(x, x));
-  for (int i = 0; i < 3; i++) x[i] /= length;
-  cross(z, x, y);
+  cw_unit(x);
+  cw_cross(z, x, y);
 }
 
 void cw_cad_frame_from_file(const CwCadFrame *frame, const double file[3], double pump[3]) {
   double from[3];
-  for (int i = 0; i < 3; i++) from[i] = file[i] - frame->origin[i];
-  for (int i = 0; i < 3; i++) pump[i] = dot(frame->axis[i], from);
+  cw_sub(file, frame->origin, from);
+  for (int i = 0; i < 3; i++) pump[i] = cw_dot(frame->axis[i], from);
 }
 
 void cw_cad_frame_to_file(const CwCadFrame *frame, const double pump[3], double file[3]) {

@@ -8,14 +8,11 @@
 #include "geometry/cad/cad_pump.h"
 #include "geometry/cad/faces_picture.h"
 #include "geometry/cad/faces_sheet.h"
-#include "geometry/faces_table.h"
-#include "geometry/step_file.h"
+#include "geometry/pump_files.h"
 #include "pipeline/case_cad.h"
 #include "pipeline/log.h"
 
 enum { MESSAGE_SIZE = 1000 };
-enum { FILE_FACES, FILE_MODEL, FILE_STEP, FILE_STEP_FACES, FILES };
-static const char *const file_names[] = {"faces.csv", "model.json", "pump.step", "pump_faces.step"};
 
 typedef struct {
   const CwCaseCad *cad;
@@ -24,17 +21,11 @@ typedef struct {
   CwSolid **solid;
 } Work;
 
-static CwStatus in_folder(const CwStageArgs *args, const char *name, char **path) {
-  char inside[80];
-  snprintf(inside, sizeof inside, "geometry/%s", name);
-  return cw_stage_path(args, inside, path);
-}
-
 static CwStatus write_sheet(const CwStageArgs *args, const Work *work, int named) {
   CwStatus status = CW_OK;
   const CwCadPump *pump = &work->pump;
   char *path = NULL;
-  CW_TRY(in_folder(args, "faces_sheet.csv", &path));
+  CW_TRY(cw_geometry_path(args, "faces_sheet.csv", &path));
   CW_TRY(cw_faces_sheet_write(work->cad, &pump->frame, pump->parts, &pump->survey, pump->role,
                               named ? &pump->patches : NULL, path));
 done:
@@ -50,7 +41,7 @@ static CwStatus write_pictures(const CwStageArgs *args, const CwCaseCad *cad, co
     char name[CW_NAME_SIZE + 16], title[CW_NAME_SIZE + 80];
     snprintf(name, sizeof name, "faces_%s.svg", cad->domain[d].name);
     snprintf(title, sizeof title, "%s: faces by their numbers in faces_sheet.csv", cad->domain[d].name);
-    CW_TRY(in_folder(args, name, &path));
+    CW_TRY(cw_geometry_path(args, name, &path));
     CW_TRY(cw_faces_picture_write(survey, d, title, NULL, path));
     free(path);
     path = NULL;
@@ -67,7 +58,7 @@ static void show_fault(const CwStageArgs *args, const Work *work) {
   char *path = NULL, title[CW_NAME_SIZE + 80], message[MESSAGE_SIZE];
   snprintf(message, sizeof message, "%s", cw_fail_message());
   snprintf(title, sizeof title, "%s: where it cannot be healed", work->cad->domain[work->pump.fault.part].name);
-  if (cw_survey_make(work->pump.parts, &survey) == CW_OK && in_folder(args, "fault.svg", &path) == CW_OK &&
+  if (cw_survey_make(work->pump.parts, &survey) == CW_OK && cw_geometry_path(args, "fault.svg", &path) == CW_OK &&
       cw_faces_picture_write(&survey, work->pump.fault.part, title, work->pump.fault.at, path) == CW_OK)
     cw_log(args->log, "geometry/fault.svg shows the place");
   CW_FAIL(CW_ERR_GEOMETRY, "%s", message);
@@ -93,53 +84,6 @@ static void show(CwLog *log, const Work *work) {
   }
 }
 
-static CwStatus write_file(const Work *work, int file, const char *path, CwBeside **beside) {
-  const CwSolid *const *solids = (const CwSolid *const *)work->solid;
-  const int count = work->cad->domain_count;
-  switch (file) {
-  case FILE_FACES:
-    return cw_faces_table_write(solids, count, path);
-  case FILE_MODEL:
-    return cw_model_write(&work->model, path);
-  case FILE_STEP:
-    return cw_step_write(solids, count, path);
-  default:
-    return cw_beside_end(beside, path);
-  }
-}
-
-static CwStatus write_files(const CwStageArgs *args, const Work *work, CwRecord *record) {
-  CwStatus status = CW_OK;
-  CwBeside *beside = NULL;
-  char *folder = NULL, *path = NULL;
-  CW_TRY(cw_stage_path(args, "geometry", &folder));
-  CW_TRY(in_folder(args, file_names[FILE_STEP_FACES], &path));
-  CW_TRY(cw_step_write_with_faces((const CwSolid *const *)work->solid, work->cad->domain_count, path, &beside));
-  free(path);
-  path = NULL;
-  for (int d = 0; d < work->cad->domain_count; d++) {
-    char name[CW_NAME_SIZE + 8];
-    snprintf(name, sizeof name, "%s.brep", work->cad->domain[d].name);
-    CW_TRY(in_folder(args, name, &path));
-    CW_TRY(cw_solid_write_brep(work->solid[d], path));
-    CW_TRY(cw_record_file(record, folder, name));
-    free(path);
-    path = NULL;
-  }
-  for (int i = 0; i < FILES; i++) {
-    CW_TRY(in_folder(args, file_names[i], &path));
-    CW_TRY(write_file(work, i, path, &beside));
-    CW_TRY(cw_record_file(record, folder, file_names[i]));
-    free(path);
-    path = NULL;
-  }
-done:
-  cw_beside_drop(&beside);
-  free(folder);
-  free(path);
-  return status;
-}
-
 static CwStatus note(CwLog *log, const Work *work, const CwCase *table, CwRecord *record) {
   CwStatus status = CW_OK;
   const CwCadPump *pump = &work->pump;
@@ -162,7 +106,7 @@ done:
 CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
   CwStatus status = CW_OK;
   Work work = {.cad = table->cad};
-  double begin = cw_seconds();
+  const double begin = cw_seconds();
   CW_NEW(work.solid, work.cad->domain_count);
   status = cw_cad_pump_read(work.cad, args->log, &work.pump);
   if (status != CW_OK && work.pump.fault.found) show_fault(args, &work);
@@ -170,15 +114,14 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   CW_TRY(write_sheet(args, &work, 0));
   CW_TRY(write_pictures(args, work.cad, &work.pump.survey));
   CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, work.pump.survey.face_count, "faces"));
-  begin = cw_seconds();
   CW_TRY(cw_cad_pump_name(work.cad, &work.pump));
   CW_TRY(write_sheet(args, &work, 1));
   show(args->log, &work);
   CW_TRY(cw_cad_model_make(table, &work.pump.survey, &work.pump.patches, work.pump.interface_count, work.pump.interface,
                            work.pump.blade_count, cw_cad_parts_unit(work.pump.parts), &work.model));
   CW_TRY(cw_cad_pump_solids(&work.pump, work.solid));
-  CW_TRY(write_files(args, &work, record));
-  CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + work.cad->domain_count, "files"));
+  CW_TRY(cw_pump_files_write(
+      args, &(CwPumpFiles){.count = work.cad->domain_count, .solid = work.solid, .model = &work.model}, record));
   CW_TRY(note(args->log, &work, table, record));
 done:
   for (int d = 0; work.solid && d < work.cad->domain_count; d++) cw_solid_free(&work.solid[d]);

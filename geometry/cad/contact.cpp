@@ -8,7 +8,6 @@
 
 #include <BRep_Builder.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
-#include <TopoDS_Compound.hxx>
 
 #include "geometry/cad/cad_part.hpp"
 #include "pipeline/log.h"

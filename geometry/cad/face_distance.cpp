@@ -11,9 +11,7 @@
 #include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Vertex.hxx>
 
 #include "geometry/cad/cad_part.hpp"
 

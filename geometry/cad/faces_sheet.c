@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/cad/faces_sheet.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "pipeline/atomic_file.h"

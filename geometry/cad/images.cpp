@@ -13,7 +13,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Vertex.hxx>
 #include <gp.hxx>
 
 #include "geometry/cad/cad_part.hpp"

@@ -17,12 +17,10 @@
 #include <Bnd_Box.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom2d_Curve.hxx>
-#include <Geom_Plane.hxx>
 #include <Precision.hxx>
 #include <ShapeConstruct_ProjectCurveOnSurface.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopoDS_Wire.hxx>
 #include <gp_Circ.hxx>
 
 #include "geometry/cad/cad_part.hpp"

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/vec.h"
+
 static const double ALIKE = 1e-3;             // of area, radius and height: faces that are turned copies
 static const double ACROSS = 10 * M_PI / 180; // rad off a right angle
 static const double END = 1e-6;               // of the size: how far the part may reach past a plane at its end
@@ -13,20 +15,16 @@ static const double END = 1e-6;               // of the size: how far the part m
 static const double STUB = 0.1;
 enum { BLADES_MOST = 64 };
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // Whether all of the face's part lies on one side of its plane.
 static int at_end(const CwSurvey *survey, int face) {
   const CwSurveyFace *of = &survey->face[face];
-  const double level = dot(of->normal, of->at);
+  const double level = cw_dot(of->normal, of->at);
   for (int f = 0; f < survey->face_count; f++) {
     const CwSurveyFace *other = &survey->face[f];
     if (other->part != of->part) continue;
     for (int t = other->first_triangle; t < other->first_triangle + other->triangle_count; t++)
       for (int k = 0; k < 3; k++)
-        if (dot(of->normal, survey->point[survey->triangle[t][k]]) > level + END * survey->size) return 0;
+        if (cw_dot(of->normal, survey->point[survey->triangle[t][k]]) > level + END * survey->size) return 0;
   }
   return 1;
 }
@@ -36,7 +34,7 @@ static double depth_behind(const CwSurvey *survey, const double normal[3], doubl
   const CwSurveyFace *of = &survey->face[face];
   double depth = 0;
   for (int t = of->first_triangle; t < of->first_triangle + of->triangle_count; t++)
-    for (int k = 0; k < 3; k++) depth = fmax(depth, level - dot(normal, survey->point[survey->triangle[t][k]]));
+    for (int k = 0; k < 3; k++) depth = fmax(depth, level - cw_dot(normal, survey->point[survey->triangle[t][k]]));
   return depth;
 }
 
@@ -52,7 +50,7 @@ static int is_opening(const CwSurvey *survey, const CwContact *contact, int face
     const int other = edge->face[edge->face[0] == face];
     if (contact[other].part >= 0 || fabs(edge->angle - M_PI / 2) > ACROSS) return 0;
     outline += edge->length;
-    depth = fmax(depth, depth_behind(survey, of->normal, dot(of->normal, of->at), other));
+    depth = fmax(depth, depth_behind(survey, of->normal, cw_dot(of->normal, of->at), other));
   }
   return depth * outline >= STUB * 4 * of->area;
 }
@@ -131,9 +129,10 @@ static CwFaceRole wheel_role(const CwSurvey *survey, const CwSurveyFace *face, d
   for (int t = face->first_triangle; t < face->first_triangle + face->triangle_count; t++) {
     const double *a = survey->point[survey->triangle[t][0]], *b = survey->point[survey->triangle[t][1]],
                  *c = survey->point[survey->triangle[t][2]];
-    double u[3], v[3];
-    for (int i = 0; i < 3; i++) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
-    const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    double u[3], v[3], n[3];
+    cw_sub(b, a, u);
+    cw_sub(c, a, v);
+    cw_cross(u, v, n);
     const double x = a[0] + b[0] + c[0], y = a[1] + b[1] + c[1], r = hypot(x, y);
     outward += (r > 0 ? (n[0] * x + n[1] * y) / r : 0) + suction * n[2];
   }

@@ -6,7 +6,6 @@
 
 #include "mesher/boundary/boundary_curves.h"
 #include "mesher/boundary/periodic_boundary.h"
-#include "mesher/common/vec.h"
 #include "mesher/network/plane_map.h"
 #include "mesher/surface/patch_task.h"
 

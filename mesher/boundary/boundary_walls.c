@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "mesher/boundary/boundary_curves.h"
-#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/surface/patch_task.h"

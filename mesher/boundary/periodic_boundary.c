@@ -5,11 +5,7 @@
 #include <string.h>
 
 #include "mesher/plan/plan.h"
-
-static int by_number(const void *p, const void *q) {
-  int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
-  return (a > b) - (a < b);
-}
+#include "pipeline/order.h"
 
 CwStatus cw_image_outlines(const CwBoundaryInput *in, CwFreeCurves *free_curves, CwOutcome *outcome) {
   CwStatus status = CW_OK;
@@ -26,8 +22,8 @@ CwStatus cw_image_outlines(const CwBoundaryInput *in, CwFreeCurves *free_curves,
       corner[start[i] + (int32_t)k] = node;
       corner[start[count] + start[i] + (int32_t)k] = cw_image_node(&free_curves->images, node, 1);
     }
-    qsort(corner + start[i], n, sizeof *corner, by_number);
-    qsort(corner + start[count] + start[i], n, sizeof *corner, by_number);
+    qsort(corner + start[i], n, sizeof *corner, cw_order_int32s);
+    qsort(corner + start[count] + start[i], n, sizeof *corner, cw_order_int32s);
   }
   CW_NEW(next, count);
   for (int32_t i = 0; i < count; i++) {

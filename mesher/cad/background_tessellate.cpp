@@ -13,18 +13,14 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <IMeshData_Curve.hxx>
 #include <IMeshData_Edge.hxx>
-#include <IMeshData_Face.hxx>
 #include <IMeshData_Model.hxx>
-#include <IMeshData_PCurve.hxx>
 #include <Message_ProgressRange.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 
 #include "mesher/cad/cad_shape.h"

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/order.h"
+
 // Twice the area of (a, b, p) in the plane of y and z, with the same rounding for both directions of an edge,
 // so that two triangles that share it agree on which of them p lies in.
 static int left_of(const CwBackground *background, int32_t a, int32_t b, const double p[2], double *area) {
@@ -98,11 +100,6 @@ done:
   return status;
 }
 
-static int by_value(const void *a, const void *b) {
-  double p = *(const double *)a, q = *(const double *)b;
-  return p < q ? -1 : p > q;
-}
-
 // Cuts with one variant of the lines; *odd counts the lines that go in and not out.
 static CwStatus cut(const CwBackground *background, const double low[2], const double high[2], double spacing,
                     int32_t variant, CwScanlines *lines, int64_t *odd) {
@@ -128,7 +125,7 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
   *odd = 0;
   for (size_t i = 0; i < count; i++) {
     int64_t length = lines->start[i + 1] - lines->start[i];
-    qsort(lines->crossing + lines->start[i], (size_t)length, sizeof *lines->crossing, by_value);
+    qsort(lines->crossing + lines->start[i], (size_t)length, sizeof *lines->crossing, cw_order_doubles);
     *odd += length & 1;
   }
 done:

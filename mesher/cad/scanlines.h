@@ -11,10 +11,6 @@
 #include "mesher/cad/background.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   double low[2];    // y, z of the lattice's corner
   double spacing;   // a line stands for an area spacing^2
@@ -30,8 +26,4 @@ CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], 
 // y, z of line (j, k).
 void cw_scanlines_place(const CwScanlines *lines, int32_t j, int32_t k, double place[2]);
 void cw_scanlines_free(CwScanlines *lines);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,10 +7,6 @@
 
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // order[k] is the point that comes k-th. Deterministic.
 CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order);
 
@@ -21,8 +17,4 @@ CwStatus cw_hilbert_rounds(int32_t count, const double (*x)[3], int32_t *order);
 // Place of cell (i, j, k) of a cube with 2^bits cells along each axis on Hilbert's curve; cells next to each
 // other on the curve share a face. bits <= 21.
 uint64_t cw_hilbert_place(const uint32_t cell[3], int bits);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

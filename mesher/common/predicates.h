@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Geometric predicates whose signs are always right: double arithmetic with an error bound, and exact
 // arithmetic where the bound leaves the sign open (J. R. Shewchuk, Discrete & Computational Geometry 18,
-// 1997). Right for coordinates whose fifth powers neither overflow nor underflow, and only without
-// contraction of a * b + c.
+// 1997; the code that TetGen has of it). Right for coordinates whose fifth powers neither overflow nor underflow, and
+// only without contraction of a * b + c.
 #ifndef CUTWATER_MESHER_COMMON_PREDICATES_H
 #define CUTWATER_MESHER_COMMON_PREDICATES_H
 
@@ -12,12 +12,9 @@
 extern "C" {
 #endif
 
-// The same by exact arithmetic alone: -1, 0 or 1.
+// The same by as much arithmetic as it takes: -1, 0 or 1. For signs that plain doubles leave open.
 int cw_orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]);
 int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]);
-
-// By pairs of doubles where that is enough, then exactly: for signs that plain doubles leave open.
-int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]);
 
 // Bounds of the relative rounding error, in units of 2^-53: 7 and 16 operations deep, with a margin for
 // second order.
@@ -64,7 +61,7 @@ static inline int cw_insphere(const double a[3], const double b[3], const double
                 (zc * sda + zd * sac + za * scd) * square[1] + (zd * sab + za * sbd + zb * sda) * square[2];
   if (det > CW_INSPHERE_BOUND * size) return 1;
   if (det < -CW_INSPHERE_BOUND * size) return -1;
-  return cw_insphere_close(a, b, c, d, e);
+  return cw_insphere_exact(a, b, c, d, e);
 }
 
 #ifdef __cplusplus

@@ -50,7 +50,7 @@ void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
       least = cw_lesser(cosine, least);
     }
   }
-  const double degrees = 180.0 / 3.14159265358979323846;
+  const double degrees = 180.0 / M_PI;
   int flat = !(shape->volume > 0.0);
   shape->dihedral_least = flat ? 0.0 : acos(cw_lesser(most, 1.0)) * degrees;
   shape->dihedral_greatest = flat ? 180.0 : acos(cw_greater(least, -1.0)) * degrees;

@@ -4,11 +4,13 @@
 #ifndef CUTWATER_MESHER_COMMON_QUALITY_H
 #define CUTWATER_MESHER_COMMON_QUALITY_H
 
+#include <math.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define CW_DEGREE (3.14159265358979323846 / 180.0) // rad
+#define CW_DEGREE (M_PI / 180.0) // rad
 
 typedef struct {
   double volume;                            // m3, signed

@@ -8,10 +8,6 @@
 
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   uint64_t key;
   int32_t item, tag; // go with it
@@ -27,8 +23,4 @@ static inline uint64_t cw_radix_key(double number) {
   memcpy(&bits, &number, sizeof bits);
   return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
 }
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -5,10 +5,6 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define CW_TET_BOUND_MOST 45.0 // degrees; no bound above it is looked for
 
 // What lies across an edge of a triangle.
@@ -29,8 +25,4 @@ double cw_inner_angle(const double from[3], const double to[3], const double m[3
 // best of these four, or anything not below `least`. Side k lies at the edge from corner k to the next; the normal of
 // the corners points outward.
 double cw_triangle_bound(const double *const corner[3], const CwBoundSide side[3], double least);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "mesher/common/box.h"
-#include "mesher/common/branchless.h"
 #include "mesher/common/hilbert.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/radix.h"

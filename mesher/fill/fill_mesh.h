@@ -10,10 +10,6 @@
 #include "mesher/fill/fill.h"
 #include "mesher/fill/tet_mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The mesh of a fill's tetrahedra; point 4 + p comes from the fill's point p.
 CwStatus cw_fill_to_mesh(const CwFill *fill, CwTetMesh *mesh);
 
@@ -21,8 +17,4 @@ CwStatus cw_fill_to_mesh(const CwFill *fill, CwTetMesh *mesh);
 // the inner points that are used, in the order of their sources, of which there are `source_count`. Uses the
 // mesh up; *fill must be empty.
 CwStatus cw_fill_from_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t source_count, CwFill *fill);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -8,7 +8,7 @@
 #include "mesher/common/box.h"
 #include "mesher/common/branchless.h"
 #include "mesher/common/vec.h"
-#include "mesher/fill/fill_columns.h"
+#include "mesher/common/verticals.h"
 #include "mesher/fill/fill_reach.h"
 #include "mesher/fill/lattice_places.h"
 #include "mesher/fill/offset_points.h"
@@ -53,7 +53,7 @@ typedef struct {
 
 typedef struct {
   const CwFillInput *input;
-  CwColumns *columns;
+  CwVerticals *verticals;
   Items items;
   CwLatticeFrame frame;
   double per_unit;  // 1 / frame.unit
@@ -172,7 +172,7 @@ static CwStatus test_inside(Tree *tree, const double x[3], int *inside) {
   int32_t count;
   const double *z;
   *inside = 0;
-  CW_TRY(cw_columns_cut(tree->columns, x[0], x[1], &count, &z));
+  CW_TRY(cw_verticals_cut(tree->verticals, x[0], x[1], &count, &z));
   for (int32_t k = 0; k < count; k++) *inside ^= z[k] > x[2];
 done:
   return status;
@@ -346,7 +346,7 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwRadix *places, 
       cw_lattice_fixed(&tree->frame, place->key, fixed);
       if (place->key >> 21 != cut) {
         cut = place->key >> 21;
-        CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));
+        CW_TRY(cw_verticals_cut(tree->verticals, fixed[0], fixed[1], &crossings, &z));
       }
       int inside = 0;
       for (int32_t c = 0; c < crossings; c++) inside ^= z[c] > fixed[2];
@@ -405,7 +405,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   *count = 0;
   *x = NULL;
   if (site) *site = NULL;
-  CW_TRY(cw_columns_make(input, &tree->columns));
+  CW_TRY(cw_verticals_make(input->x, input->triangle_count, input->triangle, &tree->verticals));
   int32_t items = input->triangle_count + input->offset_count;
   CW_NEW_UNSET(box, input->triangle_count);
   CW_NEW_UNSET(tree->items.reach, items);
@@ -454,6 +454,6 @@ done:
   free(tree->items.near);
   free(tree->open.item);
   free(place);
-  cw_columns_free(&tree->columns);
+  cw_verticals_free(&tree->verticals);
   return status;
 }

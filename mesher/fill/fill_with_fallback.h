@@ -7,18 +7,10 @@
 #include "mesher/fill/fill.h"
 #include "pipeline/case.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Promises and errors of cw_tetgen_fill; fill->recovery says how it was done. With CW_FILL_TETGEN the kernel is not
 // tried.
 CwStatus cw_fill_with_fallback(const CwFillInput *input, CwFillMethod method, CwFill *fill);
 
 // Least over the tetrahedra of six times the volume over the cube of the longest edge.
 double cw_fill_flatness(const CwFill *fill);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,10 +7,6 @@
 #include "mesher/fill/fill.h"
 #include "mesher/fill/tet_mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef enum {
   CW_KERNEL_FILLED,
   CW_KERNEL_NOT_RECOVERED // a triangle is not recovered, or bodies that touch along an edge have it missing
@@ -25,8 +21,4 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
 // read.
 CwStatus cw_kernel_finish(const CwFillInput *input, CwTetMesh *mesh, int32_t source_count, CwFill *fill,
                           CwKernelOutcome *outcome);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -11,10 +11,6 @@
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   int32_t fixed_count; // points of the boundary and then those of the core's skin, which have to stay
   int32_t skin_count, deep_count;
@@ -35,8 +31,4 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwTetMesh *mesh);
 // Adds the core to the fill that the mesh has become, whose first points are the fixed ones.
 CwStatus cw_kernel_core_append(const CwKernelCore *core, CwFill *fill);
 void cw_kernel_core_free(CwKernelCore *core);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -10,10 +10,6 @@
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   int32_t count;
   int32_t (*corner)[3]; // points of the Delaunay mesh; normal out of the region
@@ -35,8 +31,4 @@ int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b);
 
 // Looks all faces of the mesh up: fills inner and missing_count.
 CwStatus cw_facets_locate(const CwTetMesh *mesh, int32_t boundary_points, CwFacets *facets);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -10,10 +10,6 @@
 
 #include "mesher/fill/tet_topology.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_RING = CW_CAVITY / 2 }; // tetrahedra round an edge that is removed, at most
 
 // How many crossings the edge (count = 2) or face (count = 3) with these points has with what is to be recovered.
@@ -47,8 +43,4 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
 // where rounding or too many tetrahedra forbid it.
 CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double part, int32_t *source_count,
                         int *split);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

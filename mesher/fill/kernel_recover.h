@@ -6,18 +6,10 @@
 #include "mesher/fill/kernel_facets.h"
 #include "pipeline/log.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered
 // stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. A later `round`
 // than the first tries other flips, and puts new points inside where these are stuck, with the sources *source_count
 // and on. Adds what was flipped to *flips. Deterministic.
 CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int32_t *source_count,
                            int64_t *flips);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

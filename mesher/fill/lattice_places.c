@@ -8,7 +8,6 @@
 #include "mesher/common/mix.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/radix.h"
-#include "mesher/policy.h"
 
 enum { ROUNDS = 9, SEEN = 13 };
 static const double FIT = 0.01; // log of cells found over cells wanted: nearer than that the spacing fits

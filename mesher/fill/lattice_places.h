@@ -11,10 +11,6 @@
 #include "mesher/common/radix.h"
 #include "mesher/fill/fill.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Edge of a cell over edge length: 12 tetrahedra a cell, each of the volume of a regular one with edge 1, so
 // (12 / (6 sqrt 2))^(1/3) = 2^(1/6).
 #define CW_LATTICE_CONSTANT 1.122462048309373
@@ -44,8 +40,4 @@ void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]);
 // Where its point is: beside it by up to a thousandth of the cell, by its key alone, since points of
 // a lattice lie on common spheres.
 void cw_lattice_point(const CwLatticeFrame *frame, const CwRadix *place, double x[3]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -11,10 +11,6 @@
 
 #include "mesher/fill/fill.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   double x[3], spacing; // m
   double along;         // the line of cw_offset_point_key
@@ -33,8 +29,4 @@ uint64_t cw_offset_point_key(const CwOffsetPoint *place);
 // The places of the last `offset_count` triangles of the input in that order, equal ones as their triangles. Caller
 // frees *places.
 CwStatus cw_offset_points(const CwFillInput *input, CwOffsetPoint **places);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -11,10 +11,6 @@
 #include "mesher/common/simd_4f.h"
 #include "mesher/fill/tet_mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Where a place lies to a sphere; and that the tetrahedron is taken, in the cavity of the new point already.
 enum { CW_WITHIN = 1, CW_BEYOND = 2, CW_TAKEN = 4 };
 
@@ -106,8 +102,4 @@ static inline void cw_sphere_set(CwTet *const tet[2], const double place[3], con
     tet[k]->radius_square = good ? (float)square[k] : NAN;
   }
 }
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -10,10 +10,6 @@
 #include "mesher/fill/tet_work.h"
 #include "mesher/policy.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The shortest and the longest edge of a tetrahedron: squares and ends.
 typedef struct {
   double shortest, longest;
@@ -47,8 +43,4 @@ static inline double cw_tet_excess(const CwTetWork *w, const int32_t corner[4]) 
   }
   return sqrt(longest / shortest) - cw_policy.usual_aspect;
 }
-
-#ifdef __cplusplus
-}
-#endif
 #endif

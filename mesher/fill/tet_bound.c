@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/fill/tet_bound.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "mesher/common/vec.h"

@@ -7,10 +7,6 @@
 #include "mesher/common/tet.h"
 #include "mesher/fill/tet_work.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Each face makes a positive tetrahedron (face, point). The corners are the mesh's.
 typedef struct {
   int count;
@@ -30,8 +26,4 @@ double cw_cavity_quality(CwCavity *cavity, const double p[3], double enough);
 // Pattern search (R. Hooke and T. Jeeves, J. ACM 8, 1961) for the place of best least quality from p, which it moves
 // and which has the quality `start`; returns the quality found.
 double cw_cavity_best(CwCavity *cavity, double p[3], double start);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

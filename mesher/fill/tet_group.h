@@ -9,10 +9,6 @@
 #include "mesher/common/simd_4f.h"
 #include "mesher/fill/delaunay.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_TET_GROUP = 8 };
 
 // A list of tetrahedra of the mesh ends with a group's worth of room, filled with any of them; those that come later
@@ -33,8 +29,4 @@ void cw_tet_add_pulls(const CwTetMesh *mesh, const int32_t *list, int32_t count,
 // longest edge is above slender_square times that of the shortest one, else 0.
 void cw_tet_group_qualities(const CwTetMesh *mesh, const int32_t list[CW_TET_GROUP], const Cw4f *place, float too_short,
                             float slender_square, float quality[CW_TET_GROUP], int32_t slender[CW_TET_GROUP]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,10 +7,6 @@
 #include "mesher/common/simd_4f.h"
 #include "mesher/fill/tet_work.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The shapes that relaxing and the changes for the aspect go by.
 typedef struct {
   double floor;            // quality below which none becomes worse for the sake of the aspect
@@ -47,8 +43,4 @@ int cw_tet_is_spoilt(const CwTetWork *w, const CwTetShapes *shapes, int32_t t);
 
 // Sets all qualities, finds the slender tetrahedra, and puts those below the limit into the list.
 CwStatus cw_tet_judge_all(CwTetWork *w, CwTetShapes *shapes);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,14 +7,6 @@
 
 #include "mesher/fill/tet_work.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // So many passes at most, while something changes. The first pass adds no points; none are moved unless `move`.
 CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -5,14 +5,6 @@
 
 #include "mesher/fill/tet_work.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Moves the point of t where that gains. *done_it: 1 where it did.
 CwStatus cw_tet_move_point(CwTetWork *w, int32_t t, int32_t point, int *done_it);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

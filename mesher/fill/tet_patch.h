@@ -9,10 +9,6 @@
 
 #include "mesher/fill/delaunay.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Points of the patch that may move have source 1, those on its hull and those of the boundary source 0.
 typedef struct {
   CwTetMesh mesh;
@@ -31,8 +27,4 @@ void cw_tet_patch_free(CwTetPatch *patch);
 
 // Overwrites *to, whose memory is used again.
 CwStatus cw_tet_patch_copy_mesh(const CwTetMesh *from, CwTetMesh *to);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,16 +7,8 @@
 
 #include "mesher/fill/tet_work.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Removes the edge a-b of t. *done_it: 1 where that was done.
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it);
 // Two tetrahedra at face i of t become three round a new edge.
 CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

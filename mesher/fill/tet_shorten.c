@@ -6,7 +6,6 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/fill/tet_aspect.h"
-#include "mesher/policy.h"
 
 enum { RING = 4 }; // tetrahedra round an edge, at most: of removals with five one in fifteen would help
 

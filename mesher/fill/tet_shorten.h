@@ -5,15 +5,7 @@
 
 #include "mesher/fill/tet_judge.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Goes once over the slender tetrahedra that are wide at their longest edge. Three or four round it are made anew
 // without it where the ratio becomes less in the mean; the least quality of those may fall, to the floor.
 CwStatus cw_tet_shorten(CwTetWork *w, const CwTetShapes *shapes);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -9,10 +9,6 @@
 
 #include "mesher/fill/tet_mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_CAVITY = 48 }; // tetrahedra that are exchanged at once, at most
 
 // Tetrahedra of a point, from t on, which has it, into star; 0 where there are more than `most`.
@@ -29,8 +25,4 @@ int cw_tet_ring_is_short(const CwTetMesh *mesh, int32_t t, int32_t a, int32_t b)
 // now. Fails (CW_ERR_MESH) where they do not have the same hull.
 CwStatus cw_tet_exchange(CwTetMesh *mesh, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                          int32_t *slot);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -12,10 +12,6 @@
 #include "mesher/fill/tet_quality.h"
 #include "mesher/fill/tet_topology.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_STAR = 96 };                   // tetrahedra of a point that is moved or taken away, at most
 enum { CW_TET_NO_PASS = (1 << 30) - 1 }; // of a tetrahedron that no pass has put into a list
 
@@ -78,8 +74,4 @@ CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int cou
 // The same where all that comes is positive and of this quality at least; then *replaced goes up by one.
 CwStatus cw_tet_replace_sound(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                               double least, int32_t *replaced);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -21,7 +21,6 @@
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/tet_improve.h"
-#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 namespace {

@@ -14,7 +14,7 @@
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
-#include "mesher/cad/inside.h"
+#include "mesher/common/verticals.h"
 #include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan.h"
 
@@ -61,7 +61,7 @@ typedef struct {
 // Builds corners and curves. Collective. Outcome: CW_OUTCOME_REPLAN where a plane touches a face
 // or an edge in a way that cannot be resolved.
 CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                         const CwInside *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome);
+                         const CwVerticals *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome);
 void cw_network_free(CwNetwork *network);
 
 CwStatus cw_curve_nodes_make(int32_t count, CwCurveNodes *nodes);

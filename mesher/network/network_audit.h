@@ -5,10 +5,6 @@
 
 #include "mesher/network/network.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Checks what every network holds: fine polylines that begin and end at their corners, with lengths that rise from 0 by
 // the way from point to point, points of cuts and lines on their planes, and a wall curve at the corners that are on
 // walls, and at no other. CW_ERR_MESH with the first that does not hold.
@@ -16,8 +12,4 @@ CwStatus cw_network_audit(const CwNetwork *network);
 
 // Writes the curves as VTK PolyData (cell data kind: CwCurveKind; wall).
 CwStatus cw_network_vtk(const CwNetwork *network, const char *path);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

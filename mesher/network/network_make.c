@@ -67,7 +67,7 @@ done:
 }
 
 // The point where three planes meet, where it lies in the domain and in the cells of all three.
-static int triple_point(const CwNetwork *network, const CwInside *inside, const int32_t node[3], double x[3]) {
+static int triple_point(const CwNetwork *network, const CwVerticals *inside, const int32_t node[3], double x[3]) {
   const CwPlan *plan = network->plan;
   double point[3], direction[3];
   const CwPlane *a = &plan->node[node[0]].plane, *b = &plan->node[node[1]].plane, *c = &plan->node[node[2]].plane;
@@ -79,7 +79,7 @@ static int triple_point(const CwNetwork *network, const CwInside *inside, const 
   for (int k = 0; k < 3; k++) {
     if (!cw_plan_in_cell(plan, node[k], x, 1e-9, node, 3)) return 0;
   }
-  return cw_inside_test(inside, x);
+  return cw_verticals_inside(inside, x);
 }
 
 static int has_planes(const CwCorner *corner, int32_t a, int32_t b) {
@@ -89,7 +89,7 @@ static int has_planes(const CwCorner *corner, int32_t a, int32_t b) {
 }
 
 // The pieces of the line of two planes that lie in the domain and in the cell of the lower plane.
-static CwStatus add_line(CwNetwork *network, const CwInside *inside, int32_t above, int32_t below, Place *place) {
+static CwStatus add_line(CwNetwork *network, const CwVerticals *inside, int32_t above, int32_t below, Place *place) {
   CwStatus status = CW_OK;
   double point[3], direction[3];
   if (!cw_plane_line(&network->plan->node[above].plane, &network->plan->node[below].plane, point, direction)) goto done;
@@ -106,7 +106,7 @@ static CwStatus add_line(CwNetwork *network, const CwInside *inside, int32_t abo
     double middle[3];
     int32_t skip[1] = {above};
     cw_lerp(a, b, 0.5, middle);
-    if (!cw_inside_test(inside, middle) || !cw_plan_in_cell(network->plan, below, middle, 0, skip, 1)) continue;
+    if (!cw_verticals_inside(inside, middle) || !cw_plan_in_cell(network->plan, below, middle, 0, skip, 1)) continue;
     CwCurve curve = {.kind = CW_CURVE_LINE,
                      .corner = {place[p].corner, place[p + 1].corner},
                      .edge = -1,
@@ -149,7 +149,7 @@ done:
 }
 
 CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                         const CwInside *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome) {
+                         const CwVerticals *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Place *place = NULL;
   int32_t *below = NULL;

@@ -8,6 +8,7 @@
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
+#include "pipeline/order.h"
 
 enum { EDGE_SAMPLES = 257 };
 static const double FOUND = 1e-9; // of the model's unit: Newton has arrived
@@ -221,11 +222,6 @@ done:
   return status;
 }
 
-static int compare_splits(const void *p, const void *q) {
-  const Split *a = p, *b = q;
-  return (a->place > b->place) - (a->place < b->place);
-}
-
 // All places where planes that belong together with `node` divide the trace.
 static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace *trace, int32_t *count, Split **splits,
                             CwOutcome *outcome) {
@@ -254,7 +250,7 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       (*splits)[(*count)++] = split;
     }
   }
-  qsort(*splits, (size_t)*count, sizeof **splits, compare_splits);
+  qsort(*splits, (size_t)*count, sizeof **splits, cw_order_doubles);
 done:
   return status;
 }

@@ -10,10 +10,6 @@
 #include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_GROUPS_MOST = 16 };
 
 // An item while its results are handed over.
@@ -53,8 +49,4 @@ void cw_group_give(const CwGroupHand *hand, void *data, int64_t size);
 // Groups for so many ranks: group_of[item]; ranks_of[group]. An item takes cost * (own + (1 - own) / ranks), a group
 // the sum of its items; so many groups are made, of at least two ranks each, that the longest takes the least time.
 int cw_groups_divide(int32_t count, const double *cost, double own, int ranks, int *group_of, int *ranks_of);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

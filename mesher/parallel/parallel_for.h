@@ -10,10 +10,6 @@
 #include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Fills the `width` zeroed bytes of one item. given: as cw_parallel_for was.
 typedef CwStatus (*CwParallelBody)(void *given, int32_t item, void *out);
 
@@ -24,8 +20,4 @@ CwStatus cw_parallel_for(const CwContext *context, const char *step, int32_t cou
 // The same where item i has a list: entries start[i] .. start[i + 1] - 1 of `out`, of `width` bytes each.
 CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32_t count, const int32_t *start,
                                size_t width, CwParallelBody body, void *given, void *out);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -12,10 +12,6 @@
 #include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // [out] profiler: the caller's, freed by cw_profiler_free. Time counts from here on, to the part "start".
 CwStatus cw_profiler_make(CwProfiler **profiler);
 
@@ -44,8 +40,4 @@ CwStatus cw_profiler_json(const CwContext *context, json_t **account, json_t **g
 
 // NULL is fine.
 void cw_profiler_free(CwProfiler **profiler);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -10,10 +10,6 @@
 #include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Runs task `task`; may return a byte buffer (malloc'd) as its result through *bytes and *size, or leave them
 // 0.
 typedef CwStatus (*CwTask)(void *context, int32_t task, void **bytes, int64_t *size);
@@ -41,8 +37,4 @@ typedef struct {
 // A failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
 CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, void **bytes, int64_t *size,
                          double *seconds);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

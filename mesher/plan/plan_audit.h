@@ -6,10 +6,6 @@
 #include "mesher/cad/background.h"
 #include "mesher/plan/plan.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Checks what every plan holds: planes with unit normals, parents before their children, each region a leaf of one node
 // (beside half-planes of two), each part of the tree reached from the root. CW_ERR_MESH with the first that does not
 // hold.
@@ -17,8 +13,4 @@ CwStatus cw_plan_audit(const CwPlan *plan);
 
 // Writes the background triangles by the region of their centres as VTK PolyData (cell data region).
 CwStatus cw_plan_vtk(const CwPlan *plan, const CwBackground *background, const char *path);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

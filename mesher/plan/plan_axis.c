@@ -17,7 +17,7 @@ static int widens(const CwBackground *background, double low, double high) {
   return widest[1] >= widest[0];
 }
 
-int cw_plan_axis_find(const CwBackground *background, const CwInside *inside, CwPlanAxis *axis) {
+int cw_plan_axis_find(const CwBackground *background, const CwVerticals *inside, CwPlanAxis *axis) {
   double low = INFINITY, high = -INFINITY;
   for (int32_t i = 0; i < background->point_count; i++) {
     low = fmin(low, background->x[i][2]);
@@ -27,7 +27,7 @@ int cw_plan_axis_find(const CwBackground *background, const CwInside *inside, Cw
   int wet[SAMPLES], runs = 0, last = 0;
   for (int i = 0; i < SAMPLES; i++) {
     double x[3] = {0, 0, low + step * (i + 0.5)};
-    wet[i] = cw_inside_test(inside, x);
+    wet[i] = cw_verticals_inside(inside, x);
     runs += i > 0 && wet[i] != wet[i - 1];
   }
   int dry = runs == 0 && !wet[0];

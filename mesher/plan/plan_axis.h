@@ -5,7 +5,7 @@
 #define CUTWATER_MESHER_PLAN_PLAN_AXIS_H
 
 #include "mesher/cad/background.h"
-#include "mesher/cad/inside.h"
+#include "mesher/common/verticals.h"
 
 typedef struct {
   double up;              // 1: z grows from that end to the impeller, -1: it falls
@@ -14,6 +14,6 @@ typedef struct {
 
 // That end is the one with fluid on the axis, or the narrower one where a shaft goes through. 0 where both ends have
 // fluid there: no sector decomposition can be.
-int cw_plan_axis_find(const CwBackground *background, const CwInside *inside, CwPlanAxis *axis);
+int cw_plan_axis_find(const CwBackground *background, const CwVerticals *inside, CwPlanAxis *axis);
 
 #endif

@@ -239,7 +239,7 @@ static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, con
     double x[3];
     if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
     at(line, (from.place + to.place) / 2, x);
-    if (to.place - from.place > SAME_POINT && cw_inside_test(line->model->inside, x)) {
+    if (to.place - from.place > SAME_POINT && cw_verticals_inside(line->model->inside, x)) {
       if (!found) CW_TRY(find_neighbours(line, node, plane, NEIGHBOUR_REACH * line->model->base_size));
       found = 1;
       lines->sharp = fmin(lines->sharp, sine);

@@ -7,7 +7,7 @@
 #include "mesher/plan/plan_divide.h"
 
 CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                      const CwInside *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan) {
+                      const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0};

@@ -8,15 +8,7 @@
 #include "mesher/parallel/context.h"
 #include "mesher/plan/plan_model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Collective: the ranks look along some of the directions each, and have the same plan. Caller frees it.
 CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                      const CwInside *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan);
-
-#ifdef __cplusplus
-}
-#endif
+                      const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan);
 #endif

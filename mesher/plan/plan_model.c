@@ -386,7 +386,7 @@ done:
 }
 
 CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                            const CwInside *inside, const CwSize *size, const CwPlanOptions *options,
+                            const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options,
                             CwPlanModel *model) {
   CwStatus status = CW_OK;
   memset(model, 0, sizeof *model);

@@ -6,7 +6,7 @@
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
-#include "mesher/cad/inside.h"
+#include "mesher/common/verticals.h"
 #include "mesher/common/cubes.h"
 #include "mesher/parallel/context.h"
 #include "mesher/plan/plan.h"
@@ -30,7 +30,7 @@ typedef struct {
 // CAD edges and walls.
 typedef struct {
   const CwContext *context; // the ranks that plan
-  const CwInside *inside;
+  const CwVerticals *inside;
   const CwBackground *background;
   const CwSize *size;
   int32_t sample_count;
@@ -77,7 +77,7 @@ int cw_plan_edge_is_smooth(const CwCad *cad, int edge);
 
 // Collective: what takes long is shared among the ranks.
 CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                            const CwInside *inside, const CwSize *size, const CwPlanOptions *options,
+                            const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options,
                             CwPlanModel *model);
 void cw_plan_model_free(CwPlanModel *model);
 

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "mesher/cad/symmetry.h"
-#include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/plan/plan_axis.h"
 #include "mesher/plan/plan_cost.h"
@@ -429,7 +428,7 @@ done:
 }
 
 CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
-                             const CwInside *inside, const CwSize *size, const CwPlanOptions *options, int32_t count,
+                             const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options, int32_t count,
                              CwPlan *plan, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};

@@ -2,7 +2,6 @@
 #include "mesher/region/region_copy.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"

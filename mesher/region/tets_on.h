@@ -7,16 +7,8 @@
 
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // on[t] becomes the tetrahedron of which triangle t is a face, -1 where there is none; of two, the later. Triangles
 // stand once. CW_ERR_MEMORY.
 CwStatus cw_tets_on(int32_t point_count, int32_t triangle_count, const int32_t (*triangle)[3], int32_t tet_count,
                     const int32_t (*tet)[4], int32_t *on);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -101,9 +101,8 @@ CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, v
   CwStatus status = CW_OK;
   cw_tessellation_free(&domain->tessellation);
   CW_TRY(cw_background_join(context, domain->cad, bytes, &domain->background));
-  CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
-                        domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
-                        &domain->inside));
+  CW_TRY(cw_verticals_make((const double(*)[3])domain->background.x, domain->background.triangle_count,
+                           (const int32_t(*)[3])domain->background.triangle, &domain->inside));
 done:
   return status;
 }
@@ -293,7 +292,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_size_seeds_free(&domain->seeds);
   cw_size_free(&domain->size);
   cw_symmetry_free(&domain->symmetry);
-  cw_inside_free(&domain->inside);
+  cw_verticals_free(&domain->inside);
   cw_tessellation_free(&domain->tessellation);
   cw_background_free(&domain->background);
   cw_cad_close(&domain->cad);

@@ -31,7 +31,7 @@ typedef struct {
   struct CwTessellation *tessellation; // while the background is made
   CwBackground background;
   double solid_volume; // m3, exact
-  CwInside *inside;
+  CwVerticals *inside;
   CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
   CwSize *size;

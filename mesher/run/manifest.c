@@ -8,12 +8,9 @@
 #include <string.h>
 
 #include "mesher/common/model_unit.h"
-#include "mesher/common/vec.h"
 #include "mesher/fill/tet_bound.h"
-#include "mesher/layers/layers.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
-#include "mesher/thickness/layer_thickness.h"
 #include "pipeline/log.h"
 #include "pipeline/mesh/manifest.h"
 

@@ -12,7 +12,7 @@
 #include "mesher/region/region_copy.h"
 #include "mesher/run/domain_size.h"
 #include "mesher/run/mesh_steps.h"
-#include "pipeline/log.h"
+#include "pipeline/mesh/cell.h"
 
 CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_domain_background_face(&run->domain[task.domain], task.index, bytes, size);
@@ -58,15 +58,9 @@ CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 }
 
 static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
-  double sum[3] = {0, 0, 0};
-  for (int i = 2; i < corners; i++) {
-    double u[3], v[3], n[3];
-    cw_sub(mesh->cells.points[corner[i - 1]], mesh->cells.points[corner[0]], u);
-    cw_sub(mesh->cells.points[corner[i]], mesh->cells.points[corner[0]], v);
-    cw_cross(u, v, n);
-    for (int k = 0; k < 3; k++) sum[k] += n[k] / 2;
-  }
-  return cw_norm(sum);
+  double area[3];
+  cw_face_area((const double(*)[3])mesh->cells.points, corner, corners, area);
+  return cw_norm(area);
 }
 
 static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {

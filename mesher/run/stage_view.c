@@ -2,7 +2,6 @@
 #include "mesher/run/stage_view.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "mesher/network/network_audit.h"

@@ -9,10 +9,6 @@
 
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   double low[3]; // node (0, 0, 0)
   double spacing;
@@ -52,8 +48,4 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
 
 // Trilinear; outside of the grid the value of its nearest point.
 double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -11,10 +11,6 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct {
   const CwCad *cad;
   const CwBackground *background;
@@ -59,8 +55,4 @@ CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines)
 void cw_size_seed_open_edges(const CwSizeInput *input, CwSizeGrid *grid);
 // The mean along the open edges of what they allow over the sizes of `wanted`; 0 without open edges.
 double cw_size_open_edges_ask(const CwSizeInput *input, const CwSizeGrid *wanted);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

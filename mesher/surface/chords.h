@@ -10,10 +10,6 @@
 
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_CHORD_SAMPLES = 9 }; // places of the curve along a chord, its ends included
 
 // The lens of a chord is the area between it and its curve.
@@ -29,8 +25,4 @@ typedef struct {
 // - of two chords that cross, or that have both ends in common, the one with the greater deviation.
 // Where none is set the chords lie as their curves do. Deterministic.
 CwStatus cw_chords_to_halve(int32_t count, const CwChord *chord, uint8_t *halve);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -8,6 +8,7 @@
 #include "mesher/boundary/boundary_curves.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
+#include "pipeline/order.h"
 
 enum { LENGTH_STEPS = 400 };
 
@@ -63,11 +64,6 @@ static double size_at(const Pair *pair, double s) {
   return size;
 }
 
-static int compare_breaks(const void *p, const void *q) {
-  double a = ((const Break *)p)->s[0], b = ((const Break *)q)->s[0];
-  return (a > b) - (a < b);
-}
-
 static CwStatus find_breaks(const Pair *pair, double length, int *count, Break **breaks) {
   CwStatus status = CW_OK;
   int room = 2;
@@ -88,7 +84,7 @@ static CwStatus find_breaks(const Pair *pair, double length, int *count, Break *
     }
   }
   (*breaks)[(*count)++] = (Break){{1, 1}, {1, 1}};
-  qsort(*breaks + 1, (size_t)*count - 2, sizeof **breaks, compare_breaks);
+  qsort(*breaks + 1, (size_t)*count - 2, sizeof **breaks, cw_order_doubles);
   // Where a plane of either domain crosses nearly at one place, each side keeps its own and leaves out the other.
   int kept = 1;
   for (int i = 1; i < *count; i++) {
@@ -148,11 +144,6 @@ done:
   return status;
 }
 
-static int compare_doubles(const void *p, const void *q) {
-  double a = *(const double *)p, b = *(const double *)q;
-  return (a > b) - (a < b);
-}
-
 static CwStatus couple_edge(const Pair *pair) {
   CwStatus status = CW_OK;
   Break *breaks = NULL;
@@ -170,7 +161,7 @@ static CwStatus couple_edge(const Pair *pair) {
   for (int side = 0; side < 2; side++) {
     CW_TRY(add_open_edge(pair, side, place_count, places, break_count, breaks));
     CwDividedEdge *open_edge = &pair->edges[side]->edge[pair->edges[side]->count - 1];
-    qsort(open_edge->t, (size_t)open_edge->count, sizeof *open_edge->t, compare_doubles);
+    qsort(open_edge->t, (size_t)open_edge->count, sizeof *open_edge->t, cw_order_doubles);
   }
 done:
   free(breaks);

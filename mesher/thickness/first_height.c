@@ -5,7 +5,6 @@
 
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/policy.h"
-#include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
 
 double cw_column_room(const CwWallFlow *flow) {

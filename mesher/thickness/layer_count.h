@@ -7,10 +7,6 @@
 #ifndef CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
 #define CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Of the tetrahedron's thickness, that of the last layer: what columns grow to, what is enough, and the most where the
 // case gives the growth.
 #define CW_LAST_LAYER (1.0 / 6)
@@ -29,8 +25,4 @@ int cw_layer_count_fitting(double first, double growth, double thickness);
 
 // The least number of layers that is enough for layer_count_share of the faces; needing[n]: faces that need n.
 int cw_layer_count_for(const double needing[CW_LAYER_COUNT_MOST + 1]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

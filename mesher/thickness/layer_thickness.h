@@ -4,10 +4,6 @@
 #ifndef CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
 #define CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // First height of a layer for a y+ target (m): y = y+ nu / u_tau, u_tau = U sqrt(Cf/2), Cf = 0.026 Re^(-1/7),
 // Re = U L / nu; twice that where y+ is counted at the cell centre (`at_centre`).
 double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre);
@@ -29,8 +25,4 @@ double cw_layer_growth_least(int count);
 // `growth_max`, or fall below cw_layer_growth_least(), it stays there and the first height follows the column. Returns
 // the first height it came to, m.
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "pipeline/vec.h"
+
 // Faces by the CGNS standard (SIDS 3.3), outward, ended by -1.
 static const signed char tetrahedron_faces[4][4] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
 static const signed char pyramid_faces[5][4] = {
@@ -24,14 +26,11 @@ int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nod
 }
 
 static inline void add_triangle(const double a[3], const double b[3], const double c[3], double area[3]) {
-  double u[3], v[3];
-  for (int k = 0; k < 3; ++k) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
-  }
-  area[0] += 0.5 * (u[1] * v[2] - u[2] * v[1]);
-  area[1] += 0.5 * (u[2] * v[0] - u[0] * v[2]);
-  area[2] += 0.5 * (u[0] * v[1] - u[1] * v[0]);
+  double u[3], v[3], twice[3];
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_cross(u, v, twice);
+  for (int k = 0; k < 3; ++k) area[k] += 0.5 * twice[k];
 }
 
 static void face_mean(const double (*points)[3], const int32_t *nodes, int count, double mean[3]) {
@@ -61,13 +60,12 @@ void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]) 
 
 // Six times the volume of the tetrahedron that a triangle makes with `o`.
 static inline double six_volumes(const double o[3], const double a[3], const double b[3], const double c[3]) {
-  double u[3], v[3], w[3];
-  for (int k = 0; k < 3; ++k) {
-    u[k] = a[k] - o[k];
-    v[k] = b[k] - o[k];
-    w[k] = c[k] - o[k];
-  }
-  return (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2];
+  double u[3], v[3], w[3], n[3];
+  cw_sub(a, o, u);
+  cw_sub(b, o, v);
+  cw_sub(c, o, w);
+  cw_cross(u, v, n);
+  return cw_dot(n, w);
 }
 
 double cw_cell_volume(int count, const double *const *x) {
@@ -94,17 +92,11 @@ double cw_cell_volume(int count, const double *const *x) {
   return six / 6;
 }
 
-static inline void cross(const double a[3], const double b[3], double c[3]) {
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 // The mean of the triangles of a face, weighed by their areas.
 static inline void face_centre(int count, const double *const *x, double centre[3], double twice[3]) {
   const double *a = x[0], *b = x[1], *c = x[2], *d = count == 3 ? a : x[3];
   const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
-  cross(u, v, twice);
+  cw_cross(u, v, twice);
   if (count == 3) {
     for (int k = 0; k < 3; ++k) centre[k] = (a[k] + b[k] + c[k]) / 3;
     return;
@@ -167,7 +159,7 @@ static void face_vector(int count, const double *const *x, int f, double area[3]
   const signed char *n = cw_cell_face_table(count)[f];
   const double *a = x[n[0]], *b = x[n[1]], *c = x[n[2]], *d = n[3] < 0 ? a : x[n[3]];
   const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
-  cross(u, v, area);
+  cw_cross(u, v, area);
   for (int k = 0; k < 3; ++k) area[k] /= 2;
 }
 
@@ -187,13 +179,13 @@ double cw_cell_determinant(int count, const double *const *x, unsigned inner) {
   for (int f = 0; f < CW_CELL_FACES; ++f) {
     if (!(inner >> f & 1)) continue;
     face_vector(count, x, f, area);
-    mean += sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    mean += cw_norm(area);
     faces += f < 4 || count > 4;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) sum[i][j] += area[i] * area[j];
   }
   if (mean == 0) return 0;
   mean /= faces;
-  cross(sum[1], sum[2], minor);
+  cw_cross(sum[1], sum[2], minor);
   return fabs(sum[0][0] * minor[0] + sum[0][1] * minor[1] + sum[0][2] * minor[2]) / 8 / pow(mean, 6);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "pipeline/mesh/cell.h"
+#include "pipeline/order.h"
 
 // One side of a face: seen from a cell (ref = CW_CELL_FACES * cell + face) or from a boundary face (ref below
 // zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `key`
@@ -310,16 +311,11 @@ done:
   return status;
 }
 
-static int compare_refs(const void *left, const void *right) {
-  int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
-  return (a > b) - (a < b);
-}
-
 CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionData *data, int only_shared,
                               int32_t **open, int32_t *count) {
   Match m = {.name = name, .fault = fault, .data = data, .end = only_shared ? data->shared_count : data->point_count};
   CwStatus status = match_all(&m);
-  if (status == CW_OK) qsort(m.open, (size_t)m.open_count, sizeof *m.open, compare_refs);
+  if (status == CW_OK) qsort(m.open, (size_t)m.open_count, sizeof *m.open, cw_order_int32s);
   *open = m.open;
   *count = m.open_count;
   return status;

@@ -7,10 +7,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Of `left` items of `size` bytes each as many as the next message takes: one at least, and no more than fill 64 MiB.
 // Tests set CUTWATER_MESSAGE_BYTES in the environment of all ranks to less.
 //
@@ -19,8 +15,4 @@ extern "C" {
 //     MPI_Bcast(items + at, part * (int)sizeof *items, MPI_BYTE, 0, comm);
 //   }
 int cw_message_items(int64_t left, size_t size);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -3,36 +3,26 @@
 
 #include <math.h>
 
-static double along(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-  for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static void unit(double a[3]) {
-  double length = sqrt(along(a, a));
-  for (int i = 0; i < 3; i++) a[i] /= length;
-}
+#include "pipeline/vec.h"
 
 void cw_camera_turn(CwCamera *camera, const double towards[3], const double up[3]) {
-  for (int i = 0; i < 3; i++) camera->towards[i] = towards[i];
-  unit(camera->towards);
-  cross(up, camera->towards, camera->right);
-  unit(camera->right);
-  cross(camera->towards, camera->right, camera->up);
+  cw_copy(towards, camera->towards);
+  cw_unit(camera->towards);
+  cw_cross(up, camera->towards, camera->right);
+  cw_unit(camera->right);
+  cw_cross(camera->towards, camera->right, camera->up);
 }
 
 void cw_camera_project(const CwCamera *camera, const double x[3], double pixel[3]) {
-  double from[3] = {x[0] - camera->centre[0], x[1] - camera->centre[1], x[2] - camera->centre[2]};
-  pixel[0] = 0.5 * camera->width + along(from, camera->right) / camera->metres_per_pixel;
-  pixel[1] = 0.5 * camera->height - along(from, camera->up) / camera->metres_per_pixel;
-  pixel[2] = along(from, camera->towards);
+  double from[3];
+  cw_sub(x, camera->centre, from);
+  pixel[0] = 0.5 * camera->width + cw_dot(from, camera->right) / camera->metres_per_pixel;
+  pixel[1] = 0.5 * camera->height - cw_dot(from, camera->up) / camera->metres_per_pixel;
+  pixel[2] = cw_dot(from, camera->towards);
 }
 
 void cw_camera_reach(const CwCamera *camera, const double x[3], CwCameraReach *reach) {
-  double at[2] = {along(x, camera->right), along(x, camera->up)};
+  double at[2] = {cw_dot(x, camera->right), cw_dot(x, camera->up)};
   for (int i = 0; i < 2; i++) {
     reach->least[i] = reach->started ? fmin(reach->least[i], at[i]) : at[i];
     reach->most[i] = reach->started ? fmax(reach->most[i], at[i]) : at[i];

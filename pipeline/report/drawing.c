@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "pipeline/report/cut.h"
+#include "pipeline/vec.h"
 
 static const uint32_t ink = 0x27313c, bare_colour = 0xd5dade;
 const uint32_t cw_pyramid_colour = 0xb98fc0;
@@ -157,15 +158,10 @@ void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *cells) {
 static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
   double u[3], v[3], n[3], facing[3] = {0, 0, 0};
-  for (int i = 0; i < 3; i++) {
-    u[i] = face->x[face->count - 2][i] - face->x[0][i];
-    v[i] = face->x[face->count - 1][i] - face->x[face->count - 3][i];
-  }
-  if (face->count == 3) {
-    for (int i = 0; i < 3; i++) v[i] = face->x[2][i] - face->x[0][i];
-  }
-  for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  cw_sub(face->x[face->count - 2], face->x[0], u);
+  cw_sub(face->x[face->count - 1], face->x[face->count - 3], v);
+  cw_cross(u, v, n);
+  double length = cw_norm(n);
   *outside = 0;
   if (!(length > 0)) return 1;
   for (int i = 0; i < 3; i++) {

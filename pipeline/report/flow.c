@@ -6,7 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "pipeline/order.h"
+#include "pipeline/vec.h"
 
 enum { SAMPLES = 100000 }; // values at the most that a span is taken from
 
@@ -25,17 +27,12 @@ static int latest_iteration(const char *folder) {
   return latest;
 }
 
-static int by_value(const void *left, const void *right) {
-  double a = *(const double *)left, b = *(const double *)right;
-  return (a > b) - (a < b);
-}
-
 // Adds magnitudes (of vectors) or values of every `step`th item.
 static int sample(const CwFoamField *field, const CwFoamValues *values, int64_t step, double *list, int count) {
   for (int64_t k = 0; values->bytes && k < values->count && count < SAMPLES; k += step) {
     double v[CW_FOAM_COMPONENTS] = {0};
     cw_foam_field_value(field, values, k, v);
-    double size = field->components == 1 ? v[0] : sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double size = field->components == 1 ? v[0] : cw_norm(v);
     if (isfinite(size)) list[count++] = size;
   }
   return count;
@@ -43,7 +40,7 @@ static int sample(const CwFoamField *field, const CwFoamValues *values, int64_t 
 
 // From the 1st to the 99th of a hundred values: single cells do not take the scale.
 static void span_of(double *list, int count, double scale, CwColourSpan *span) {
-  qsort(list, (size_t)count, sizeof *list, by_value);
+  qsort(list, (size_t)count, sizeof *list, cw_order_doubles);
   span->least = count ? scale * list[count / 100] : 0;
   span->most = count ? scale * list[count - 1 - count / 100] : 1;
 }
@@ -172,5 +169,5 @@ double cw_flow_cell_speed(const CwFlow *flow, const CwMesh *mesh, int region, co
   cw_foam_field_value(&flow->velocity, &flow->velocity.cells, flow->first_cell[region] + cell, u);
   u[0] += turn * x[1];
   u[1] -= turn * x[0];
-  return cw_colour_share(&flow->span[CW_FLOW_SPEED], sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+  return cw_colour_share(&flow->span[CW_FLOW_SPEED], cw_norm(u));
 }

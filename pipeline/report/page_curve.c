@@ -6,7 +6,6 @@
 
 #include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
-#include "pipeline/report/html.h"
 #include "pipeline/report/plot.h"
 
 enum { POINTS_MOST = CW_LIST_MOST };

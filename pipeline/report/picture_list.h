@@ -56,8 +56,8 @@ typedef struct {
   // Towards the viewer and upwards: x, y, z; of a place: along the radius, the direction of rotation, the
   // axis.
   double towards[3], up[3];
-  int inset_of; // index of the picture in which this one is framed, or -1
-  const char *inset_name;
+  const char *inset_name; // NULL: in no other picture
+  int inset_of;           // index of the picture in which this one is framed
 } CwPictureSpec;
 
 static inline int cw_picture_is_of_flow(const CwPictureSpec *spec) {

@@ -65,7 +65,7 @@ static void make_legend(const CwMesh *mesh, const CwDrawing *drawing, CwReportPi
   static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
   const CwPictureSpec *spec = drawing->spec;
-  if (spec->colour == CW_COLOUR_REGION || spec->inset_of >= 0 || cw_picture_is_of_flow(spec)) return;
+  if (spec->colour == CW_COLOUR_REGION || spec->inset_name || cw_picture_is_of_flow(spec)) return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
       if (!(drawing->spec->sees & drawing->part[d])) continue;
@@ -102,7 +102,7 @@ static void annotate(const CwDrawing *drawings, int index, CwAnnotation *annotat
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwCamera *inset = &drawings[k].camera;
     double at[3], share = inset->metres_per_pixel / camera->metres_per_pixel;
-    if (drawings[k].spec->inset_of != index || drawings[k].lacking) continue;
+    if (!drawings[k].spec->inset_name || drawings[k].spec->inset_of != index || drawings[k].lacking) continue;
     cw_camera_project(camera, inset->centre, at);
     double width = inset->width * share, height = inset->height * share;
     annotation->frame[annotation->frame_count++] =

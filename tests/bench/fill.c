@@ -234,8 +234,6 @@ static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
 }
 
 static double third(const void *context, const double x[3]) {
-  (void)context;
-  (void)x;
   return 1.0 / 3.0;
 }
 

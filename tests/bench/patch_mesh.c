@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "mesher/surface/patch_mesh.h"
+#include "pipeline/order.h"
 
 typedef struct {
   double length;
@@ -30,10 +31,6 @@ static double now(void) {
   struct timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b) {
-  return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
 }
 
 int main(int argc, char **argv) {
@@ -80,7 +77,7 @@ int main(int argc, char **argv) {
     mean += angle[t] / mesh.triangle_count;
   }
   if (angle) {
-    qsort(angle, (size_t)mesh.triangle_count, sizeof *angle, compare);
+    qsort(angle, (size_t)mesh.triangle_count, sizeof *angle, cw_order_doubles);
     printf("%-24s %9d %12.0f %6.1f %6.1f %6.1f\n", "cutwater", mesh.triangle_count, mesh.triangle_count / seconds,
            angle[0], angle[mesh.triangle_count / 100], mean);
   }

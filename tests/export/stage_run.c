@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tests/export/stage_run.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <cgnslib.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
   char run[STAGE_PATH_SIZE + 10];

@@ -123,7 +123,6 @@ static int patch_of(const Domain *d, int i, int j, int axis, int up) {
   if (axis == 0) return find_patch(d, up ? "blade_leading_edge" : "blade_trailing_edge");
   if (axis == 1) return find_patch(d, up ? "blade_suction" : "blade_pressure");
   if (i == 0) return find_patch(d, up ? "suction_pipe" : "hub_nut");
-  (void)j;
   return find_patch(d, up ? "shroud" : "hub");
 }
 

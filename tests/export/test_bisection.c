@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/bisection.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "tests/unit_test.h"
 
 // A box of 4 x 2 x 1 points, out of order, in four groups of two: halved along x, then again along x, as a half is 1
 // long in x and in y and the first of the longest extents counts.
 static void a_box_is_halved_along_its_longest_extent(void **state) {
-  (void)state;
   static const double points[8][3] = {{3, 0, 0}, {0, 1, 0}, {2, 1, 0}, {1, 0, 0},
                                       {0, 0, 0}, {3, 1, 0}, {1, 1, 0}, {2, 0, 0}};
   static const int64_t sizes[] = {2, 2, 2, 2};
@@ -21,7 +16,6 @@ static void a_box_is_halved_along_its_longest_extent(void **state) {
 
 // Points at one plane go by their index; sizes are met exactly.
 static void equal_points_go_by_their_index(void **state) {
-  (void)state;
   enum { COUNT = 1000 };
   static double points[COUNT][3];
   static const int64_t sizes[] = {1, 499, 300, 200};
@@ -33,7 +27,6 @@ static void equal_points_go_by_their_index(void **state) {
 
 // Of pseudo-random points every one of a group lies before those of the next: two groups, one plane.
 static void two_groups_have_a_plane_between_them(void **state) {
-  (void)state;
   enum { COUNT = 5000 };
   static double points[COUNT][3];
   int32_t order[COUNT], group[COUNT];

@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the numbers of a case become in the OpenFOAM and CFX files.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "export/cfx_case.h"
 #include "export/foam_case.h"
 #include "pipeline/atomic_file.h"
 #include "tests/export/stage_run.h"
 #include "tests/seal_run.h"
+#include "tests/unit_test.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
   return stage_run_make(folder, &pump);
 }
 
 static int remove_run(void **state) {
-  (void)state;
   stage_folder_remove(folder);
   return 0;
 }
@@ -43,7 +38,6 @@ static void expect(const char *name, const char *words) {
 }
 
 static void the_paper_in_cfx(void **state) {
-  (void)state;
   export_with("");
   expect("cfx/steady.ccl", "Angular Velocity = 1450 [rev min^-1]");
   expect("cfx/steady.ccl", "Mass Flow Rate = 6.93194444 [kg s^-1]"); // 25/3600 * 998.2
@@ -55,7 +49,6 @@ static void the_paper_in_cfx(void **state) {
 }
 
 static void the_paper_in_code_saturne(void **state) {
-  (void)state;
   const char *const numbers = "code_saturne/SRC/pump.h";
   export_with("$ a export: {formats: code_saturne}");
   expect(numbers, "#define PUMP_TURBULENCE CS_TURB_K_EPSILON\n");
@@ -73,7 +66,6 @@ static void the_paper_in_code_saturne(void **state) {
 }
 
 static void log_layer_meshes_take_k_epsilon(void **state) {
-  (void)state;
   export_with("");
   expect("openfoam/constant/turbulenceProperties", "RASModel        kEpsilon;");
   expect("openfoam/0/nut", "nutkWallFunction");
@@ -86,7 +78,6 @@ static void log_layer_meshes_take_k_epsilon(void **state) {
 
 // One degree a step, six blades: a phase comes again after 60 steps. Larger steps become one degree.
 static void eddies_are_sampled_by_phase(void **state) {
-  (void)state;
   export_with("");
   expect("openfoam/les/constant/turbulenceProperties", "delta           cubeRootVol;");
   expect("openfoam/les/system/controlDict", "deltaT          0.000114942529;");
@@ -101,7 +92,6 @@ static void eddies_are_sampled_by_phase(void **state) {
 
 // The points of the curve: at 0.8 times the flow k at the inlet is 0.64 of what it is at the flow.
 static void each_point_of_the_curve_has_its_flow(void **state) {
-  (void)state;
   export_with("$ a operating_points: {flow_shares: [0.8, 1]}");
   expect("cfx/points/q0800.ccl", "Mass Flow Rate = 5.54555556 [kg s^-1]"); // 0.8 * 25/3600 * 998.2
   expect("cfx/points/q0800.pre", "importccl filename=points/q0800.ccl,");
@@ -121,14 +111,12 @@ static void each_point_of_the_curve_has_its_flow(void **state) {
 }
 
 static void rough_walls_take_the_roughness(void **state) {
-  (void)state;
   export_with("s/treatment: smooth/treatment: rough/");
   expect("openfoam/0/nut", "nutkRoughWallFunction;\n        Ks              uniform 2.5e-05;");
 }
 
 // By the y+ that the mesh was made for, whatever the case asks.
 static void resolved_walls_take_k_omega(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 10];
   snprintf(run, sizeof run, "%s/run", folder);
   stage_shell(output, "cp '%s/mesh/manifest.json' '%s/kept.json'", run, folder);
@@ -162,7 +150,6 @@ static void expect_in_block(const char *words) {
 
 // A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.
 static void the_shaft_in_a_suction_zone_turns(void **state) {
-  (void)state;
   enum { ROTOR, STATOR, SUCTION };
   CwModelPatch patches[] = {{.name = "hub", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
                             {.name = "hub_shaft", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
@@ -228,7 +215,6 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
 
 // 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
 static void turbulence_follows_the_textbook(void **state) {
-  (void)state;
   CwTurbulence t = cw_turbulence(2, 0.05, 0.01);
   assert_float_equal(t.k, 0.015, 1e-15);
   assert_float_equal(t.epsilon, 0.164316767 * 0.00183711731 / 0.01, 1e-9);
@@ -236,7 +222,6 @@ static void turbulence_follows_the_textbook(void **state) {
 }
 
 static void a_wrong_number_of_ranks_is_told(void **state) {
-  (void)state;
   static const char *const scripts[] = {"Allrun", "transient/Allrun"};
   export_with("");
   for (int i = 0; i < 2; i++) {
@@ -247,7 +232,6 @@ static void a_wrong_number_of_ranks_is_told(void **state) {
 }
 
 static void large_meshes_take_all_cores(void **state) {
-  (void)state;
   assert_string_equal(cw_foam_usual_ranks(20000000), "1");
   assert_string_equal(cw_foam_usual_ranks(20000001), "$(nproc)");
   export_with("");

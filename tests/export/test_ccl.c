@@ -2,17 +2,14 @@
 // The command files of CFX, parsed, beside pump.cgns as the CGNS library reads it: every place that they name is there
 // and of its kind, every patch has one boundary, every expression that is used is defined.
 #include <ctype.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include <cgnslib.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/unit_test.h"
 
 enum { ITEMS_MOST = 2000, NAME_SIZE = 200, VALUE_SIZE = 1000, DEPTH_MOST = 20 };
 
@@ -32,13 +29,11 @@ static int item_count;
 static int file;
 
 static int open_export(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
   return stage_cgns_open(folder, &pump, output, &file);
 }
 
 static int close_export(void **state) {
-  (void)state;
   cg_close(file);
   stage_folder_remove(folder);
   return 0;
@@ -187,14 +182,12 @@ static void check_file(const char *name) {
 }
 
 static void every_place_is_in_the_mesh(void **state) {
-  (void)state;
   static const char *const names[] = {"steady.ccl", "points/q0600.ccl", "points/q0800.ccl", "points/q1000.ccl",
                                       "points/q1200.ccl"};
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i) check_file(names[i]);
 }
 
 static void every_patch_has_one_boundary(void **state) {
-  (void)state;
   int count = 0, conditions, geometries, patches = 0;
   char name[33];
   parse("steady.ccl");
@@ -213,7 +206,6 @@ static void every_patch_has_one_boundary(void **state) {
 }
 
 static void interfaces_join_two_boundaries(void **state) {
-  (void)state;
   int count = 0;
   parse("steady.ccl");
   for (int i = 0; i < item_count; ++i) {
@@ -236,7 +228,6 @@ static void interfaces_join_two_boundaries(void **state) {
 
 // Names behind an @ in the expressions are boundaries; they end before an operator, a bracket or the end.
 static void expressions_and_monitors_name_what_is_there(void **state) {
-  (void)state;
   static const char expressions[] = "LIBRARY/CEL/EXPRESSIONS";
   int monitors = 0, places = 0;
   parse("steady.ccl");
@@ -269,7 +260,6 @@ static void expressions_and_monitors_name_what_is_there(void **state) {
 
 // What the transient file changes is there in the steady one, which is loaded before.
 static void the_transient_file_changes_what_is_there(void **state) {
-  (void)state;
   char domains[10][NAME_SIZE];
   int count = 0;
   parse("transient.ccl");

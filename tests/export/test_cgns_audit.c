@@ -4,18 +4,15 @@
 // normal outward, that every boundary element belongs to one condition, and that the interface is complete
 // and lies where it says.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include <cgnslib.h>
 #include <jansson.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/unit_test.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
@@ -39,14 +36,12 @@ typedef struct {
 } Zone;
 
 static int open_export(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
   return stage_cgns_open(folder, &pump, output, &file);
 }
 
 static int close_export(void **state) {
-  (void)state;
   cg_close(file);
   stage_folder_remove(folder);
   return 0;
@@ -173,7 +168,6 @@ static int compare_sides(const void *left, const void *right) {
 }
 
 static void cells_are_positive_and_fill_the_solid(void **state) {
-  (void)state;
   char path[STAGE_PATH_SIZE + 40];
   snprintf(path, sizeof path, "%s/run/mesh/manifest.json", folder);
   json_t *manifest = json_load_file(path, 0, NULL);
@@ -192,7 +186,6 @@ static void cells_are_positive_and_fill_the_solid(void **state) {
 }
 
 static void every_face_has_two_sides(void **state) {
-  (void)state;
   for (int number = 1; number <= 2; ++number) {
     Zone z;
     zone_read(number, &z);
@@ -213,7 +206,6 @@ static void every_face_has_two_sides(void **state) {
 }
 
 static void every_boundary_element_has_one_condition(void **state) {
-  (void)state;
   const int conditions_wanted[] = {10, 8};
   for (int number = 1; number <= 2; ++number) {
     Zone z;
@@ -249,7 +241,6 @@ static void every_boundary_element_has_one_condition(void **state) {
 }
 
 static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
-  (void)state;
   Zone zones[2];
   zone_read(1, &zones[0]);
   zone_read(2, &zones[1]);
@@ -311,7 +302,6 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
 }
 
 static void rotation_and_units_are_there(void **state) {
-  (void)state;
   float rate[3], centre[3];
   MassUnits_t mass;
   LengthUnits_t length;

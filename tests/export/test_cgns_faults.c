@@ -3,20 +3,16 @@
 // that are put into it.
 #include "export/cgns_file.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/unit_test.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
@@ -26,7 +22,6 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  (void)state;
   stage_folder_remove(folder);
   return 0;
 }
@@ -36,14 +31,12 @@ static int audit(const char *file) {
 }
 
 static void what_was_written_passes(void **state) {
-  (void)state;
   if (audit("run/export/pump.cgns")) fail_msg("%s", output);
   assert_non_null(strstr(output, "\"zone\": \"ROTOR\""));
   assert_non_null(strstr(output, "\"zone\": \"STATOR\""));
 }
 
 static void faults_are_found(void **state) {
-  (void)state;
   static const struct {
     const char *array;
     int at, value;       // the integer at this place becomes this,
@@ -84,7 +77,6 @@ static void faults_are_found(void **state) {
 }
 
 static void a_point_that_is_moved_is_found(void **state) {
-  (void)state;
   char path[STAGE_PATH_SIZE + 20];
   assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", folder, folder), 0);
   snprintf(path, sizeof path, "%s/bad.cgns", folder);

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "export/cgns_node.h"
 #include "tests/refused_write.h"
+#include "tests/unit_test.h"
 
 static const double values[4] = {1, 2, 3, 4};
 

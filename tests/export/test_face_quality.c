@@ -2,11 +2,9 @@
 #include "export/face_quality.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 // A tetrahedron on the triangle 0-1-2 with its tip at `tip`, and a right prism below.
 static void two_cells(const double tip[3], double height, CwFaceQuality *o) {
@@ -34,7 +32,6 @@ static void two_cells(const double tip[3], double height, CwFaceQuality *o) {
 }
 
 static void the_angle_is_that_of_the_centroids(void **state) {
-  (void)state;
   CwFaceQuality straight, leaning;
   // The prism's centroid is (1, 1, -1), the tetrahedron's a quarter of the way from (1, 1, 0) to the tip.
   two_cells((double[3]){1, 1, 4}, 2, &straight);
@@ -64,7 +61,6 @@ static CwFaceQuality face_at(double off, const double from[3], const double *to,
 // The line from cell to cell meets the plane at the origin: the skewness is off over the greatest of 0.1 m and a fifth
 // of the line.
 static void skewness_by_hand(void **state) {
-  (void)state;
   const double low[2][3] = {{0, 0, -0.1}, {0, 0, -1}}, high[2][3] = {{0, 0, 0.1}, {0, 0, 1}}, extent[2] = {0.1, 0.4};
   for (int i = 0; i < 2; ++i) {
     for (int kind = 0; kind < CW_FACE_KINDS; ++kind) {
@@ -80,7 +76,6 @@ static void skewness_by_hand(void **state) {
 }
 
 static void weights_by_hand(void **state) {
-  (void)state;
   for (int i = 0; i < 4; ++i) {
     const double below = i < 2 ? 0.049 : 0.051, low[3] = {0, 0, i % 2 ? below - 1 : -below},
                  high[3] = {0, 0, i % 2 ? below : 1 - below};
@@ -94,7 +89,6 @@ static void weights_by_hand(void **state) {
 
 // The prism has a volume of 9 m3, the tetrahedron of half its height.
 static void volumes_by_hand(void **state) {
-  (void)state;
   for (int i = 0; i < 2; ++i) {
     CwFaceQuality q;
     two_cells((double[3]){1, 1, i ? 0.0599 : 0.0601}, 2, &q);
@@ -108,7 +102,6 @@ static void volumes_by_hand(void **state) {
 
 // With legs of 3 m the area vectors of the prism sum to 9 m2 upwards and 6 h to either side.
 static void aspects_by_hand(void **state) {
-  (void)state;
   for (int i = 0; i < 2; ++i) {
     CwFaceQuality q;
     two_cells((double[3]){1, 1, 1.5e-3}, 1.5e-3 * (i ? 0.999 : 1.001), &q);
@@ -126,7 +119,6 @@ static void aspects_by_hand(void **state) {
 // Legs of 3 m along x and y give 6 h to either side, 9 m2 over which is not above 1000; turned by 45 degrees they give
 // 3 sqrt(2) h to one side, and it is.
 static void an_aspect_depends_on_the_axes(void **state) {
-  (void)state;
   const double h = 1.8e-3, c = sqrt(0.5);
   double points[2][6][3] = {{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, h}, {3, 0, h}, {0, 3, h}}};
   int32_t prisms[][6] = {{0, 1, 2, 3, 4, 5}};
@@ -153,7 +145,6 @@ static void an_aspect_depends_on_the_axes(void **state) {
 }
 
 static void no_face_is_at_no_angle(void **state) {
-  (void)state;
   CwFaceQuality o;
   cw_face_quality_start(&o);
   assert_float_equal(cw_non_orthogonality_greatest(&o), 0, 0);

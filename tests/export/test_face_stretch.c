@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/face_stretch.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 // Two tetrahedra on the triangle 0-1-2; the lower one is cell 0 and has one more face, 1-0-3, on a partition plane.
 static double points[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
@@ -44,7 +42,6 @@ static double turn(const int32_t *n) {
 }
 
 static void inner_faces_go_by_the_cells(void **state) {
-  (void)state;
   CwRegionFaces faces = {0};
   CwFaceStretch s = {0};
   assert_int_equal(cw_region_faces("r", CW_ERR_INPUT, &data, &faces), CW_OK);
@@ -72,7 +69,6 @@ static void inner_faces_go_by_the_cells(void **state) {
 }
 
 static void faces_on_a_patch_keep_their_order(void **state) {
-  (void)state;
   CwRegionFaces faces = {0};
   CwFaceStretch s = {0};
   assert_int_equal(cw_region_faces("r", CW_ERR_INPUT, &data, &faces), CW_OK);
@@ -94,7 +90,6 @@ static void faces_on_a_patch_keep_their_order(void **state) {
 }
 
 static void the_layout_counts_all_faces(void **state) {
-  (void)state;
   CwFaceLayout layout;
   mesh.domains[0].region_count = 1;
   assembly.totals[0] = (CwDomainTotal){.points = 5, .cells = 2};

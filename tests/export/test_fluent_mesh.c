@@ -2,20 +2,16 @@
 // pump.msh through OpenFOAM's reader of Fluent's meshes: the mesh that the OpenFOAM case has.
 #include "export/fluent_mesh.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/unit_test.h"
 
 static char folder[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10];
 static char output[STAGE_OUTPUT_SIZE], other[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
   if (stage_run_make(folder, &pump)) return -1;
@@ -24,13 +20,11 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  (void)state;
   stage_folder_remove(folder);
   return 0;
 }
 
 static void openfoam_reads_the_same_mesh(void **state) {
-  (void)state;
   stage_need_program("fluent3DMeshToFoam");
   if (stage_shell(output,
                   "cd '%s' && mkdir -p read && cp -r export/openfoam/system read && cd read && fluent3DMeshToFoam "
@@ -67,7 +61,6 @@ static void openfoam_reads_the_same_mesh(void **state) {
 }
 
 static void the_file_has_its_frame(void **state) {
-  (void)state;
   if (stage_shell(output, "cd '%s/export/fluent' && grep -c '' pump.msh && grep '^(' pump.msh && cat README.md", run))
     fail_msg("%s", output);
   static const char *const words[] = {"(2 3)\n",
@@ -85,7 +78,6 @@ static void the_file_has_its_frame(void **state) {
 }
 
 static void any_number_of_ranks_gives_the_same_bytes(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 3; ranks += 2) {
     stage_shell(output, "cp '%s/export/fluent/pump.msh' '%s/two.msh'", run, run);
     assert_int_equal(stage_export_with(run, ranks, "export: {formats: [openfoam, fluent]}", output), 0);

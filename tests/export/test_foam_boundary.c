@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The small files of a polyMesh of four patches, by hand.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "export/foam_boundary.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
 enum { PATCHES = 4, FIRST = 100 }; // FIRST: faces between cells
 
-static char folder[] = CUTWATER_BIN_DIR "/foam-boundary-XXXXXX";
-
-static int make_folder(void **state) {
-  (void)state;
-  return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state) {
-  (void)state;
-  return rmdir(folder);
-}
-
 // What was written behind the head, without blanks; "" where there is no file. It is removed.
 static void content(const char *name, char text[4000]) {
-  char path[sizeof folder + 60];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
+  char path[sizeof test_folder + 60];
+  snprintf(path, sizeof path, "%s/%s", test_folder, name);
   FILE *file = fopen(path, "r");
   size_t count = 0;
   int letter;
@@ -62,12 +47,11 @@ static void write_files(const CwPatchKind kind[PATCHES]) {
   CwFoamPart laid = {.patch = first};
   CwFoamMesh mesh = {
       .assembly = &assembly, .division = {.assembly = &assembly, .part_count = 1, .parts = &part}, .parts = &laid};
-  assert_int_equal(cw_foam_boundary_write(&mesh, 0, folder), CW_OK);
+  assert_int_equal(cw_foam_boundary_write(&mesh, 0, test_folder), CW_OK);
 }
 
 // One inlet and one outlet are patches; several are a zone too, wherever they stand among the patches.
 static void several_ends_are_a_zone(void **state) {
-  (void)state;
   const CwPatchKind one[] = {CW_PATCH_INLET, CW_PATCH_WALL, CW_PATCH_WALL, CW_PATCH_OUTLET};
   const CwPatchKind inlets[] = {CW_PATCH_INLET, CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET};
   const CwPatchKind outlets[] = {CW_PATCH_OUTLET, CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET};
@@ -96,5 +80,5 @@ static void several_ends_are_a_zone(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(several_ends_are_a_zone)};
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A mesh that is written in parts beside the one that OpenFOAM's decomposePar makes of the whole, cell by cell alike;
 // its solver in both; and labels of 64 bits.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/unit_test.h"
 
 enum { PARTS = 4 }; // of 5 regions
 
@@ -44,7 +40,6 @@ static Lists read_lists(const char *path) {
 }
 
 static int make_run(void **state) {
-  (void)state;
   char more[100];
   SyntheticPump pump = synthetic_pump();
   if (stage_run_make(folder, &pump)) return -1;
@@ -58,7 +53,6 @@ static int make_run(void **state) {
 }
 
 static int remove_run(void **state) {
-  (void)state;
   stage_folder_remove(folder);
   return 0;
 }
@@ -94,7 +88,6 @@ static void decompose(void) {
 }
 
 static void parts_are_those_of_decomposepar(void **state) {
-  (void)state;
   stage_need_program("decomposePar");
   static const char *const names[] = {
       "points", "faces", "owner", "neighbour", "cellProcAddressing", "faceProcAddressing", "pointProcAddressing"};
@@ -132,7 +125,6 @@ static void parts_are_those_of_decomposepar(void **state) {
 }
 
 static void the_parts_are_balanced_and_sound(void **state) {
-  (void)state;
   stage_need_program("checkMesh");
   stage_shell(output, "cd '%s/parts' && mpirun -n %d checkMesh -parallel -allTopology -allGeometry", folder, PARTS);
   if (!strstr(output, "Mesh OK") || strstr(output, "***")) fail_msg("%s", output);
@@ -154,7 +146,6 @@ static void the_parts_are_balanced_and_sound(void **state) {
 // The solver's residuals on both, but for the order in which ranks sum; on the whole mesh by one rank alike within the
 // tolerance of the linear solvers.
 static void residuals_are_those_of_the_decomposed_case(void **state) {
-  (void)state;
   enum { SOLVED = 14 }; // of two iterations: U, twice p, epsilon and k
   static const char words[] = "Initial residual = ";
   static const struct {
@@ -184,7 +175,6 @@ static void residuals_are_those_of_the_decomposed_case(void **state) {
 
 // As many ranks as parts run the case's own scripts; another number is told.
 static void the_scripts_know_the_parts(void **state) {
-  (void)state;
   stage_need_program("simpleFoam");
   assert_int_equal(stage_shell(output, "cd '%s/parts' && ./Allrun 3", folder), 1);
   assert_string_equal(output, "Allrun: RANKS is '3'; allowed: 4, for which the mesh is divided\n");
@@ -194,7 +184,6 @@ static void the_scripts_know_the_parts(void **state) {
 }
 
 static void labels_of_64_bits_hold_the_same_numbers(void **state) {
-  (void)state;
   static const char *const names[] = {"owner", "neighbour", "faces"};
   char path[STAGE_PATH_SIZE + 100];
   if (stage_export_with(run, 1, "export: {formats: openfoam}\nopenfoam: {labels: 64}", output)) fail_msg("%s", output);
@@ -218,7 +207,6 @@ static void labels_of_64_bits_hold_the_same_numbers(void **state) {
 }
 
 static void too_many_parts_are_told(void **state) {
-  (void)state;
   static const char more[] = "export: {formats: openfoam}\nopenfoam: {processors: 99999}";
   assert_int_not_equal(stage_export_with(run, 1, more, output), 0);
   assert_non_null(strstr(output, "99999 parts of "));

@@ -2,12 +2,10 @@
 #include "export/interface.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 static const double RADIUS = 0.1, HEIGHT = 0.02;
 
@@ -83,7 +81,6 @@ static void place_in(const CwInterfaceFace *f, const double rs[2], double out[2]
 }
 
 static void every_centre_lies_where_its_donor_says(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_pair(&p);
@@ -106,7 +103,6 @@ static void every_centre_lies_where_its_donor_says(void **state) {
 }
 
 static void a_radial_gap_is_told(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_pair(&p);
@@ -121,7 +117,6 @@ static void a_radial_gap_is_told(void **state) {
 }
 
 static void different_ends_are_told(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_pair(&p);
@@ -171,7 +166,6 @@ static void free_discs(Pair *p) {
 }
 
 static void a_disc_finds_its_donors_in_its_plane(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_discs(&p);
@@ -197,7 +191,6 @@ static void a_disc_finds_its_donors_in_its_plane(void **state) {
 }
 
 static void a_node_off_the_disc_is_told(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_discs(&p);
@@ -210,7 +203,6 @@ static void a_node_off_the_disc_is_told(void **state) {
 }
 
 static void discs_of_different_size_are_told(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_discs(&p);
@@ -227,7 +219,6 @@ static void discs_of_different_size_are_told(void **state) {
 
 // Without coordinates of the surface; on a cylinder these say which donors are right.
 static void any_surface_has_the_donors_of_the_cylinder(void **state) {
-  (void)state;
   Pair p;
   CwInterface wanted = {0}, found = {0};
   make_pair(&p);
@@ -249,7 +240,6 @@ static void any_surface_has_the_donors_of_the_cylinder(void **state) {
 }
 
 static void any_surface_with_a_gap_is_told(void **state) {
-  (void)state;
   Pair p;
   CwInterface interface = {0};
   make_pair(&p);

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Other people's programs on what the exporter writes: cgnscheck, checkMesh, simpleFoam, pimpleFoam.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/unit_test.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_export(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
   if (stage_run_make(folder, &pump)) return -1;
@@ -23,13 +19,11 @@ static int make_export(void **state) {
 }
 
 static int remove_export(void **state) {
-  (void)state;
   stage_folder_remove(folder);
   return 0;
 }
 
 static void cgnscheck_has_nothing_to_say(void **state) {
-  (void)state;
   stage_need_program("cgnscheck");
   assert_int_equal(stage_shell(output, "cgnscheck '%s/run/export/pump.cgns'", folder), 0);
   // It ends with 0 whatever it finds.
@@ -48,7 +42,6 @@ static double number_after(const char *words) {
 }
 
 static void checkmesh_finds_a_sound_mesh(void **state) {
-  (void)state;
   stage_need_program("checkMesh");
   stage_shell(output,
               "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
@@ -59,7 +52,6 @@ static void checkmesh_finds_a_sound_mesh(void **state) {
 
 // With pyramids: sound but for their flatness, which gives cells of small determinant.
 static void checkmesh_takes_pyramids(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
   stage_need_program("checkMesh");
@@ -74,7 +66,6 @@ static void checkmesh_takes_pyramids(void **state) {
 
 // Weights are the area of the other side over each face, by its own area.
 static void interface_weights_are_about_one(void **state) {
-  (void)state;
   stage_need_program("checkMesh");
   stage_shell(output, "cd '%s/run/export/openfoam' && checkMesh -allGeometry | grep weights", folder);
   for (int side = 0; side < 2; ++side) {
@@ -87,7 +78,6 @@ static void interface_weights_are_about_one(void **state) {
 }
 
 static void steady_run_starts_and_reports(void **state) {
-  (void)state;
   stage_need_program("simpleFoam");
   int code = stage_shell(output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run",
                          folder, folder, folder);
@@ -111,7 +101,6 @@ static void steady_run_starts_and_reports(void **state) {
 
 // As a large mesh is run where no number of ranks is asked for: checked, divided and solved on several.
 static void a_large_mesh_is_checked_in_parts(void **state) {
-  (void)state;
   stage_need_program("simpleFoam");
   int code = stage_shell(output,
                          "cp -r '%s/run/export/openfoam' '%s/large' && cd '%s/large' && sed -i 's/^usual_ranks=1/"
@@ -127,7 +116,6 @@ static void a_large_mesh_is_checked_in_parts(void **state) {
 }
 
 static void transient_run_starts_from_the_steady_one(void **state) {
-  (void)state;
   stage_need_program("pimpleFoam");
   int code = stage_shell(output,
                          "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which walls turn, and whether layers resolve the viscous sublayer.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "export/patch_role.h"
+#include "tests/unit_test.h"
 
 // Whether a wall turns is its own matter, and so is whether its zone rotates.
 static void walls_turn_in_zones_that_rotate_or_not(void **state) {
-  (void)state;
   enum { STATOR, ROTOR };
   const CwMesh mesh = {.domain_count = 2, .domains = {{.name = "stator"}, {.name = "rotor", .rotating = 1}}};
   const CwModelPatch hub = {.kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
@@ -25,7 +20,6 @@ static void walls_turn_in_zones_that_rotate_or_not(void **state) {
 }
 
 static void walls_are_resolved_where_one_is(void **state) {
-  (void)state;
   CwModelPatch patches[] = {{.kind = CW_PATCH_INLET, .y_plus = NAN},
                             {.kind = CW_PATCH_WALL, .y_plus = 30},
                             {.kind = CW_PATCH_WALL, .y_plus = 30}};

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/place_file.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 static void labels_stand_where_they_are_put(void **state) {
-  (void)state;
   enum { COUNT = 40000 }; // more than one piece of what is narrowed at once
   char folder[] = "/tmp/cutwater-place-XXXXXX", path[100];
   int64_t *values = calloc(COUNT, sizeof *values);
@@ -45,7 +42,6 @@ static void labels_stand_where_they_are_put(void **state) {
 }
 
 static void a_folder_that_is_missing_is_told(void **state) {
-  (void)state;
   CwPlaceFile file = {0};
   assert_int_equal(cw_place_file_open("/nowhere", "labels", 1, &file), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "/nowhere/labels: cannot be written: No such file"));

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/region_check.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 // Two tetrahedra on the triangle 0-1-2 of shared points: a domain of one region, with every outer face on a patch.
 static double points[6][3];
@@ -24,7 +21,6 @@ static CwAssembly assembly = {.mesh = &mesh, .places = place, .share = {.alike =
 static CwRegionData data;
 
 static int make(void **state) {
-  (void)state;
   memcpy(points, (double[][3]){{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -2}, {9, 9, 9}}, sizeof points);
   memcpy(tetrahedra, (int32_t[][4]){{0, 1, 2, 3}, {0, 2, 1, 4}}, sizeof tetrahedra);
   mesh.region_count = 1;
@@ -43,7 +39,6 @@ static int make(void **state) {
 }
 
 static void a_sound_region_gives_its_volume(void **state) {
-  (void)state;
   CwRegionModel model = {0};
   assert_int_equal(cw_region_check(&assembly, 0, &data, &model), CW_OK);
   assert_float_equal(model.figures.volume, 1.0 / 6 + 2.0 / 6, 1e-15);
@@ -62,7 +57,6 @@ static void fails_with(const char *words) {
 }
 
 static void a_cell_turned_inside_out_is_told(void **state) {
-  (void)state;
   points[3][2] = -1;
   fails_with("rotor-0001.h5: cell 0 at (250, 250, -250) mm has a volume of -1.67e+08 mm3");
   points[3][2] = 0.0 / 0.0;
@@ -70,13 +64,11 @@ static void a_cell_turned_inside_out_is_told(void **state) {
 }
 
 static void a_point_without_cell_is_told(void **state) {
-  (void)state;
   data.point_count = 6;
   fails_with("rotor-0001.h5: point 5 at (9000, 9000, 9000) mm is used by no cell");
 }
 
 static void a_region_that_has_changed_is_told(void **state) {
-  (void)state;
   place[0].inner_triangles = 2;
   fails_with("rotor-0001.h5: has other faces than when it was first read");
 }
@@ -123,7 +115,6 @@ static int second_is_copy(CwRegionData *second) {
 }
 
 static void a_turned_copy_has_the_faces_of_its_model(void **state) {
-  (void)state;
   for (int k = 1; k < 6; ++k) {
     CwRegionData second = turned(M_PI / 3 * k);
     assert_true(second_is_copy(&second));
@@ -131,7 +122,6 @@ static void a_turned_copy_has_the_faces_of_its_model(void **state) {
 }
 
 static void what_is_no_turned_copy_is_checked_itself(void **state) {
-  (void)state;
   CwRegionData moved = turned(1);
   moved.points[4][2] -= 1e-13;
   assert_false(second_is_copy(&moved));
@@ -147,7 +137,6 @@ static void what_is_no_turned_copy_is_checked_itself(void **state) {
 }
 
 static void a_copy_with_another_number_of_faces_is_told(void **state) {
-  (void)state;
   CwRegionModel model = {0};
   CwRegionData first = turned(0), second = turned(2);
   mesh.region_count = 3;

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/region_share.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "tests/unit_test.h"
 
 enum { PASSAGES = 4, REGIONS = 9 };
 
@@ -26,7 +22,6 @@ static void make(CwMeshRegion *lines) {
 }
 
 static void regions_with_the_same_counts_have_one_rank(void **state) {
-  (void)state;
   CwMeshRegion lines[REGIONS];
   const CwMesh mesh = {.regions = lines, .region_count = REGIONS};
   const int alike[REGIONS] = {0, 1, 1, 3, 1, 5, 6, 1, 8};
@@ -57,7 +52,6 @@ static void regions_with_the_same_counts_have_one_rank(void **state) {
 
 // By hand: the passages are 100 + 3 times 50 of work, the others 30, 60, 100, 100 and 60.
 static void ranks_have_about_the_same_work(void **state) {
-  (void)state;
   CwMeshRegion lines[REGIONS];
   const CwMesh mesh = {.regions = lines, .region_count = REGIONS};
   CwRegionShare share = {0};

@@ -4,31 +4,26 @@
 // fluent_case, foam_files, foam_layout, foam_processors, foam_region, foam_zones, folder, interface_near, manifest,
 // saturne_case.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include <hdf5.h>
 
 #include "tests/export/stage_run.h"
 #include "tests/seal_run.h"
+#include "tests/unit_test.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
   return stage_run_make(folder, &pump);
 }
 
 static int remove_run(void **state) {
-  (void)state;
   stage_folder_remove(folder);
   return 0;
 }
@@ -39,7 +34,6 @@ static void copy_run(const char *name, char run[STAGE_PATH_SIZE + 40]) {
 }
 
 static void any_number_of_ranks_gives_the_same_bytes(void **state) {
-  (void)state;
   char one[STAGE_PATH_SIZE + 40], more[STAGE_PATH_SIZE + 40];
   copy_run("one", one);
   assert_int_equal(stage_export(one, 1, output), 0);
@@ -56,7 +50,6 @@ static void any_number_of_ranks_gives_the_same_bytes(void **state) {
 }
 
 static void a_second_export_replaces_the_first(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 40];
   copy_run("again", run);
   assert_int_equal(stage_export(run, 1, output), 0);
@@ -95,7 +88,6 @@ static void expect_error(const char *run, const char *words) {
 
 // A failure of one rank, of all ranks, and of the rank that does not speak.
 static void with_two_ranks_one_of_them_tells(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 40];
   copy_run("bad", run);
   stage_shell(output, "rm '%s/mesh/rotor-0002.h5'", run);
@@ -109,7 +101,6 @@ static void with_two_ranks_one_of_them_tells(void **state) {
 }
 
 static void files_that_are_missing_or_cut_are_told(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 40];
   copy_run("bad", run);
   assert_int_equal(stage_shell(output, "sed -i '0,/paper/s//other/' '%s/mesh/record.json'", run), 0);
@@ -130,7 +121,6 @@ static void files_that_are_missing_or_cut_are_told(void **state) {
 }
 
 static void a_manifest_that_does_not_fit_is_told(void **state) {
-  (void)state;
   static const struct {
     const char *edit, *words;
   } cases[] = {
@@ -171,7 +161,6 @@ static void move_point(const char *run, const char *file_name, hsize_t point, hs
 }
 
 static void a_broken_mesh_is_told_with_its_place(void **state) {
-  (void)state;
   char run[STAGE_PATH_SIZE + 40];
   copy_run("bad", run);
   move_point(run, "rotor-0001.h5", 300, 2, 0.0 / 0.0);
@@ -199,7 +188,6 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
 
 // Two prisms of n sides and of many in one cylinder: their areas are 2 n sin(pi / n) r h.
 static void sides_of_different_area_are_told(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
   char other[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10], words[200];
   pump.stator.around = 8;

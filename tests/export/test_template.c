@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/template.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 static void keys_are_replaced_and_other_signs_stay(void **state) {
-  (void)state;
   CwValues values = {0};
   char *text = NULL;
   assert_int_equal(cw_values_set(&values, "speed", "%.1f", 1.5), CW_OK);
@@ -21,7 +18,6 @@ static void keys_are_replaced_and_other_signs_stay(void **state) {
 }
 
 static void a_key_without_value_is_told(void **state) {
-  (void)state;
   CwValues values = {0};
   char *text = NULL;
   assert_int_equal(cw_template_fill("system/x", "a @speed@", &values, &text), CW_ERR_EXPORT);
@@ -30,7 +26,6 @@ static void a_key_without_value_is_told(void **state) {
 }
 
 static void the_scripts_are_built_in_and_executable(void **state) {
-  (void)state;
   int scripts = 0;
   for (int i = 0; i < cw_template_count; ++i)
     if (cw_templates[i].executable) {

@@ -4,12 +4,8 @@
 #define CUTWATER_TESTS_GEOMETRY_NEAR_TO_H
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
+#include "tests/unit_test.h"
 
 static inline void near_to(double value, double expected, double tolerance) {
   if (!(fabs(value - expected) <= tolerance)) fail_msg("%.12g is not %.12g within %.3g", value, expected, tolerance);

@@ -2,16 +2,12 @@
 #include "tests/geometry/paper_rotor.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/rotor.h"
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
+#include "tests/unit_test.h"
 
 CwCase paper(void) {
   CwCase table;

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: blade_patches, blade_shape, bspline_fit, root.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
 #include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 static CwDesign design;

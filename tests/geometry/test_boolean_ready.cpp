@@ -4,22 +4,15 @@
 // or touch one another and for curves that leave their surface by more than the edge's tolerance, among others.
 //
 //   geometry_test_boolean_ready [crossings]     with all faces held against one another too, which takes minutes
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <string>
 
 #include <BOPAlgo_ArgumentAnalyzer.hxx>
-
-extern "C" {
-#include <cmocka.h>
-}
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static bool crossings = false;
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/design_check.h"
 #include "pipeline/case.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/unit_test.h"
 
 static int remarked(const CwDesign *design, const char *words) {
   CwDesignRemarks remarks;

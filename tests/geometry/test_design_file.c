@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <unistd.h>
 
-#include <cmocka.h>
 #include <jansson.h>
 
 #include "geometry/design_file.h"
 #include "geometry/hydraulic_design.h"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static double number(const json_t *root, const char *key) {
   const json_t *value = json_object_get(root, key);

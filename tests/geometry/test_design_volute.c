@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Volutes of pumps given by their duty alone, from nq 6 to 90 and from D2 of 20 mm to 4 m.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
 #include "pipeline/case_schema.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static const double LEAST_FLOW = 0.3 / 3600; // m3/s
 

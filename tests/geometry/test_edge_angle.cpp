@@ -2,10 +2,6 @@
 #include "geometry/edge_angle.hpp"
 
 #include <cmath>
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <map>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -16,11 +12,8 @@
 #include <TopoDS.hxx>
 #include <gp_Vec.hxx>
 
-extern "C" {
-#include <cmocka.h>
-}
-
 #include "near_to.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: correlations.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/design_value.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 

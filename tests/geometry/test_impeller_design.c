@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
-#include "geometry/impeller_design.h"
 #include "geometry/meridian.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 

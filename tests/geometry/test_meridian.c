@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
 #include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static CwDesign design;
 static CwMeridian meridian;

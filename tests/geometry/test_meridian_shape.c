@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
@@ -12,6 +7,7 @@
 #include "geometry/meridian_shape.h"
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
+#include "tests/unit_test.h"
 
 enum { COUNT = 201 };
 

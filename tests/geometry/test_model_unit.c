@@ -2,11 +2,8 @@
 #include "geometry/model_unit.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 
-#include <cmocka.h>
+#include "tests/unit_test.h"
 
 // D2 is 128 to 256 units, whatever its size, and the unit is a power of two of a millimetre.
 static void wheels_have_one_size(void **state) {

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "geometry/hydraulic_design.h"
 #include "geometry/picture.h"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static char *slurp(const char *path) {
   FILE *file = fopen(path, "rb");

@@ -1,39 +1,26 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-geometry as a user runs it.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
+// Modules without a test of their own that it runs: pump_files.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 
-#include <cmocka.h>
-
-#include "tests/remove_folder.h"
-
-static char folder[] = "geometry-program-XXXXXX";
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
 static int run(const char *case_file, const char *name) {
   char command[600];
   snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages", CUTWATER_BIN_DIR,
-           case_file, folder, name, folder);
+           case_file, test_folder, name, test_folder);
   const int code = system(command);
   return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-}
-
-static int setup(void **state) {
-  return !mkdtemp(folder);
-}
-
-static int teardown(void **state) {
-  return remove_folder(folder);
 }
 
 static int messages_have(const char *words) {
   char path[64], line[1000];
   int found = 0;
-  snprintf(path, sizeof path, "%s/messages", folder);
+  snprintf(path, sizeof path, "%s/messages", test_folder);
   FILE *file = fopen(path, "r");
   assert_non_null(file);
   while (fgets(line, sizeof line, file)) found |= strstr(line, words) != NULL;
@@ -62,11 +49,12 @@ static void files_are_written_and_the_same_each_time(void **state) {
   assert_true(messages_have("predicted head"));
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "b"), 0);
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", folder, names[i], folder, names[i]);
+    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", test_folder, names[i], test_folder,
+             names[i]);
     assert_int_equal(system(command), 0);
   }
   // These and record.json.
-  snprintf(command, sizeof command, "test $(ls -A %s/a/geometry | wc -l) = %zu", folder,
+  snprintf(command, sizeof command, "test $(ls -A %s/a/geometry | wc -l) = %zu", test_folder,
            sizeof names / sizeof *names + 1);
   assert_int_equal(system(command), 0);
 }
@@ -77,13 +65,13 @@ static void failure_leaves_no_record(void **state) {
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "c"), 0);
   snprintf(command, sizeof command,
            "sed 's/wrap_angle_deg: 71/wrap_angle_deg: 21/' %s/cases/paper/case.yaml > %s/case.yaml",
-           CUTWATER_SOURCE_DIR, folder);
+           CUTWATER_SOURCE_DIR, test_folder);
   assert_int_equal(system(command), 0);
   char path[64];
-  snprintf(path, sizeof path, "%s/case.yaml", folder);
+  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
   assert_int_not_equal(run(path, "c"), 0);
   assert_true(messages_have("case.yaml: a wrap of 21.00 deg"));
-  snprintf(command, sizeof command, "test ! -e %s/c/geometry/record.json", folder);
+  snprintf(command, sizeof command, "test ! -e %s/c/geometry/record.json", test_folder);
   assert_int_equal(system(command), 0);
 }
 
@@ -105,7 +93,7 @@ static void write_case(const char *path, const Given *given) {
 static void read_remedy(char key[64], double *value) {
   char path[64], line[2000];
   int errors = 0, found = 0;
-  snprintf(path, sizeof path, "%s/messages", folder);
+  snprintf(path, sizeof path, "%s/messages", test_folder);
   FILE *file = fopen(path, "r");
   assert_non_null(file);
   while (fgets(line, sizeof line, file)) {
@@ -122,7 +110,7 @@ static void read_remedy(char key[64], double *value) {
 static void what_a_refusal_names_works(void **state) {
   Given given[] = {{"outlet_blade_angle_deg", 15}, {"outlet_diameter_mm", 150}, {"outlet_width_mm", 10}, {NULL, 0}};
   char path[64], key[64];
-  snprintf(path, sizeof path, "%s/given.yaml", folder);
+  snprintf(path, sizeof path, "%s/given.yaml", test_folder);
   write_case(path, given);
   assert_int_not_equal(run(path, "given"), 0);
   read_remedy(key, &given[1].value);
@@ -137,5 +125,5 @@ int main(void) {
       cmocka_unit_test(failure_leaves_no_record),
       cmocka_unit_test(what_a_refusal_names_works),
   };
-  return cmocka_run_group_tests(tests, setup, teardown);
+  return cmocka_run_group_tests(tests, make_test_folder, clear_test_folder);
 }

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The whole geometry of the paper's pump: both solids as the program builds and measures them.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/pump.h"
 #include "geometry/rotor.h"
 #include "geometry/stator.h"
-#include "geometry/step_file.h"
 #include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static CwDesign design;
 static CwSolid *rotor, *stator;
@@ -50,26 +44,6 @@ static void stator_dimensions_and_interface(void **state) {
   near_to(s.interface_area / r.interface_area, 1, 1e-9);
 }
 
-static void both_solids_survive_step(void **state) {
-  const CwSolid *const solids[] = {rotor, stator};
-  assert_int_equal(cw_step_write(solids, 2, "pump-test.step"), CW_OK);
-  for (int i = 0; i < 2; i++) {
-    CwSolid *again = NULL;
-    CwMeasuredSolid before, after;
-    if (cw_step_read("pump-test.step", cw_solid_domain(solids[i]), &again) != CW_OK) fail_msg("%s", cw_fail_message());
-    assert_int_equal(cw_measure_solid(solids[i], &before), CW_OK);
-    assert_int_equal(cw_measure_solid(again, &after), CW_OK);
-    assert_true(after.valid);
-    near_to(after.volume / before.volume, 1, 1e-6);
-    assert_int_equal(after.face_count, before.face_count);
-    int named = 0;
-    for (int face = 0; face < cw_solid_face_count(again); face++) named += cw_solid_face_patch(again, face)[0] != 0;
-    assert_int_equal(named, after.face_count);
-    cw_solid_free(&again);
-  }
-  unlink("pump-test.step");
-}
-
 // The dimensions of the rotor cannot be read from a stator: one line says what is missing.
 static void missing_patch_is_named(void **state) {
   CwMeasuredRotor r;
@@ -100,7 +74,6 @@ static void too_short_an_edge_is_named(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stator_dimensions_and_interface),
-      cmocka_unit_test(both_solids_survive_step),
       cmocka_unit_test(missing_patch_is_named),
       cmocka_unit_test(too_short_an_edge_is_named),
   };

@@ -2,16 +2,12 @@
 #include "geometry/pump_model.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
 #include "pipeline/case_read.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 // The pump of cases/zones, with figures from which the flows follow by hand.
 static CwModel model_of(const char *name, double shaft) {

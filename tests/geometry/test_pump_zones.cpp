@@ -3,10 +3,6 @@
 // disc have the same outline, and the case is told when there is no room for a zone.
 // Modules without a test of their own that it runs: pipe_zone.
 #include <cmath>
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -16,15 +12,12 @@
 #include <TopoDS.hxx>
 #include <gp_Pnt.hxx>
 
-extern "C" {
-#include <cmocka.h>
-}
-
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static CwCase read_case(const char *name) {
   CwCase table;

@@ -3,17 +3,9 @@
 // valid solids or in one line that says what does not fit; at least 97 % in valid solids.
 //
 //   geometry_test_random_pumps [LAST [FIRST]]     pumps 1 to 16, or FIRST to LAST; prints each that ends in a line
-#include <ctype.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
@@ -21,6 +13,7 @@
 #include "geometry/pump.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 static int last_pump = 16, first_pump = 1;

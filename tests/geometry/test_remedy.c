@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/remedy.h"
 #include "pipeline/case_schema.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 

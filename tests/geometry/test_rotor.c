@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: rotor_edges, rotor_faces, shell_builder.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "geometry/blade.h"
-#include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/meridian.h"
 #include "geometry/rotor.h"
 #include "geometry/rotor_volume.h"
 #include "pipeline/case.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 

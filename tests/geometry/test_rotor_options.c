@@ -2,21 +2,16 @@
 // Root fillets, and a shaft through the inlet.
 // Modules without a test of their own that it runs: root_fillet, root_fillet_size.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/rotor.h"
 #include "geometry/rotor_volume.h"
 #include "pipeline/case.h"
 #include "pipeline/case_schema.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 

@@ -2,30 +2,16 @@
 // Similar pumps: all lengths times 2^k, the speed over it, the flow rate times its square, so that every dimensionless
 // number is the same. Their files must be the same but for the model unit, and what is measured on them the same times
 // powers of two, to the last bit.
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "geometry/hydraulic_design.h"
 #include "geometry/pump.h"
 #include "pipeline/case_read.h"
-
-static char folder[] = "similar-pumps-XXXXXX";
-
-static int setup(void **state) {
-  return !mkdtemp(folder);
-}
-
-static int teardown(void **state) {
-  return rmdir(folder);
-}
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
 // A case with all its lengths given, mm; `more` are further lines of the impeller's and the volute's tables.
 typedef struct {
@@ -100,7 +86,7 @@ static Built build(double s, const Variant *variant) {
   CwPipeStubs stubs;
   CwPump pump = {0};
   Built built = {0};
-  snprintf(path, sizeof path, "%s/case.yaml", folder);
+  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
   write_case(path, s, variant);
   if (cw_case_read(path, &table) != CW_OK || cw_hydraulic_design(&table, &design) != CW_OK ||
       cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK || cw_pump_build(&table, &design, &stubs, &pump) != CW_OK ||
@@ -110,7 +96,7 @@ static Built build(double s, const Variant *variant) {
   built.count = pump.count;
   built.unit = cw_solid_unit(pump.solid[0]);
   for (int i = 0; i < pump.count; i++) {
-    snprintf(path, sizeof path, "%s/solid.brep", folder);
+    snprintf(path, sizeof path, "%s/solid.brep", test_folder);
     assert_int_equal(cw_solid_write_brep(pump.solid[i], path), CW_OK);
     built.text[i] = slurp(path, &built.size[i]);
     unlink(path);
@@ -163,5 +149,5 @@ static void powers_of_two_cost_no_bit(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(powers_of_two_cost_no_bit)};
-  return cmocka_run_group_tests(tests, setup, teardown);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/standard_bore.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 // From ISO 6708 and, outside it, R10 of ISO 3.
 static void bores_of_the_standards(void **state) {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: stator_builder, stator_check, stator_spline.
 #include <cmath>
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -16,7 +12,6 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom2d_Curve.hxx>
 #include <GeomLProp_SLProps.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Curve.hxx>
@@ -28,16 +23,13 @@
 #include <TopoDS_Edge.hxx>
 #include <gp_Vec.hxx>
 
-extern "C" {
-#include <cmocka.h>
-}
-
 #include "geometry/measure.h"
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
 #include "geometry/volute_design.h"
 #include "geometry/volute_section.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 

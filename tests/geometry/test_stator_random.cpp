@@ -3,10 +3,6 @@
 // Usage: test_stator_random [DRAWS]
 #include <algorithm>
 #include <cmath>
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -16,17 +12,13 @@
 #include <Geom_Curve.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-
-extern "C" {
-#include <cmocka.h>
-}
 
 #include "geometry/measure.h"
 #include "geometry/model_unit.h"
 #include "geometry/solid.hpp"
 #include "geometry/volute_design.h"
 #include "geometry/stator.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180, gravity = 9.80665;
 static int draws = 24;

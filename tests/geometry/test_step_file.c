@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <math.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
-#include "geometry/measure.h"
 #include "geometry/rotor.h"
 #include "geometry/step_file.h"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static CwSolid *rotor;
 static char folder[] = "step-file-test-XXXXXX";
@@ -55,37 +49,6 @@ static void assert_same_files(const char *a, const char *b) {
   assert_memory_equal(ta, tb, na);
   free(ta);
   free(tb);
-}
-
-static int count_patch(const CwSolid *solid, const char *patch) {
-  int count = 0;
-  for (int i = 0; i < cw_solid_face_count(solid); i++) count += strcmp(cw_solid_face_patch(solid, i), patch) == 0;
-  return count;
-}
-
-static void names_and_volume_survive(void **state) {
-  const CwSolid *const solids[] = {rotor};
-  CwSolid *again = NULL;
-  CwMeasuredSolid before, after;
-  char path[64];
-  snprintf(path, sizeof path, "%s/pump.step", folder);
-  assert_int_equal(cw_step_write(solids, 1, path), CW_OK);
-  if (cw_step_read(path, "rotor", &again) != CW_OK) fail_msg("%s", cw_fail_message());
-  assert_int_equal(cw_measure_solid(rotor, &before), CW_OK);
-  assert_int_equal(cw_measure_solid(again, &after), CW_OK);
-  assert_true(after.valid);
-  assert_int_equal(after.face_count, before.face_count);
-  assert_true(fabs(after.volume / before.volume - 1) < 1e-9);
-  for (int i = 0; i < cw_solid_face_count(rotor); i++) {
-    const char *patch = cw_solid_face_patch(rotor, i);
-    assert_int_equal(count_patch(again, patch), count_patch(rotor, patch));
-  }
-  cw_solid_free(&again);
-  assert_int_equal(cw_step_read(path, "stator", &again), CW_ERR_INPUT);
-  cw_fail_clear();
-  unlink(path);
-  assert_int_equal(cw_step_read(path, "rotor", &again), CW_ERR_IO);
-  cw_fail_clear();
 }
 
 static void files_are_the_same_each_time(void **state) {
@@ -147,7 +110,6 @@ static void short_disk_names_the_file(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(names_and_volume_survive),
       cmocka_unit_test(files_are_the_same_each_time),
       cmocka_unit_test(faces_table),
       cmocka_unit_test(unwritable_place_is_refused),

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/viscous_correction.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static const double hour = 3600, rpm = M_PI / 30;
 

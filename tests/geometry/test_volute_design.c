@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "geometry/volute_design.h"
 #include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 #include "geometry/volute_tongue.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 

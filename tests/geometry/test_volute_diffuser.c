@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "geometry/volute_diffuser.h"
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 // The paper's throat, 889.8 mm2: 1.5 of it is a circle of 41.2 mm, the next bore DN 50, with 3.54 m/s at 25 m3/h. With
 // twice the flow DN 50 has 7.1 m/s; DN 65 would have an area ratio of 3.7.

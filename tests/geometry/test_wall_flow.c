@@ -2,14 +2,9 @@
 #include "geometry/wall_flow.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "tests/geometry/near_to.h"
+#include "tests/unit_test.h"
 
 static const CwWaterWay way = {.radius = 0.1,
                                .blade_speed = 7,

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Names of walls: whole ones, beginnings, and others.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "geometry/wall_name.h"
+#include "tests/unit_test.h"
 
 static void whole_names_go_before_beginnings(void **state) {
   assert_int_equal(cw_wall_name("blade_trailing_edge")->along, CW_ALONG_TRAILING_EDGE);

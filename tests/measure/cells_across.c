@@ -11,6 +11,7 @@
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/rays.h"
 #include "mesher/common/vec.h"
+#include "pipeline/order.h"
 #include "tests/measure/domain_mesh.h"
 
 static const double FACING = 0.9; // cosine between the ray and the wall it meets
@@ -116,11 +117,6 @@ static int compare_probes(const void *p, const void *q) {
   return a->cells - b->cells;
 }
 
-static int compare_gaps(const void *p, const void *q) {
-  double a = *(const double *)p, b = *(const double *)q;
-  return (a > b) - (a < b);
-}
-
 static void print_pairs(const CwCad *cad, const char *name, Probe *probe, int count) {
   qsort(probe, (size_t)count, sizeof *probe, compare_probes);
   for (int first = 0, next; first < count; first = next) {
@@ -132,7 +128,7 @@ static void print_pairs(const CwCad *cad, const char *name, Probe *probe, int co
       if (probe[next].tetrahedra < tets) tets = probe[next].tetrahedra;
     }
     int rays = next - first;
-    qsort(gap, (size_t)rays, sizeof *gap, compare_gaps);
+    qsort(gap, (size_t)rays, sizeof *gap, cw_order_doubles);
     printf("%-7s %-22s %-22s %5d %7.2f %7.2f %6d %6d %10d\n", name, cw_cad_patch_name(cad, probe[first].from),
            cw_cad_patch_name(cad, probe[first].to), rays, 1e3 * gap[0], 1e3 * gap[rays / 2], probe[first].cells,
            probe[first + rays / 2].cells, tets);

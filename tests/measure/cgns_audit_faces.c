@@ -2,7 +2,6 @@
 #include "tests/measure/cgns_audit_faces.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "tests/measure/cgns_audit_file.h"
 

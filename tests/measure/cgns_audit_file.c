@@ -187,7 +187,6 @@ static void take_zone(hid_t node, const char *name, void *context) {
 }
 
 static void take_base(hid_t node, const char *name, void *context) {
-  (void)name;
   if (is_labelled(node, "CGNSBase_t")) for_nodes(node, take_zone, context);
 }
 

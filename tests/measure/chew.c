@@ -5,7 +5,6 @@
 #include <hdf5.h>
 #include <jansson.h>
 #include <math.h>
-#include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -9,15 +9,11 @@
 
 #include "mesher/cad/background_make.h"
 #include "mesher/common/vec.h"
+#include "pipeline/order.h"
 #include "tests/measure/domain_mesh.h"
 
 static const double RAD = 180 / M_PI;
 enum { NEAREST = 30 }; // places of the background from which a node's (u,v) is sought
-
-static int compare_doubles(const void *p, const void *q) {
-  double a = *(const double *)p, b = *(const double *)q;
-  return (a > b) - (a < b);
-}
 
 static double least_angle(const double *const x[3]) {
   double least = M_PI;
@@ -87,7 +83,7 @@ static CwStatus measure(const char *geometry, const char *folder, const char *na
       }
     }
     if (!count) continue;
-    qsort(angle, (size_t)count, sizeof *angle, compare_doubles);
+    qsort(angle, (size_t)count, sizeof *angle, cw_order_doubles);
     printf("%-7s %-22s %9lld %6.1f %6.1f %6.1f %7lld %10.2g\n", name, cw_cad_patch_name(cad, patch), (long long)count,
            angle[0], angle[count / 100], sum / (double)count, (long long)poor, off);
   }

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
 
 extern "C" {
 #include "chew_domain.h"

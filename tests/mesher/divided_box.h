@@ -25,7 +25,7 @@ static inline double even_size(const void *, const double *) {
 struct Box {
   CwCad *cad;
   CwBackground background;
-  CwInside *inside = nullptr;
+  CwVerticals *inside = nullptr;
   CwPlanNode node[3];
   double none[4] = {0, 0, 0, 0};
   CwPlan plan;
@@ -48,9 +48,7 @@ struct Box {
     if (nodes >= 3) node[0].child[0] = 2;
     plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
-    assert_int_equal(
-        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
-        CW_OK);
+    assert_int_equal(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside), CW_OK);
     boundary.input.cad = cad;
     boundary.input.plan = &plan;
     boundary.input.size_at = even_size;
@@ -59,7 +57,7 @@ struct Box {
   }
   ~Box() {
     boundary.free();
-    cw_inside_free(&inside);
+    cw_verticals_free(&inside);
     cw_background_free(&background);
     cw_cad_close(&cad);
   }

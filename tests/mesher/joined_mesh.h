@@ -3,17 +3,11 @@
 #ifndef CUTWATER_TESTS_MESHER_JOINED_MESH_H
 #define CUTWATER_TESTS_MESHER_JOINED_MESH_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "mesher/common/predicates.h"
 #include "mesher/common/quality.h"
 #include "mesher/common/tet.h"
 #include "mesher/fill/tet_mesh.h"
+#include "tests/unit_test.h"
 
 // All tetrahedra are positive and neighbours know and share the same face; returns six times the volume.
 static inline double joined_volume6(const CwTetMesh *mesh) {

@@ -4,16 +4,12 @@
 #ifndef CUTWATER_TESTS_MESHER_LAYERS_CASE_H
 #define CUTWATER_TESTS_MESHER_LAYERS_CASE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
-
-#include <cmocka.h>
 
 #include "mesher/common/intersect.h"
 #include "mesher/layers/layers.h"
 #include "surfaces.h"
+#include "tests/unit_test.h"
 
 // Unit normals of the open patches and planes that hold a column at x; returns their count.
 typedef int (*CaseGuide)(const void *context, const double x[3], double normal[2][3]);

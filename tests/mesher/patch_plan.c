@@ -2,14 +2,11 @@
 #include "patch_plan.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "tests/unit_test.h"
 
 void surface_at(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
   const Plan *plan = context;

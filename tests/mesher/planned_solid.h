@@ -16,7 +16,7 @@ extern "C" {
 struct PlannedSolid {
   CwCad *cad;
   CwBackground background;
-  CwInside *inside = nullptr;
+  CwVerticals *inside = nullptr;
   CwSize *size = nullptr;
   CwPlanModel model;
   CwPlanPart whole;
@@ -33,8 +33,7 @@ struct PlannedSolid {
     table.curvature_angle = 0.3;
     table.cells_across_gap = 1;
     check(cw_background_make(cad, 1e-4, 0.2, &background));
-    check(
-        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
+    check(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside));
     CwSizeSeeds *seeds = nullptr;
     std::vector<void *> seed(cw_size_seed_parts(cad));
     check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
@@ -52,7 +51,7 @@ struct PlannedSolid {
     cw_plan_part_free(&whole);
     cw_plan_model_free(&model);
     cw_size_free(&size);
-    cw_inside_free(&inside);
+    cw_verticals_free(&inside);
     cw_background_free(&background);
     cw_cad_close(&cad);
   }

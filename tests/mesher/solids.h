@@ -5,10 +5,6 @@
 #define CUTWATER_TESTS_MESHER_SOLIDS_H
 
 #include <cmath>
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -25,9 +21,7 @@
 #include "mesher/cad/cad.h"
 
 // Last: its macro named fail breaks the C++ headers. So this header comes last in a test as well.
-extern "C" {
-#include <cmocka.h>
-}
+#include "tests/unit_test.h"
 
 // cmocka's own comparison is in float.
 #define assert_near(value, wanted, tolerance)                                                                          \

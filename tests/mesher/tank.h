@@ -91,7 +91,7 @@ struct Tank {
   int n;
   CwCad *cad;
   CwBackground background;
-  CwInside *inside = nullptr;
+  CwVerticals *inside = nullptr;
   CwSymmetry *symmetry = nullptr;
   std::vector<CwPlanNode> node;
   std::vector<double> none;
@@ -103,8 +103,7 @@ struct Tank {
   // mm from the axis, whose lines on the half-planes before and after differ.
   Tank(int turns, int wedges, bool divided = false) : n(turns), cad(open_tank(turns)) {
     check(cw_background_make(cad, 1e-4, 0.2, &background));
-    check(
-        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
+    check(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside));
     check(cw_symmetry_find(cad, &background, &symmetry));
     const int count = n * wedges, first = 1 + count, each = divided ? 2 : 1;
     const auto wedge = [=](int j) { return divided ? first + j : -2 - j; };
@@ -129,7 +128,7 @@ struct Tank {
   ~Tank() {
     boundary.free();
     cw_symmetry_free(&symmetry);
-    cw_inside_free(&inside);
+    cw_verticals_free(&inside);
     cw_background_free(&background);
     cw_cad_close(&cad);
   }

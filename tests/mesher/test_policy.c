@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/policy.h"
+#include "tests/unit_test.h"
 
 static CwStatus read_text(const char *text, CwPolicy *policy) {
   FILE *file = fmemopen((void *)(uintptr_t)text, strlen(text), "r");

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <dirent.h>
-#include <errno.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/atomic_file.h"
 #include "tests/sync_order.h"
+#include "tests/unit_test.h"
 
 static char folder[] = CUTWATER_BIN_DIR "/atomic-XXXXXX";
 static char whole[sizeof folder + 32];

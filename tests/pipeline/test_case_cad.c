@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The section `cad`: what is read of it, and the place of what is wrong.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/case_cad.h"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static char folder[] = "/tmp/cutwater_case_XXXXXX", path[64];
 
@@ -30,7 +25,6 @@ static void near_to(double value, double wanted) {
 }
 
 static void everything_is_read(void **state) {
-  (void)state;
   CwCase table;
   char placed[80];
   if (read_text("  files: [pump.step, /abs/other.brep]\n"
@@ -85,7 +79,6 @@ static void everything_is_read(void **state) {
 }
 
 static void what_is_left_out_has_its_default(void **state) {
-  (void)state;
   CwCase table;
   if (read_text("  files: pump.step\n  cut: {radius_cm: 10}\n  domains: {a: {solid: 1}}\n", &table))
     fail_msg("%s", cw_fail_message());
@@ -105,7 +98,6 @@ static void what_is_left_out_has_its_default(void **state) {
 
 // Domains have up to 14 letters, patches up to 22.
 static void names_may_be_so_long(void **state) {
-  (void)state;
   static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
   for (int i = 0; i < 4; i++) {
     char text[200];
@@ -121,7 +113,6 @@ static void names_may_be_so_long(void **state) {
 }
 
 static void wrong_values_have_their_place(void **state) {
-  (void)state;
   static const struct {
     const char *cad, *message;
   } wrong[] = {
@@ -157,14 +148,12 @@ static void wrong_values_have_their_place(void **state) {
 }
 
 static int make_folder(void **state) {
-  (void)state;
   if (!mkdtemp(folder)) return -1;
   snprintf(path, sizeof path, "%s/case.yaml", folder);
   return 0;
 }
 
 static int remove_folder(void **state) {
-  (void)state;
   unlink(path);
   return rmdir(folder);
 }

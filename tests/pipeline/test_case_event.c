@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Events of a YAML text in their order and with their places; what is no YAML is refused.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "pipeline/case_event.h"
+#include "tests/unit_test.h"
 
 static void events_have_their_places(void **state) {
-  (void)state;
   static const char text[] = "a: 'one'\nb: [2, 3]\n";
   static const struct {
     enum fy_event_type type;
@@ -38,7 +32,6 @@ static void events_have_their_places(void **state) {
 }
 
 static void what_is_no_yaml_is_refused(void **state) {
-  (void)state;
   static const char text[] = "a: 1\nb: [2, 3\n";
   CwEventStream stream = {0};
   CwStatus status = cw_event_stream_open("x.yaml", text, strlen(text), &stream);
@@ -52,7 +45,6 @@ static void what_is_no_yaml_is_refused(void **state) {
 }
 
 static void events_have_words(void **state) {
-  (void)state;
   assert_string_equal(cw_event_words(FYET_MAPPING_START), "a mapping");
   assert_string_equal(cw_event_words(FYET_SEQUENCE_START), "a list");
 }

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/case_read.h"
 #include "pipeline/water.h"
+#include "tests/unit_test.h"
 
 static CwStatus read_with(const char *fluid, CwCase *table) {
   char path[] = "case-fluid-XXXXXX";

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
@@ -18,6 +11,7 @@
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
 #include "tests/remove_folder.h"
+#include "tests/unit_test.h"
 
 static char run[] = "/tmp/cutwater-origin-XXXXXX", path[sizeof run + 40];
 static CwCase paper;

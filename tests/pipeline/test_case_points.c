@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The operating points of the characteristic curve: lists in the case file, and the flows, shares and names that
 // follow.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/case_points.h"
 #include "pipeline/case_read.h"
+#include "tests/unit_test.h"
 
 static char path[] = CUTWATER_BIN_DIR "/points-XXXXXX";
 
 static int make_path(void **state) {
-  (void)state;
   int file = mkstemp(path);
   return file < 0 ? -1 : close(file);
 }
 
 static int remove_path(void **state) {
-  (void)state;
   return unlink(path);
 }
 
@@ -51,7 +44,6 @@ static void expect_flows(const char *lines, int count, const double *m3_per_h, c
 }
 
 static void shares_and_flow_rates_give_flows(void **state) {
-  (void)state;
   expect_flows("", 4, (double[]){15, 20, 25, 30}, (const char *[]){"q0600", "q0800", "q1000", "q1200"});
   expect_flows("operating_points:\n  flow_shares: [0.5, 1, 1.25]", 3, (double[]){12.5, 25, 31.25},
                (const char *[]){"q0500", "q1000", "q1250"});
@@ -64,7 +56,6 @@ static void shares_and_flow_rates_give_flows(void **state) {
 }
 
 static void bad_points_are_refused_with_their_place(void **state) {
-  (void)state;
 #define ALLOWED "a list [..., ...] of 1 to 12 ascending values, each 0.01 to 3"
   static const struct {
     const char *lines, *message;

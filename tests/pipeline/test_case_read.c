@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: case_check, case_value.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "bad_cases.h"
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/wall_group.h"
+#include "tests/unit_test.h"
 
 static const double pi = 3.14159265358979323846;
 

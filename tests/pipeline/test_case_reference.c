@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The page docs/case-reference.md and the schema agree. `test_case_reference --print` prints the tables for
 // the page.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "pipeline/case_schema.h"
+#include "tests/unit_test.h"
 
 static char *tables_text(void) {
   char *text = NULL;

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Layers that follow the number of cells: by hand, and that their stretching stays the same function.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "pipeline/case_schema.h"
 #include "pipeline/case_sweep.h"
+#include "tests/unit_test.h"
 
 static CwCase pump(CwSweep sweep, int layers, double growth) {
   CwCase table;
@@ -27,7 +21,6 @@ static CwCase pump(CwSweep sweep, int layers, double growth) {
 }
 
 static void layers_stay_unless_asked(void **state) {
-  (void)state;
   CwCase table = pump(CW_SWEEP_LAYERS_STAY, 5, 1.2), before = table;
   assert_int_equal(cw_case_sweep("case.yaml", 8000000, &table), CW_OK);
   assert_int_equal(table.mesh.cells, 8000000);
@@ -35,7 +28,6 @@ static void layers_stay_unless_asked(void **state) {
 }
 
 static void eight_times_the_cells_halve_each_layer(void **state) {
-  (void)state;
   // Two layers of 1 and 1.44 become four of 1/2.2, 1.2/2.2, 1.44/2.2, 1.728/2.2: in pairs 1 and 1.44.
   CwCase table = pump(CW_SWEEP_SIMILAR, 2, 1.44);
   assert_int_equal(cw_case_sweep("case.yaml", 8000000, &table), CW_OK);
@@ -58,7 +50,6 @@ static double thickness(double first, double growth, int layers) {
 }
 
 static void the_whole_thickness_stays(void **state) {
-  (void)state;
   for (int64_t cells = 20000; cells < 300000000; cells *= 3) {
     CwCase table = pump(CW_SWEEP_SIMILAR, 5, 1.2);
     table.walls.hub_shroud.growth_ratio = 1.3;
@@ -72,7 +63,6 @@ static void the_whole_thickness_stays(void **state) {
 }
 
 static void what_cannot_be_refined_is_told(void **state) {
-  (void)state;
   CwCase table = pump(CW_SWEEP_SIMILAR, 0, 1.2);
   assert_int_equal(cw_case_sweep("case.yaml", 8000000, &table), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "case.yaml: mesh.sweep: similar refines given layers"));

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Trees of free names: what stands where, and what is refused.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "pipeline/case_tree.h"
+#include "tests/unit_test.h"
 
 // The tree of a document's root.
 static CwStatus read_tree(const char *text, CwCaseNode *root) {
@@ -26,7 +21,6 @@ done:
 }
 
 static void maps_lists_and_scalars(void **state) {
-  (void)state;
   CwCaseNode root = {0};
   if (read_tree("b: [1, [2, three]]\na: {c: x y}\n", &root)) fail_msg("%s", cw_fail_message());
   assert_int_equal(root.type, CW_NODE_MAP);
@@ -45,7 +39,6 @@ static void maps_lists_and_scalars(void **state) {
 }
 
 static void wrong_trees_are_refused(void **state) {
-  (void)state;
   static char longest[300] = "a: ";
   memset(longest + 3, 'x', 280);
   static const struct {

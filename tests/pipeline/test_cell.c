@@ -2,11 +2,9 @@
 #include "pipeline/mesh/cell.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 // The unit cube's corners, then its top centre.
 static double points[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},  {0, 0, 1},
@@ -44,7 +42,6 @@ static void volumes_of_the_three_shapes(void **state) {
 }
 
 static void an_inverted_tetrahedron_has_a_negative_volume(void **state) {
-  (void)state;
   const double *x[4] = {points[0], points[1], points[3], points[4]}, *inverted[4] = {x[1], x[0], x[2], x[3]};
   assert_float_equal(cw_cell_volume(4, x), 1.0 / 6, 1e-15);
   assert_float_equal(cw_cell_volume(4, inverted), -1.0 / 6, 1e-15);
@@ -52,7 +49,6 @@ static void an_inverted_tetrahedron_has_a_negative_volume(void **state) {
 
 // A quarter of the way up from the base of tetrahedron and pyramid; half a box, in the middle of its height.
 static void centroids_of_the_three_shapes(void **state) {
-  (void)state;
   CwRegionData region = one_of_each();
   const double wanted[3][3] = {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.25}, {1.0 / 3, 1.0 / 3, 0.5}};
   for (int32_t cell = 0; cell < 3; ++cell) {
@@ -65,7 +61,6 @@ static void centroids_of_the_three_shapes(void **state) {
 
 // Every face looks out of its cell, and together they close.
 static void faces_look_outward_and_close(void **state) {
-  (void)state;
   CwRegionData region = one_of_each();
   const int faces[] = {4, 5, 5}, triangles[] = {4, 4, 2};
   for (int32_t cell = 0; cell < 3; ++cell) {
@@ -91,7 +86,6 @@ static void faces_look_outward_and_close(void **state) {
 
 // A prism on a right angle with legs of 1 and a height h has the components 2 h, 2 h and 1.
 static void aspects_and_determinants_by_hand(void **state) {
-  (void)state;
   for (int i = 1; i <= 3; ++i) {
     const double h = pow(0.1, i), p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, h}, {1, 0, h}, {0, 1, h}};
     const double *prism[6] = {p[0], p[1], p[2], p[3], p[4], p[5]};

@@ -2,25 +2,20 @@
 // Fields of OpenFOAM: values by cell and by patch whatever bytes they hold, and one line where a file is wrong. What
 // the pictures take from them (flow): the order of regions, cells and faces, the frame that turns, the scale.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/report/flow.h"
 #include "pipeline/report/foam_field.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
-static char folder[] = "/tmp/cutwater-fields-XXXXXX";
 
 static FILE *begin(const char *name, const char *class, char path[200]) {
-  snprintf(path, 200, "%s/%s", folder, name);
+  snprintf(path, 200, "%s/%s", test_folder, name);
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   fprintf(file, "/* a comment */\nFoamFile\n{\n    version 2.0;\n    format binary;\n    class %s;\n", class);
@@ -41,16 +36,6 @@ static double of_character(char character) {
   memset(bytes, character, sizeof bytes);
   memcpy(&value, bytes, sizeof value);
   return value;
-}
-
-static int make_folder(void **state) {
-  return mkdtemp(folder) ? 0 : 1;
-}
-
-static int remove_folder(void **state) {
-  char command[100];
-  snprintf(command, sizeof command, "rm -r '%s'", folder);
-  return system(command);
 }
 
 static void values_are_those_of_the_file(void **state) {
@@ -129,12 +114,12 @@ static void the_flow_lies_on_the_mesh(void **state) {
   double *share[2];
   const double p[] = {-5, 15}, u[] = {0, 2, 0, 0, 2, 0}, y_plus[] = {1, 100};
   make_mesh(&mesh, cells);
-  assert_int_equal(cw_flow_open(folder, &mesh, &table, &flow), CW_OK);
+  assert_int_equal(cw_flow_open(test_folder, &mesh, &table, &flow), CW_OK);
   assert_false(flow.present); // nothing solved
   for (const char *const *name = (const char *const[]){"solve", "solve/steady", "solve/steady/90", "solve/steady/200",
                                                        "solve/steady/0", NULL};
        *name; name++) {
-    snprintf(path, sizeof path, "%s/%s", folder, *name);
+    snprintf(path, sizeof path, "%s/%s", test_folder, *name);
     assert_int_equal(mkdir(path, 0777), 0);
   }
   write_field("solve/steady/200/p", "scalar", 1, p, 2, "");
@@ -144,7 +129,7 @@ static void the_flow_lies_on_the_mesh(void **state) {
   put_list(file, "scalar", 1, y_plus, 2);
   fputs("}\n}\n", file);
   fclose(file);
-  assert_int_equal(cw_flow_open(folder, &mesh, &table, &flow), CW_OK);
+  assert_int_equal(cw_flow_open(test_folder, &mesh, &table, &flow), CW_OK);
   assert_true(flow.present && flow.iteration == 200);
   assert_true(flow.span[CW_FLOW_PRESSURE].least == -5 && flow.span[CW_FLOW_PRESSURE].most == 15); // kPa
   for (int r = 0; r < 2; r++) {
@@ -165,11 +150,11 @@ static void the_flow_lies_on_the_mesh(void **state) {
   cw_flow_close(&flow);
   // Of another mesh, or of another kind.
   write_field("solve/steady/200/p", "scalar", 1, (const double[]){1, 2, 3}, 3, "");
-  assert_int_equal(cw_flow_open(folder, &mesh, &table, &flow), CW_ERR_INPUT);
+  assert_int_equal(cw_flow_open(test_folder, &mesh, &table, &flow), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "has values of 3 cells, the mesh has 2"));
   cw_flow_close(&flow);
   write_field("solve/steady/200/p", "vector", 3, u, 2, "");
-  assert_int_equal(cw_flow_open(folder, &mesh, &table, &flow), CW_ERR_INPUT);
+  assert_int_equal(cw_flow_open(test_folder, &mesh, &table, &flow), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "3 components; it must have 1"));
   cw_flow_close(&flow);
 }
@@ -179,5 +164,5 @@ int main(void) {
       cmocka_unit_test(values_are_those_of_the_file),
       cmocka_unit_test(the_flow_lies_on_the_mesh),
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_test_folder, clear_test_folder);
 }

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include <math.h>
 
-#include <cmocka.h>
-
 #include "pipeline/mesh/interface_tolerance.h"
+#include "tests/unit_test.h"
 
 static void a_hundredth_of_the_shortest_edge(void **state) {
   const double a[3] = {0, 0, 0}, b[3] = {4, 0, 0}, c[3] = {4, 3, 0}, d[3] = {0, 2, 0}, e[3] = {4, 0, 0.5};

@@ -3,16 +3,11 @@
 #include "pipeline/model.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
-#include "pipeline/json_read.h"
+#include "tests/unit_test.h"
 
 static const char file[] = "model-test.json";
 

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "pipeline/report/plot.h"
+#include "tests/unit_test.h"
 
 #define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
 

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/hash.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 

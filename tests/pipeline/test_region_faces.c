@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/mesh/region_faces.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "pipeline/mesh/cell.h"
+#include "tests/unit_test.h"
 
 // A pyramid on the unit square with a tetrahedron at its side 1-2-4. Points 1, 2 and 4 are the shared ones
 // (places 0, 1, 2), the others the region's own.
@@ -65,7 +62,6 @@ static void fails_with(const Region *r, const char *words) {
 }
 
 static void neighbours_find_each_other(void **state) {
-  (void)state;
   Region r;
   CwRegionFaces faces = {0};
   make(&r);
@@ -83,7 +79,6 @@ static void neighbours_find_each_other(void **state) {
 
 // Without the tetrahedron the face 0-1-2 has shared points only: it waits for another region.
 static void a_face_of_shared_points_stays_open(void **state) {
-  (void)state;
   Region r;
   CwRegionFaces faces = {0};
   int32_t *open = NULL, count = 0;
@@ -106,7 +101,6 @@ static void a_face_of_shared_points_stays_open(void **state) {
 }
 
 static void bad_surfaces_are_told(void **state) {
-  (void)state;
   Region r;
   make(&r);
   r.data.triangle_count = 5; // the last face of the pyramid, with own points
@@ -129,7 +123,6 @@ static void bad_surfaces_are_told(void **state) {
 }
 
 static void two_cells_on_one_side_are_told(void **state) {
-  (void)state;
   Region r;
   int32_t twice[][4] = {{0, 5, 1, 2}, {0, 5, 1, 2}};
   make(&r);
@@ -141,7 +134,6 @@ static void two_cells_on_one_side_are_told(void **state) {
 }
 
 static void loops_do_not_depend_on_the_start(void **state) {
-  (void)state;
   const int64_t wanted[] = {2, 5, 9, 7};
   for (int start = 0; start < 4; ++start)
     for (int way = 0; way < 2; ++way) {

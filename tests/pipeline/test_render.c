@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cairo.h>
-#include <cmocka.h>
 
 #include "pipeline/report/camera.h"
 #include "pipeline/report/render.h"
+#include "tests/unit_test.h"
 
 #define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
 

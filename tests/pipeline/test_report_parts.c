@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Numbers, pieces of HTML, cuts through cells and the survey of the boundary.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "pipeline/report/cut.h"
 #include "pipeline/report/format.h"
@@ -18,6 +12,7 @@
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/quantity.h"
 #include "pipeline/report/survey.h"
+#include "tests/unit_test.h"
 
 #define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
 

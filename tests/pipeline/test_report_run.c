@@ -3,18 +3,11 @@
 // wrong.
 // Modules without a test of their own that it runs: drawing, page_curve, page_design, page_mesh, page_pictures,
 // page_run, page_solve, page_view, picture_list, pictures.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
@@ -23,6 +16,7 @@
 #include "pipeline/report/page.h"
 #include "tests/seal_run.h"
 #include "tests/remove_folder.h"
+#include "tests/unit_test.h"
 
 #define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
 

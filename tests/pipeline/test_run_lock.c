@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/run_lock.h"
-#include "tests/remove_folder.h"
 
-#include <errno.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
 static CwRunLock lock;
-static char run[] = "/tmp/cutwater-lock-XXXXXX";
-
-static int make_run(void **state) {
-  return !mkdtemp(run);
-}
-
-static int remove_run(void **state) {
-  return remove_folder(run);
-}
 
 // Another process takes the folder for the mesher and waits for its end; returns when it has it.
 static pid_t start_holder(int *end) {
@@ -35,7 +21,7 @@ static pid_t start_holder(int *end) {
   pid_t child = fork();
   if (child == 0) {
     close(go[1]); // so that the end of the test ends it
-    taken = cw_run_lock(run, "mesh", NULL, &lock) == CW_OK;
+    taken = cw_run_lock(test_folder, "mesh", NULL, &lock) == CW_OK;
     _exit(write(ready[1], &taken, 1) != 1 || read(go[0], &taken, 1) < 0);
   }
   assert_int_equal(read(ready[0], &taken, 1), 1);
@@ -52,23 +38,23 @@ static void the_second_is_told_who_has_it(void **state) {
   int end;
   pid_t child = start_holder(&end);
   gethostname(host, sizeof host - 1);
-  snprintf(wanted, sizeof wanted, "%s: cutwater-mesh on host %s, process %d works in this folder; ", run, host,
+  snprintf(wanted, sizeof wanted, "%s: cutwater-mesh on host %s, process %d works in this folder; ", test_folder, host,
            (int)child);
-  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_ERR_IO);
+  assert_int_equal(cw_run_lock(test_folder, "export", NULL, &lock), CW_ERR_IO);
   if (!strstr(cw_fail_message(), wanted)) fail_msg("%s", cw_fail_message());
   close(end);
   assert_int_equal(waitpid(child, NULL, 0), child);
-  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_OK);
+  assert_int_equal(cw_run_lock(test_folder, "export", NULL, &lock), CW_OK);
   cw_run_unlock(&lock);
 }
 
 static void it_dies_with_its_process(void **state) {
   int end;
   pid_t child = start_holder(&end);
-  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_ERR_IO);
+  assert_int_equal(cw_run_lock(test_folder, "export", NULL, &lock), CW_ERR_IO);
   kill(child, SIGKILL);
   assert_int_equal(waitpid(child, NULL, 0), child);
-  assert_int_equal(cw_run_lock(run, "export", NULL, &lock), CW_OK);
+  assert_int_equal(cw_run_lock(test_folder, "export", NULL, &lock), CW_OK);
   cw_run_unlock(&lock);
   close(end);
 }
@@ -78,7 +64,7 @@ static void a_child_does_not_inherit_it(void **state) {
   int go[2];
   char byte;
   assert_int_equal(pipe(go), 0);
-  assert_int_equal(cw_run_lock(run, "mesh", NULL, &lock), CW_OK);
+  assert_int_equal(cw_run_lock(test_folder, "mesh", NULL, &lock), CW_OK);
   pid_t child = fork();
   if (child == 0) {
     close(go[1]);
@@ -86,7 +72,7 @@ static void a_child_does_not_inherit_it(void **state) {
   }
   cw_run_unlock(&lock);
   pid_t other = fork();
-  if (other == 0) _exit(cw_run_lock(run, "export", NULL, &lock) != CW_OK);
+  if (other == 0) _exit(cw_run_lock(test_folder, "export", NULL, &lock) != CW_OK);
   int how = 0;
   assert_int_equal(waitpid(other, &how, 0), other);
   assert_int_equal(how, 0);
@@ -95,8 +81,8 @@ static void a_child_does_not_inherit_it(void **state) {
 }
 
 static void a_folder_that_cannot_be_made_is_told(void **state) {
-  char path[sizeof run + 60];
-  snprintf(path, sizeof path, "%s/log/run.lock", run);
+  char path[sizeof test_folder + 60];
+  snprintf(path, sizeof path, "%s/log/run.lock", test_folder);
   assert_int_equal(cw_run_lock(path, "mesh", NULL, &lock), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), path));
 }
@@ -108,5 +94,5 @@ int main(void) {
       cmocka_unit_test(a_child_does_not_inherit_it),
       cmocka_unit_test(a_folder_that_cannot_be_made_is_told),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_test_folder, clear_test_folder);
 }

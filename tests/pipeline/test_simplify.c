@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Decimated surfaces: bounded, near the true one, edges kept, the same in any order (exact_sum); parts of the view.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "pipeline/report/simplify.h"
 #include "pipeline/report/view.h"
+#include "tests/unit_test.h"
 
 // Of the cube from 0 to 1, each side in side x side squares of two triangles, marked by side, every `step`th triangle
 // from `first` on.

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/log.h"
 #include "pipeline/run_lock.h"
 #include "pipeline/stage_args.h"
+#include "tests/unit_test.h"
 
 static const CwStageOption own_options[] = {
     {"format", "NAME", "cgns or openfoam"},

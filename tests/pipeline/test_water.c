@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #include "pipeline/water.h"
+#include "tests/unit_test.h"
 
 static void near_share(double value, double expected, double share) {
   if (!(fabs(value / expected - 1) <= share)) fail_msg("%.10g is not %.10g", value, expected);

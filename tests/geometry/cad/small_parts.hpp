@@ -3,10 +3,6 @@
 #ifndef CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PARTS_HPP
 #define CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PARTS_HPP
 
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -58,9 +54,7 @@ inline TopoDS_Shape small_box(double x, double y, double z, double dx, double dy
   return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
 }
 
-extern "C" {
-#include <cmocka.h> // last: its macros have names of the C++ library
-}
+#include "tests/unit_test.h"
 
 inline void small_near(double value, double wanted, double within) {
   if (!(std::fabs(value - wanted) <= within)) fail_msg("%.9g where %.9g is wanted", value, wanted);

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The pump's coordinates for axes along z, along x and aslant: right-handed, and there and back.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "geometry/cad/cad_frame.h"
+#include "tests/unit_test.h"
 
 static void make(const double point[3], const double axis[3], CwCadFrame *frame) {
   CwCaseCad cad = {.unit = 1e-3};
@@ -19,7 +14,6 @@ static void make(const double point[3], const double axis[3], CwCadFrame *frame)
 }
 
 static void along_z_nothing_moves(void **state) {
-  (void)state;
   CwCadFrame frame;
   make((double[]){0, 0, 0}, (double[]){0, 0, 1}, &frame);
   const double at[] = {1, 2, 3};
@@ -30,7 +24,6 @@ static void along_z_nothing_moves(void **state) {
 }
 
 static void any_axis_becomes_z(void **state) {
-  (void)state;
   static const double axes[][3] = {{1, 0, 0}, {0, 0, -1}, {0.6, 0, 0.8}, {-2. / 3, 1. / 3, 2. / 3}};
   for (int a = 0; a < 4; a++) {
     CwCadFrame frame;

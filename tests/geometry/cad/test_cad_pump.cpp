@@ -2,10 +2,6 @@
 // A pump of primitives from a B-rep file to its model: seams are divided, the strip of the casing that the wheel's
 // outlet leaves free is cut off, patches are proposed by form and place, and what is wrong is told.
 #include <cmath>
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <string>
 
@@ -15,9 +11,7 @@
 #include "pipeline/case_read.h"
 #include "cad/small_pump.hpp"
 
-extern "C" {
-#include <cmocka.h> // last: its macros have names of the C++ library
-}
+#include "tests/unit_test.h"
 
 static std::string folder;
 static const double mm = 1e-3;

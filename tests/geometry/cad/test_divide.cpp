@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Solids of revolution with seams, poles and tips, divided: valid, of the volume that formulas give them, without a
 // seam, and with one pole a face at the most.
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
-#include <string>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -30,9 +25,7 @@
 #include "geometry/cad/cad_part.hpp"
 #include "geometry/cad/divide.h"
 
-extern "C" {
-#include <cmocka.h> // last: its macros have names of the C++ library
-}
+#include "tests/unit_test.h"
 
 static const CwCadFrame frame = {{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1};
 

@@ -6,7 +6,6 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
-#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 
 #include "geometry/cad/divide.h"

@@ -23,7 +23,6 @@ extern "C" {
 #include "mesher/region/region_build.h"
 #include "mesher/region/region_failure.h"
 #include "mesher/region/region_number.h"
-#include "mesher/cad/background_make.h"
 }
 
 #include "divided_box.h"

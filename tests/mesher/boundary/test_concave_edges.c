@@ -2,20 +2,15 @@
 // Narrow concave edges in the layer top of a flat ring of four equal passages: in each the columns of one edge are much
 // lower than those beside it, which stand so high that only flat tetrahedra fit between.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "flat_ring.h"
 #include "mesher/boundary/concave_edges.h"
 #include "mesher/common/incident.h"
 #include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
+#include "tests/unit_test.h"
 
 static const double HIGH = 5.5e-3, LOW = 0.5e-3;
 
@@ -108,7 +103,6 @@ static void concave_edges_are_opened(void **state) {
         assert_int_equal(ring.reason[v], CW_LAYER_REPAIR);
     }
   }
-  (void)state;
 }
 
 // Columns on a seam are judged with their periodic images: as in a ring of one passage, whose columns about the ray 0
@@ -130,7 +124,6 @@ static void seams_do_not_matter(void **state) {
         int32_t v = ring_point(AROUND + i, j);
         assert_float_equal(ring.top[v][k], whole.top[v][k], 0.01 * HIGH);
       }
-  (void)state;
 }
 
 // Two things leave all as it is: no narrow concave edge, and one in which something stands.
@@ -160,7 +153,6 @@ static void others_stay(void **state) {
     assert_memory_equal(ring.thickness, before.thickness, sizeof ring.thickness);
     assert_memory_equal(ring.reason, before.reason, sizeof ring.reason);
   }
-  (void)state;
 }
 
 int main(void) {

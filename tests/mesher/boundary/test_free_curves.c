@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A free curve across a partition plane and a triangular outline on it: sound as they are; each way of spoiling them is
 // told. Nodes are appended beyond the room that there is at first.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/boundary/free_curves.h"
+#include "tests/unit_test.h"
 
 enum { NODES = 4 };
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A square interface with a point in its middle, and an open patch beside it: sound as they are; each way of spoiling
 // them is told.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/boundary/interfaces.h"
+#include "tests/unit_test.h"
 
 enum { NODES = 6, TRIANGLES = 4, REGIONS = 3 };
 
@@ -43,7 +40,6 @@ static void make(Square *made) {
 
 static void sound_ones_pass(void **state) {
   Square of;
-  (void)state;
   make(&of);
   assert_int_equal(cw_interfaces_audit(&of.interfaces, REGIONS), CW_OK);
   // The rule of region numbers leaves the square in two triangles.
@@ -62,7 +58,6 @@ static void told(Square *of, const char *message) {
 
 static void spoiled_ones_are_told(void **state) {
   Square of;
-  (void)state;
   make(&of);
   of.open_patch[0][1] = NODES;
   told(&of, "open patches: triangle 0 has the corners 0, 6, 1 of 6 nodes");

@@ -2,24 +2,18 @@
 // Layers on a flat ring of four equal passages: they are grown over the first and turned.
 // Modules without a test of their own that it runs: periodic_boundary.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "flat_ring.h"
 #include "mesher/boundary/periodic_boundary.h"
 #include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
+#include "tests/unit_test.h"
 
 static const double HEIGHT = 0.6e-3;
 
 static void leave(const void *context, int32_t v, double x[3]) {
-  (void)context, (void)v, (void)x;
 }
 
 // In the middle of the first seam the column of one member stands on a line that leans, that of the other is free.

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A tetrahedron's surface is a sound surface mesh, whole or open; each way of spoiling it is told.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "mesher/boundary/surface_mesh.h"
+#include "tests/unit_test.h"
 
 enum { VERTICES = 4, TRIANGLES = 4, REGIONS = 2 };
 
@@ -43,7 +40,6 @@ static void make(Tetrahedron *made) {
 
 static void sound_ones_pass(void **state) {
   Tetrahedron of;
-  (void)state;
   make(&of);
   assert_int_equal(cw_surface_mesh_audit(&of.surface, REGIONS), CW_OK);
   of.surface.triangle_count = of.start[2] = 3; // without the last triangle it is open, and as sound
@@ -61,7 +57,6 @@ static void told(Tetrahedron *of, const char *message) {
 
 static void spoiled_ones_are_told(void **state) {
   Tetrahedron of;
-  (void)state;
   make(&of);
   of.triangle[2][1] = VERTICES;
   told(&of, "triangle 2 has the corners 1, 4, 3 of 4 vertices");
@@ -88,7 +83,6 @@ static void spoiled_ones_are_told(void **state) {
 // What is free has nothing, and may be freed again.
 static void freed_ones_are_empty(void **state) {
   CwSurfaceMesh surface = {.vertex_count = 1, .triangle_count = 1}, none = {0};
-  (void)state;
   surface.x = malloc(sizeof *surface.x);
   surface.triangle = malloc(sizeof *surface.triangle);
   cw_surface_mesh_free(&surface);
@@ -99,7 +93,6 @@ static void freed_ones_are_empty(void **state) {
 static void vtk_has_all_triangles(void **state) {
   char path[] = "cutwater-test-XXXXXX.vtk", text[4000] = {0};
   Tetrahedron of;
-  (void)state;
   make(&of);
   int file = mkstemps(path, 4);
   assert_true(file >= 0);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A wall curve of two edges and a free one between the same two corners, and a corner off the walls: sound as they are;
 // each way of spoiling them is told.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/boundary/wall_curves.h"
+#include "tests/unit_test.h"
 
 enum { CORNERS = 3, CURVES = 2 };
 
@@ -57,7 +54,6 @@ static void told(Made *of, const char *message) {
 
 static void spoiled_ones_are_told(void **state) {
   Made of;
-  (void)state;
   make(&of);
   assert_int_equal(cw_wall_curves_audit(&of.curves, &of.network), CW_OK);
   of.curves.corner_vertex[2] = 2; // off the walls

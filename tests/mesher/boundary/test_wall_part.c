@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "mesher/boundary/wall_part.h"
+#include "tests/unit_test.h"
 
 static void note(const void *context, int32_t vertex, double x[3]) {
-  (void)context;
   x[0] = vertex;
 }
 
@@ -59,7 +53,6 @@ static void a_part_of_a_strip(void **state) {
     assert_memory_equal(part.in.constraint_normal[i], normal[v], sizeof normal[v]);
   }
   cw_wall_part_free(&part);
-  (void)state;
 }
 
 int main(void) {

@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/cad/cad_unit.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
-static char folder[] = "cad-unit-test-XXXXXX";
-
-static int setup(void **state) {
-  return !mkdtemp(folder);
-}
-
-static int teardown(void **state) {
-  return rmdir(folder);
-}
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
 static CwStatus read_of(const char *text, double *unit) {
   char path[64];
-  snprintf(path, sizeof path, "%s/model.json", folder);
+  snprintf(path, sizeof path, "%s/model.json", test_folder);
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   fputs(text, file);
   fclose(file);
-  const CwStatus status = cw_cad_unit_read(folder, unit);
+  const CwStatus status = cw_cad_unit_read(test_folder, unit);
   unlink(path);
   return status;
 }
 
 static void unit_of_the_file_or_a_millimetre(void **state) {
   double unit = 0;
-  assert_int_equal(cw_cad_unit_read(folder, &unit), CW_OK);
+  assert_int_equal(cw_cad_unit_read(test_folder, &unit), CW_OK);
   assert_true(unit == 1e-3);
   assert_int_equal(read_of("{\"format\": 1, \"unit_m\": 0.000125}", &unit), CW_OK);
   assert_true(unit == 1e-3 / 8);
@@ -58,5 +46,5 @@ int main(void) {
       cmocka_unit_test(unit_of_the_file_or_a_millimetre),
       cmocka_unit_test(a_file_without_it_is_named),
   };
-  return cmocka_run_group_tests(tests, setup, teardown);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include <math.h>
-
-#include <cmocka.h>
 
 #include "draw.h"
 #include "mesher/cad/rays.h"
 #include "octahedron.h"
+#include "tests/unit_test.h"
 
 static CwRays *rays_through(const CwBackground *background) {
   CwRays *rays = NULL;

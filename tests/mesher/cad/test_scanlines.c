@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
 #include <math.h>
 
-#include <cmocka.h>
-
 #include "mesher/cad/scanlines.h"
 #include "octahedron.h"
+#include "tests/unit_test.h"
 
 static const double low[2] = {-1, -1}, high[2] = {1, 1};
 

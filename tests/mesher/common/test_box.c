@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Boxes of points and triangles, and which meet.
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "mesher/common/box.h"
+#include "tests/unit_test.h"
 
 static const double POINT[4][3] = {{1, -2, 0.5}, {-3, 4, 0.25}, {0, 1, 0.75}, {2, 0, 0.5}};
 static const CwBox ALL = {{-3, -2, 0.25}, {2, 4, 0.75}};

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The tree against a plain loop over all boxes, before and after they move.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "draw.h"
 #include "mesher/common/box_tree.h"
 #include "mesher/common/vec.h"
+#include "tests/unit_test.h"
 
 enum { COUNT = 700 };
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "draw.h"
 #include "mesher/common/clip.h"
+#include "tests/unit_test.h"
 
 static void assert_point(const double *x, double a, double b) {
   assert_float_equal(x[0], a, 1e-12);

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "draw.h"
 #include "mesher/common/cubes.h"
 #include "mesher/common/vec.h"
+#include "tests/unit_test.h"
 
 enum { POINTS = 3000 };
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/common/hilbert.h"
+#include "tests/unit_test.h"
 
 // Each cell once, and each next to the one before.
 static void curve_visits_neighbours(void **unused) {

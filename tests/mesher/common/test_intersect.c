@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "mesher/common/intersect.h"
 #include "surfaces.h"
+#include "tests/unit_test.h"
 
 static int32_t pairs(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*t)[3], int32_t first[2]) {
   int32_t count = -1, (*pair)[2] = NULL;

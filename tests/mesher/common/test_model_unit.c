@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include <math.h>
 
-#include <cmocka.h>
-
 #include "mesher/common/model_unit.h"
+#include "tests/unit_test.h"
 
 static void a_model_is_a_quarter_to_a_half_of_its_unit(void **state) {
   for (int power = -20; power <= 20; power++) {

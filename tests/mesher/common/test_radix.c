@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 
 #include "mesher/common/mix.h"
 #include "mesher/common/radix.h"
+#include "tests/unit_test.h"
 
 enum { COUNT = 5000 };
 

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "mesher/common/ring.h"
+#include "tests/unit_test.h"
 
 // A ring of four corners 10..13 round the edge 1-2, cut from corner 0 to 2: triangles (0,1,2) and (0,2,3).
 static void ring_of_four_gives_four_tetrahedra(void **state) {

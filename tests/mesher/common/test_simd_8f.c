@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <cmocka.h>
 
 #include "mesher/common/simd_8f.h"
+#include "tests/unit_test.h"
 
 static void rows_of_each_half_become_columns(void **state) {
   Cw8f v[4];

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "mesher/common/quality.h"
 #include "mesher/common/triangle_bound.h"
+#include "tests/unit_test.h"
 
 // Two triangles over the x axis, as narrow as `angle`; the fluid lies between them.
 static void angles_of_a_wedge(void **state) {
@@ -19,7 +14,6 @@ static void angles_of_a_wedge(void **state) {
     assert_float_equal(found, angle < 90 ? angle : 90, 1e-9);
     assert_float_equal(cw_inner_angle(from, to, above, below), found, 1e-9); // the edge as the other triangle has it
   }
-  (void)state;
 }
 
 // The fourth corner of a regular tetrahedron is the apex across all three edges; across one alone, the others hold half
@@ -37,7 +31,6 @@ static void what_a_triangle_allows(void **state) {
   double bound = cw_triangle_bound(corner, (CwBoundSide[3]){narrow, other, open}, 90);
   assert_float_equal(bound, 10, 1e-9);
   assert_true(cw_triangle_bound(corner, (CwBoundSide[3]){at_d, at_d, at_d}, 30) >= 30); // none of the worst
-  (void)state;
 }
 
 int main(void) {

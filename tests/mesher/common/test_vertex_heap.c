@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 
 #include "mesher/common/vertex_heap.h"
+#include "tests/unit_test.h"
 
 enum { COUNT = 1000 };
 
 static void least_first_and_ties_by_number(void **state) {
   CwHeap heap = {0};
   CwHeapItem last = {-1, -1};
-  (void)state;
   for (int32_t i = 0; i < COUNT; i++) {
     int32_t v = (int32_t)(((int64_t)i * 617) % COUNT);
     assert_int_equal(cw_heap_push(&heap, v % 10, v), CW_OK);
@@ -29,7 +24,6 @@ static void least_first_and_ties_by_number(void **state) {
 
 // All orders in which up to six items can come.
 static void any_order_comes_out_sorted(void **state) {
-  (void)state;
   for (int count = 1, orders = 1; count <= 6; orders *= ++count)
     for (int order = 0; order < orders; order++) {
       CwHeap heap = {0};

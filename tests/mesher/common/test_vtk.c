@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is written is read back: every number of points, triangles, lines and fields, to the last bit.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vtk.h"
+#include "tests/unit_test.h"
 
 static const char *const PATH = "vtk-test.vtk";
 static const double X[4][3] = {{0.1, 0, 1e-9}, {1, 2.0 / 3, 0}, {-3, 0, 5}, {0, 1, 7e5}};

@@ -2,14 +2,9 @@
 // What is no boundary is refused by each way to fill, with one line that names the region and a place.
 // Modules without a test of their own that it runs: fill_shape.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "fill_fault.h"
 #include "hard_boundaries.h"
@@ -17,6 +12,7 @@
 #include "mesher/fill/fill_with_fallback.h"
 #include "mesher/fill/kernel.h"
 #include "mesher/fill/tetgen_fill.h"
+#include "tests/unit_test.h"
 
 static const double origin[3] = {0, 0, 0};
 

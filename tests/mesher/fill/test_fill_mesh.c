@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill_mesh.h"
 #include "shaken_lattice.h"
+#include "tests/unit_test.h"
 
 // The inside of a Delaunay mesh as a fill, as a mesh, and as a fill again: all neighbours know one another, and points
 // and tetrahedra come back as they were.

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "closed_surfaces.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_points.h"
-#include "mesher/fill/offset_points.h"
 #include "mesher/policy.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 

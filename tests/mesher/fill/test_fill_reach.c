@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mesher/fill/fill_reach.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
 

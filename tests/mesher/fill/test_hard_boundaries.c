@@ -3,23 +3,18 @@
 // flips or by TetGen. With three numbers as arguments, random ones alone: as many, of the seeds from the second on,
 // each so much after the one before as the third says. With a name, that boundary of the library alone; with `seed N`,
 // that random one alone.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <cmocka.h>
 
 #include "fill_fault.h"
 #include "hard_boundaries.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/fill_with_fallback.h"
-#include "mesher/fill/kernel.h"
 #include "pipeline/log.h"
 #include "random_boundary.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "fill_fault.h"
 #include "mesher/common/quality.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel.h"
 #include "surface_shapes.h"
+#include "tests/unit_test.h"
 
 typedef struct {
   double dihedral_least, aspect_mean;

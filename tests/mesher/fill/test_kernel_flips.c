@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "draw.h"
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel_flips.h"
 #include "mesher/fill/tet_improve.h"
+#include "tests/unit_test.h"
 
 static int never_in_the_way(const void *context, int count, const int32_t *point) {
   return 0;

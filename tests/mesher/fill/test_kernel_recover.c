@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "draw.h"
 #include "fill_fault.h"
@@ -14,6 +9,7 @@
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel_recover.h"
 #include "surface_shapes.h"
+#include "tests/unit_test.h"
 
 static const double origin[3] = {0, 0, 0};
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "closed_surfaces.h"
 #include "mesher/common/quality.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/lattice_core.h"
+#include "tests/unit_test.h"
 
 enum { LEVEL = 3, EDGE = 2 << LEVEL };
 

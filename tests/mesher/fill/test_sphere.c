@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 
 #include "draw.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/sphere.h"
+#include "tests/unit_test.h"
 
 static uint64_t state;
 

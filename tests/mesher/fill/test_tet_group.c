@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 // With what is compiled for narrow and for wide registers, of which a processor takes one only.
 #include "mesher/fill/tet_group.c"
 
+#include "pipeline/order.h"
 #include "shaken_lattice.h"
+#include "tests/unit_test.h"
 
 static const int edge_of[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
@@ -28,16 +25,11 @@ static double square_of(const double a[3], const double b[3]) {
   return pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2) + pow(b[2] - a[2], 2);
 }
 
-static int compare(const void *left, const void *right) {
-  const double *a = left, *b = right;
-  return *a < *b ? -1 : *a > *b;
-}
-
 static int is_sure(const CwTetMesh *mesh, const int32_t corner[4]) {
   double square[6];
   for (int e = 0; e < 6; e++)
     square[e] = square_of(mesh->point[corner[edge_of[e][0]]].x, mesh->point[corner[edge_of[e][1]]].x);
-  qsort(square, 6, sizeof *square, compare);
+  qsort(square, 6, sizeof *square, cw_order_doubles);
   return square[1] > (1.0 + 1e-5) * square[0] && square[5] > (1.0 + 1e-5) * square[4];
 }
 
@@ -78,7 +70,6 @@ typedef void Want(const CwTet *tet, const double x[4][3], double way[4][3], doub
 // A point with the same distance from all corners, by Cramer's rule.
 static void want_centre(const CwTet *tet, const double x[4][3], double way[4][3], double *weight) {
   double a[3][3], b[3], squares = 0.0;
-  (void)tet;
   for (int m = 0; m < 3; m++) {
     for (int i = 0; i < 3; i++) a[m][i] = x[m + 1][i] - x[0][i];
     b[m] = 0.5 * (a[m][0] * a[m][0] + a[m][1] * a[m][1] + a[m][2] * a[m][2]);

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: tet_insert, tet_move.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
 
 #include "closed_surfaces.h"
 #include "mesher/fill/tet_improve.h"
 #include "mesher/fill/tet_quality.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 

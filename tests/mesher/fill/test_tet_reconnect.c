@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "joined_mesh.h"
 #include "mesher/fill/fill_mesh.h"
 #include "mesher/fill/tet_reconnect.h"
+#include "tests/unit_test.h"
 
 enum { MOST = 8 };
 

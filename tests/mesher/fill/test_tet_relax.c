@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/tet_aspect.h"
 #include "mesher/fill/tet_relax.h"
 #include "mesher/policy.h"
 #include "shaken_lattice.h"
+#include "tests/unit_test.h"
 
 // Sum of the volumes, mean quality and mean ratio of the longest to the shortest edge of the tetrahedra that have an
 // inner point; all are positive.

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/common/quality.h"
 #include "mesher/common/tet.h"
@@ -18,6 +13,7 @@
 #include "mesher/fill/tet_search.h"
 #include "mesher/policy.h"
 #include "shaken_lattice.h"
+#include "tests/unit_test.h"
 
 enum { SIZE = 6000 };
 

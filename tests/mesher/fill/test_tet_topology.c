@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "draw.h"
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/tet_topology.h"
+#include "tests/unit_test.h"
 
 static CwTetMesh random_mesh(uint64_t seed) {
   double x[300][3];

@@ -227,7 +227,6 @@ static void told(Square *of, const char *message) {
 
 static void spoiled_layers_are_told(void **state) {
   Square of;
-  (void)state;
   square(&of);
   assert_int_equal(cw_layers_audit(&of.layers, (const double(*)[3])of.x), CW_OK);
   of.thickness[2] = 0;
@@ -243,7 +242,6 @@ static void spoiled_layers_are_told(void **state) {
 static void vtk_has_the_layer_top(void **state) {
   char path[] = "cutwater-test-XXXXXX.vtk", text[4000] = {0};
   Square of;
-  (void)state;
   square(&of);
   int file = mkstemps(path, 4);
   assert_true(file >= 0);

@@ -117,7 +117,6 @@ static void plane_through_box(void **state) {
 }
 
 static int crossing_planes(const void *context, const double x[3], double normal[2][3]) {
-  (void)context;
   int count = 0;
   for (int k = 0; k < 2; k++)
     if (fabs(x[k] - 0.4 * (1 + 11 * k) * MM) < 1e-9) normal[count++][k] = 1;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
 
 #include "mesher/layers/prism_quality.h"
+#include "tests/unit_test.h"
 
 // Right, half as wide at the end, drawn out by a column that leans by 45 degrees, closed to a point, turned inside out.
 static void prisms_by_hand(void **state) {

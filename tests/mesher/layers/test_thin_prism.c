@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/layers/thin_prism.h"
+#include "tests/unit_test.h"
 
 // Determinant of a right prism from its faces, as checkMesh has it. The triangle lies in z = 0.
 static double by_faces(const double corner[3][2], double height, int on_wall) {

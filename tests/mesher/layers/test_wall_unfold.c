@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mesher/layers/wall_unfold.h"
+#include "tests/unit_test.h"
 
 // A flat smoothing about point 0 in which point 5 has slipped past point 1: triangle 0-5-1 lies on its back.
 static const double X[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0.6, 0.06, 0}};

@@ -16,7 +16,7 @@ extern "C" {
 struct Half {
   CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(20, 30, M_PI).Shape());
   CwBackground background;
-  CwInside *inside = nullptr;
+  CwVerticals *inside = nullptr;
   CwPlanNode node = {};
   double none[2] = {0, 0};
   CwNetwork network;
@@ -24,12 +24,10 @@ struct Half {
 
   Half() {
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
-    assert_int_equal(
-        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
-        CW_OK);
+    assert_int_equal(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside), CW_OK);
   }
   ~Half() {
-    cw_inside_free(&inside);
+    cw_verticals_free(&inside);
     cw_background_free(&background);
     cw_cad_close(&cad);
   }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // An edge of a wall and a cut that starts at its end: sound as they are; each way of spoiling them is told. The picture
 // has both lines with their kinds.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/network/network_audit.h"
+#include "tests/unit_test.h"
 
 enum { POINTS = 3 };
 

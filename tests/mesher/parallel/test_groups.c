@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <time.h>
-#include <cmocka.h>
 
 #include "launch.h"
 #include "mesher/parallel/groups.h"
@@ -12,6 +7,7 @@
 #include "mesher/parallel/profiler.h"
 #include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 
@@ -132,7 +128,6 @@ static char output[100000];
 
 static void all_ranks_get_all(void **state) {
   const int ranks[4] = {1, 2, 3, 5}, ran[4] = {6, 12, 18, 14}; // domains that all ranks ran, in two steps
-  (void)state;
   for (int i = 0; i < 4; i++) {
     int lines, code = launch(ranks[i], "work", output, sizeof output);
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks[i], code, output);
@@ -144,7 +139,6 @@ static void all_ranks_get_all(void **state) {
 }
 
 static void a_domain_that_wants_another_try_is_known_to_all(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 5; ranks += 2) {
     int lines, code = launch(ranks, "retry", output, sizeof output);
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
@@ -154,7 +148,6 @@ static void a_domain_that_wants_another_try_is_known_to_all(void **state) {
 }
 
 static void a_failing_domain_ends_the_run_with_one_line(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 5; ranks += 2) {
     assert_int_equal(launch(ranks, "fail", output, sizeof output), CW_ERR_MESH);
     assert_int_equal(count_lines_with(output, "error:"), 1);
@@ -163,7 +156,6 @@ static void a_failing_domain_ends_the_run_with_one_line(void **state) {
 }
 
 static void a_killed_rank_ends_the_run(void **state) {
-  (void)state;
   assert_int_equal(launch(5, "killed", output, sizeof output), 128 + SIGKILL);
 }
 
@@ -178,7 +170,6 @@ static void check_groups(int count, const double *cost, double own, int ranks, i
 static void groups_follow_the_costs(void **state) {
   const double even[2] = {1, 1}, uneven[2] = {1, 3}, pump[4] = {10, 12, 1, 2};
   const int none[4] = {0}, both[2] = {0, 1}, turned[2] = {1, 0}, pipes[4] = {1, 0, 0, 1};
-  (void)state;
   check_groups(1, even, 0.5, 24, 1, none, (int[]){24});
   check_groups(2, even, 0.5, 3, 1, none, (int[]){3});
   check_groups(2, even, 0.1, 4, 2, both, (int[]){2, 2});

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "launch.h"
 #include "mesher/parallel/outcome.h"
 #include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 
@@ -48,7 +44,6 @@ static int be_a_rank(int argc, char **argv) {
 
 static void ranks_agree(void **state) {
   static char output[20000];
-  (void)state;
   for (int ranks = 1; ranks <= 3; ranks++) {
     int lines, code = launch(ranks, "agree", output, sizeof output);
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
@@ -61,7 +56,6 @@ static void text_ends_with_the_place(void **state) {
   char text[CW_OUTCOME_TEXT_SIZE], many[2 * CW_REASON_SIZE];
   const double place[3] = {0.0012, -0.1, 0};
   CwOutcome outcome = {0};
-  (void)state;
   cw_outcome_set(&outcome, CW_OUTCOME_REPLAN, place, "plane %d grazes %s", 3, "shroud");
   assert_string_equal(cw_outcome_text(&outcome, 1e3, text), "plane 3 grazes shroud at (1.200, -100.000, 0.000) mm");
   cw_outcome_set(&outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no half-planes fit"); // the place is forgotten
@@ -75,7 +69,6 @@ static void text_ends_with_the_place(void **state) {
 
 static void first_that_is_not_done_counts(void **state) {
   CwOutcome outcome[3] = {{0}};
-  (void)state;
   assert_int_equal(cw_outcomes_first(3, outcome).kind, CW_OUTCOME_DONE);
   cw_outcome_set(&outcome[2], CW_OUTCOME_THIN, NULL, "second");
   cw_outcome_set(&outcome[1], CW_OUTCOME_REPLAN, NULL, "first");

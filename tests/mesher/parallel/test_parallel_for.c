@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
 
 #include "launch.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 
@@ -21,14 +18,12 @@ static CwStatus square(void *context, int32_t item, void *out) {
 }
 
 static CwStatus fail_late(void *context, int32_t item, void *out) {
-  (void)context, (void)out;
   return item == 9000 ? CW_FAIL(CW_ERR_MESH, "item %d", item) : CW_OK;
 }
 
 static void every_item_has_its_place(void **state) {
   static int64_t out[COUNT];
   int64_t shift = 7;
-  (void)state;
   for (int32_t i = 0; i < COUNT; i++) out[i] = -1;
   assert_int_equal(cw_parallel_for(NULL, "squares", COUNT, sizeof *out, square, &shift, out), CW_OK);
   for (int32_t i = 0; i < COUNT; i++) assert_int_equal(out[i], i % 3 ? (int64_t)i * i + 7 : 0);
@@ -38,7 +33,6 @@ static void every_item_has_its_place(void **state) {
 // Item i has i % 4 entries, numbered.
 static CwStatus number(void *context, int32_t item, void *out) {
   int64_t *entry = out;
-  (void)context;
   for (int32_t k = 0; k < item % 4; k++) entry[k] = 10 * (int64_t)item + k;
   return CW_OK;
 }
@@ -46,7 +40,6 @@ static CwStatus number(void *context, int32_t item, void *out) {
 static void lists_stand_one_after_the_other(void **state) {
   static int32_t start[COUNT + 1];
   static int64_t out[2 * COUNT];
-  (void)state;
   for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + i % 4;
   assert_int_equal(cw_parallel_for_lists(NULL, "lists", COUNT, start, sizeof *out, number, NULL, out), CW_OK);
   for (int32_t i = 0; i < COUNT; i++) {
@@ -55,7 +48,6 @@ static void lists_stand_one_after_the_other(void **state) {
 }
 
 static CwStatus mark(void *context, int32_t item, void *out) {
-  (void)context;
   if (item >= COUNT - 100) *(int64_t *)out = item;
   return CW_OK;
 }
@@ -83,7 +75,6 @@ static int be_a_rank(int argc, char **argv) {
 static void blocks_may_be_empty(void **state) {
   char output[2000];
   int lines;
-  (void)state;
   assert_int_equal(launch(3, "empty", output, sizeof output), 0);
   assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
   assert_int_equal(lines, 3);
@@ -91,7 +82,6 @@ static void blocks_may_be_empty(void **state) {
 
 static void a_failure_is_given_back(void **state) {
   static int64_t out[COUNT];
-  (void)state;
   assert_int_equal(cw_parallel_for(NULL, "failing", COUNT, sizeof *out, fail_late, NULL, out), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "item 9000");
 }

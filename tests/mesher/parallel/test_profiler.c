@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/parallel/profiler.h"
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static volatile double sink;
 
@@ -17,7 +14,6 @@ static void work(double seconds) {
 }
 
 static CwStatus task(void *context, int32_t index, void **bytes, int64_t *size) {
-  (void)context, (void)bytes, (void)size;
   work(index == 1 ? 0.06 : 0.02);
   return CW_OK;
 }
@@ -47,7 +43,6 @@ static const json_t *find(const json_t *array, const char *key, const char *name
 
 // What a task spends is the task's; what is spent before and after it is the part's that was called.
 static void time_goes_to_tasks_and_parts(void **state) {
-  (void)state;
   const CwContext *context = new_context();
   double begun = cw_processor_seconds(), sum = 0;
   json_t *account, *group_work, *part;
@@ -85,7 +80,6 @@ static const double COST[2] = {5, 7};
 // What is spent on an item is the item's alone; its account can be packed and taken up by a process that was on
 // another.
 static void items_have_their_own_accounts(void **state) {
-  (void)state;
   const CwContext *context = new_context();
   json_t *account, *group_work;
   char *bytes;
@@ -129,7 +123,6 @@ static void items_have_their_own_accounts(void **state) {
 
 // Where nothing is measured schedules run all the same.
 static void a_context_may_have_none(void **state) {
-  (void)state;
   const double cost[1] = {1};
   CwSchedule schedule = {.step = "step", .count = 1, .cost = cost, .run = task};
   assert_string_equal(cw_profiler_part(NULL, "part"), "");

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
 
 #include "launch.h"
 #include "mesher/parallel/ranks.h"
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 
@@ -84,7 +81,6 @@ static int be_a_rank(int argc, char **argv) {
 static char output[10000];
 
 static void ranks_spread_and_split(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 5; ranks += 2) {
     int lines, code = launch(ranks, "spread", output, sizeof output);
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
@@ -94,7 +90,6 @@ static void ranks_spread_and_split(void **state) {
 }
 
 static void the_first_that_fails_says_so(void **state) {
-  (void)state;
   assert_int_equal(launch(3, "disagree", output, sizeof output), CW_ERR_INPUT);
   assert_int_equal(count_lines_with(output, "error:"), 1);
   assert_non_null(strstr(output, "error: rank 1 has no case file"));

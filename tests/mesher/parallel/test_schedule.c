@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
 #include <dirent.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
-#include <cmocka.h>
 #include <mpi.h>
 
 #include "launch.h"
 #include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 
@@ -211,24 +208,20 @@ static void check_work(const char *mode, int ranks) {
 }
 
 static void every_task_runs_once_and_all_get_all(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 5; ranks++) check_work("work", ranks);
   check_work("work", 8); // more than the cores of a small machine
 }
 
 static void tasks_are_dealt_where_no_thread_can_serve(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 5; ranks++) check_work("dealt", ranks);
 }
 
 // While the rank that serves is in a long task, the others take all that is left.
 static void nobody_waits_for_a_task_of_the_rank_that_serves(void **state) {
-  (void)state;
   for (int ranks = 2; ranks <= 5; ranks++) check_work("slow", ranks);
 }
 
 static void a_failure_ends_the_task_of_the_rank_that_serves(void **state) {
-  (void)state;
   for (int ranks = 2; ranks <= 5; ranks++) {
     assert_int_equal(launch(ranks, "slow-fails", output, sizeof output), CW_ERR_MESH);
     assert_int_equal(count_lines_with(output, "error: region 17 is too thin"), 1);
@@ -257,7 +250,6 @@ static void many_failing_tasks_print_one_line(void **state) {
 }
 
 static void tasks_wait_for_those_they_come_after(void **state) {
-  (void)state;
   assert_int_equal(began_too_early(NULL, "after"), 0);
   for (int i = 2; i <= 11; i++) {
     int lines, ranks = i / 2, code = launch(ranks, i % 2 ? "after" : "dealt-after", output, sizeof output);
@@ -269,7 +261,6 @@ static void tasks_wait_for_those_they_come_after(void **state) {
 
 // Those that wait do not wait for ever.
 static void failing_task_ends_those_that_wait(void **state) {
-  (void)state;
   assert_int_equal(began_too_early(NULL, "first-fails"), -1);
   assert_int_equal(launch(3, "first-fails", output, sizeof output), CW_ERR_MESH);
   assert_int_equal(count_lines_with(output, "error: the first task fails"), 1);
@@ -277,7 +268,6 @@ static void failing_task_ends_those_that_wait(void **state) {
 
 // Tasks that would wait for one another without end are refused.
 static void tasks_that_wait_for_one_another_are_refused(void **state) {
-  (void)state;
   const double cost[2] = {1, 2};
   const int32_t after[2] = {1, 0};
   CwSchedule schedule = {
@@ -297,7 +287,6 @@ static CwStatus note_task(void *context, int32_t task, void **bytes, int64_t *si
 
 // Task 1 is not the largest, but with the two that wait for it.
 static void what_others_wait_for_is_taken_first(void **state) {
-  (void)state;
   const double cost[4] = {3, 2, 1, 0.5};
   const int32_t after[4] = {-1, -1, 1, 1}, wanted[4] = {1, 0, 2, 3};
   Taken taken = {0};

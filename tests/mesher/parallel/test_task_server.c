@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <unistd.h>
-#include <cmocka.h>
 #include <mpi.h>
 
 #include "launch.h"
@@ -11,6 +7,7 @@
 #include "mesher/parallel/task_server.h"
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 
@@ -100,7 +97,6 @@ static int be_a_rank(int argc, char **argv) {
 static char output[10000];
 
 static void each_place_is_given_once_and_at_once(void **state) {
-  (void)state;
   for (int ranks = 1; ranks <= 5; ranks++) {
     int lines, code = launch(ranks, "serve", output, sizeof output);
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);

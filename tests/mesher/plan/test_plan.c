@@ -3,14 +3,9 @@
 // arguments (paper 60 100): of that case's pump, so many regions a domain, which takes its time.
 // Modules without a test of their own that it runs: plan_make.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
@@ -22,6 +17,7 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/case_read.h"
 #include "tests/remove_folder.h"
+#include "tests/unit_test.h"
 
 enum { CELLS_PER_REGION = 20000 };
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A box cut into four regions, and a wheel of three wedges on a slice: sound as they are; each way of spoiling them is
 // told. The picture names the region of each triangle.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/plan/plan_audit.h"
+#include "tests/unit_test.h"
 
 typedef struct {
   CwPlan plan;

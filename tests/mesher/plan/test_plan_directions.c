@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The grid of directions: unit vectors, neighbours near one another, across the end of the half turn too.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "mesher/plan/plan_directions.h"
+#include "tests/unit_test.h"
 
 static double cosine(int32_t a, int32_t b) {
   double n[3], m[3];

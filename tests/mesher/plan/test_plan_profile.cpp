@@ -5,7 +5,6 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <GC_MakeArcOfCircle.hxx>
-#include <gp_Ax1.hxx>
 
 extern "C" {
 #include "mesher/plan/plan_profile.h"

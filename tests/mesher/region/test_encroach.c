@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "draw.h"
 #include "mesher/region/encroach.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
 
 static void flat_map(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
-  (void)context;
   memcpy(x, (double[3]){uv[0], uv[1], 0}, sizeof(double[3]));
   if (xu) memcpy(xu, (double[3]){1, 0, 0}, sizeof(double[3]));
   if (xv) memcpy(xv, (double[3]){0, 1, 0}, sizeof(double[3]));

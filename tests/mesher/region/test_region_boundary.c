@@ -2,14 +2,11 @@
 // Two tetrahedra that share a face, as two regions: each boundary is closed, its parts are of their kinds and sides,
 // with the planned interface as with the refined one, and a boundary with a face turned or left out is told.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "mesher/region/region_boundary.h"
+#include "tests/unit_test.h"
 
 enum { NODES = 6, WALLS = 4, OPEN = 2 };
 

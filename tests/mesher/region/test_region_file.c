@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <errno.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 #include <hdf5.h>
 
 #include "mesher/common/model_unit.h"
 #include "mesher/region/region_file.h"
 #include "tests/refused_write.h"
+#include "tests/unit_test.h"
 
 static char folder[256], path[300], other[300];
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "draw.h"
 #include "mesher/region/region_number.h"
+#include "tests/unit_test.h"
 
 static void chain_needs_two_colours(void **state) {
   const int32_t pair[3][2] = {{0, 1}, {1, 2}, {2, 3}};

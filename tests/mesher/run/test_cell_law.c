@@ -3,11 +3,8 @@
 #include "mesher/run/cell_law.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+
+#include "tests/unit_test.h"
 
 // What is predicted holds at any scale, what was counted once at any other too.
 static void constant_until_two_counts_differ(void **state) {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "mesher/run/layer_record.h"
 #include "pipeline/log.h"
+#include "tests/unit_test.h"
 
 static CwLog *test_log;
 

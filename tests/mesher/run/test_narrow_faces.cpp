@@ -5,7 +5,6 @@
 #include "filleted_step.h"
 
 extern "C" {
-#include "mesher/cad/cad_leave_out.h"
 #include "mesher/run/narrow_faces.h"
 }
 

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "mesher/run/pass_state.h"
 #include "pipeline/case_schema.h"
+#include "tests/unit_test.h"
 
 static char run[] = "pass-state-XXXXXX";
 static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "model.json"};

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "mesher/run/poor_places.h"
+#include "tests/unit_test.h"
 
 // Of five regions one has half of the 12 degrees that are asked, one a third of the 9 that its boundary allows; one is
 // as flat as its boundary asks, two have what is asked.

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "mesher/run/run_thinning.h"
+#include "tests/unit_test.h"
 
 // After three attempts with thinner layers the domain of the first place gets another plan.
 static void a_plan_is_given_up_after_three_attempts(void **state) {

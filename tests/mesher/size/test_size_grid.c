@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mesher/size/size_grid.h"
+#include "tests/unit_test.h"
 
 static const double low[3] = {0, 0, 0}, high[3] = {10, 8, 6};
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "mesher/surface/chords.h"
+#include "tests/unit_test.h"
 
 // An arc about the origin from one angle to another, in degrees.
 static CwChord arc(double radius, double from, double to, int32_t a, int32_t b) {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "mesher/surface/patch_cuts.h"
+#include "tests/unit_test.h"
 
 // Points 0 to 7 with two outline edges, a cut 0-1-2-3, one 3-4-5 and one 3-6 that meet it in 3.
 static CwPatchCuts meeting_cuts(void) {

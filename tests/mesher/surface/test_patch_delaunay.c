@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "mesher/surface/cdt.h"
 #include "mesher/surface/patch_delaunay.h"
+#include "tests/unit_test.h"
 
 static void stretched(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
   const double factor = *(const double *)context;
@@ -18,8 +13,6 @@ static void stretched(const void *context, const double uv[2], double x[3], doub
 }
 
 static double unit(const void *context, const double x[3]) {
-  (void)context;
-  (void)x;
   return 1;
 }
 
@@ -60,7 +53,6 @@ static int64_t flips_of_rhombus(double factor, int on_chords, int *across) {
 
 // The shorter diagonal is that of Delaunay: of 2 and 1.6 factor, the one along v below a factor of 1.25.
 static void the_shorter_diagonal_divides_a_rhombus(void **state) {
-  (void)state;
   for (int on_chords = 0; on_chords < 2; on_chords++) {
     int across;
     assert_int_equal(flips_of_rhombus(1, on_chords, &across), 0);

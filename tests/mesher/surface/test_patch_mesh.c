@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: patch_front, patch_improve.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "draw.h"
 #include "mesher/common/vec.h"
 #include "mesher/surface/patch_mesh.h"
 #include "patch_plan.h"
+#include "tests/unit_test.h"
 
 static void unit_square(void **state) {
   Plan *plan = new_plan(PLANE, 0.02);

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "mesher/surface/patch_task.h"
+#include "tests/unit_test.h"
 
 // A parabolic arch over the plane z = 0, on which its feet u = 0 and u = 1 stand.
 static void arch(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Thicknesses worked by hand on walls of a few triangles; lengths in any unit.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "mesher/thickness/column_targets.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-9)
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Upright columns of two layers over the unit square, whose triangles have an area of 1/2 and 2 + sqrt(2) around.
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "mesher/layers/thin_prism.h"
 #include "mesher/policy.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
 
@@ -86,7 +82,6 @@ static void growing_ones_within_a_tenth(void **state) {
     assert_true(curable ? now > CW_SMALL_DETERMINANT : made[0] == asked);
     assert_true(made[0] <= 1.09 * asked);
   }
-  (void)state;
 }
 
 int main(void) {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mesher/thickness/first_height.h"
-#include "mesher/thickness/layer_thickness.h"
 #include "pipeline/case_schema.h"
+#include "tests/unit_test.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-5 * fabs(wanted))
 

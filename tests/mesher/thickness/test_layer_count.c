@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mesher/thickness/layer_count.h"
-#include "mesher/thickness/layer_thickness.h"
+#include "tests/unit_test.h"
 
 // Thicknesses of 1, 2, 4 and 8; a ninth of a regular tetrahedron on edges of sqrt(3/2) 9 s is s high.
 static void layers_by_hand(void **state) {

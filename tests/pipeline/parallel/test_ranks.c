@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the ranks hand each other, in several messages each (message): the program starts itself under mpirun.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/parallel/message.h"
 #include "pipeline/parallel/ranks.h"
+#include "tests/unit_test.h"
 
 enum { ITEMS = 4000 }; // of each rank; the second has none
 

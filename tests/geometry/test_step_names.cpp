@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// pump.step as the reader of CAD files finds it: the names of products and faces, and the volumes, are those written.
+#include <map>
+#include <string>
+
+#include <TopoDS.hxx>
+
+#include "geometry/cad/cad_part.hpp"
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/rotor.h"
+#include "geometry/solid.hpp"
+#include "geometry/stator.h"
+#include "geometry/step_file.h"
+#include "pipeline/case_read.h"
+#include "tests/unit_test.h"
+
+static void names_and_volumes_survive(void **) {
+  CwCase table;
+  CwDesign design;
+  CwSolid *solids[2];
+  CwCadBodies *bodies = nullptr;
+  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
+      cw_rotor_build(&design, &solids[0]) || cw_stator_build(&design.volute, cw_solid_unit(solids[0]), &solids[1]) ||
+      cw_step_write(solids, 2, "names-test.step") || cw_cad_file_read("names-test.step", 0, 1e-5, &bodies))
+    fail_msg("%s", cw_fail_message());
+  remove("names-test.step");
+  assert_int_equal(bodies->body.size(), 2);
+  for (int i = 0; i < 2; i++) {
+    const CwCadBody &body = bodies->body[i];
+    const TopTools_IndexedMapOfShape faces = cw_cad_faces(body.solid);
+    CwSolid again = {body.name, 1e-3, TopoDS::Solid(body.solid), {}};
+    CwMeasuredSolid before, after;
+    std::map<std::string, int> left; // faces of each patch
+    assert_string_equal(body.name.c_str(), cw_solid_domain(solids[i]));
+    assert_int_equal(faces.Extent(), solids[i]->faces.size());
+    for (const CwSolidFace &face : solids[i]->faces) left[face.patch]++;
+    for (int f = 0; f < faces.Extent(); f++) {
+      again.faces.push_back({TopoDS::Face(faces(f + 1)), body.origin[f].name, "wall", ""});
+      left[body.origin[f].name]--;
+    }
+    for (const auto &[patch, count] : left) assert_int_equal(count, 0);
+    assert_int_equal(cw_measure_solid(solids[i], &before), CW_OK);
+    assert_int_equal(cw_measure_solid(&again, &after), CW_OK);
+    assert_true(after.valid);
+    assert_float_equal(after.volume / before.volume, 1, 1e-6);
+    cw_solid_free(&solids[i]);
+  }
+  cw_cad_bodies_free(&bodies);
+}
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(names_and_volumes_survive)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
