@@ -81,7 +81,8 @@ static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, CwOutp
   if (!writing.figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", regions);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_output_open(output, ranks);
-  if (status == CW_OK) status = cw_each_region(assembly, ranks, "check and write the mesh", CW_BACKWARDS, write_region, &writing);
+  if (status == CW_OK)
+    status = cw_each_region(assembly, ranks, "check and write the mesh", CW_BACKWARDS, write_region, &writing);
 done:;
   CwStatus closed = cw_output_close(output);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);

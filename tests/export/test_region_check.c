@@ -95,7 +95,8 @@ static CwRegionData turned(double angle) {
   return copy;
 }
 
-// Checks the last of three regions that are alike and then another one. Returns whether that was taken for a copy of the first.
+// Checks the last of three regions that are alike and then the second. Returns whether that was taken for a copy of the
+// last.
 static int second_is_copy(CwRegionData *second) {
   CwRegionModel model = {0};
   CwRegionData first = turned(0);
