@@ -16,7 +16,6 @@
 
 #include "geometry/solid.hpp"
 #include "pipeline/atomic_file.h"
-#include "pipeline/brep/brep_scale.hpp"
 
 void cw_solid_free(CwSolid **solid) {
   delete *solid;
@@ -72,14 +71,6 @@ CwStatus cw_solid_mirror(CwSolid *solid) {
   }
 done:
   return status;
-}
-
-CwSolid cw_solid_scaled(const CwSolid &solid, double factor) {
-  CwSolid scaled = {solid.domain, solid.unit / factor, TopoDS::Solid(cw_brep_scaled(solid.solid, factor)), solid.faces};
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(scaled.solid, TopAbs_FACE, faces);
-  for (size_t f = 0; f < scaled.faces.size(); f++) scaled.faces[f].face = TopoDS::Face(faces((int)f + 1));
-  return scaled;
 }
 
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {

@@ -23,8 +23,4 @@ struct CwSolid {
   std::vector<CwSolidFace> faces; // in the order of TopExp::MapShapes
 };
 
-// The solid with all lengths times `factor` > 0 (brep_scale.hpp), and its unit that many times smaller. Throws
-// Standard_Failure.
-CwSolid cw_solid_scaled(const CwSolid &solid, double factor);
-
 #endif

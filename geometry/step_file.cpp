@@ -11,6 +11,7 @@
 #include <TopoDS_Shell.hxx>
 
 #include "geometry/solid.hpp"
+#include "geometry/solid_scale.hpp"
 #include "geometry/step_document.hpp"
 #include "pipeline/atomic_file.h"
 

@@ -90,6 +90,9 @@ struct CwCad {
 CwStatus cw_cad_read_shape(const char *path, CwCad *cad);
 // Lists faces, edges and vertices of the solid.
 void cw_cad_map_parts(CwCad *cad);
+// The shape 2^power times as large about the origin: each number in it is the old one or that times 2^power, also those
+// of its curves in (u,v). Throws Standard_Failure.
+TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power);
 // Checks edges and builds face and edge evaluators; needs the table for its messages.
 CwStatus cw_cad_read_parts(const char *path, CwCad *cad);
 

@@ -2,7 +2,6 @@
 // A solid made 2^POWER times as large, without a bit lost: as a binary B-rep, for the text format rounds to 15 digits.
 //
 //   scaled_solid SOLID.brep SCALED.brep POWER
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -10,7 +9,7 @@
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
 
-#include "pipeline/brep/brep_scale.hpp"
+#include "mesher/cad/cad_shape.h"
 
 int main(int argc, char **argv) {
   TopoDS_Shape shape;
@@ -19,5 +18,5 @@ int main(int argc, char **argv) {
     fprintf(stderr, "scaled_solid SOLID.brep SCALED.brep POWER\n");
     return 1;
   }
-  return BinTools::Write(cw_brep_scaled(shape, std::ldexp(1.0, atoi(argv[3]))), argv[2]) ? 0 : 1;
+  return BinTools::Write(cw_cad_scaled_shape(shape, atoi(argv[3])), argv[2]) ? 0 : 1;
 }
