@@ -10,13 +10,13 @@
 
 // The file as the ranks fill it: HDF5 lays its arrays down, each in one piece, and tells where. Zeroed: not open.
 typedef struct {
+  int wide; // 64-bit integers
   const CwAssembly *assembly;
   CwPlaceFile file;
   CwFileSum sum;   // of what this rank has written; on rank 0 also of the nodes
   int64_t size;    // of the file, bytes
   int64_t *starts; // bytes of the arrays, domain by domain: three of coordinates, then those of its sections
   int first_array[CW_DOMAINS_MOST + 1]; // of each domain
-  int wide;        // 64-bit integers
 } CwCgnsFile;
 
 // Whether the integers have 64 bits. CW_ERR_EXPORT where a zone has more than 2^31 - 1 points or elements and the case
@@ -29,8 +29,8 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *assembly, const 
                             const CwCase *table, int wide);
 
 // Opens FOLDER/pump.cgns, laid down, on all ranks, for regions to be written from any rank in any order. Fails on all
-// ranks alike. Collective.
-CwStatus cw_cgns_open(const char *folder, const CwAssembly *assembly, const CwRanks *ranks, int wide, CwCgnsFile *file);
+// ranks alike. Zeroed `file` on entry but for `wide`. Collective.
+CwStatus cw_cgns_open(const char *folder, const CwAssembly *assembly, const CwRanks *ranks, CwCgnsFile *file);
 
 // Writes the coordinates of the shared points of all domains. One rank calls it. CW_ERR_IO.
 CwStatus cw_cgns_write_shared(CwCgnsFile *file);

@@ -10,7 +10,7 @@
 
 enum { COORDINATES = 3, NODE_SIZE = 100, PATH_SIZE = 2 * NODE_SIZE };
 
-// Where an array begins in the file; one without values begins nowhere.
+// Where an array begins in the file.
 static CwStatus find_start(hid_t file, const char *zone, const char *node, int64_t *start) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
@@ -18,8 +18,9 @@ static CwStatus find_start(hid_t file, const char *zone, const char *node, int64
   hid_t set = H5Dopen2(file, path, H5P_DEFAULT);
   CW_REQUIRE(set >= 0, CW_ERR_LIBRARY, "the CGNS file has no '%s'", path);
   const haddr_t place = H5Dget_offset(set);
-  *start = place == HADDR_UNDEF ? -1 : (int64_t)place;
   H5Dclose(set);
+  CW_REQUIRE(place != HADDR_UNDEF, CW_ERR_LIBRARY, "HDF5 has no place for '%s' of the CGNS file", path);
+  *start = (int64_t)place;
 done:
   return status;
 }
@@ -66,11 +67,10 @@ done:
   return status;
 }
 
-CwStatus cw_cgns_open(const char *folder, const CwAssembly *a, const CwRanks *ranks, int wide, CwCgnsFile *file) {
+CwStatus cw_cgns_open(const char *folder, const CwAssembly *a, const CwRanks *ranks, CwCgnsFile *file) {
   CwStatus status = CW_OK;
   const int *count = &file->first_array[a->mesh->domain_count];
   file->assembly = a;
-  file->wide = wide;
   CW_TRY(count_arrays(file));
   CW_NEW(file->starts, *count);
   CW_TRY(cw_place_file_open(folder, "pump.cgns", 0, &file->file));

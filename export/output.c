@@ -45,7 +45,7 @@ done:
 static CwStatus plan_one(CwOutput *o, CwFormat format) {
   switch (format) {
   case CW_FORMAT_CGNS:
-    return cw_cgns_plan(o->assembly, o->table->output.cgns_integers, &o->cgns_wide);
+    return cw_cgns_plan(o->assembly, o->table->output.cgns_integers, &o->cgns.wide);
   case CW_FORMAT_OPENFOAM:
     return cw_foam_layout_plan(o->assembly, o->foam_folder, &o->table->output, &o->foam);
   case CW_FORMAT_FLUENT:
@@ -87,7 +87,7 @@ CwStatus cw_output_begin(CwOutput *o, const CwInterface *interfaces) {
   char *path = NULL;
   CW_TRY(cw_make_directory(o->folder));
   if (cw_output_has(o, CW_FORMAT_CGNS))
-    CW_TRY(cw_cgns_tree_write(o->cgns_path, o->assembly, interfaces, o->table, o->cgns_wide));
+    CW_TRY(cw_cgns_tree_write(o->cgns_path, o->assembly, interfaces, o->table, o->cgns.wide));
   if (cw_output_has(o, CW_FORMAT_OPENFOAM)) {
     CW_TRY(cw_make_directory(o->foam_folder));
     CW_TRY(cw_foam_case_write(o->foam_folder, o->table, o->assembly));
@@ -112,7 +112,7 @@ done:
 
 CwStatus cw_output_open(CwOutput *o, const CwRanks *ranks) {
   CwStatus status = CW_OK;
-  if (cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_open(o->folder, o->assembly, ranks, o->cgns_wide, &o->cgns));
+  if (cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_open(o->folder, o->assembly, ranks, &o->cgns));
   if (cw_output_has(o, CW_FORMAT_FLUENT)) status = cw_fluent_mesh_open(o->fluent_folder, &o->fluent);
   CW_TRY(cw_ranks_agree(ranks, status));
   if (cw_output_has(o, CW_FORMAT_OPENFOAM)) CW_TRY(cw_foam_mesh_create(&o->foam, ranks));

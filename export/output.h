@@ -17,7 +17,6 @@ typedef struct {
   char left_out[CW_FORMATS][200]; // why a format that the case asks is not; "" for the others
   char *folder;                   // where all is written
   char *cgns_path, *foam_folder, *fluent_folder;
-  int cgns_wide; // 64-bit integers
   CwCgnsFile cgns;
   CwFoamMesh foam;
   CwFluentMesh fluent;
@@ -42,8 +41,7 @@ CwStatus cw_output_begin(CwOutput *output, const CwInterface *interfaces);
 CwStatus cw_output_open(CwOutput *output, const CwRanks *ranks);
 
 // Writes a region of this rank. Collective are opening and closing alone.
-CwStatus cw_output_write_region(CwOutput *output, int region, const CwRegionData *data,
-                                const CwRegionFaces *faces);
+CwStatus cw_output_write_region(CwOutput *output, int region, const CwRegionData *data, const CwRegionFaces *faces);
 
 // Closes the files. Collective. CW_ERR_IO where the disk is full.
 CwStatus cw_output_close(CwOutput *output);

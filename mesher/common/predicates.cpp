@@ -5,7 +5,8 @@
 
 namespace {
 
-// Shewchuk's predicates as TetGen has them: adaptive, without its filter for a box of known size (1, 1, 1).
+// Shewchuk's predicates as TetGen has them: adaptive, without its filter for a box of known size (1, 1, 1). TetGen
+// prepares them anew, with that filter, wherever it makes a mesh; it does so in a process of its own (tetgen_fill).
 struct Prepared {
   Prepared() {
     exactinit(0, 0, 1, 1, 1, 1);

@@ -110,14 +110,19 @@ def figures_of(run):
             "count": abs(results["cells"] / results["asked_cells"] - 1), "passes": results["passes"]}
 
 
+def policy_of(run, setting):
+    """What the environment of an experimental mesher says for these numbers, in a file of the run."""
+    policy = run / "policy"
+    policy.write_text("".join(f"{name} {value:.17g}\n" for name, value in setting.items()))
+    return f"CUTWATER_POLICY={policy}"
+
+
 def mesh(options, case, geometry, cells, setting):
     """Figures of a pump with these numbers."""
     with tempfile.TemporaryDirectory(dir=options.work) as folder:
         run = Path(folder)
         (run / "geometry").symlink_to(geometry / "geometry")
-        policy = run / "policy"
-        policy.write_text("".join(f"{name} {value:.17g}\n" for name, value in setting.items()))
-        done = execute("env", f"CUTWATER_POLICY={policy}", "timeout", options.limit, *MPIRUN, 1,
+        done = execute("env", policy_of(run, setting), "timeout", options.limit, *MPIRUN, 1,
                        options.bin / "cutwater-mesh", "--case", case, "--run", run, "--cells", cells, check=False)
         if done.status:
             told = re.findall(r"error: (.*)", done.text)

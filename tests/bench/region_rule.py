@@ -20,6 +20,7 @@ import json
 import tempfile
 from pathlib import Path
 
+from ablate import policy_of
 from fill import compile_program
 from programs import MPIRUN, SOURCE, execute
 from table1 import regions_of, shapes
@@ -30,9 +31,7 @@ WAYS = {"rule": {}, "without": {"interface_sphere": 0}}
 
 def run_mesher(options, case, run, cells, setting, *more):
     """Runs the mesher with these numbers."""
-    policy = run / "policy"
-    policy.write_text("".join(f"{name} {value:g}\n" for name, value in setting.items()))
-    execute("env", f"CUTWATER_POLICY={policy}", *MPIRUN, options.ranks, options.build / "bin/cutwater-mesh", "--case",
+    execute("env", policy_of(run, setting), *MPIRUN, options.ranks, options.build / "bin/cutwater-mesh", "--case",
             case, "--run", run, "--cells", cells, *more)
 
 

@@ -4,13 +4,16 @@
 
 #include "export/cgns_node.h"
 #include "tests/refused_write.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
+static char path[sizeof test_folder + 20];
 static const double values[4] = {1, 2, 3, 4};
 
 // Two nodes, of a text and of values, in a file of their own; whether all of it went well.
-static int make_file(const char *path) {
+static int make_file(void) {
   hid_t file = -1, node = -1;
+  snprintf(path, sizeof path, "%s/node.cgns", test_folder);
   int well = cw_cgns_create(path, &file) == CW_OK &&
              cw_cgns_text(file, "Descriptor", "Descriptor_t", "rotor", &node) == CW_OK &&
              cw_cgns_list(node, "Values", "DataArray_t", "R8", 4, values, NULL) == CW_OK;
@@ -20,12 +23,8 @@ static int make_file(const char *path) {
 }
 
 static void a_node_holds_its_values(void **state) {
-  char path[] = "cgns-node-XXXXXX";
   double found[4];
-  int descriptor = mkstemp(path);
-  assert_true(descriptor >= 0);
-  close(descriptor);
-  assert_true(make_file(path));
+  assert_true(make_file());
   hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, "Descriptor/Values/ data", H5P_DEFAULT);
   assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, found) >= 0);
   assert_memory_equal(found, values, sizeof values);
@@ -36,14 +35,10 @@ static void a_node_holds_its_values(void **state) {
 
 // Whichever write it was, even if all later ones succeed.
 static void no_write_is_lost_unseen(void **state) {
-  char path[] = "cgns-node-XXXXXX";
-  int descriptor = mkstemp(path);
-  assert_true(descriptor >= 0);
-  close(descriptor);
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   for (refused_write = 1;; refused_write++) {
     writes = 0;
-    int well = make_file(path);
+    int well = make_file();
     if (writes < refused_write) {
       assert_true(well);
       break;
@@ -61,5 +56,5 @@ int main(void) {
       cmocka_unit_test(a_node_holds_its_values),
       cmocka_unit_test(no_write_is_lost_unseen),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

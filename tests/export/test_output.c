@@ -73,7 +73,7 @@ static void a_format_that_cannot_hold_the_mesh_is_left_out(void **state) {
                                                     "Fluent's mesh file allows 2147483647 of each");
   assert_true(cw_output_has(&o, CW_FORMAT_CFX));
   assert_true(cw_output_has(&o, CW_FORMAT_CGNS)); // which CFX reads
-  assert_false(o.cgns_wide);
+  assert_false(o.cgns.wide);
   assert_true(cw_output_has(&o, CW_FORMAT_OPENFOAM));
   assert_int_equal(o.foam.label_size, 8);
   cw_output_free(&o);
@@ -89,7 +89,7 @@ static void a_format_that_cannot_hold_the_mesh_is_left_out(void **state) {
   assembly.totals[0].points = 3000000000;
   table.output.formats = 1 << CW_FORMAT_CFX;
   assert_int_equal(cw_output_plan(&table, &assembly, "/nowhere", &o), CW_OK);
-  assert_true(o.cgns_wide);
+  assert_true(o.cgns.wide);
   cw_output_free(&o);
   table.output.cgns_integers = CW_INTEGERS_32;
   assert_int_equal(cw_output_plan(&table, &assembly, "/nowhere", &o), CW_ERR_EXPORT); // CFX goes with CGNS

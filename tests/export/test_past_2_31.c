@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Every writer past 2^31 points, elements, faces, corners and bytes: a region of one cell behind one of thousands of
 // millions, of which nothing is written. The files are full of holes and take no disk.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "export/cgns_file.h"
 #include "export/fluent_mesh.h"
@@ -16,8 +12,9 @@
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mpi_settings.h"
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
-static char folder[] = "/tmp/cutwater-past-XXXXXX";
 static CwRanks ranks = {.size = 1};
 
 // The last region: a tetrahedron, its four faces on the patch.
@@ -84,19 +81,17 @@ static void read_back(hid_t file, const char *path, int64_t size, int64_t first,
 }
 
 static void cgns_has_its_integers(void **state) {
-  (void)state;
   const Before before = {.points = 3000000000, .cells = 2200000000, .patch = 2500000000};
   static CwCase table;
   Large l;
   char path[100];
-  int wide = 0;
   CwCgnsFile out = {0};
   large_make(before, &l);
-  snprintf(path, sizeof path, "%s/pump.cgns", folder);
-  assert_int_equal(cw_cgns_plan(&l.assembly, CW_INTEGERS_AUTO, &wide), CW_OK);
-  assert_true(wide);
-  assert_int_equal(cw_cgns_tree_write(path, &l.assembly, NULL, &table, wide), CW_OK);
-  assert_int_equal(cw_cgns_open(folder, &l.assembly, &ranks, wide, &out), CW_OK);
+  snprintf(path, sizeof path, "%s/pump.cgns", test_folder);
+  assert_int_equal(cw_cgns_plan(&l.assembly, CW_INTEGERS_AUTO, &out.wide), CW_OK);
+  assert_true(out.wide);
+  assert_int_equal(cw_cgns_tree_write(path, &l.assembly, NULL, &table, out.wide), CW_OK);
+  assert_int_equal(cw_cgns_open(test_folder, &l.assembly, &ranks, &out), CW_OK);
   assert_int_equal(cw_cgns_write_region(&out, 1, &data), CW_OK);
   assert_int_equal(cw_cgns_close(&out), CW_OK);
 
@@ -140,7 +135,6 @@ static int64_t start_of(const char *path) {
 }
 
 static void openfoam_has_its_labels(void **state) {
-  (void)state;
   // Cells, of which a case allows fewer, are a thousand: their numbers would be written for the zone.
   const Before before = {.points = 3000000000, .cells = 1000, .inner = 3000000000, .patch = 2500000000};
   const CwExportTable table = {.foam_processors = 1};
@@ -149,7 +143,7 @@ static void openfoam_has_its_labels(void **state) {
   Large l;
   char path[200], folder_of[100], text[50];
   large_make(before, &l);
-  snprintf(folder_of, sizeof folder_of, "%s/openfoam", folder);
+  snprintf(folder_of, sizeof folder_of, "%s/openfoam", test_folder);
   assert_int_equal(stage_shell(text, "mkdir '%s' '%s/constant'", folder_of, folder_of), 0);
   assert_int_equal(cw_foam_layout_plan(&l.assembly, folder_of, &table, &mesh), CW_OK);
   assert_int_equal(mesh.label_size, 8);
@@ -175,7 +169,6 @@ static void openfoam_has_its_labels(void **state) {
 }
 
 static void fluent_has_its_lines(void **state) {
-  (void)state;
   // As many points and faces as the format allows, nearly: 150 and 99 gigabytes.
   const Before before = {.points = 2100000000, .cells = 1900000000, .inner = 1000000000, .patch = 1100000000};
   CwFluentMesh mesh = {0};
@@ -183,11 +176,11 @@ static void fluent_has_its_lines(void **state) {
   char path[100], text[2000] = {0}, line[60];
   large_make(before, &l);
   assert_int_equal(cw_fluent_mesh_plan(&l.assembly, &mesh), CW_OK);
-  assert_int_equal(cw_fluent_mesh_create(folder, &mesh), CW_OK);
+  assert_int_equal(cw_fluent_mesh_create(test_folder, &mesh), CW_OK);
   assert_int_equal(cw_fluent_mesh_write_region(&mesh, 1, &data, &faces), CW_OK);
   assert_int_equal(cw_fluent_mesh_close(&mesh), CW_OK);
 
-  snprintf(path, sizeof path, "%s/pump.msh", folder);
+  snprintf(path, sizeof path, "%s/pump.msh", test_folder);
   FILE *in = fopen(path, "rb");
   assert_non_null(in);
   assert_true(fread(text, 1, 600, in) > 0);
@@ -213,16 +206,6 @@ static void fluent_has_its_lines(void **state) {
   remove(path);
 }
 
-static int make_folder(void **state) {
-  (void)state;
-  return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state) {
-  (void)state;
-  return rmdir(folder);
-}
-
 int main(int argc, char **argv) {
   cw_mpi_settings();
   MPI_Init(&argc, &argv);
@@ -232,7 +215,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(openfoam_has_its_labels),
       cmocka_unit_test(fluent_has_its_lines),
   };
-  const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);
+  const int failed = cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
   MPI_Finalize();
   return failed;
 }

@@ -5,24 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static void labels_stand_where_they_are_put(void **state) {
   enum { COUNT = 40000 }; // more than one piece of what is narrowed at once
-  char folder[] = "/tmp/cutwater-place-XXXXXX", path[100];
+  char path[100];
   int64_t *values = calloc(COUNT, sizeof *values);
-  assert_non_null(mkdtemp(folder));
   for (int i = 0; i < COUNT; ++i) values[i] = 3 * i - 7;
   for (int size = 4; size <= 8; size += 4) {
     CwPlaceFile file = {0};
-    assert_int_equal(cw_place_file_open(folder, "labels", 1, &file), CW_OK);
+    assert_int_equal(cw_place_file_open(test_folder, "labels", 1, &file), CW_OK);
     assert_int_equal(cw_place_file_put_labels(&file, values + 10, COUNT - 10, size, 6 + 10 * size), CW_OK);
     assert_int_equal(cw_place_file_close(&file), CW_OK);
-    assert_int_equal(cw_place_file_open(folder, "labels", 0, &file), CW_OK); // keeps what is there
+    assert_int_equal(cw_place_file_open(test_folder, "labels", 0, &file), CW_OK); // keeps what is there
     assert_int_equal(cw_place_file_put_labels(&file, values, 10, size, 6), CW_OK);
     assert_int_equal(cw_place_file_put(&file, "labels", 6, 0), CW_OK);
     assert_int_equal(cw_place_file_close(&file), CW_OK);
-    snprintf(path, sizeof path, "%s/labels", folder);
+    snprintf(path, sizeof path, "%s/labels", test_folder);
     FILE *in = fopen(path, "rb");
     char head[6];
     assert_int_equal(fread(head, 1, 6, in), 6);
@@ -38,7 +38,6 @@ static void labels_stand_where_they_are_put(void **state) {
   }
   remove(path);
   free(values);
-  remove(folder);
 }
 
 static void a_folder_that_is_missing_is_told(void **state) {
@@ -53,5 +52,5 @@ int main(void) {
       cmocka_unit_test(labels_stand_where_they_are_put),
       cmocka_unit_test(a_folder_that_is_missing_is_told),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

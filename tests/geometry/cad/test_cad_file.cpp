@@ -23,9 +23,8 @@
 #include "geometry/cad/cad_part.hpp"
 #include "cad/small_pump.hpp"
 
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
-
-static std::string folder;
 
 // A box of 10 x 20 x 30 as part "water" of an assembly, moved by 100 along x; its first face is named, coloured and in
 // a layer.
@@ -82,7 +81,7 @@ static void say_unit(const std::string &path, const std::string &unit) {
 
 static void step_tells_all(void **) {
   CwCadBodies *bodies = nullptr;
-  const std::string path = folder + "/box.step";
+  const std::string path = std::string(test_folder) + "/box.step";
   write_step(path);
   if (cw_cad_file_read(path.c_str(), 0, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
   assert_int_equal(cw_cad_body_count(bodies), 1);
@@ -110,7 +109,7 @@ static void step_files_have_their_own_unit(void **) {
                {"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.CENTI.,.METRE.) )", 1e-2},
                {"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MICRO.,.METRE.) )", 1e-6},
                {"( CONVERSION_BASED_UNIT('INCH',#9001) LENGTH_UNIT() NAMED_UNIT(#9003) )", 0.0254}};
-  const std::string path = folder + "/box.step";
+  const std::string path = std::string(test_folder) + "/box.step";
   for (const auto &unit : units) {
     for (const double asked : {0.0, 0.0254}) { // of the file; given in its place
       CwCadBodies *bodies = nullptr;
@@ -127,7 +126,7 @@ static void step_files_have_their_own_unit(void **) {
 
 static void points_and_units_of_brep_files(void **) {
   CwCadBodies *bodies = nullptr;
-  const std::string path = folder + "/box.brep";
+  const std::string path = std::string(test_folder) + "/box.brep";
   small_write(path, {BRepPrimAPI_MakeBox(1, 1, 1).Shape()});
   if (cw_cad_file_read(path.c_str(), 0.0254, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
   check_box(bodies, 0, 0.0254);
@@ -151,7 +150,7 @@ static void write_faces(const std::string &path, int count) {
 }
 
 static void shells_are_sewn_or_refused(void **) {
-  const std::string path = folder + "/faces.brep";
+  const std::string path = std::string(test_folder) + "/faces.brep";
   CwCadBodies *bodies = nullptr;
   write_faces(path, 6);
   if (cw_cad_file_read(path.c_str(), 0, 1e-6, &bodies)) fail_msg("%s", cw_fail_message());
@@ -164,20 +163,9 @@ static void shells_are_sewn_or_refused(void **) {
   remove(path.c_str());
 }
 
-static int make_folder(void **) {
-  char name[] = "/tmp/cutwater_cad_XXXXXX";
-  if (!mkdtemp(name)) return -1;
-  folder = name;
-  return 0;
-}
-
-static int remove_folder(void **) {
-  return remove(folder.c_str());
-}
-
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all), cmocka_unit_test(step_files_have_their_own_unit),
                                      cmocka_unit_test(points_and_units_of_brep_files),
                                      cmocka_unit_test(shells_are_sewn_or_refused)};
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

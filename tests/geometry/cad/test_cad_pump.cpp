@@ -11,6 +11,7 @@
 #include "pipeline/case_read.h"
 #include "cad/small_pump.hpp"
 
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static std::string folder;
@@ -170,9 +171,8 @@ static void wrong_input_is_told(void **) {
 }
 
 static int make_files(void **) {
-  char name[] = "/tmp/cutwater_cad_XXXXXX";
-  if (!mkdtemp(name)) return -1;
-  folder = name;
+  if (make_test_folder(nullptr)) return -1;
+  folder = test_folder;
   const TopoDS_Shape rotor = small_rotor(), stator = small_stator();
   small_write(folder + "/posts.brep", {rotor_with_posts(), stator});
   gp_Trsf wider;
@@ -195,15 +195,9 @@ static int make_files(void **) {
   return 0;
 }
 
-static int remove_files(void **) {
-  for (const char *name : {"/pump.brep", "/posts.brep", "/apart.brep", "/line.brep", "/shell.brep", "/case.yaml", ""})
-    remove((folder + name).c_str());
-  return 0;
-}
-
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_proposed),
                                      cmocka_unit_test(pieces_of_blades_are_blades),
                                      cmocka_unit_test(rules_name_patches), cmocka_unit_test(wrong_input_is_told)};
-  return cmocka_run_group_tests(tests, make_files, remove_files);
+  return cmocka_run_group_tests(tests, make_files, clear_test_folder);
 }

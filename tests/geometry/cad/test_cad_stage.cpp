@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "cad/small_parts.hpp"
+#include "tests/test_folder.h"
 
 extern "C" {
 #include "geometry/cad/cad_stage.h"
@@ -77,16 +78,10 @@ static TopoDS_Shape open_disc() {
 }
 
 static int make_files(void **) {
-  char name[] = "/tmp/cutwater_cad_XXXXXX";
-  if (!mkdtemp(name)) return -1;
-  folder = name;
+  if (make_test_folder(nullptr)) return -1;
+  folder = test_folder;
   small_write(folder + "/pump.brep", {small_rotor(), small_stator()});
   small_write(folder + "/open.brep", {open_disc()});
-  return 0;
-}
-
-static int remove_files(void **) {
-  std::filesystem::remove_all(folder);
   return 0;
 }
 
@@ -94,5 +89,5 @@ int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(all_files_are_written),
                                      cmocka_unit_test(the_sheet_is_there_where_a_rule_fails),
                                      cmocka_unit_test(the_place_of_a_fault_is_drawn)};
-  return cmocka_run_group_tests(tests, make_files, remove_files);
+  return cmocka_run_group_tests(tests, make_files, clear_test_folder);
 }
