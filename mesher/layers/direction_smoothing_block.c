@@ -312,7 +312,7 @@ static void lean(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   const SmoothingAt *smoothing = &part->smoothing[i];
   int32_t v = vertex_of(part, i);
-  double least = fmin(cw_policy.column_least_cosine, 0.6 * work->base_cos[v]), scale = 1, upright[3];
+  double least = fmin(cw_policy.column_least_cosine, CW_LAYERS_LEAN * work->base_cos[v]), scale = 1, upright[3];
   cw_layers_upright(work, v, upright);
   memcpy(part->column[i], upright, sizeof upright);
   double thickness = cw_layers_least_cosine(work, v, upright);

@@ -3,13 +3,15 @@
 // every layer it is divided into by equal fractions, and the layer top (the wall moved to the outer ends of the
 // columns) crosses neither itself nor the wall nor an open patch.
 //
-//   direction  most normal to the faces around (the least cosine is greatest), inside the sliding constraints
+//   direction  most normal to the faces around (the least cosine is greatest; where a knife edge ends, the least share
+//              of what each of them allows), inside the sliding constraints
 //   length     t / max(cosine, 0.3 on concave edges, 0.55 elsewhere): normal thickness t on every face around
 //   smoothing  beside concave edges and columns tilted by a constraint the columns lean away, at the same thickness
 //   thickness  least of target, 0.6 of where the columns of a concave place meet, 0.35 gap to a wall, less where
 //              that leaves no room for a tetrahedron, 0.6 gap to an open patch, 0.3 x distance more than any neighbour
-//   repair     poor prisms and those with a poor layer top are turned, then thinned by 0.8, until nothing is inverted,
-//              nothing crosses, and no triangle of the layer top is a needle or turned away that was none on the wall
+//   repair     poor prisms and those with a poor layer top are turned, then those columns thinned by 0.8 of which less
+//              makes them better, until nothing is inverted, nothing crosses, and no triangle of the layer top is a
+//              needle or turned away that was none on the wall
 //
 // Best where the surface is not much finer than t beside concave edges. Along straight edges the full thickness is kept
 // up to t/h = 3 at 60 degrees and 4.8 at 90; around a bevelled blade in a wedge of 45 degrees at t/h = 4 on 60 %.

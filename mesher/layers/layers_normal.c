@@ -22,7 +22,7 @@ typedef struct {
 
 static void offer(Search *search, const double candidate[3]) {
   double g[3] = {candidate[0], candidate[1], candidate[2]};
-  if (cw_unit(g) < 1e-12) return;
+  if (!(cw_unit(g) >= 1e-12)) return; // nor where two normals are one
   double least = INFINITY;
   for (int i = 0; i < search->count; i++) {
     double c = cw_dot(search->normal[i], g);
@@ -44,7 +44,9 @@ static void search_free(Search *search) {
   for (int i = 0; i < search->count; i++) offer(search, n[i]);
   for (int i = 0; i < search->count; i++)
     for (int j = i + 1; j < search->count; j++) {
-      double g[3] = {n[i][0] + n[j][0], n[i][1] + n[j][1], n[i][2] + n[j][2]};
+      double edge[3], g[3]; // nearest to 0 on the line of both
+      cw_sub(n[j], n[i], edge);
+      cw_lerp(n[i], n[j], -cw_dot(n[i], edge) / cw_dot(edge, edge), g);
       offer(search, g);
     }
   for (int i = 0; i < search->count; i++)
@@ -87,6 +89,30 @@ double cw_layers_most_normal(int count, const double (*normal)[3], int constrain
     search_plane(&search, constraint[0]);
   memcpy(g, search.g, sizeof search.g);
   return search.best;
+}
+
+// The greatest share of a face's normal that a direction can have with any one other face: the cosine of half the angle
+// between their normals, the least over all others. Near 0 at a knife edge.
+static double best_share(int count, const double (*normal)[3], int i) {
+  double least = 1;
+  for (int j = 0; j < count; j++) least = fmin(least, cw_dot(normal[i], normal[j]));
+  return sqrt(fmax(1 + least, 0) / 2);
+}
+
+double cw_layers_fair_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
+                             double g[3]) {
+  double scaled[CW_LAYER_NORMALS][3], fair[3], least = INFINITY;
+  double best = cw_layers_most_normal(count, normal, constraint_count, constraint, g);
+  if (count < 3 || count > CW_LAYER_NORMALS || best <= CW_LAYERS_LEAST_COSINE) return best;
+  for (int i = 0; i < count; i++) {
+    double share = best_share(count, normal, i);
+    for (int k = 0; k < 3; k++) scaled[i][k] = normal[i][k] / share;
+  }
+  cw_layers_most_normal(count, (const double(*)[3])scaled, constraint_count, constraint, fair);
+  for (int i = 0; i < count; i++) least = fmin(least, cw_dot(normal[i], fair));
+  if (least <= CW_LAYERS_LEAST_COSINE) return best;
+  cw_copy(fair, g);
+  return least;
 }
 
 int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]) {
@@ -171,6 +197,7 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   // along it where the fold is no straight one.
   if (most > fmin(RISE, FOLD * sqrt(1 - c * c))) {
     made->crease = CW_CREASE_CONCAVE;
+    made->normal_cos = cw_layers_fair_normal(count, (const double(*)[3])normal, 0, none, g);
   } else if (c < SHARP) {
     made->crease = CW_CREASE_CONVEX;
   }
@@ -202,8 +229,8 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
   memcpy(made->base, work->normal[v], sizeof made->base);
   made->base_cos = work->normal_cos[v];
   if (constraints == 0) return CW_OK;
-  made->base_cos =
-      cw_layers_most_normal(count, (const double(*)[3])normal, constraints, work->in->constraint_normal[v], made->base);
+  made->base_cos = (work->crease[v] == CW_CREASE_CONCAVE ? cw_layers_fair_normal : cw_layers_most_normal)(
+      count, (const double(*)[3])normal, constraints, work->in->constraint_normal[v], made->base);
   return CW_OK;
 }
 

@@ -9,10 +9,17 @@
 
 #define CW_LAYERS_LEAST_COSINE 0.05 // of a column to the normals of the faces around
 
+#define CW_LAYERS_LEAN 0.6 // of the best such cosine, that columns and prisms keep which lean
+
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the best of the
 // single normals, the bisectors of pairs and the circumcentres of triples. With one constraint g is held in the plane
 // normal to it, with two on the line of both. Returns the least cosine; negative where no direction sees all faces.
 double cw_layers_most_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
+                             double g[3]);
+// The direction with the greatest least share: n.g over the cosine of half the greatest angle between n and another
+// normal, which is the most that any g can have of both. The most normal one where all normals are alike; where a knife
+// edge ends, that would lie in the face it ends on. Returns the least cosine.
+double cw_layers_fair_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
                              double g[3]);
 // What may help where no column can stand at vertex v: another plan where a partition plane holds it, else shorter
 // edges.

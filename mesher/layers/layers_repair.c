@@ -11,6 +11,7 @@
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/layers/layers_crossing.h"
 #include "mesher/layers/layers_gap.h"
+#include "mesher/layers/layers_judge.h"
 #include "mesher/layers/layers_normal.h"
 #include "mesher/layers/layers_turn.h"
 #include "mesher/parallel/parallel_for.h"
@@ -38,46 +39,27 @@ typedef struct {
   CwLayerCrossing crossing;
 } Repair;
 
-// Thickness down to which column v may be thinned for a better shape.
-static double least_thickness(const CwLayerWork *work, int32_t v) {
-  return work->in->least ? work->in->least[v] : 0;
-}
-
-// Whether another wall is so near that the layers of both leave a core of few cells. Elsewhere tetrahedra have room to
-// grow from needles of the layer top; there they reach to the other side.
-static int in_channel(const CwLayerWork *work, int32_t f) {
-  const int32_t *v = work->in->triangle[f];
-  return work->faced && (work->faced[v[0]] || work->faced[v[1]] || work->faced[v[2]]);
-}
-
-// The layer top, and rounder prisms, count as long as one of the columns can still give way, and are to be the rounder
-// in channels. What is good but for its shear is prism_good: such columns are turned once more at the end, but never
-// thinned.
-static double judge(const Repair *repair, int32_t f) {
-  const CwLayerWork *work = repair->work;
-  const double(*top)[3] = (const double(*)[3])repair->top;
-  double share = in_channel(work, f) ? cw_policy.channel_share : 1;
-  double prism = cw_layers_prism_quality(work, f, top),
-         quality = prism < cw_policy.prism_kept ? prism : cw_policy.prism_good;
-  for (int k = 0; k < 3; k++) {
-    int32_t v = work->in->triangle[f][k];
-    if (work->t[v] <= least_thickness(work, v)) continue;
-    quality = share * fmin(prism, cw_layers_top_quality(work, f, top));
-    break;
-  }
-  if (quality <= cw_policy.prism_good) return quality;
-  return cw_layers_lean_quality(work, f, top, prism) < cw_policy.prism_good ? cw_policy.prism_good : quality;
-}
-
 static CwStatus judge_stale(void *context, int32_t i, void *out) {
   const Repair *repair = context;
-  *(double *)out = judge(repair, repair->stale[i]);
+  *(double *)out = cw_layers_judge(repair->work, repair->stale[i], (const double(*)[3])repair->top);
   return CW_OK;
 }
 
 static void set_moved(Repair *repair, int32_t v) {
   if (!repair->moved[v]) repair->moved_list[repair->moved_count++] = v;
   repair->moved[v] = 1;
+}
+
+// Marks the columns of bad prism f. thinned: those alone of which less helps.
+static void mark_corners(Repair *repair, int32_t f, int thinned) {
+  const CwLayerWork *work = repair->work;
+  const double(*top)[3] = (const double(*)[3])repair->top;
+  int marked[3] = {1, 1, 1}, sound = cw_layers_is_sound(work, f, top, repair->limit);
+  if (thinned) cw_layers_helped_by(work, f, top, sound, marked);
+  for (int k = 0; k < 3; k++) {
+    uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
+    if (marked[k] && *mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
+  }
 }
 
 // Brings the qualities round what moved up to date and marks the vertices of bad prisms. Collective.
@@ -108,20 +90,12 @@ static CwStatus find_bad(Repair *repair) {
   }
   for (int32_t i = 0; i < stale; i++) {
     int32_t f = repair->stale[i];
-    repair->quality[f] = many ? many[i] : judge(repair, f);
+    repair->quality[f] = many ? many[i] : cw_layers_judge(work, f, (const double(*)[3])repair->top);
     if (repair->quality[f] < repair->limit) repair->bad[kept++] = f;
   }
   repair->bad_count = kept;
   memset(repair->mark, 0, (size_t)work->n);
-  for (int32_t i = 0; i < kept; i++) {
-    int32_t f = repair->bad[i];
-    int sound =
-        cw_layers_prism_quality(work, f, (const double(*)[3])repair->top) >= fmin(cw_policy.prism_kept, repair->limit);
-    for (int k = 0; k < 3; k++) {
-      uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
-      if (*mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
-    }
-  }
+  for (int32_t i = 0; i < kept; i++) mark_corners(repair, repair->bad[i], 0);
 done:
   free(many);
   return status;
@@ -143,11 +117,17 @@ static CwStatus find_end(void *context, int32_t v, void *out) {
   return CW_OK;
 }
 
+// Marks of the bad prisms the columns that are to be thinned for them.
+static void mark_thinned(Repair *repair) {
+  memset(repair->mark, 0, (size_t)repair->work->n);
+  for (int32_t i = 0; i < repair->bad_count; i++) mark_corners(repair, repair->bad[i], 1);
+}
+
 static CwStatus thin_marked(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
   for (int32_t v = 0; v < work->n; v++) {
-    double least = repair->mark[v] == FOR_SHAPE ? least_thickness(work, v) : 0;
+    double least = repair->mark[v] == FOR_SHAPE ? cw_layers_least(work, v) : 0;
     if (!repair->mark[v] || work->t[v] <= least) continue;
     work->t[v] = fmax(cw_policy.column_kept * work->t[v], least);
     work->reason[v] = CW_LAYER_REPAIR;
@@ -462,6 +442,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
     if (repair.bad_count) {
       CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
+      mark_thinned(&repair);
     } else {
       CW_TRY(find_crossings(&repair));
       if (repair.crossing.pair_count == 0) {

@@ -31,6 +31,30 @@ static void most_normal_by_hand(void **state) {
   assert_true(cw_layers_most_normal(2, shut, 0, none, g) < 1e-15);
 }
 
+// Where a knife edge along z of half angle a stands on z = 0: shares of sin(a) with the edge's sides and of the root of
+// a half with the floor are as great for all three in (1, 0, root of a half), over its length. Equal edges change
+// nothing, nor do two faces, nor does the plane that halves the edge.
+static void fair_normal_by_hand(void **state) {
+  const double s = sqrt(0.5), none[2][3] = {{0}}, across[2][3] = {{0, 1, 0}};
+  for (int i = 0; i < 3; i++) {
+    double a = (4 + 13 * i) * M_PI / 180, g[3], length = sqrt(1.5);
+    const double n[3][3] = {{sin(a), cos(a), 0}, {sin(a), -cos(a), 0}, {0, 0, 1}};
+    for (int held = 0; held < 2; held++) {
+      assert_float_equal(cw_layers_fair_normal(3, n, held, held ? across : none, g), sin(a) / length, 1e-14);
+      assert_float_equal(g[0], 1 / length, 1e-14);
+      assert_float_equal(g[1], 0, 1e-14);
+      assert_float_equal(g[2], s / length, 1e-14);
+    }
+    assert_float_equal(cw_layers_fair_normal(2, n, 0, none, g), sin(a), 1e-14);
+  }
+  const double n[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  double g[3];
+  assert_float_equal(cw_layers_fair_normal(3, n, 0, none, g), 1 / sqrt(3), 1e-15);
+  // No less than a column needs: of an edge of 3.5 degrees in half, the most normal direction.
+  const double thin = 3.5 * M_PI / 180, edge[3][3] = {{sin(thin), cos(thin), 0}, {sin(thin), -cos(thin), 0}, {0, 0, 1}};
+  assert_float_equal(cw_layers_fair_normal(3, edge, 0, none, g), sin(thin) / sqrt(1 + sin(thin) * sin(thin)), 1e-14);
+}
+
 // The fold of two planes over x = 0 that both rise (or fall) by an angle from it: columns fan out from a concave one,
 // unless it is nearly flat; a convex one is an edge where it is sharper.
 static void folds_by_hand(void **state) {
@@ -199,9 +223,9 @@ static void constraint_along_wall(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(most_normal_by_hand),   cmocka_unit_test(folds_by_hand),
-      cmocka_unit_test(plane_through_box),     cmocka_unit_test(slanted_open_patches),
-      cmocka_unit_test(planes_crossing_beside_a_wall),
+      cmocka_unit_test(most_normal_by_hand),   cmocka_unit_test(fair_normal_by_hand),
+      cmocka_unit_test(folds_by_hand),         cmocka_unit_test(plane_through_box),
+      cmocka_unit_test(slanted_open_patches),  cmocka_unit_test(planes_crossing_beside_a_wall),
       cmocka_unit_test(constraint_along_wall),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

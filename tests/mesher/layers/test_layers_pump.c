@@ -208,16 +208,12 @@ static int walk(int corners, const double (*p)[2], double h, double (*out)[2]) {
 
 static const double HALF = 1 * MM, BEVEL = 0.6 * MM, LENGTH = 12 * MM; // of the blade below
 
-// Blade 2 mm thick with a blunt end and bevels on both sides of it, on hub and shroud, leaning by an angle whose
-// tangent is `lean`; edges of h.
-static void blade_wall(Surface *wall, double lean, double h) {
-  const double outline[8][2] = {{0, -HALF + BEVEL},      {BEVEL, -HALF},         {LENGTH - BEVEL, -HALF},
-                                {LENGTH, -HALF + BEVEL}, {LENGTH, HALF - BEVEL}, {LENGTH - BEVEL, HALF},
-                                {BEVEL, HALF},           {0, HALF - BEVEL}};
+// Blade 2 mm thick with this outline, on hub and shroud, leaning by an angle whose tangent is `lean`; edges of h.
+static void outlined_blade(Surface *wall, int corners, const double (*outline)[2], double lean, double h) {
   Blade b = {.lean = lean, .thickness = 8 * MM};
   b.outline = malloc(4096 * sizeof *b.outline);
   b.around = malloc(4096 * sizeof *b.around);
-  b.count = walk(8, outline, h, b.outline);
+  b.count = walk(corners, outline, h, b.outline);
   for (int k = 0; k < b.count; k++) { // a rounded box 6 mm further out
     const double *p = b.outline[k];
     double centre = fmin(fmax(p[0], HALF), LENGTH - HALF), d[2] = {p[0] - centre, p[1]}, r = hypot(d[0], d[1]);
@@ -229,6 +225,14 @@ static void blade_wall(Surface *wall, double lean, double h) {
   surface_grid(wall, shroud, &b, b.count, rings, 1);
   free(b.outline);
   free(b.around);
+}
+
+// With a blunt end and bevels on both sides of it.
+static void blade_wall(Surface *wall, double lean, double h) {
+  const double outline[8][2] = {{0, -HALF + BEVEL},      {BEVEL, -HALF},         {LENGTH - BEVEL, -HALF},
+                                {LENGTH, -HALF + BEVEL}, {LENGTH, HALF - BEVEL}, {LENGTH - BEVEL, HALF},
+                                {BEVEL, HALF},           {0, HALF - BEVEL}};
+  outlined_blade(wall, 8, outline, lean, h);
 }
 
 // Straight and leaning by 30 and 45 degrees (wedges of 60 and 45 degrees on one side).
@@ -259,6 +263,32 @@ static void trailing_edge(void **state) {
       case_free(&c);
       assert_true(mean >= least[i][j]);
     }
+}
+
+// A blade that ends in a knife edge between hub and shroud, of 10 to 30 degrees: where the edge meets them a column
+// sees the blade's sides by no more than the sine of half the angle, and thinner ones would see no more. It stands all
+// the same, and neither it nor those beside it are thinned away.
+static void knife_edge(void **state) {
+  for (int i = 0; i < 5; i++) {
+    double half = (5 + 2.5 * i) * M_PI / 180, from = LENGTH - HALF / tan(half);
+    const double outline[7][2] = {{fmin(0, from - BEVEL), -HALF + BEVEL},
+                                  {fmin(BEVEL, from), -HALF},
+                                  {from, -HALF},
+                                  {LENGTH, 0},
+                                  {from, HALF},
+                                  {fmin(BEVEL, from), HALF},
+                                  {fmin(0, from - BEVEL), HALF - BEVEL}};
+    Case c = {.target = 0.6 * MM};
+    outlined_blade(&c.wall, 7, outline, 0, 0.5 * MM);
+    char name[40];
+    double lowest = INFINITY;
+    snprintf(name, sizeof name, "knife edge of %.0f degrees", 2 * half * 180 / M_PI);
+    case_run(&c, name);
+    for (int32_t v = 0; v < c.wall.point_count; v++) lowest = fmin(lowest, c.out.thickness[v]);
+    print_message("  thinnest column %.3f of the asked thickness, mean %.3f\n", lowest / c.target, c.mean);
+    assert_true(c.mean >= 0.97 && lowest >= 0.5 * sin(half) * c.target);
+    case_free(&c);
+  }
 }
 
 static int32_t count_lower(const Case *c, double thickness) {
@@ -336,9 +366,9 @@ static void bumpy_spheres(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(neck_sector),           cmocka_unit_test(neck_ring),
-      cmocka_unit_test(cylinder_rims),         cmocka_unit_test(trailing_edge),
-      cmocka_unit_test(least_height_of_blade), cmocka_unit_test(bumpy_spheres),
+      cmocka_unit_test(neck_sector),   cmocka_unit_test(neck_ring),  cmocka_unit_test(cylinder_rims),
+      cmocka_unit_test(trailing_edge), cmocka_unit_test(knife_edge), cmocka_unit_test(least_height_of_blade),
+      cmocka_unit_test(bumpy_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
