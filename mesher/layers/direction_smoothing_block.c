@@ -17,61 +17,66 @@
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
 static const double SETTLED = 3e-4; // change in one sweep, in thicknesses, that is none
 
-// Projects u onto the directions in which the column of v may lean without changing its normal thickness or
-// leaving its constraints.
-static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
+// The source that reaches v; NULL where none does.
+static const CwSmoothingSource *source_of(const CwSmoothing *smoothing, int32_t v) {
+  int32_t source = smoothing->reach[v].source;
+  return source < 0 ? NULL : &smoothing->source[source];
+}
+
+static int is_source(const CwSmoothing *smoothing, int32_t v) {
+  return smoothing->reach[v].source >= 0 && source_of(smoothing, v)->vertex == v;
+}
+
+static double range(const CwSmoothing *smoothing, int32_t v) {
+  const CwSmoothingSource *source = source_of(smoothing, v);
+  if (!source) return 0;
+  double fade = fmax(0, 1 - smoothing->reach[v].distance / (cw_policy.smoothing_reach * source->thickness));
+  return 1.5 * smoothing->work->t[v] * fmax(0.7, source->opening * fade);
+}
+
+// Which displacements a column may have: those across a line, or what is given of it and those along the line.
+typedef struct {
+  int is_across;
+  double line[3], given[3]; // unit, or zero where nothing but the given one is left; m
+} Allowed;
+
+// Without changing the normal thickness of v or leaving its constraints; of a source what is left of its own.
+static Allowed allowed_at(const CwSmoothing *smoothing, int32_t v) {
+  const CwLayerWork *work = smoothing->work;
   const CwLayerInput *in = work->in;
   int constraints = in->constraint_count ? in->constraint_count[v] : 0;
-  double line[3];
-  if (constraints == 2) {
-    memset(u, 0, 3 * sizeof *u);
-    return;
+  Allowed allowed = {.is_across = work->crease[v] == CW_CREASE_NONE && constraints == 0};
+  if (is_source(smoothing, v)) {
+    const CwSmoothingSource *source = source_of(smoothing, v);
+    allowed.is_across = 0;
+    memcpy(allowed.line, source->line, sizeof allowed.line);
+    memcpy(allowed.given, source->u, sizeof allowed.given);
+    return allowed;
   }
-  if (work->crease[v] == CW_CREASE_NONE && constraints == 0) {
-    cw_flatten(u, work->normal[v]);
-    return;
+  if (constraints == 2) return allowed;
+  if (allowed.is_across) {
+    memcpy(allowed.line, work->normal[v], sizeof allowed.line);
+    return allowed;
   }
   if (work->crease[v] == CW_CREASE_NONE) {
-    cw_cross(work->normal[v], in->constraint_normal[v][0], line);
+    cw_cross(work->normal[v], in->constraint_normal[v][0], allowed.line);
   } else {
-    memcpy(line, work->along[v], sizeof line);
-    if (constraints && fabs(cw_dot(line, in->constraint_normal[v][0])) > 0.1) memset(line, 0, sizeof line);
-    if (constraints) cw_flatten(line, in->constraint_normal[v][0]);
+    memcpy(allowed.line, work->along[v], sizeof allowed.line);
+    if (constraints && fabs(cw_dot(allowed.line, in->constraint_normal[v][0])) > 0.1)
+      memset(allowed.line, 0, sizeof allowed.line);
+    if (constraints) cw_flatten(allowed.line, in->constraint_normal[v][0]);
   }
-  cw_unit(line);
-  double h = cw_dot(u, line);
-  for (int k = 0; k < 3; k++) u[k] = h * line[k];
+  cw_unit(allowed.line);
+  return allowed;
 }
 
-// A vertex in a block.
-typedef struct {
-  double distance, opening, thickness; // to the nearest source, its cot(alpha/2) and thickness
-  int32_t source;                      // vertex; -1: out of reach
-  double u[3];                         // displacement relative to an undisturbed neighbour on the wall, m
-  double given[3], line[3];            // of a source: what is fixed of it, and the direction of the rest
-} SmoothingAt;
-
-static int32_t source_of(const CwSmoothing *smoothing, int32_t v) {
-  int32_t source = smoothing->reach[v].source;
-  return source < 0 ? -1 : smoothing->source[source].vertex;
-}
-
-static SmoothingAt smoothing_at(const CwSmoothing *smoothing, int32_t v) {
-  const CwSmoothingReach *reach = &smoothing->reach[v];
-  SmoothingAt at = {.distance = reach->distance, .source = -1};
-  if (reach->source < 0) return at;
-  const CwSmoothingSource *source = &smoothing->source[reach->source];
-  at.opening = source->opening, at.thickness = source->thickness, at.source = source->vertex;
-  if (at.source != v) return at;
-  memcpy(at.u, source->u, sizeof at.u);
-  memcpy(at.given, source->u, sizeof at.given);
-  memcpy(at.line, source->line, sizeof at.line);
-  return at;
-}
-
-static double range(const CwLayerWork *work, int32_t v, const SmoothingAt *smoothing) {
-  double fade = fmax(0, 1 - smoothing->distance / (cw_policy.smoothing_reach * smoothing->thickness));
-  return 1.5 * work->t[v] * fmax(0.7, smoothing->opening * fade);
+// Projects u onto what is allowed.
+static inline void allow(const Allowed *allowed, double u[3]) {
+  double h = cw_dot(u, allowed->line);
+  for (int k = 0; k < 3; k++) {
+    double along = h * allowed->line[k];
+    u[k] = allowed->is_across ? u[k] - along : allowed->given[k] + along;
+  }
 }
 
 // One block: local numbers are those of its members and the halo, in order of distance, then of the vertices around
@@ -85,12 +90,14 @@ typedef struct {
   uint8_t *across;            // neighbour is a convex edge that leans along itself only
   double *weight, *weights;   // of neighbours; their sum
   double *area;               // of members
-  double *reach;              // of members, where nothing is widened
+  double *reach;              // of all, where nothing is widened
+  double *share;              // of members: of the weighted sum of their neighbours that they take, at their reach
   uint8_t *stirred, *changed; // members to relax; those whose displacement changed since the columns were set
   uint8_t *touched;           // whose displacement changed at all
   uint8_t *spread;            // members beside whom the widening has changed since theirs was made from it
   double *widen;              // of all: factor on L where the usual one leaves prisms overrun
-  SmoothingAt *smoothing;     // of all
+  Allowed *allowed;           // of all
+  double (*u)[3];             // of all: displacement relative to an undisturbed neighbour on the wall, m
   double (*column)[3], (*top)[3];
   int32_t triangle_count, (*corner)[3]; // of the wall, with a member; their local numbers
   double *quality;                      // of the prisms over them
@@ -112,6 +119,9 @@ static void part_free(Part *part) {
   free(part->weights);
   free(part->area);
   free(part->reach);
+  free(part->share);
+  free(part->allowed);
+  free(part->u);
   free(part->stirred);
   free(part->changed);
   free(part->touched);
@@ -119,7 +129,6 @@ static void part_free(Part *part) {
   free(part->widen);
   free(part->corner);
   free(part->quality);
-  free(part->smoothing);
   free(part->column);
   free(part->top);
 }
@@ -212,7 +221,7 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
         local[w] = ++part->all;
       }
       part->near[links] = local[w] - 1;
-      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && source_of(smoothing, w) != w;
+      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && !is_source(smoothing, w);
       part->weights[i] += part->weight[links];
     }
     part->near_start[i + 1] = links;
@@ -226,48 +235,48 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
     }
   }
   CW_NEW(part->reach, part->all);
-  CW_NEW(part->smoothing, part->all);
+  CW_NEW(part->share, count);
+  CW_NEW(part->allowed, part->all);
+  CW_NEW(part->u, part->all);
   CW_NEW(part->widen, part->all);
   CW_NEW(part->column, part->all);
   CW_NEW(part->top, part->all);
-  for (int32_t i = 0; i < part->all; i++) part->smoothing[i] = smoothing_at(smoothing, vertex_of(part, i));
   for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
-  for (int32_t i = 0; i < part->all; i++) part->widen[i] = 1;
   for (int32_t i = 0; i < part->all; i++) {
-    if (part->smoothing[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->smoothing[i]);
+    part->widen[i] = 1;
+    part->reach[i] = range(smoothing, vertex_of(part, i));
+    part->allowed[i] = allowed_at(smoothing, vertex_of(part, i));
+    memcpy(part->u[i], part->allowed[i].given, sizeof part->u[i]);
   }
 done:
   return status;
 }
 
+static void set_share(Part *part, int32_t i) {
+  double reach = part->reach[i] * part->widen[i], l2 = reach * reach;
+  part->share[i] = l2 / (part->area[i] + l2 * part->weights[i]);
+}
+
 // One step of the solution at member i; returns how far its displacement moved, in thicknesses.
 static double relax(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
-  SmoothingAt *own = &part->smoothing[i];
-  int32_t v = part->member[i];
-  double reach = part->reach[i] * part->widen[i], l2 = reach * reach, sum[3] = {0}, u[3];
+  double *own = part->u[i], sum[3] = {0}, u[3];
   for (int32_t k = part->near_start[i]; k < part->near_start[i + 1]; k++) {
-    const double *near = part->smoothing[part->near[k]].u;
+    const double *near = part->u[part->near[k]];
     double weight = part->weight[k];
     if (part->across[k]) {
       // A convex edge may lean along itself only; across it the lean of v goes on undisturbed.
       const double *along = work->along[vertex_of(part, part->near[k])];
-      double h = cw_dot(along, near) - cw_dot(along, own->u);
-      for (int c = 0; c < 3; c++) sum[c] += weight * (own->u[c] + h * along[c]);
+      double h = cw_dot(along, near) - cw_dot(along, own);
+      for (int c = 0; c < 3; c++) sum[c] += weight * (own[c] + h * along[c]);
     } else {
       for (int c = 0; c < 3; c++) sum[c] += weight * near[c];
     }
   }
-  double factor = l2 / (part->area[i] + l2 * part->weights[i]);
-  for (int c = 0; c < 3; c++) u[c] = factor * sum[c];
-  if (own->source == v) {
-    double h = cw_dot(own->line, u);
-    for (int c = 0; c < 3; c++) u[c] = own->given[c] + h * own->line[c];
-  } else {
-    allow(work, v, u);
-  }
-  double moved = cw_distance(own->u, u) / work->t[v];
-  memcpy(own->u, u, sizeof u);
+  for (int c = 0; c < 3; c++) u[c] = part->share[i] * sum[c];
+  allow(&part->allowed[i], u);
+  double moved = cw_distance(own, u) / work->t[part->member[i]];
+  memcpy(own, u, sizeof u);
   return moved;
 }
 
@@ -310,7 +319,6 @@ static void set_end(Part *part, int32_t i) {
 // normal thickness.
 static void lean(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
-  const SmoothingAt *smoothing = &part->smoothing[i];
   int32_t v = vertex_of(part, i);
   double least = fmin(cw_policy.column_least_cosine, CW_LAYERS_LEAN * work->base_cos[v]), scale = 1, upright[3];
   cw_layers_upright(work, v, upright);
@@ -319,7 +327,7 @@ static void lean(Part *part, int32_t i) {
   for (int halving = 0; halving < 6; halving++, scale *= 0.5) {
     double column[3];
     for (int k = 0; k < 3; k++) {
-      double u = smoothing->u[k] - (smoothing->source == v ? smoothing->given[k] : 0);
+      double u = part->u[i][k] - part->allowed[i].given[k];
       column[k] = upright[k] + scale * u / work->t[v];
     }
     double now = cw_layers_least_cosine(work, v, column);
@@ -339,6 +347,7 @@ static void widen_at(Part *part, int32_t i, double widen) {
     memset(part->spread, 1, (size_t)part->count);
     return;
   }
+  set_share(part, i);
   part->stirred[i] = 1;
   for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
     if (part->near[l] < part->count) part->spread[part->near[l]] = 1;
@@ -406,7 +415,6 @@ static int is_between(const CwSmoothing *smoothing, int32_t v) {
 static void start(const CwSmoothing *smoothing, Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   int32_t v = vertex_of(part, i);
-  SmoothingAt *at = &part->smoothing[i];
   int32_t place = smoothing->place[v];
   if (place < 0) { // out of reach, or wholly given
     cw_layers_upright(work, v, part->column[i]);
@@ -416,17 +424,17 @@ static void start(const CwSmoothing *smoothing, Part *part, int32_t i) {
   if (smoothing->lean) {
     const CwLean *last = (const CwLean *)smoothing->lean[place / CW_SMOOTHING_BLOCK] + place % CW_SMOOTHING_BLOCK;
     part->widen[i] = last->widen;
-    for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / smoothing->lean_t[v];
+    for (int k = 0; k < 3; k++) part->u[i][k] = last->u[k] * work->t[v] / smoothing->lean_t[v];
     if (is_settled(smoothing, v)) {
       memcpy(part->column[i], last->column, sizeof last->column);
       if (i < part->count) part->changed[i] = 0, part->stirred[i] = (uint8_t)is_between(smoothing, v);
       set_end(part, i);
       return;
     }
-  } else if (at->source != v) {
-    double fall = exp(-at->distance / part->reach[i]);
-    for (int k = 0; k < 3; k++) at->u[k] = fall * smoothing->source[smoothing->reach[v].source].u[k];
-    allow(work, v, at->u);
+  } else if (!is_source(smoothing, v)) {
+    double fall = exp(-smoothing->reach[v].distance / part->reach[i]);
+    for (int k = 0; k < 3; k++) part->u[i][k] = fall * source_of(smoothing, v)->u[k];
+    allow(&part->allowed[i], part->u[i]);
   }
   if (i >= part->count) lean(part, i);
 }
@@ -440,6 +448,7 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
   int32_t count = cw_smoothing_block_size(smoothing, block);
   CW_TRY(part_make(smoothing, block, smoothing->local, &part));
   for (int32_t i = 0; i < part.all; i++) start(smoothing, &part, i);
+  for (int32_t i = 0; i < part.count; i++) set_share(&part, i);
   for (int round = 0; round <= WIDENINGS; round++) {
     solve(&part, round > 0, round ? MORE_SWEEPS : SWEEPS);
     for (int32_t i = 0; i < part.count; i++) {
@@ -453,7 +462,7 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
   for (int32_t k = 0; k < count; k++) {
     int32_t i = part.local[smoothing->member[block * CW_SMOOTHING_BLOCK + k]] - 1;
     memcpy(lean_of[k].column, part.column[i], sizeof part.column[i]);
-    memcpy(lean_of[k].u, part.smoothing[i].u, sizeof part.smoothing[i].u);
+    memcpy(lean_of[k].u, part.u[i], sizeof part.u[i]);
     lean_of[k].widen = part.widen[i];
     lean_of[k].changed = part.touched[i];
   }

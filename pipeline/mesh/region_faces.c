@@ -8,28 +8,32 @@
 #include "pipeline/order.h"
 
 // One side of a face: seen from a cell (ref = CW_CELL_FACES * cell + face) or from a boundary face (ref below
-// zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `key`
+// zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the list it stands in; `key`
 // holds its two neighbours, the smaller one first, and in the lowest bit whether the side runs to the larger
 // one first; `opposite` is the fourth node, -1 in a triangle.
 typedef struct {
   uint64_t key;
   int32_t opposite, ref;
+  int32_t next; // place of the next one in the list, or of the next free one; NONE at the end
 } Side;
 
-// Faces in the making. Sides lie in buckets by their smallest node; those of a bucket find each other in a small
-// hash table, which the next bucket uses again.
+enum { NONE = -1, MET = INT32_MIN };            // no place; the ref of a side that has met the other one and stays
+enum { AHEAD = 6 };                             // cells
+enum { LIST_BITS = 3, LISTS = 1 << LIST_BITS }; // of a node: then a list has about one side
+
+// Faces in the making. A side waits in one of the lists of its smallest node until the other one comes. Cells near in
+// number are near in space: few sides wait at a time, and they are at hand.
 typedef struct {
   const char *name;
   CwStatus fault;
   const CwRegionData *data;
-  int32_t end;          // faces with all their nodes below it are matched
-  int64_t *start;       // of the buckets by node
-  Side *sides;          // NULL while they are counted
-  int32_t *slot;        // the table: place in the bucket, or -1
-  unsigned char *met;   // by place in the bucket: whether the side has found the other
-  CwRegionFaces *faces; // NULL where only open faces are asked for
-  int32_t *open;        // these, as refs
-  int32_t open_count;
+  int32_t end;    // faces with all their nodes below it are matched
+  int32_t *first; // place of the first side of each list, LISTS a node
+  Side *sides;
+  int32_t room, used, free; // of `sides`: places, those taken so far, the first that is free again
+  CwRegionFaces *faces;     // NULL where only open faces are asked for
+  int32_t *open;            // these, as refs
+  int32_t open_count, open_room;
 } Match;
 
 int cw_face_loop(const int64_t *nodes, int count, int order[4]) {
@@ -97,6 +101,11 @@ static inline int same_face(const Side *a, const Side *b) {
   return a->key >> 1 == b->key >> 1 && a->opposite == b->opposite;
 }
 
+static inline int is_shared(const CwRegionData *data, const Side *side) {
+  const int32_t next = (int32_t)(side->key >> 32), last = (int32_t)((uint32_t)side->key >> 1);
+  return (next < data->shared_count) & (last < data->shared_count) & (side->opposite < data->shared_count);
+}
+
 static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
   const CwRegionData *data = m->data;
   int32_t nodes[4], place = -1 - ref;
@@ -109,76 +118,6 @@ static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
                               : data->quad_cell[place - data->triangle_count];
   return CW_FAIL(m->fault, "%s: %s of cell %d at (%.6g, %.6g, %.6g) mm %s", m->name,
                  count == 3 ? "triangle" : "quadrilateral", cell, centre[0], centre[1], centre[2], what);
-}
-
-// Counts a side (`sides` NULL) or puts it into its bucket, if all its nodes lie below `end`.
-static inline void add_side(const int32_t *nodes, int count, int32_t ref, int32_t end, int64_t *start, Side *sides) {
-  Side side;
-  for (int i = 0; i < count; ++i)
-    if (nodes[i] >= end) return;
-  int32_t least = side_make(nodes, count, ref, &side);
-  if (sides)
-    sides[start[least]++] = side;
-  else
-    ++start[least + 1];
-}
-
-// The four sides of a tetrahedron at once, as add_side() would do them one by one: with its nodes in order (a < b < c
-// < d, the corner of each in the lowest bits) three sides have a as their smallest node, the fourth b.
-static inline void add_tetrahedron(const int32_t *n, int32_t ref, int32_t end, int64_t *start, Side *sides) {
-  static const signed char face_opposite[4] = {2, 3, 1, 0};
-  if ((n[0] < end) + (n[1] < end) + (n[2] < end) + (n[3] < end) < 3) return;
-  uint64_t p = (uint64_t)n[0] << 2, q = (uint64_t)n[1] << 2 | 1, r = (uint64_t)n[2] << 2 | 2;
-  uint64_t s = (uint64_t)n[3] << 2 | 3;
-  unsigned odd = (p > q) ^ (p > r) ^ (p > s) ^ (q > r) ^ (q > s) ^ (r > s); // of the permutation that orders them
-  uint64_t low = p < q ? p : q, high = p < q ? q : p, low2 = r < s ? r : s, high2 = r < s ? s : r;
-  uint64_t a = low < low2 ? low : low2, u = low < low2 ? low2 : low;
-  uint64_t d = high < high2 ? high2 : high, v = high < high2 ? high : high2;
-  uint64_t b = u < v ? u : v, c = u < v ? v : u;
-  int32_t least = (int32_t)(a >> 2), second = (int32_t)(b >> 2);
-  int whole = (int32_t)(d >> 2) < end;
-  if (!sides) {
-    start[least + 1] += whole ? 3 : 1;
-    start[second + 1] += whole;
-    return;
-  }
-  // Seen from outside a tetrahedron in order has its sides a c b, a b d, a d c and b c d.
-  uint64_t b31 = (b >> 2) << 32, c31 = (c >> 2) << 32, c1 = (c >> 2) << 1, d1 = (d >> 2) << 1;
-  Side *side = &sides[start[least]];
-  side[0] = (Side){b31 | c1 | (odd ^ 1), -1, ref + face_opposite[d & 3]};
-  if (!whole) {
-    start[least] += 1;
-    return;
-  }
-  side[1] = (Side){b31 | d1 | odd, -1, ref + face_opposite[c & 3]};
-  side[2] = (Side){c31 | d1 | (odd ^ 1), -1, ref + face_opposite[b & 3]};
-  start[least] += 3;
-  sides[start[second]++] = (Side){c31 | d1 | odd, -1, ref + face_opposite[a & 3]};
-}
-
-// Every side with all its nodes below `end`, in the order of the cells but for the boundary faces, which stand before.
-static void add_sides(const CwRegionData *data, int32_t end, int64_t *start, Side *sides) {
-  for (int32_t i = 0; i < data->triangle_count; ++i) add_side(data->triangles[i], 3, -1 - i, end, start, sides);
-  for (int32_t i = 0; i < data->quad_count; ++i)
-    add_side(data->quads[i], 4, -1 - data->triangle_count - i, end, start, sides);
-  for (int32_t cell = 0; cell < data->tetrahedron_count; ++cell)
-    add_tetrahedron(data->tetrahedra[cell], CW_CELL_FACES * cell, end, start, sides);
-  for (int32_t cell = data->tetrahedron_count, cells = cw_region_cell_count(data); cell < cells; ++cell) {
-    int corners, below = 0;
-    const int32_t *of_cell = cw_cell_nodes(data, cell, &corners);
-    for (int i = 0; i < corners; ++i) below += of_cell[i] < end;
-    if (below < 3) continue;
-    const signed char(*face)[4] = cw_cell_face_table(corners);
-    for (int f = 0; f < CW_CELL_FACES; ++f) {
-      int count = face[f][3] < 0 ? 3 : 4;
-      const int32_t nodes[4] = {of_cell[face[f][0]], of_cell[face[f][1]], of_cell[face[f][2]],
-                                of_cell[face[f][count - 1]]};
-      if (count == 3)
-        add_side(nodes, 3, CW_CELL_FACES * cell + f, end, start, sides);
-      else
-        add_side(nodes, 4, CW_CELL_FACES * cell + f, end, start, sides);
-    }
-  }
 }
 
 static CwStatus take_boundary_face(const Match *m, const Side *bound, const Side *of_cell) {
@@ -214,86 +153,156 @@ static inline CwStatus take_pair(const Match *m, const Side *first, const Side *
   return CW_OK;
 }
 
+// How often the face of a side is named by cells and boundary faces.
+static int times_named(const CwRegionData *data, int32_t ref) {
+  int times = 0;
+  int32_t nodes[4], last = CW_CELL_FACES * cw_region_cell_count(data);
+  Side side, other;
+  const int32_t least = side_make(nodes, side_nodes(data, ref, nodes), ref, &side);
+  for (int32_t r = -data->triangle_count - data->quad_count; r < last; ++r) {
+    int corners = 4;
+    if (r >= 0) cw_cell_nodes(data, r / CW_CELL_FACES, &corners);
+    if (r >= 0 && corners == 4 && r % CW_CELL_FACES == 4) continue; // a tetrahedron has four faces
+    times += side_make(nodes, side_nodes(data, r, nodes), r, &other) == least && same_face(&side, &other);
+  }
+  return times;
+}
+
 // A side that has not met another.
 static CwStatus take_single(Match *m, const Side *side) {
   CwStatus status = CW_OK;
-  int32_t nodes[4];
   if (side->ref < 0) CW_TRY(fail_at_face(m, side->ref, "is listed as boundary but is no face of a cell"));
-  for (int i = 0, count = side_nodes(m->data, side->ref, nodes); i < count; ++i)
-    if (nodes[i] >= m->data->shared_count)
-      CW_TRY(fail_at_face(m, side->ref, "is open: not listed as boundary and not on a partition plane"));
-  if (m->faces)
+  if (!is_shared(m->data, side))
+    CW_TRY(fail_at_face(m, side->ref,
+                        times_named(m->data, side->ref) > 2
+                            ? "belongs to more than two cells or boundary faces"
+                            : "is open: not listed as boundary and not on a partition plane"));
+  if (m->faces) {
     m->faces->across[side->ref] = CW_ACROSS_OPEN;
-  else
+  } else {
+    CW_GROW(m->open, m->open_room, m->open_count + 1);
     m->open[m->open_count] = side->ref;
+  }
   ++m->open_count;
 done:
   return status;
 }
 
-// Bits of the table for so many sides: at least two places for each.
-static int table_bits(int64_t count) {
-  int bits = 1;
-  while (count > (int64_t)1 << (bits - 1)) ++bits;
-  return bits;
-}
-
-static CwStatus match_bucket(Match *m, const Side *side, int32_t count) {
+// Puts a side to those that wait, or takes it with the one that it meets. Where all nodes are shared a face may stay
+// open, so that of three sides the last would not be found: the one that was met stays, too.
+static inline CwStatus meet(Match *m, int32_t least, const Side *side) {
   CwStatus status = CW_OK;
-  int bits = table_bits(count);
-  uint32_t mask = ((uint32_t)1 << bits) - 1;
-  int32_t alone = count;
-  memset(m->slot, -1, ((size_t)mask + 1) * sizeof *m->slot);
-  for (int32_t i = 0; i < count; ++i) {
-    uint64_t hash = ((side[i].key >> 1) ^ (uint64_t)(uint32_t)side[i].opposite << 16) * 0x9e3779b97f4a7c15u;
-    uint32_t at = (uint32_t)(hash >> (64 - bits));
-    while (m->slot[at] >= 0 && !same_face(&side[m->slot[at]], &side[i])) at = (at + 1) & mask;
-    int32_t first = m->slot[at];
-    m->met[i] = first >= 0;
-    if (first < 0) {
-      m->slot[at] = i;
-      continue;
+  const uint64_t hash = ((side->key >> 1) ^ (uint64_t)(uint32_t)side->opposite << 16) * 0x9e3779b97f4a7c15u;
+  int32_t *const first = m->first + (size_t)LISTS * (size_t)least + (size_t)(hash >> (64 - LIST_BITS)), *link = first;
+  while (*link != NONE && !same_face(&m->sides[*link], side)) link = &m->sides[*link].next;
+  const int32_t at = *link;
+  if (at != NONE) {
+    Side *other = &m->sides[at];
+    if (other->ref == MET) CW_TRY(fail_at_face(m, side->ref, "belongs to more than two cells or boundary faces"));
+    CW_TRY(take_pair(m, other, side));
+    if (is_shared(m->data, side)) {
+      other->ref = MET;
+    } else {
+      *link = other->next;
+      other->next = m->free;
+      m->free = at;
     }
-    if (m->met[first]) CW_TRY(fail_at_face(m, side[i].ref, "belongs to more than two cells or boundary faces"));
-    m->met[first] = 1;
-    alone -= 2;
-    CW_TRY(take_pair(m, &side[first], &side[i]));
+  } else {
+    int32_t place = m->free;
+    if (place == NONE) {
+      CW_GROW(m->sides, m->room, m->used + 1);
+      place = m->used++;
+    } else {
+      m->free = m->sides[place].next;
+    }
+    m->sides[place] = *side;
+    m->sides[place].next = *first;
+    *first = place;
   }
-  for (int32_t i = 0; alone > 0; ++i)
-    if (!m->met[i]) {
-      --alone;
-      CW_TRY(take_single(m, &side[i]));
-    }
 done:
   return status;
 }
 
-// A counting sort of the sides by smallest node, then each bucket by itself.
+static inline CwStatus add_side(Match *m, const int32_t *nodes, int count, int32_t ref) {
+  Side side;
+  for (int i = 0; i < count; ++i)
+    if (nodes[i] >= m->end) return CW_OK;
+  const int32_t least = side_make(nodes, count, ref, &side);
+  return meet(m, least, &side);
+}
+
+// The four sides of a tetrahedron at once, as add_side() would do them one by one: with its nodes in order (a < b < c
+// < d, the corner of each in the lowest bits) three sides have a as their smallest node, the fourth b.
+static inline CwStatus add_tetrahedron(Match *m, const int32_t *n, int32_t ref) {
+  static const signed char face_opposite[4] = {2, 3, 1, 0};
+  CwStatus status = CW_OK;
+  const int32_t end = m->end;
+  if ((n[0] < end) + (n[1] < end) + (n[2] < end) + (n[3] < end) < 3) return CW_OK;
+  uint64_t p = (uint64_t)n[0] << 2, q = (uint64_t)n[1] << 2 | 1, r = (uint64_t)n[2] << 2 | 2;
+  uint64_t s = (uint64_t)n[3] << 2 | 3;
+  unsigned odd = (p > q) ^ (p > r) ^ (p > s) ^ (q > r) ^ (q > s) ^ (r > s); // of the permutation that orders them
+  uint64_t low = p < q ? p : q, high = p < q ? q : p, low2 = r < s ? r : s, high2 = r < s ? s : r;
+  uint64_t a = low < low2 ? low : low2, u = low < low2 ? low2 : low;
+  uint64_t d = high < high2 ? high2 : high, v = high < high2 ? high : high2;
+  uint64_t b = u < v ? u : v, c = u < v ? v : u;
+  const int32_t least = (int32_t)(a >> 2);
+  // Seen from outside a tetrahedron in order has its sides a c b, a b d, a d c and b c d.
+  uint64_t b31 = (b >> 2) << 32, c31 = (c >> 2) << 32, c1 = (c >> 2) << 1, d1 = (d >> 2) << 1;
+  CW_TRY(meet(m, least, &(Side){b31 | c1 | (odd ^ 1), -1, ref + face_opposite[d & 3], NONE}));
+  if ((int32_t)(d >> 2) >= end) goto done;
+  CW_TRY(meet(m, least, &(Side){b31 | d1 | odd, -1, ref + face_opposite[c & 3], NONE}));
+  CW_TRY(meet(m, least, &(Side){c31 | d1 | (odd ^ 1), -1, ref + face_opposite[b & 3], NONE}));
+  CW_TRY(meet(m, (int32_t)(b >> 2), &(Side){c31 | d1 | odd, -1, ref + face_opposite[a & 3], NONE}));
+done:
+  return status;
+}
+
+// The sides of a pyramid or a prism.
+static CwStatus add_cell(Match *m, int32_t cell) {
+  CwStatus status = CW_OK;
+  int corners, below = 0;
+  const int32_t *of_cell = cw_cell_nodes(m->data, cell, &corners);
+  for (int i = 0; i < corners; ++i) below += of_cell[i] < m->end;
+  if (below < 3) goto done;
+  const signed char(*face)[4] = cw_cell_face_table(corners);
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    const int count = face[f][3] < 0 ? 3 : 4;
+    const int32_t nodes[4] = {of_cell[face[f][0]], of_cell[face[f][1]], of_cell[face[f][2]],
+                              of_cell[face[f][count - 1]]};
+    CW_TRY(add_side(m, nodes, count, CW_CELL_FACES * cell + f));
+  }
+done:
+  return status;
+}
+
+// Boundary faces first, so that each meets its cell; then what is left over.
 static CwStatus match_all(Match *m) {
   CwStatus status = CW_OK;
   const CwRegionData *data = m->data;
-  int64_t most = 0;
-  CW_REQUIRE((int64_t)CW_CELL_FACES * cw_region_cell_count(data) + data->triangle_count + data->quad_count <= INT32_MAX,
-             m->fault, "%s: %d cells; a region may have %d", m->name, cw_region_cell_count(data),
-             INT32_MAX / CW_CELL_FACES);
-  CW_NEW(m->start, (size_t)m->end + 2);
-  add_sides(data, m->end, m->start, NULL);
-  for (int32_t p = 0; p < m->end; ++p) {
-    most = m->start[p + 1] > most ? m->start[p + 1] : most;
-    m->start[p + 1] += m->start[p];
+  const int32_t cells = cw_region_cell_count(data);
+  CW_REQUIRE((int64_t)CW_CELL_FACES * cells + data->triangle_count + data->quad_count <= INT32_MAX, m->fault,
+             "%s: %d cells; a region may have %d", m->name, cells, INT32_MAX / CW_CELL_FACES);
+  m->free = NONE;
+  const size_t lists = (size_t)LISTS * (size_t)m->end;
+  CW_NEW_UNSET(m->first, lists);
+  memset(m->first, NONE, lists * sizeof *m->first);
+  for (int32_t i = 0; i < data->triangle_count; ++i) CW_TRY(add_side(m, data->triangles[i], 3, -1 - i));
+  for (int32_t i = 0; i < data->quad_count; ++i) CW_TRY(add_side(m, data->quads[i], 4, -1 - data->triangle_count - i));
+  for (int32_t cell = 0; cell < data->tetrahedron_count; ++cell) {
+    // The lists of a tetrahedron are asked for before its turn.
+    const int32_t *n = data->tetrahedra[cell + AHEAD < data->tetrahedron_count ? cell + AHEAD : cell];
+    const int32_t least = lesser(lesser(n[0], n[1]), lesser(n[2], n[3]));
+    if (least < m->end) __builtin_prefetch(m->first + (size_t)LISTS * (size_t)least);
+    CW_TRY(add_tetrahedron(m, data->tetrahedra[cell], CW_CELL_FACES * cell));
   }
-  CW_NEW_UNSET(m->sides, m->start[m->end]);
-  CW_NEW_UNSET(m->slot, (size_t)1 << table_bits(most));
-  CW_NEW_UNSET(m->met, most);
-  if (!m->faces) CW_NEW_UNSET(m->open, m->start[m->end]);
-  add_sides(data, m->end, m->start, m->sides); // leaves start[p] at the end of bucket p
-  for (int64_t first = 0, p = 0; p < m->end; first = m->start[p++])
-    CW_TRY(match_bucket(m, m->sides + first, (int32_t)(m->start[p] - first)));
+  for (int32_t cell = data->tetrahedron_count; cell < cells; ++cell) CW_TRY(add_cell(m, cell));
+  for (int of_cells = 0; of_cells < 2; ++of_cells) // a boundary face that is no cell's tells more than a face left open
+    for (size_t list = 0; list < lists; ++list)
+      for (int32_t at = m->first[list]; at != NONE; at = m->sides[at].next)
+        if (m->sides[at].ref != MET && (m->sides[at].ref >= 0) == of_cells) CW_TRY(take_single(m, &m->sides[at]));
 done:
-  free(m->start);
+  free(m->first);
   free(m->sides);
-  free(m->slot);
-  free(m->met);
   return status;
 }
 
