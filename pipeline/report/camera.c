@@ -13,23 +13,6 @@ void cw_camera_turn(CwCamera *camera, const double towards[3], const double up[3
   cw_cross(camera->towards, camera->right, camera->up);
 }
 
-void cw_camera_project(const CwCamera *camera, const double x[3], double pixel[3]) {
-  double from[3];
-  cw_sub(x, camera->centre, from);
-  pixel[0] = 0.5 * camera->width + cw_dot(from, camera->right) / camera->metres_per_pixel;
-  pixel[1] = 0.5 * camera->height - cw_dot(from, camera->up) / camera->metres_per_pixel;
-  pixel[2] = cw_dot(from, camera->towards);
-}
-
-void cw_camera_reach(const CwCamera *camera, const double x[3], CwCameraReach *reach) {
-  double at[2] = {cw_dot(x, camera->right), cw_dot(x, camera->up)};
-  for (int i = 0; i < 2; i++) {
-    reach->least[i] = reach->started ? fmin(reach->least[i], at[i]) : at[i];
-    reach->most[i] = reach->started ? fmax(reach->most[i], at[i]) : at[i];
-  }
-  reach->started = 1;
-}
-
 void cw_camera_fit(CwCamera *camera, const CwCameraReach *reach, double margin) {
   double middle[2] = {0.5 * (reach->least[0] + reach->most[0]), 0.5 * (reach->least[1] + reach->most[1])};
   for (int i = 0; i < 3; i++) camera->centre[i] = middle[0] * camera->right[i] + middle[1] * camera->up[i];

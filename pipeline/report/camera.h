@@ -3,6 +3,8 @@
 #ifndef CUTWATER_PIPELINE_REPORT_CAMERA_H
 #define CUTWATER_PIPELINE_REPORT_CAMERA_H
 
+#include "pipeline/vec.h"
+
 typedef struct {
   double right[3], up[3], towards[3]; // orthonormal
   double centre[3];                   // m, in the middle of the picture
@@ -13,7 +15,14 @@ typedef struct {
 // Sets the three directions from one towards the viewer and one that shall point upwards, of any length, not
 // parallel.
 void cw_camera_turn(CwCamera *camera, const double towards[3], const double up[3]);
-void cw_camera_project(const CwCamera *camera, const double x[3], double pixel[3]);
+
+static inline void cw_camera_project(const CwCamera *camera, const double x[3], double pixel[3]) {
+  double from[3];
+  cw_sub(x, camera->centre, from);
+  pixel[0] = 0.5 * camera->width + cw_dot(from, camera->right) / camera->metres_per_pixel;
+  pixel[1] = 0.5 * camera->height - cw_dot(from, camera->up) / camera->metres_per_pixel;
+  pixel[2] = cw_dot(from, camera->towards);
+}
 
 // What a view must hold, collected point by point; start from zero.
 typedef struct {
@@ -21,7 +30,15 @@ typedef struct {
   double least[2], most[2]; // along right and up, m
 } CwCameraReach;
 
-void cw_camera_reach(const CwCamera *camera, const double x[3], CwCameraReach *reach);
+static inline void cw_camera_reach(const CwCamera *camera, const double x[3], CwCameraReach *reach) {
+  double at[2] = {cw_dot(x, camera->right), cw_dot(x, camera->up)};
+  for (int i = 0; i < 2; i++) {
+    if (!reach->started || at[i] < reach->least[i]) reach->least[i] = at[i];
+    if (!reach->started || at[i] > reach->most[i]) reach->most[i] = at[i];
+  }
+  reach->started = 1;
+}
+
 // Sets centre and scale so that all of `reach` is seen, with `margin` px around it.
 void cw_camera_fit(CwCamera *camera, const CwCameraReach *reach, double margin);
 

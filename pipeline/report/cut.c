@@ -2,6 +2,9 @@
 #include "pipeline/report/cut.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#include "pipeline/mesh/cell.h"
 
 static double along(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -63,4 +66,60 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
     }
   }
   return without_doubles(corners, polygon);
+}
+
+static CwStatus add_cell(const CwCutPlane *plane, const CwRegionData *cells, const double *distance, int32_t cell,
+                         CwRegionCut *cut) {
+  CwStatus status = CW_OK;
+  int count;
+  const int32_t *node = cw_cell_nodes(cells, cell, &count);
+  const double *x[6];
+  double s[6];
+  for (int k = 0; k < count; k++) {
+    x[k] = cells->points[node[k]];
+    s[k] = distance[node[k]];
+  }
+  CW_GROW(cut->cells, cut->space, cut->count + 1);
+  CwCutCell *made = &cut->cells[cut->count++];
+  made->cell = cell;
+  made->corners = cw_cut_cell(plane, count, x, s, made->polygon);
+done:
+  return status;
+}
+
+CwStatus cw_cut_region(const CwCutPlane *plane, const CwRegionData *cells, const double *distance, CwRegionCut *cut) {
+  CwStatus status = CW_OK;
+  enum { NONE = 16 }; // more than a cell has corners
+  unsigned char *above = NULL;
+  const struct {
+    int32_t count;
+    int corners;
+    const int32_t *corner;
+  } kind[] = {{cells->tetrahedron_count, 4, (const int32_t *)cells->tetrahedra},
+              {cells->pyramid_count, 5, (const int32_t *)cells->pyramids},
+              {cells->prism_count, 6, (const int32_t *)cells->prisms}};
+  int any_above = 0, any_below = 0;
+  CW_NEW_UNSET(above, cells->point_count);
+  for (int32_t i = 0; i < cells->point_count; i++) {
+    above[i] = isnan(distance[i]) ? NONE : distance[i] >= 0;
+    any_above |= above[i] == 1;
+    any_below |= above[i] == 0;
+  }
+  if (!any_above || !any_below) goto done;
+  for (int32_t k = 0, before = 0; k < 3; before += kind[k++].count) {
+    const int32_t *corner = kind[k].corner;
+    for (int32_t c = 0; c < kind[k].count; c++, corner += kind[k].corners) {
+      int sum = 0;
+      for (int i = 0; i < kind[k].corners; i++) sum += above[corner[i]];
+      if (sum > 0 && sum < kind[k].corners) CW_TRY(add_cell(plane, cells, distance, before + c, cut));
+    }
+  }
+done:
+  free(above);
+  return status;
+}
+
+void cw_region_cut_free(CwRegionCut *cut) {
+  free(cut->cells);
+  *cut = (CwRegionCut){0};
 }

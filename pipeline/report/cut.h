@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Where a plane goes through a cell.
+// Where a plane, or another surface, goes through the cells of a mesh.
 #ifndef CUTWATER_PIPELINE_REPORT_CUT_H
 #define CUTWATER_PIPELINE_REPORT_CUT_H
+
+#include "pipeline/mesh/region_items.h"
 
 enum { CW_CUT_CORNERS = 9 }; // no more than a cell has edges
 
@@ -19,5 +21,22 @@ double cw_cut_distance(const CwCutPlane *plane, const double x[3]);
 // plane one is cut.
 int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, const double *s,
                 double polygon[CW_CUT_CORNERS][2]);
+
+typedef struct {
+  int32_t cell; // of the region, as cell.h numbers them
+  int corners;
+  double polygon[CW_CUT_CORNERS][2];
+} CwCutCell;
+
+typedef struct {
+  CwCutCell *cells; // ascending by `cell`
+  int64_t count, space;
+} CwRegionCut;
+
+// Adds to `cut`, zeroed on entry, the cells of a region that a surface cuts, with their polygons in the frame of
+// `plane`. `distance`: of each point from the surface; cells with a point of none, NAN, are left out. Free with
+// cw_region_cut_free, also after a failure. CW_ERR_MEMORY.
+CwStatus cw_cut_region(const CwCutPlane *plane, const CwRegionData *cells, const double *distance, CwRegionCut *cut);
+void cw_region_cut_free(CwRegionCut *cut);
 
 #endif

@@ -28,8 +28,9 @@ static void mark_parts(const CwMesh *mesh, CwDrawing *drawing) {
   for (int p = 0; p < mesh->patch_count; p++) {
     const CwModelPatch *patch = &mesh->patches[p];
     snprintf(name, sizeof name, "|%s|", patch->name);
-    drawing->hidden[patch->domain][p - mesh->domains[patch->domain].first_patch] =
-        strstr(drawing->spec->hidden, name) != NULL;
+    const int index = p - mesh->domains[patch->domain].first_patch;
+    drawing->hidden[patch->domain][index] = strstr(drawing->spec->hidden, name) != NULL;
+    drawing->colour[patch->domain][index] = cw_patch_colour(patch->name, index);
   }
 }
 
@@ -109,15 +110,16 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
 
 // Faces as corners: triangles with four equal to three.
 typedef struct {
+  const int32_t *corner;
   const double *x[4];
   int count, patch;
 } Face;
 
-static Face face_at(const CwRegionData *cells, int32_t index) {
-  Face face = {.count = index < cells->triangle_count ? 3 : 4};
-  const int32_t *corner = face.count == 3 ? cells->triangles[index] : cells->quads[index - cells->triangle_count];
-  face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangle_count];
-  for (int k = 0; k < face.count; k++) face.x[k] = cells->points[corner[k]];
+static inline Face face_at(const CwRegionData *surface, int32_t index) {
+  Face face = {.count = index < surface->triangle_count ? 3 : 4};
+  face.corner = face.count == 3 ? surface->triangles[index] : surface->quads[index - surface->triangle_count];
+  face.patch = face.count == 3 ? surface->triangle_patch[index] : surface->quad_patch[index - surface->triangle_count];
+  for (int k = 0; k < face.count; k++) face.x[k] = surface->points[face.corner[k]];
   return face;
 }
 
@@ -142,12 +144,12 @@ static int upper_part(const Face *face, double part[5][3]) {
   return count;
 }
 
-void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *cells) {
-  int d = cells->domain;
+void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *surface) {
+  int d = surface->domain;
   if (!(drawing->spec->sees & drawing->part[d])) return;
   if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
-  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
-    Face face = face_at(cells, f);
+  for (int32_t f = 0; f < surface->triangle_count + surface->quad_count; f++) {
+    Face face = face_at(surface, f);
     if (!face_shown(drawing, d, &face)) continue;
     for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
   }
@@ -176,31 +178,39 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
 }
 
 // share: of pressure and y+ by face, for pictures of the flow.
-static uint32_t face_colour(const CwDrawing *drawing, const CwModelPatch *patch, int region, const Face *face,
-                            double share) {
+static uint32_t face_colour(const CwDrawing *drawing, int domain, int region, const Face *face, double share) {
   if (drawing->spec->colour == CW_COLOUR_REGION) return cw_region_colour(region);
-  if (!cw_picture_is_of_flow(drawing->spec)) return cw_patch_colour(patch->name, face->patch);
+  if (!cw_picture_is_of_flow(drawing->spec)) return drawing->colour[domain][face->patch];
   return isfinite(share) ? cw_colour_scale(share) : bare_colour;
 }
 
-static void draw_faces(CwDrawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells,
-                       double *const share[2]) {
+// The polygon of a face on the canvas; `pixel`: where the points of the surface lie there. Returns its corners.
+static int face_polygon(const CwDrawing *drawing, int d, const Face *face, const double (*pixel)[3], double p[5][3]) {
+  double part[5][3];
+  if (!drawing->spec->upper_half || drawing->part[d] != CW_SEES_STATOR) {
+    for (int k = 0; k < face->count; k++) memcpy(p[k], pixel[face->corner[k]], sizeof p[k]);
+    return face->count;
+  }
+  const int corners = upper_part(face, part);
+  for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
+  return corners;
+}
+
+CwStatus cw_drawing_add_faces(CwDrawing *drawing, int region, const CwRegionData *surface, double *const share[2]) {
+  CwStatus status = CW_OK;
   const CwPictureSpec *spec = drawing->spec;
-  int d = cells->domain;
-  const CwModelPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
-  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
-    Face face = face_at(cells, f);
+  double(*pixel)[3] = NULL, p[5][3];
+  int d = surface->domain, outside;
+  CW_NEW_UNSET(pixel, surface->point_count);
+  for (int32_t k = 0; k < surface->point_count; k++) cw_camera_project(&drawing->camera, surface->points[k], pixel[k]);
+  for (int32_t f = 0; f < surface->triangle_count + surface->quad_count; f++) {
+    Face face = face_at(surface, f);
     if (!face_shown(drawing, d, &face)) continue;
-    double p[5][3], part[5][3];
-    int corners = face.count, outside;
+    const int corners = face_polygon(drawing, d, &face, (const double(*)[3])pixel, p);
+    if (!cw_render_meets(&drawing->canvas, (const double(*)[3])p, corners)) continue;
     double light = light_of(&drawing->camera, &face, &outside);
-    if (spec->upper_half && drawing->part[d] == CW_SEES_STATOR)
-      corners = upper_part(&face, part);
-    else
-      for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
-    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
     const double *own = cw_picture_is_of_flow(spec) ? share[spec->colour - CW_COLOUR_PRESSURE] : NULL;
-    uint32_t colour = face_colour(drawing, &patch[face.patch], region, &face, own ? own[f] : NAN);
+    uint32_t colour = face_colour(drawing, d, region, &face, own ? own[f] : NAN);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
     if (spec->hollow_white && outside && drawing->part[d] == CW_SEES_ROTOR) group = CW_DRAWING_METAL;
     CwPaint paint = {.colour = cw_render_shade(colour, light),
@@ -210,39 +220,36 @@ static void draw_faces(CwDrawing *drawing, const CwMesh *mesh, int region, const
                      .edge_strength = spec->edges ? 0.75 : 0};
     cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
   }
+done:
+  free(pixel);
+  return status;
 }
 
-static int is_cut(const double *distance, int count, const int32_t *corner) {
-  int above = 0;
-  for (int k = 0; k < count; k++) {
-    if (isnan(distance[corner[k]])) return 0;
-    above += distance[corner[k]] >= 0;
-  }
-  return above > 0 && above < count;
+CwStatus cw_drawing_cut(const CwDrawing *drawing, const CwSurvey *survey, const CwRegionData *cells, CwRegionCut *cut) {
+  CwStatus status = CW_OK;
+  double *distance = NULL;
+  CW_NEW_UNSET(distance, cells->point_count);
+  for (int32_t i = 0; i < cells->point_count; i++)
+    distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
+                                                            : cw_cut_distance(&drawing->plane, cells->points[i]);
+  CW_TRY(cw_cut_region(&drawing->plane, cells, distance, cut));
+done:
+  free(distance);
+  return status;
 }
 
-static void draw_cut_cell(CwDrawing *drawing, const CwRegionData *cells, const double *distance, int count,
-                          const int32_t *corner, uint32_t colour, int group) {
-  const double *x[6];
-  double s[6], polygon[CW_CUT_CORNERS][2], p[CW_CUT_CORNERS][3];
-  for (int k = 0; k < count; k++) {
-    s[k] = distance[corner[k]];
-    x[k] = cells->points[corner[k]];
-  }
-  int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
+static void draw_cell(CwDrawing *drawing, const CwCutCell *cell, uint32_t colour, int group) {
   const CwCamera *camera = &drawing->camera;
-  double centre[2] = {0, 0}, area = 0;
-  for (int i = 0; i < 3; i++) {
-    centre[0] += camera->centre[i] * camera->right[i];
-    centre[1] += camera->centre[i] * camera->up[i];
-  }
-  for (int k = 0; k < corners; k++) {
-    p[k][0] = 0.5 * camera->width + (polygon[k][0] - centre[0]) / camera->metres_per_pixel;
-    p[k][1] = 0.5 * camera->height - (polygon[k][1] - centre[1]) / camera->metres_per_pixel;
+  double p[CW_CUT_CORNERS][3], centre[2] = {cw_dot(camera->centre, camera->right), cw_dot(camera->centre, camera->up)};
+  double area = 0;
+  for (int k = 0; k < cell->corners; k++) {
+    p[k][0] = 0.5 * camera->width + (cell->polygon[k][0] - centre[0]) / camera->metres_per_pixel;
+    p[k][1] = 0.5 * camera->height - (cell->polygon[k][1] - centre[1]) / camera->metres_per_pixel;
     p[k][2] = 0;
   }
-  for (int k = 0; k < corners; k++) {
-    int next = (k + 1) % corners;
+  if (!cw_render_meets(&drawing->canvas, (const double(*)[3])p, cell->corners)) return;
+  for (int k = 0; k < cell->corners; k++) {
+    int next = (k + 1) % cell->corners;
     area += 0.5 * (p[next][0] * p[k][1] - p[k][0] * p[next][1]);
   }
   // Lines of cells of a few pixels are drawn paler, or they would be all that one sees.
@@ -253,54 +260,19 @@ static void draw_cut_cell(CwDrawing *drawing, const CwRegionData *cells, const d
                    .edge_colour = ink,
                    .edge_width = size > 12 ? 0.9 : 0.6,
                    .edge_strength = cw_picture_is_of_flow(drawing->spec) ? 0 : strength};
-  cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
+  cw_render_polygon(&drawing->canvas, (const double(*)[3])p, cell->corners, &paint);
 }
 
-static CwStatus draw_cut(CwDrawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey, const CwFlow *flow,
-                         const CwRegionData *cells) {
-  CwStatus status = CW_OK;
-  int d = cells->domain, solved = cw_picture_is_of_flow(drawing->spec);
-  double *distance = NULL, least = INFINITY, most = -INFINITY;
-  CW_NEW(distance, cells->point_count);
-  for (int32_t i = 0; i < cells->point_count; i++) {
-    distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
-                                                            : cw_cut_distance(&drawing->plane, cells->points[i]);
-    least = distance[i] < least ? distance[i] : least;
-    most = distance[i] > most ? distance[i] : most;
+void cw_drawing_add_cells(CwDrawing *drawing, const CwMesh *mesh, int region, const CwFlow *flow,
+                          const CwRegionData *cells, const CwRegionCut *cut) {
+  const int solved = cw_picture_is_of_flow(drawing->spec);
+  const uint32_t kind[] = {cw_domain_colour(cells->domain, 2), cw_pyramid_colour, cw_domain_colour(cells->domain, 1)};
+  for (int64_t k = 0; k < cut->count; k++) {
+    const int32_t cell = cut->cells[k].cell, pyramid = cell - cells->tetrahedron_count;
+    uint32_t colour = kind[(pyramid >= 0) + (pyramid >= cells->pyramid_count)];
+    if (solved) colour = cw_colour_scale(cw_flow_cell_speed(flow, mesh, region, cells, cell));
+    draw_cell(drawing, &cut->cells[k], colour, cells->domain + 1);
   }
-  if (least >= 0 || most < 0) goto done; // the region lies on one side
-  const struct {
-    int32_t count;
-    int corners;
-    const int32_t *corner;
-    uint32_t colour;
-  } kind[] = {{cells->tetrahedron_count, 4, (const int32_t *)cells->tetrahedra, cw_domain_colour(d, 2)},
-              {cells->pyramid_count, 5, (const int32_t *)cells->pyramids, cw_pyramid_colour},
-              {cells->prism_count, 6, (const int32_t *)cells->prisms, cw_domain_colour(d, 1)}};
-  for (int32_t k = 0, before = 0; k < 3; before += kind[k++].count) {
-    for (int32_t c = 0; c < kind[k].count; c++) {
-      const int32_t *corner = kind[k].corner + (size_t)kind[k].corners * (size_t)c;
-      if (!is_cut(distance, kind[k].corners, corner)) continue;
-      double speed = solved ? cw_flow_cell_speed(flow, mesh, region, cells, before + c) : NAN;
-      uint32_t colour = solved ? cw_colour_scale(speed) : kind[k].colour;
-      draw_cut_cell(drawing, cells, distance, kind[k].corners, corner, colour, d + 1);
-    }
-  }
-done:
-  free(distance);
-  return status;
-}
-
-CwStatus cw_drawing_add(CwDrawing *drawing, const CwMesh *mesh, int region, const CwSurvey *survey, const CwFlow *flow,
-                        const CwRegionData *cells, double *const share[2]) {
-  CwStatus status = CW_OK;
-  if (!(drawing->spec->sees & drawing->part[cells->domain]) || drawing->lacking) goto done;
-  if (drawing->spec->plane == CW_PLANE_NONE)
-    draw_faces(drawing, mesh, region, cells, share);
-  else
-    CW_TRY(draw_cut(drawing, mesh, region, survey, flow, cells));
-done:
-  return status;
 }
 
 void cw_drawing_mark_seen(CwDrawing *drawing) {

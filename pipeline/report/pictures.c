@@ -8,40 +8,53 @@
 
 #include "pipeline/log.h"
 #include "pipeline/report/drawing.h"
+#include "pipeline/report/surface.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-enum { FIT_MARGIN = 28, VIEW_PICTURES = 6 };
+enum { FIT_MARGIN = 28, PLANES = CW_PLANE_MID_SPAN + 1 };
 
 // What all ranks draw together: each its regions, which are neighbours in the order of the manifest.
 typedef struct {
   const CwRanks *ranks;
   const CwMesh *mesh;
+  const CwFlow *flow;
   int first, last; // regions from `first` to `last` - 1
   CwSurvey *survey;
   CwDrawing *drawing; // one for each of the list
 } Board;
 
-// Each picture is finished by one rank. The first finishes the view too, and begins with pictures when each other one
-// has had as many as that takes.
+// Each picture is finished by one rank, beginning with the last: the first finishes the view too.
 static int finisher(const Board *board, int picture) {
-  const int others = board->ranks->size - 1;
-  return picture < VIEW_PICTURES * others ? 1 + picture % others : picture % board->ranks->size;
+  return board->ranks->size - 1 - picture % board->ranks->size;
 }
 
-// The work on a region: its cells are read, and looked at where a plane cuts them; its faces are drawn in all pictures.
-static double work_on(const CwMeshRegion *region) {
-  static const double FACE = 40; // over the work on a cell (measured at 100 million cells)
-  return (double)cw_mesh_region_cells(region) + FACE * (double)(region->triangles + region->quads);
+// Whether a picture shows what this pump or run does not have: the page leaves it out.
+static int is_absent(const Board *board, const CwPictureSpec *spec) {
+  return (spec->needs_pipes && board->mesh->domain_count <= 2) ||
+         (cw_picture_is_of_flow(spec) && !board->flow->present);
+}
+
+// The work on a region, in that on a cell, which is read, and looked at for the planes (measured at 100 million cells).
+// Of a face: survey and view, and each picture that shows the faces of its domain.
+static double work_on(const Board *board, const CwMeshRegion *region) {
+  static const double FACE = 24, FACE_IN_PICTURE = 5;
+  double of_face = FACE;
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    const CwPictureSpec *spec = &cw_picture_list[k];
+    if (spec->plane == CW_PLANE_NONE && spec->sees & board->drawing[k].part[region->domain] && !is_absent(board, spec))
+      of_face += FACE_IN_PICTURE;
+  }
+  return (double)cw_mesh_region_cells(region) + of_face * (double)(region->triangles + region->quads);
 }
 
 // Shares the regions by the work on them.
 static void take_regions(Board *board) {
   const CwMesh *mesh = board->mesh;
   double all = 0, before = 0;
-  for (int r = 0; r < mesh->region_count; r++) all += work_on(&mesh->regions[r]);
+  for (int r = 0; r < mesh->region_count; r++) all += work_on(board, &mesh->regions[r]);
   board->first = board->last = 0;
   for (int r = 0; r < mesh->region_count; r++) {
-    const double work = work_on(&mesh->regions[r]);
+    const double work = work_on(board, &mesh->regions[r]);
     const int owner = (int)(board->ranks->size * fmin((before + 0.5 * work) / fmax(all, 1), 1 - 1e-9));
     board->first += owner < board->ranks->rank;
     board->last += owner <= board->ranks->rank;
@@ -143,17 +156,21 @@ static void join_reaches(const Board *board) {
 // The first look at this rank's regions; counts their faces by patch.
 static CwStatus survey_own(Board *board, int64_t *faces) {
   CwStatus status = CW_OK;
-  CwRegionData cells = {0};
+  CwRegionData cells = {0}, surface = {0};
   for (int r = board->first; r < board->last; r++) {
     CW_TRY(cw_mesh_region_read(board->mesh, r, CW_REGION_SURFACE, &cells));
     int64_t *of = faces + board->mesh->domains[cells.domain].first_patch;
     for (int32_t t = 0; t < cells.triangle_count; t++) of[cells.triangle_patch[t]]++;
     for (int32_t q = 0; q < cells.quad_count; q++) of[cells.quad_patch[q]]++;
-    CW_TRY(cw_survey_add(board->survey, board->mesh, &cells));
-    for (int k = 0; k < cw_picture_list_count; k++) cw_drawing_reach(&board->drawing[k], &cells);
+    CW_TRY(cw_surface_of(&cells, &surface));
+    CW_TRY(cw_survey_add(board->survey, board->mesh, &surface));
+    for (int k = 0; k < cw_picture_list_count; k++)
+      if (!is_absent(board, &cw_picture_list[k])) cw_drawing_reach(&board->drawing[k], &surface);
+    cw_mesh_region_free(&surface);
     cw_mesh_region_free(&cells);
   }
 done:
+  cw_mesh_region_free(&surface);
   cw_mesh_region_free(&cells);
   return status;
 }
@@ -174,12 +191,12 @@ done:
 }
 
 // Puts all views to their places and begins the canvases.
-static CwStatus begin_canvases(const Board *board, const CwFlow *flow) {
+static CwStatus begin_canvases(const Board *board) {
   CwStatus status = CW_OK;
   for (int k = 0; k < cw_picture_list_count; k++) {
     CwDrawing *drawing = &board->drawing[k];
     const CwPictureSpec *spec = drawing->spec;
-    drawing->lacking = cw_picture_is_of_flow(spec) && !flow->present ? "the run has no solved fields" : NULL;
+    drawing->lacking = is_absent(board, spec) ? "the pump has no such zones, or the run no solved fields" : NULL;
     if (drawing->lacking) continue;
     cw_drawing_aim(drawing, board->survey);
     if (spec->target == CW_TARGET_ALL && !drawing->lacking) {
@@ -195,17 +212,41 @@ done:
   return status;
 }
 
+// The cells that a plane cuts are found once, for all pictures of the plane.
+static CwStatus draw_region(const Board *board, int region, const CwRegionData *cells, const CwRegionData *surface,
+                            double *const share[2]) {
+  CwStatus status = CW_OK;
+  CwRegionCut cut[PLANES] = {{0}};
+  int is_cut[PLANES] = {0};
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    CwDrawing *drawing = &board->drawing[k];
+    const CwPicturePlane plane = drawing->spec->plane;
+    if (drawing->lacking || !(drawing->spec->sees & drawing->part[cells->domain])) continue;
+    if (plane == CW_PLANE_NONE) {
+      CW_TRY(cw_drawing_add_faces(drawing, region, surface, share));
+      continue;
+    }
+    if (!is_cut[plane]) CW_TRY(cw_drawing_cut(drawing, board->survey, cells, &cut[plane]));
+    is_cut[plane] = 1;
+    cw_drawing_add_cells(drawing, board->mesh, region, board->flow, cells, &cut[plane]);
+  }
+done:
+  for (int plane = 0; plane < PLANES; plane++) cw_region_cut_free(&cut[plane]);
+  return status;
+}
+
 static CwStatus draw_own(const Board *board, CwFlow *flow, CwView *view) {
   CwStatus status = CW_OK;
   double *share[2] = {NULL, NULL};
-  CwRegionData cells = {0};
+  CwRegionData cells = {0}, surface = {0};
   for (int r = board->first; r < board->last; r++) {
     if (r + 1 < board->last) cw_mesh_region_ahead(board->mesh, r + 1);
     CW_TRY(cw_mesh_region_read(board->mesh, r, CW_REGION_WHOLE, &cells));
     if (flow->present) CW_TRY(cw_flow_faces(flow, board->mesh, r, &cells, share));
-    CW_TRY(cw_view_add(view, board->mesh, &cells, share));
-    for (int k = 0; k < cw_picture_list_count; k++)
-      CW_TRY(cw_drawing_add(&board->drawing[k], board->mesh, r, board->survey, flow, &cells, share));
+    CW_TRY(cw_surface_of(&cells, &surface));
+    CW_TRY(cw_view_add(view, board->mesh, &surface, share));
+    CW_TRY(draw_region(board, r, &cells, &surface, share));
+    cw_mesh_region_free(&surface);
     cw_mesh_region_free(&cells);
     for (int q = 0; q < 2; q++) {
       free(share[q]);
@@ -215,6 +256,7 @@ static CwStatus draw_own(const Board *board, CwFlow *flow, CwView *view) {
                 (int64_t)(r + 1 - board->first) * board->mesh->region_count / (board->last - board->first));
   }
 done:
+  cw_mesh_region_free(&surface);
   cw_mesh_region_free(&cells);
   for (int q = 0; q < 2; q++) free(share[q]);
   return status;
@@ -287,7 +329,7 @@ done:
   return status;
 }
 
-static void describe(const Board *board, const CwFlow *flow, int index, CwReportPicture *picture) {
+static void describe(const Board *board, int index, CwReportPicture *picture) {
   const CwPictureSpec *spec = &cw_picture_list[index];
   picture->section = spec->section;
   picture->title = spec->title;
@@ -296,11 +338,10 @@ static void describe(const Board *board, const CwFlow *flow, int index, CwReport
   picture->width = spec->width;
   picture->height = spec->height;
   picture->lacking = board->drawing[index].lacking;
-  picture->absent =
-      (spec->needs_pipes && board->mesh->domain_count <= 2) || (cw_picture_is_of_flow(spec) && !flow->present);
+  picture->absent = is_absent(board, spec);
   if (cw_picture_is_of_flow(spec)) {
     picture->scale_label = cw_flow_label[spec->colour - CW_COLOUR_PRESSURE];
-    picture->scale = flow->span[spec->colour - CW_COLOUR_PRESSURE];
+    picture->scale = board->flow->span[spec->colour - CW_COLOUR_PRESSURE];
   }
   if (!picture->lacking) make_legend(board->mesh, &board->drawing[index], picture);
 }
@@ -322,12 +363,12 @@ done:
 CwStatus cw_report_pictures_draw(const CwRanks *ranks, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
                                  CwReportPictures *pictures, CwView *view) {
   CwStatus status = CW_OK;
-  Board board = {.ranks = ranks, .mesh = mesh};
+  Board board = {.ranks = ranks, .mesh = mesh, .flow = flow};
   *pictures = (CwReportPictures){0};
-  take_regions(&board);
   CW_TRY(cw_ranks_agree(ranks, start_board(sizes, &board, pictures, view)));
+  take_regions(&board);
   CW_TRY(survey_all(&board, flow));
-  CW_TRY(cw_ranks_agree(ranks, begin_canvases(&board, flow)));
+  CW_TRY(cw_ranks_agree(ranks, begin_canvases(&board)));
   cw_progress_start(ranks->log, "pictures", mesh->region_count, "regions");
   CW_TRY(cw_ranks_agree(ranks, draw_own(&board, flow, view)));
   cw_progress_end(ranks->log);
@@ -335,7 +376,7 @@ CwStatus cw_report_pictures_draw(const CwRanks *ranks, const CwMesh *mesh, const
   CW_TRY(finish_all(&board, pictures, view));
   for (int q = 0; flow->present && q < CW_VIEW_QUANTITIES; q++)
     view->quantity[view->quantity_count++] = (CwViewQuantity){q ? "y+" : "pressure", cw_flow_label[q], flow->span[q]};
-  for (int k = 0; k < cw_picture_list_count; k++) describe(&board, flow, k, &pictures->picture[k]);
+  for (int k = 0; k < cw_picture_list_count; k++) describe(&board, k, &pictures->picture[k]);
 done:
   for (int k = 0; board.drawing && k < cw_picture_list_count; k++) cw_render_free(&board.drawing[k].canvas);
   free(board.drawing);

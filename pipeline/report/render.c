@@ -62,22 +62,44 @@ static void put(CwCanvas *canvas, size_t place, double line, const CwPaint *pain
   canvas->group[place] = paint->group;
 }
 
+typedef struct {
+  int first, last, up, down; // columns and rows, all within
+} Samples;
+
+// The samples of the canvas within the box of a polygon; false where there are none, or a corner is not finite.
+static int samples_within(const CwCanvas *canvas, const double (*p)[3], int count, Samples *box) {
+  double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+  for (int k = 0; k < count; k++) {
+    const double x = p[k][0] * CW_RENDER_SAMPLES, y = p[k][1] * CW_RENDER_SAMPLES;
+    if (!isfinite(x) || !isfinite(y)) return 0;
+    left = x < left ? x : left;
+    right = x > right ? x : right;
+    top = y < top ? y : top;
+    bottom = y > bottom ? y : bottom;
+  }
+  if (!(right >= 0 && bottom >= 0 && left <= canvas->columns && top <= canvas->rows)) return 0;
+  // Sample (i, j) has its centre at (i + 0.5, j + 0.5).
+  *box = (Samples){(int)fmax(ceil(left - 0.5), 0), (int)fmin(floor(right - 0.5), canvas->columns - 1),
+                   (int)fmax(ceil(top - 0.5), 0), (int)fmin(floor(bottom - 0.5), canvas->rows - 1)};
+  return box->first <= box->last && box->up <= box->down;
+}
+
+int cw_render_meets(const CwCanvas *canvas, const double (*p)[3], int count) {
+  Samples box;
+  return samples_within(canvas, p, count, &box);
+}
+
 void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *paint) {
   double x[3], y[3];
+  Samples box;
+  if (!samples_within(canvas, p, 3, &box)) return;
+  const int first = box.first, last = box.last, up = box.up, down = box.down;
   for (int k = 0; k < 3; k++) {
     x[k] = p[k][0] * CW_RENDER_SAMPLES;
     y[k] = p[k][1] * CW_RENDER_SAMPLES;
-    if (!isfinite(x[k]) || !isfinite(y[k])) return;
   }
-  double left = fmin(fmin(x[0], x[1]), x[2]), right = fmax(fmax(x[0], x[1]), x[2]);
-  double top = fmin(fmin(y[0], y[1]), y[2]), bottom = fmax(fmax(y[0], y[1]), y[2]);
-  if (right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows) return;
   double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (area == 0) return;
-  // Sample (i, j) has its centre at (i + 0.5, j + 0.5).
-  int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
-  int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
-  if (first > last || up > down) return; // between samples, as most faces of a fine mesh
   touch(canvas, up, down);
   // weight[k] is 1 at corner k and 0 on the edge k+1, k+2 opposite to it; reach[k] is the height over that
   // edge.
@@ -115,33 +137,27 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
 // neighbours are. Corners that coincide have no edge between them.
 static void flat_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint) {
   double x[POLYGON_MOST], y[POLYGON_MOST], nx[POLYGON_MOST], ny[POLYGON_MOST], area = 0;
-  double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
   int edges = 0;
+  Samples box;
+  if (!samples_within(canvas, p, count, &box)) return;
   for (int k = 0; k < count; k++) {
     const double *a = p[k], *b = p[(k + 1) % count];
-    if (!isfinite(a[0]) || !isfinite(a[1])) return;
     area += (a[0] - p[0][0]) * (b[1] - p[0][1]) - (b[0] - p[0][0]) * (a[1] - p[0][1]);
   }
   for (int k = 0; k < count; k++) {
     const double *a = p[k], *b = p[(k + 1) % count];
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy) * (area < 0 ? -1 : 1);
-    left = fmin(left, a[0] * CW_RENDER_SAMPLES);
-    right = fmax(right, a[0] * CW_RENDER_SAMPLES);
-    top = fmin(top, a[1] * CW_RENDER_SAMPLES);
-    bottom = fmax(bottom, a[1] * CW_RENDER_SAMPLES);
     if (fabs(length) < 1e-4) continue;
     x[edges] = a[0] * CW_RENDER_SAMPLES;
     y[edges] = a[1] * CW_RENDER_SAMPLES;
     nx[edges] = -dy / length;
     ny[edges++] = dx / length;
   }
-  if (area == 0 || right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows) return;
-  int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
-  int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
-  touch(canvas, up, down);
+  if (area == 0) return;
+  touch(canvas, box.up, box.down);
   double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
-  for (int j = up; j <= down; j++) {
-    for (int i = first; i <= last; i++) {
+  for (int j = box.up; j <= box.down; j++) {
+    for (int i = box.first; i <= box.last; i++) {
       double nearest = INFINITY;
       for (int k = 0; k < edges && nearest >= -1e-6; k++)
         nearest = fmin(nearest, nx[k] * (i + 0.5 - x[k]) + ny[k] * (j + 0.5 - y[k]));

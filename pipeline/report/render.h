@@ -34,6 +34,9 @@ typedef struct {
   double edge_strength;         // 0: invisible to 1: opaque
 } CwPaint;
 
+// Whether a polygon of `count` corners can hold samples of the canvas, by its box: most faces of a fine mesh lie
+// between samples. None where a corner is not finite.
+int cw_render_meets(const CwCanvas *canvas, const double (*p)[3], int count);
 // Draws the triangle with corners p[k] = (x, y, depth). Parts outside the canvas are left out.
 void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *paint);
 // Draws a convex polygon of `count` corners, its edges as lines (paint->edges is not read); with a depth

@@ -28,11 +28,13 @@ static int bin_of(double azimuth) {
   return bin >= CW_SURVEY_BINS ? 0 : bin;
 }
 
-static void add_point(CwSurvey *survey, const double x[3]) {
+// Returns the bin that the point falls into.
+static int add_point(CwSurvey *survey, const double x[3]) {
   int bin = bin_of(atan2(x[1], x[0]));
   survey->radius_most[bin] = fmax(survey->radius_most[bin], hypot(x[0], x[1]));
   survey->z_least[bin] = fmin(survey->z_least[bin], x[2]);
   survey->z_most[bin] = fmax(survey->z_most[bin], x[2]);
+  return bin;
 }
 
 static double face_area(const double a[3], const double b[3], const double c[3]) {
@@ -45,51 +47,39 @@ static double face_area(const double a[3], const double b[3], const double c[3])
                     pow(u[0] * v[1] - u[1] * v[0], 2));
 }
 
-// The points of all faces, each once.
-static CwStatus add_points(CwSurvey *survey, const CwRegionData *cells) {
-  CwStatus status = CW_OK;
-  unsigned char *is_seen = NULL;
-  CW_NEW(is_seen, cells->point_count);
-  for (int32_t t = 0; t < cells->triangle_count; t++)
-    for (int k = 0; k < 3; k++) is_seen[cells->triangles[t][k]] = 1;
-  for (int32_t q = 0; q < cells->quad_count; q++)
-    for (int k = 0; k < 4; k++) is_seen[cells->quads[q][k]] = 1;
-  for (int32_t p = 0; p < cells->point_count; p++)
-    if (is_seen[p]) add_point(survey, cells->points[p]);
-done:
-  free(is_seen);
-  return status;
-}
-
-CwStatus cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells) {
+CwStatus cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *surface) {
   CwStatus status = CW_OK;
   // Patches of a region are counted from the first one of its domain; those of another domain get a number no face has.
-  int first = mesh->domains[cells->domain].first_patch, wall[CW_WALL_COUNT];
-  int patch[CW_PLACE_COUNT];
+  int first = mesh->domains[surface->domain].first_patch, wall[CW_WALL_COUNT];
+  int patch[CW_PLACE_COUNT], *bins = NULL;
   for (int k = 0; k < CW_PLACE_COUNT; k++) patch[k] = cw_mesh_patch_find(mesh, place_patch[k]) - first;
   for (int k = 0; k < CW_WALL_COUNT; k++) wall[k] = cw_mesh_patch_find(mesh, wall_patch[k]) - first;
-  CW_TRY(add_points(survey, cells));
-  for (int32_t t = 0; t < cells->triangle_count; t++) {
-    const double *a = cells->points[cells->triangles[t][0]], *b = cells->points[cells->triangles[t][1]],
-                 *c = cells->points[cells->triangles[t][2]];
+  CW_NEW_UNSET(bins, surface->point_count);
+  for (int32_t p = 0; p < surface->point_count; p++) bins[p] = add_point(survey, surface->points[p]);
+  for (int32_t t = 0; t < surface->triangle_count; t++) {
+    const int32_t *corner = surface->triangles[t];
+    const double *a = surface->points[corner[0]], *b = surface->points[corner[1]], *c = surface->points[corner[2]];
     double middle[3], area = face_area(a, b, c);
     for (int i = 0; i < 3; i++) middle[i] = (a[i] + b[i] + c[i]) / 3;
-    add_point(survey, middle);
+    // Within a bin it lies between the corners.
+    if (bins[corner[0]] != bins[corner[1]] || bins[corner[0]] != bins[corner[2]]) add_point(survey, middle);
     for (int k = 0; k < CW_PLACE_COUNT; k++) {
-      if (patch[k] != cells->triangle_patch[t]) continue;
+      if (patch[k] != surface->triangle_patch[t]) continue;
       if (k == CW_PLACE_LEADING_EDGE && hypot(middle[0], middle[1]) > survey->sizes.leading_radius) continue;
       double *sum = survey->place_sum[k][bin_of(atan2(middle[1], middle[0]))];
       sum[0] += cw_exact_term(area, survey->area_unit);
       for (int i = 0; i < 3; i++) sum[1 + i] += cw_exact_term(area * middle[i], survey->moment_unit);
     }
-    int bin = (int)(hypot(middle[0], middle[1]) / survey->sizes.outlet_radius * CW_SURVEY_RADII);
     for (int k = 0; k < CW_WALL_COUNT; k++) {
-      if (wall[k] != cells->triangle_patch[t] || bin >= CW_SURVEY_RADII) continue;
+      if (wall[k] != surface->triangle_patch[t]) continue;
+      int bin = (int)(hypot(middle[0], middle[1]) / survey->sizes.outlet_radius * CW_SURVEY_RADII);
+      if (bin >= CW_SURVEY_RADII) continue;
       survey->wall_sum[k][bin][0] += cw_exact_term(area, survey->area_unit);
       survey->wall_sum[k][bin][1] += cw_exact_term(area * middle[2], survey->moment_unit);
     }
   }
 done:
+  free(bins);
   return status;
 }
 

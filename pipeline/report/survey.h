@@ -34,8 +34,8 @@ typedef struct {
 } CwSurvey;
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes);
-// CW_ERR_MEMORY.
-CwStatus cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells);
+// Adds the boundary of a region (surface.h). CW_ERR_MEMORY.
+CwStatus cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *surface);
 // All ranks get the survey of the regions of all. Collective.
 void cw_survey_join(CwSurvey *survey, const CwRanks *ranks);
 

@@ -132,6 +132,12 @@ static void what_lies_outside_is_left_out(void **state) {
   const double beside[3][3] = {{20, 0, 0}, {30, 0, 0}, {20, 10, 0}}, line[3][3] = {{0, 0, 0}, {5, 5, 0}, {9, 9, 0}};
   const double nan[3][3] = {{NAN, 0, 0}, {30, 0, 0}, {20, 10, 0}};
   const double around[3][3] = {{-1e6, -1e6, 0}, {3e6, -1e6, 0}, {-1e6, 3e6, 0}};
+  const double between[3][3] = {{5.1, 5, 0}, {5.2, 5, 0}, {5.1, 9, 0}};
+  assert_false(cw_render_meets(&canvas, beside, 3));
+  assert_false(cw_render_meets(&canvas, nan, 3));
+  assert_false(cw_render_meets(&canvas, between, 3));
+  assert_false(cw_render_meets(&canvas, around, 0));
+  assert_true(cw_render_meets(&canvas, around, 3));
   cw_render_triangle(&canvas, beside, &red);
   cw_render_triangle(&canvas, line, &red);
   cw_render_triangle(&canvas, nan, &red);

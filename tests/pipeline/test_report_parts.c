@@ -219,6 +219,41 @@ static void corners_in_the_plane_stand_once(void **state) {
   assert_int_equal(cut(&across, 4, corner, polygon), 0);
 }
 
+// A pyramid on a prism, which lies on a tetrahedron: planes between them, and a point without a distance.
+static void cut_cells_of_a_region_are_listed(void **state) {
+  double x[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, -1}, {0, -1, 0.5}};
+  int32_t tetrahedron[][4] = {{0, 2, 1, 6}}, pyramid[][5] = {{0, 1, 4, 3, 7}}, prism[][6] = {{0, 1, 2, 3, 4, 5}};
+  const CwRegionData cells = {.point_count = 8,
+                              .points = x,
+                              .tetrahedron_count = 1,
+                              .pyramid_count = 1,
+                              .prism_count = 1,
+                              .tetrahedra = tetrahedron,
+                              .pyramids = pyramid,
+                              .prisms = prism};
+  static const struct {
+    double z;
+    int without; // a point, or -1
+    int count;
+    int32_t cell[2];
+    double area[2];
+  } wanted[] = {{0.25, -1, 2, {1, 2}, {0.375, 0.5}}, {0.25, 7, 1, {2}, {0.5}}, {0.25, 0, 0, {0}, {0}},
+                {-0.5, -1, 1, {0}, {0.125}},         {2, -1, 0, {0}, {0}},     {-2, -1, 0, {0}, {0}}};
+  for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
+    const CwCutPlane plane = {{0, 0, wanted[k].z}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double distance[8];
+    CwRegionCut cut = {0};
+    for (int i = 0; i < 8; i++) distance[i] = i == wanted[k].without ? NAN : cw_cut_distance(&plane, x[i]);
+    assert_int_equal(cw_cut_region(&plane, &cells, distance, &cut), CW_OK);
+    assert_int_equal(cut.count, wanted[k].count);
+    for (int i = 0; i < wanted[k].count; i++) {
+      assert_int_equal(cut.cells[i].cell, wanted[k].cell[i]);
+      assert_near(area_of(cut.cells[i].corners, cut.cells[i].polygon), wanted[k].area[i], 1e-12);
+    }
+    cw_region_cut_free(&cut);
+  }
+}
+
 // Two blades' trailing edges as one triangle each, on opposite sides; the far corner of a discharge at
 // azimuth 90 deg.
 static void survey_finds_places(void **state) {
@@ -283,6 +318,7 @@ int main(void) {
       cmocka_unit_test(cuts_have_the_right_areas),
       cmocka_unit_test(a_face_in_the_plane_is_cut_once),
       cmocka_unit_test(corners_in_the_plane_stand_once),
+      cmocka_unit_test(cut_cells_of_a_region_are_listed),
       cmocka_unit_test(survey_finds_places),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
