@@ -24,7 +24,8 @@ static const CwSmoothingSource *source_of(const CwSmoothing *smoothing, int32_t 
 }
 
 static int is_source(const CwSmoothing *smoothing, int32_t v) {
-  return smoothing->reach[v].source >= 0 && source_of(smoothing, v)->vertex == v;
+  const CwSmoothingSource *source = source_of(smoothing, v);
+  return source && source->vertex == v;
 }
 
 static double range(const CwSmoothing *smoothing, int32_t v) {

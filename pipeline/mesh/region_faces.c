@@ -17,7 +17,7 @@ typedef struct {
   int32_t next; // place of the next one in the list, or of the next free one; NONE at the end
 } Side;
 
-enum { NONE = -1, MET = INT32_MIN };            // no place; the ref of a side that has met the other one and stays
+enum { NONE = -1, MET = INT32_MIN };            // no place; the ref of a side that has met the other one
 enum { AHEAD = 6 };                             // cells
 enum { LIST_BITS = 3, LISTS = 1 << LIST_BITS }; // of a node: then a list has about one side
 
@@ -200,9 +200,8 @@ static inline CwStatus meet(Match *m, int32_t least, const Side *side) {
     Side *other = &m->sides[at];
     if (other->ref == MET) CW_TRY(fail_at_face(m, side->ref, "belongs to more than two cells or boundary faces"));
     CW_TRY(take_pair(m, other, side));
-    if (is_shared(m->data, side)) {
-      other->ref = MET;
-    } else {
+    other->ref = MET;
+    if (!is_shared(m->data, side)) {
       *link = other->next;
       other->next = m->free;
       m->free = at;
@@ -297,9 +296,8 @@ static CwStatus match_all(Match *m) {
   }
   for (int32_t cell = data->tetrahedron_count; cell < cells; ++cell) CW_TRY(add_cell(m, cell));
   for (int of_cells = 0; of_cells < 2; ++of_cells) // a boundary face that is no cell's tells more than a face left open
-    for (size_t list = 0; list < lists; ++list)
-      for (int32_t at = m->first[list]; at != NONE; at = m->sides[at].next)
-        if (m->sides[at].ref != MET && (m->sides[at].ref >= 0) == of_cells) CW_TRY(take_single(m, &m->sides[at]));
+    for (int32_t at = 0; at < m->used; ++at)
+      if (m->sides[at].ref != MET && (m->sides[at].ref >= 0) == of_cells) CW_TRY(take_single(m, &m->sides[at]));
 done:
   free(m->first);
   free(m->sides);
