@@ -8,6 +8,7 @@
 #include "mesher/boundary/periodic_boundary.h"
 #include "mesher/boundary/wall_part.h"
 #include "mesher/common/incident.h"
+#include "mesher/common/quality.h"
 #include "mesher/common/triangle_bound.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers.h"
@@ -63,7 +64,7 @@ static double bound_in(const CwLayerWork *work, int32_t t, const double (*top)[3
 // How good the column of v is: until its prisms are good by them, and then by the least bound of the triangles that its
 // end is a corner or an apex of.
 static double judge(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first) {
-  double quality = cw_layers_around(work, v, top, -INFINITY, first), least = cw_policy.top_open;
+  double quality = cw_layers_around(work, v, top, -INFINITY, first), least = asin(cw_policy.improve_below) / CW_DEGREE;
   if (quality < cw_policy.prism_good) return quality - MUCH;
   for (int32_t i = work->face_start[v]; i < work->face_start[v + 1] && least > floor; i++) {
     int32_t t = work->face[i], apex;
@@ -118,8 +119,8 @@ static CwStatus find_narrow(void *context, int32_t t, void *out) {
   const int32_t(*triangle)[3] = concave->wall->triangle;
   const double(*top)[3] = (const double(*)[3])concave->layers->top;
   double bound =
-      cw_layer_top_bound(t, triangle, top, concave->around.start, concave->around.triangle, cw_policy.top_narrow);
-  *(uint8_t *)out = bound < cw_policy.top_narrow;
+      cw_layer_top_bound(t, triangle, top, concave->around.start, concave->around.triangle, cw_policy.wanted_angle);
+  *(uint8_t *)out = bound < cw_policy.wanted_angle;
   return CW_OK;
 }
 

@@ -358,7 +358,7 @@ static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
       for (int k = 0; k < 6; k++) { // either way along each edge
         int32_t v = part->wall.global[corner[k / 2]], w = part->wall.global[corner[(k / 2 + 1 + k % 2) % 3]];
         if (!lowered[v]) continue;
-        double most = layers->thickness[v] + cw_policy.thickness_slope * cw_distance(whole->x[v], whole->x[w]);
+        double most = layers->thickness[v] + cw_policy.slope * cw_distance(whole->x[v], whole->x[w]);
         if (layers->thickness[w] <= most) continue;
         lower(part, w, most, layers, lowered);
         again = 1;
@@ -393,8 +393,7 @@ CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *su
   layers->thinned_count = made.thinned_count;
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
-    CW_TRY(check(&part, &made, layers, round < ROUNDS / 2 ? cw_policy.prism_fair : cw_policy.prism_valid, bad,
-                 &bad_count));
+    CW_TRY(check(&part, &made, layers, cw_policy.sound_quality, bad, &bad_count));
     if (!bad_count) break;
     int32_t first = 0;
     while (!bad[first]) first++;

@@ -87,8 +87,7 @@ static Box pack_box(const Tree *tree, const CwReachBox *box) {
 
 static Box reach_of_offset(const Tree *tree, int32_t p) {
   const CwOffsetPoint *place = &tree->items.offset[p];
-  CwReachBox box =
-      cw_reach_box(place->x, cw_policy.offset_apart * place->spacing);
+  CwReachBox box = cw_reach_box(place->x, cw_policy.least_distance * place->spacing);
   return pack_box(tree, &box);
 }
 
@@ -149,7 +148,7 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
   int32_t near = find_near(tree, list + reached->triangles, reached->count - reached->triangles, place);
   for (int32_t k = 0; k < near; k++) {
     const CwOffsetPoint *point = &tree->items.offset[tree->items.near[k] - input->triangle_count];
-    double nearest = cw_policy.offset_apart * point->spacing;
+    double nearest = cw_policy.least_distance * point->spacing;
     if (distance_square(x, point->x) < nearest * nearest) return 1;
   }
   near = find_near(tree, list, reached->triangles, place);

@@ -34,7 +34,7 @@ void cw_reach_of_triangle(const double a[3], const double b[3], const double c[3
   // The sphere of a needle would reach far: it is no use to keep points out of all of it.
   square = fmin(square, fmax(fmax(uu, vv), uu + vv - 2.0 * uv));
   ball->square = clearance * clearance * square;
-  double radius = sqrt(ball->square), margin = clearance * cw_policy.wall_distance * fmin(size, ball->edge);
+  double radius = sqrt(ball->square), margin = clearance * cw_policy.boundary_distance * fmin(size, ball->edge);
   for (int i = 0; i < 3; i++) {
     low[i] = fmin(ball->centre[i] - radius, fmin(fmin(a[i], b[i]), c[i]) - margin);
     high[i] = fmax(ball->centre[i] + radius, fmax(fmax(a[i], b[i]), c[i]) + margin);
@@ -83,6 +83,6 @@ static double distance_square(const double x[3], const double a[3], const double
 
 int cw_reach_is_near(const double a[3], const double b[3], const double c[3], const CwReachBall *ball, double h,
                      double clearance, const double x[3]) {
-  double nearest = cw_policy.wall_distance * clearance * (ball->edge < h ? ball->edge : h);
+  double nearest = cw_policy.boundary_distance * clearance * (ball->edge < h ? ball->edge : h);
   return distance_square(x, a, b, c) < nearest * nearest;
 }

@@ -6,7 +6,8 @@
 
 #include "mesher/common/radix.h"
 #include "mesher/common/vec.h"
-#include "mesher/policy.h"
+
+static const double CLOSE_PACKING = 0.81649658092772603273; // of its layers, over the spacing: sqrt(2/3)
 
 static const double line[3] = {1.0, 0.37, 0.61}; // along no axis, so that few places of regular triangles are level
 
@@ -24,7 +25,7 @@ CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t) {
   double edge = sqrt(2.0 * (cw_dot(u, u) + cw_dot(v, v) - cw_dot(u, v)) / 3.0);
   double wanted = input->size(input->size_context, place.x);
   place.spacing = fmin(sqrt(edge * wanted), cbrt(edge * wanted * wanted));
-  for (int i = 0; i < 3; i++) place.x[i] -= cw_policy.offset_height * place.spacing * normal[i];
+  for (int i = 0; i < 3; i++) place.x[i] -= CLOSE_PACKING * place.spacing * normal[i];
   place.along = cw_dot(line, place.x);
   return place;
 }

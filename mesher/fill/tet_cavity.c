@@ -55,8 +55,8 @@ double cw_cavity_best(CwCavity *cavity, double p[3], double start) {
     for (int tries = 0, k = last; tries < 14; tries++, k = (k + 1) % 14) {
       double there[3];
       for (int i = 0; i < 3; i++) there[i] = p[i] + step * cw_tet_direction[k][i];
-      q = cw_cavity_quality(cavity, there, best + cw_policy.move_gain);
-      if (q <= best + cw_policy.move_gain) continue;
+      q = cw_cavity_quality(cavity, there, best + cw_policy.least_gain);
+      if (q <= best + cw_policy.least_gain) continue;
       best = q;
       memcpy(p, there, sizeof there);
       last = k;

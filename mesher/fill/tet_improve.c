@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/fill/tet_improve.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_mesh.h"
 #include "mesher/fill/tet_loop.h"
@@ -46,8 +48,7 @@ done:
   return status;
 }
 
-CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *source_count,
-                             CwTetChanges *changes) {
+CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *source_count, CwTetChanges *changes) {
   CwStatus status = CW_OK;
   CwTetShapes shapes = {0};
   CwTetWork w = {.mesh = mesh,
@@ -55,7 +56,7 @@ CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *sour
                  .source_count = *source_count,
                  .limit = cw_policy.improve_below,
                  .insert = cw_policy.improve_below,
-                 .insert_round = cw_policy.improve_hard,
+                 .insert_round = sin(cw_policy.wanted_angle * CW_DEGREE),
                  .changed = &shapes.slender};
   CW_NEW(shapes.irregular, mesh->point_count);
   shapes.irregular_space = mesh->point_count;

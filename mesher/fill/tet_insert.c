@@ -176,7 +176,7 @@ CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double
 
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
-  double place[PLACES][3], least = w->mesh->tet[t].quality + cw_policy.insert_gain, best = least, p[3];
+  double place[PLACES][3], least = w->mesh->tet[t].quality + cw_policy.least_gain, best = least, p[3];
   int tries = candidates(w, t, place);
   Cleared chosen = {0};
   Grown grown[PLACES];

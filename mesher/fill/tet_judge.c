@@ -22,7 +22,7 @@ void cw_tet_shapes_free(CwTetShapes *shapes) {
 }
 
 double cw_tet_slender_square(void) {
-  return cw_policy.slender_aspect * cw_policy.slender_aspect;
+  return cw_policy.usual_aspect * cw_policy.usual_aspect;
 }
 
 static inline Cw4f place_of(const CwTetShapes *shapes, const double x[3]) {

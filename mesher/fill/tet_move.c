@@ -26,7 +26,7 @@ CwStatus cw_tet_move_point(CwTetWork *w, int32_t t, int32_t point, int *done_it)
   }
   if (n == 0) goto done;
   memcpy(p, cw_tet_at(w, point), sizeof p);
-  if (!(cw_cavity_best(&cavity, p, least) > least + cw_policy.move_gain)) goto done;
+  if (!(cw_cavity_best(&cavity, p, least) > least + cw_policy.least_gain)) goto done;
   memcpy(w->mesh->point[point].x, p, sizeof p);
   for (int k = 0; k < n; k++) {
     const int32_t *c = w->mesh->tet[star[k]].corner;

@@ -58,6 +58,14 @@ static CwTetMeasures measures_of(const CwTetMesh *mesh, int32_t t) {
   return cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x);
 }
 
+static double flat_sine(void) {
+  return sin(policy->flat_angle * CW_DEGREE);
+}
+
+static double wanted_sine(void) {
+  return sin(policy->wanted_angle * CW_DEGREE);
+}
+
 static double least_sine(const CwTetMeasures *m) {
   static const int8_t beside[6][2] = {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}; // faces at each edge
   double least = INFINITY;
@@ -65,8 +73,8 @@ static double least_sine(const CwTetMeasures *m) {
   return m->six > 0.0 ? m->six * sqrt(least) : -1.0;
 }
 
-// The least sine or, where the search is for determinants, less where checkMesh calls that small: `bad` at its limit.
-// Of flat tetrahedra it goes with the fourth power of their angles, and those of 13 to 17 degrees may be called so.
+// The least sine or, where the search is for determinants, less where checkMesh calls that small: flat at its limit.
+// Of flat tetrahedra it goes with the fourth power of their angles, and those of 12 to 17 degrees may be called so.
 static double judge(const Search *s, const CwTetMesh *mesh, int32_t t, double *sine) {
   CwTetMeasures m = measures_of(mesh, t);
   int open = 0;
@@ -74,7 +82,7 @@ static double judge(const Search *s, const CwTetMesh *mesh, int32_t t, double *s
   if (!s->determinants || *sine < 0.0) return *sine;
   for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] == CW_BESIDE_NOTHING) << i;
   double determinant = cw_tet_determinant(&m, open);
-  return determinant > 0.0 ? fmin(*sine, policy->search_bad * sqrt(sqrt(determinant / small_determinant))) : *sine;
+  return determinant > 0.0 ? fmin(*sine, flat_sine() * sqrt(sqrt(determinant / small_determinant))) : *sine;
 }
 
 static double mean_edge(const CwTetMesh *mesh, int32_t t) {
@@ -86,7 +94,7 @@ static Rated rate(const Search *s, const CwTetMesh *mesh) {
   Rated rated = {INFINITY, INFINITY, 0.0};
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     if (mesh->tet[t].corner[0] < 0) continue;
-    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / policy->improve_hard);
+    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / wanted_sine());
     rated.least = fmin(rated.least, judged);
     rated.sine = fmin(rated.sine, sine);
     rated.deficit += lack * lack * lack * lack * lack * lack;
@@ -99,8 +107,7 @@ static int32_t choose_tet(Search *s) {
   int32_t count = 0, chosen = 0;
   for (int32_t t = 0; t < s->trial.tet_count; t++) {
     double sine;
-    if (s->trial.tet[t].corner[0] >= 0 && judge(s, &s->trial, t, &sine) < policy->improve_hard &&
-        choose(s, ++count) == 0)
+    if (s->trial.tet[t].corner[0] >= 0 && judge(s, &s->trial, t, &sine) < wanted_sine() && choose(s, ++count) == 0)
       chosen = t;
   }
   for (int steps = choose(s, 3); steps > 0; steps--) {
@@ -282,9 +289,9 @@ static int32_t count_bad(const CwTetWork *w) {
   int32_t count = 0;
   for (int32_t k = 0; k < w->next.count; k++) {
     int32_t t = w->next.tet[k];
-    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= policy->search_bad) continue;
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= flat_sine()) continue;
     CwTetMeasures m = measures_of(w->mesh, t);
-    count += least_sine(&m) < policy->search_bad;
+    count += least_sine(&m) < flat_sine();
   }
   return count;
 }
@@ -358,26 +365,26 @@ done:
 
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
-  Search s = {.whole = w, .begin = policy->search_wanted, .work = {.limit = policy->improve_hard, .fixed_count = 1}};
+  Search s = {.whole = w, .begin = policy->search_wanted, .work = {.limit = wanted_sine(), .fixed_count = 1}};
   double least, allowed = 0.0;
   s.work.mesh = &s.trial;
   s.work.source_count = 1;
   s.tries = w->mesh->tet_count > policy->search_share * policy->search_fewest
                 ? w->mesh->tet_count / policy->search_share
                 : policy->search_fewest;
-  int64_t most = w->mesh->tet_count / policy->search_few;
+  int64_t most = w->mesh->tet_count / policy->search_share;
   if (count_bad(w) > (most > policy->search_any ? most : policy->search_any)) goto done;
   if (find_worst(&s, 0, NULL, NULL, &least) >= 0) {
     CW_TRY(sine_allowed(w->mesh, &allowed));
-    s.again = fmin(policy->search_bad, allowed);
-    s.begin = fmin(policy->search_wanted, fmax(policy->search_bad, allowed));
+    s.again = fmin(flat_sine(), allowed);
+    s.begin = fmin(policy->search_wanted, fmax(flat_sine(), allowed));
     s.work.insert = s.work.insert_round = s.begin;
     CW_TRY(search_places(&s));
   }
   // After the angles, with tries of its own.
   s.determinants = 1;
-  s.begin = s.work.insert = s.work.insert_round = policy->search_bad;
-  s.again = policy->search_bad;
+  s.begin = s.work.insert = s.work.insert_round = flat_sine();
+  s.again = flat_sine();
   s.tries = 2 * policy->search_fewest;
   CW_TRY(search_places(&s));
 done:

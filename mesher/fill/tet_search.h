@@ -7,9 +7,9 @@
 
 #include "mesher/fill/tet_work.h"
 
-// Where dihedral angles below 13 degrees are left in the list, or below 18 where the boundary allows more
-// (tet_bound.h); then where checkMesh calls determinants small of angles of 13 degrees or more, for which no angle
-// below 18 degrees becomes less. Below 13 degrees a place is begun with again while the boundary allows more than is
-// reached. The same every time; policy_table.h has the numbers of tries.
+// Where dihedral angles below flat_angle are left in the list, or below search_wanted where the boundary allows more
+// (tet_bound.h); then where checkMesh calls determinants small of angles of flat_angle or more, for which no angle
+// below search_wanted becomes less. Below flat_angle a place is begun with again while the boundary allows more than is
+// reached. The same every time; policy_table.h has the angles and the numbers of tries.
 CwStatus cw_tet_search(CwTetWork *w);
 #endif

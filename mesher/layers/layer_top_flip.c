@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
@@ -60,7 +61,7 @@ static int flat_pair(const double (*x)[3], const int32_t p[3], const int32_t q[3
   double n[3], m[3];
   unit_normal(x, p[0], p[1], p[2], n);
   unit_normal(x, q[0], q[1], q[2], m);
-  return cw_dot(n, m) > cw_policy.top_flip_flat;
+  return cw_dot(n, m) > cw_policy.crease_cosine;
 }
 
 // Whether the edge a-b between c (left) and d is better as c-d; `before`: least angle of the layer top now.
@@ -70,13 +71,13 @@ static int flip_helps(const double (*wall)[3], const double (*top)[3], double be
   if (after < cw_policy.top_flip_gain * before) return 0;
   double wall_before = fmin(least_angle(wall, a, b, c), least_angle(wall, b, a, d));
   double wall_after = fmin(least_angle(wall, c, d, b), least_angle(wall, d, c, a));
-  if (wall_after < cw_policy.top_flip_fair && wall_after < cw_policy.top_flip_wall * wall_before) return 0;
+  if (wall_after < cw_policy.wanted_angle * CW_DEGREE && wall_after < cw_policy.top_flip_wall * wall_before) return 0;
   const int32_t old[2][3] = {{a, b, c}, {b, a, d}}, new[2][3] = {{c, d, b}, {d, c, a}};
   if (!flat_pair(top, old[0], old[1]) || !flat_pair(top, new[0], new[1])) return 0;
   if (!flat_pair(wall, old[0], old[1]) || !flat_pair(wall, new[0], new[1])) return 0;
   for (int k = 0; k < 2; k++) {
     if (!flat_pair(top, old[0], new[k]) || !flat_pair(wall, old[0], new[k])) return 0;
-    if (prism_quality(wall, top, new[k][0], new[k][1], new[k][2]) < cw_policy.prism_valid) return 0;
+    if (prism_quality(wall, top, new[k][0], new[k][1], new[k][2]) < cw_policy.sound_quality) return 0;
   }
   return 1;
 }

@@ -199,7 +199,7 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
-  ray.core = cw_policy.core_height * mean_edge(work, v);
+  ray.core = cw_policy.least_distance * mean_edge(work, v);
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
   cw_box_tree_ray(gaps->tree, gaps->normals, ray.x, ray.g, &ray.far, meet, &ray);
@@ -285,7 +285,7 @@ static double most_beside(const void *context, int32_t v, int32_t w) {
   cw_sub(work->in->x[w], work->in->x[v], e);
   for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
   double wall = cw_norm(e);
-  return work->t[v] + cw_policy.thickness_slope * fmin(wall, fmax(cw_norm(d), cw_policy.columns_apart * wall));
+  return work->t[v] + cw_policy.slope * fmin(wall, fmax(cw_norm(d), cw_policy.columns_apart * wall));
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {

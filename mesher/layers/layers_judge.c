@@ -31,7 +31,7 @@ static double prism_quality(const CwLayerWork *work, int32_t f, const double (*t
 
 double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   double share = in_channel(work, f) ? cw_policy.channel_share : 1;
-  double prism = prism_quality(work, f, top), quality = prism < cw_policy.prism_kept ? prism : cw_policy.prism_good;
+  double prism = prism_quality(work, f, top), quality = prism < cw_policy.sound_quality ? prism : cw_policy.prism_good;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
     if (work->t[v] <= cw_layers_least(work, v)) continue;
@@ -39,11 +39,11 @@ double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3
     break;
   }
   if (quality <= cw_policy.prism_good) return quality;
-  return cw_layers_lean_quality(work, f, top, prism) < cw_policy.prism_good ? cw_policy.prism_good : quality;
+  return cw_layers_lean_quality(work, f, top) < cw_policy.prism_good ? cw_policy.prism_good : quality;
 }
 
 int cw_layers_is_sound(const CwLayerWork *work, int32_t f, const double (*top)[3], double limit) {
-  return prism_quality(work, f, top) >= fmin(cw_policy.prism_kept, limit);
+  return prism_quality(work, f, top) >= fmin(cw_policy.sound_quality, limit);
 }
 
 // The quality of prism f if its column k were thinned; k = 3: as it is.

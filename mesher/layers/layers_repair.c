@@ -341,7 +341,7 @@ static CwStatus turn_kept(Repair *repair) {
       if (repair->quality[f] != cw_policy.prism_good) continue;
       double prism = cw_layers_prism_quality(work, f, top);
       double shape = fmin(prism, cw_layers_top_quality(work, f, top));
-      if (fmin(shape, cw_layers_lean_quality(work, f, top, prism)) >= cw_policy.prism_good) continue;
+      if (fmin(shape, cw_layers_lean_quality(work, f, top)) >= cw_policy.prism_good) continue;
       for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[f][k]] = FOR_SHAPE;
       marked = 1;
     }
@@ -437,7 +437,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
   CW_TRY(start(&repair, tree));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
-    repair.limit = *rounds < ROUNDS / 2 ? cw_policy.prism_good : cw_policy.prism_fair;
+    repair.limit = *rounds < ROUNDS / 2 ? cw_policy.prism_good : cw_policy.sound_quality;
     CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
       CW_TRY(turn_bad(&repair));

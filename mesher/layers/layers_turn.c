@@ -28,12 +28,12 @@ double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*
   return cw_policy.turn_top * cw_prism_top_quality(wall, end);
 }
 
-static double shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism) {
+static double shear_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   const int32_t *v = work->in->triangle[f];
   const double(*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {top[v[0]], top[v[1]], top[v[2]]};
   const CwLayerDivision *division = &work->in->division;
-  if (division->count < 1 || prism > cw_policy.turn_upright) return cw_policy.prism_good;
+  if (division->count < 1) return cw_policy.prism_good;
   double last[3], normal[3], column[3];
   cw_normal(wall[0], wall[1], wall[2], normal);
   cw_unit(normal);
@@ -82,8 +82,8 @@ static double wedge_quality(const CwLayerWork *work, int32_t f, const double (*t
   return cw_policy.prism_good * (narrowest / wanted);
 }
 
-double cw_layers_lean_quality(const CwLayerWork *work, int32_t f, const double (*top)[3], double prism) {
-  return fmin(shear_quality(work, f, top, prism), wedge_quality(work, f, top));
+double cw_layers_lean_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
+  return fmin(shear_quality(work, f, top), wedge_quality(work, f, top));
 }
 
 double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first) {
@@ -96,7 +96,7 @@ double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*top)[
     if (prism < cw_policy.prism_good) {
       quality = prism - MUCH;
     } else {
-      double lean = cw_layers_lean_quality(work, f, top, q);
+      double lean = cw_layers_lean_quality(work, f, top);
       q = cw_layers_top_quality(work, f, top);
       if (lean < cw_policy.prism_good) q = fmin(q, lean);
       if (q < end) end = q;

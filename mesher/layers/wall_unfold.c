@@ -141,7 +141,7 @@ CwStatus cw_wall_unfold(const CwContext *context, int32_t point_count, const dou
     for (int32_t v = 0; v < point_count; v++) {
       if (wall.stale[v]) wall.open[v] = openness(&wall, v);
       wall.stale[v] = 0;
-      if (wall.open[v] >= cw_policy.unfold_open) continue;
+      if (wall.open[v] >= cw_policy.column_least_cosine) continue;
       ++*folded;
       int turned = 0;
       for (int way = 0; way < 2 && !turned; way++) {

@@ -124,7 +124,7 @@ static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPl
   CwPlane *plane = &plan->node[node].plane;
   double centre[3], reach, size = cbrt(part->volume);
   Worth least = *worth, tried;
-  if (least.cosine > cw_policy.plan_improve_leaning) goto done;
+  if (least.cosine > cw_policy.upright_cosine) goto done;
   *moves = 1;
   for (double step = FIRST_STEP * size; step > LAST_STEP * size;) {
     CwPlane best = *plane;

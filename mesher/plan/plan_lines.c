@@ -149,9 +149,9 @@ static double judge_crossings(const Line *line, double from, double to, Lines *l
     cw_copy(x, back);
     if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
     if (!cw_plan_in_cell(line->plan, near->node, back, 2 * SAME_POINT, NULL, 0)) continue;
-    CwPlanWall wall = cw_plan_wall_near(line->model, x, cw_policy.plan_line_room * line->model->thickest);
+    CwPlanWall wall = cw_plan_wall_near(line->model, x, cw_policy.plan_room * line->model->thickest);
     if (wall.thickness > 0)
-      worst = fmax(worst, shortage(wall.distance, wall.thickness, cw_policy.plan_line_room * wall.thickness));
+      worst = fmax(worst, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));
     if (wall.distance < wall.thickness) lines->impossible = 1;
   }
   return worst;
@@ -173,22 +173,20 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end, Line
   double thickness = model->thickness[end->triangle], cramped = near_an_edge(line, part, x);
   // Columns keep the height normal to the wall, but for those that lean too much.
   end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
-  end->layers = thickness / fmax(end->cosine, cw_policy.plan_line_upright);
+  end->layers = thickness / fmax(end->cosine, cw_policy.upright_cosine);
   if (thickness == 0) return cramped;
   lines->cosine = fmin(lines->cosine, end->cosine);
-  if (end->cosine < cw_policy.plan_line_tangent) lines->impossible = 1;
-  cramped = fmax(cramped, shortage(end->cosine, cw_policy.plan_line_leaning, cw_policy.plan_line_upright));
-  return fmax(cramped, shortage(plane_near(line, x, cw_policy.plan_line_room * thickness), thickness / 2,
-                                cw_policy.plan_line_room * thickness));
+  if (end->cosine < cw_policy.column_least_cosine) lines->impossible = 1;
+  cramped = fmax(cramped, shortage(end->cosine, cw_policy.column_least_cosine, cw_policy.upright_cosine));
+  return fmax(cramped, shortage(plane_near(line, x, cw_policy.plan_room * thickness), thickness / 2,
+                                cw_policy.plan_room * thickness));
 }
 
-// How far the line ought to be from this wall, over the thickness of its layers: less beside an end where the line
-// comes to the same wall.
-static double wanted_of(const Line *line, const End *end, double place, int32_t triangle) {
+// Whether the line comes to the wall of this triangle at the end, and the place is beside that.
+static int is_at_end(const Line *line, const End *end, double place, int32_t triangle) {
   const CwPlanModel *model = line->model;
-  if (end->triangle < 0 || fabs(place - end->place) > 2 * cw_policy.plan_line_room * end->layers) return 1;
-  if (cw_dot(model->normal[end->triangle], model->normal[triangle]) < cw_policy.plan_same_wall) return 1;
-  return cw_policy.plan_line_concave * fmin(1, end->cosine / cw_policy.plan_line_upright);
+  if (end->triangle < 0 || fabs(place - end->place) > 2 * cw_policy.plan_room * end->layers) return 0;
+  return cw_dot(model->normal[end->triangle], model->normal[triangle]) >= cw_policy.crease_cosine;
 }
 
 // A run of the line through the domain.
@@ -201,22 +199,21 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   if (run < taken) lines->impossible = 1;
   if (lines->impossible) return;
   cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
-  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, cw_policy.plan_line_room * taken));
+  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, cw_policy.plan_room * taken));
   int samples = (int)fmin(fmax(ceil(run / (LINE_STEP * model->base_size)), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
   double step = run / samples;
   for (int i = 0; i < samples && !lines->impossible; i++) {
     double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
-    double h = cw_size_at(model->size, x), near = plane_near(line, x, cw_policy.plan_lines_apart * h);
+    double h = cw_size_at(model->size, x), near = plane_near(line, x, cw_policy.plan_room * h);
     if (near < SAME_LINE * h) beside += step;
-    cramped = fmax(cramped, shortage(near, SAME_LINE * h, cw_policy.plan_lines_apart * h));
+    cramped = fmax(cramped, shortage(near, SAME_LINE * h, cw_policy.plan_room * h));
     if (s - from->place < from->layers || to->place - s < to->layers) continue;
-    CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_line_room * model->thickest);
+    CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * model->thickest);
     if (wall.thickness == 0) continue;
-    double wanted = fmin(wanted_of(line, from, s, wall.triangle), wanted_of(line, to, s, wall.triangle));
-    if (wanted == 1)
-      cramped = fmax(cramped, shortage(wall.distance, wall.thickness, cw_policy.plan_line_room * wall.thickness));
-    if (wall.distance < wanted * wall.thickness) lines->impossible = 1;
+    if (is_at_end(line, from, s, wall.triangle) || is_at_end(line, to, s, wall.triangle)) continue;
+    cramped = fmax(cramped, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));
+    if (wall.distance < wall.thickness) lines->impossible = 1;
   }
   if (beside > cw_policy.plan_line_beside * run && beside > 2 * step) lines->impossible = 1;
   lines->cramped += cramped;

@@ -36,7 +36,7 @@ int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
     cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
     cw_cad_face_normal(cad, face[s], uv, normal[s]);
   }
-  return cw_dot(normal[0], normal[1]) > cw_policy.plan_smooth_cosine;
+  return cw_dot(normal[0], normal[1]) > cw_policy.crease_cosine;
 }
 
 static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2], double step) {
@@ -62,7 +62,6 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
   CW_NEW(model->edge_room, most);
   CW_NEW(model->edge_touch, most);
   CW_NEW(model->edge_end, most);
-  CW_NEW(model->edge_sharp, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     double thickness = 0;
     int faces[2];
@@ -72,17 +71,16 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
       thickness = fmax(thickness, options->thickness[cw_cad_face_patch(cad, faces[side])]);
     if (thickness == 0) continue; // between two open patches
     int smooth = cw_plan_edge_is_smooth(cad, e);
-    double layers = smooth ? cw_policy.plan_smooth_room : cw_policy.plan_edge_room;
+    double layers = smooth ? 0 : cw_policy.plan_room;
     int32_t points = points_of_edge(cad, e, range, step);
     for (int32_t i = 0; i < points; i++) {
       int32_t at = model->edge_count++;
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
                         model->edge_tangent[at]);
       cw_unit(model->edge_tangent[at]);
-      model->edge_touch[at] = cw_policy.plan_touch_room * cw_size_at(model->size, model->edge_x[at]);
+      model->edge_touch[at] = cw_policy.boundary_distance * cw_size_at(model->size, model->edge_x[at]);
       CwPlanWall wall = cw_plan_wall_near(model, model->edge_x[at], thickness);
       model->edge_room[at] = layers * (wall.thickness > 0 ? wall.thickness : thickness);
-      model->edge_sharp[at] = (uint8_t)!smooth;
       model->edge_end[at] = i == 0 || i == points - 1;
     }
   }
@@ -419,7 +417,6 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->edge_room);
   free(model->edge_touch);
   free(model->edge_end);
-  free(model->edge_sharp);
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);

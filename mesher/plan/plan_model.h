@@ -43,10 +43,10 @@ typedef struct {
   double (*normal)[3];                 // of each background triangle
   int32_t edge_count;                  // points along CAD edges
   double (*edge_x)[3], (*edge_tangent)[3];
-  double *edge_room;              // m: how near a plane may come to each of them
-  double *edge_touch;             // m: nearer than that a cut and the edge leave room for flat triangles alone
-  uint8_t *edge_end, *edge_sharp; // at a CAD vertex; of an edge that is a feature
-  int32_t wall_count;             // points all over the walls
+  double *edge_room;  // m: how near a plane may come to each of them; 0 of an edge that is no feature
+  double *edge_touch; // m: nearer than that a cut and the edge leave room for flat triangles alone
+  uint8_t *edge_end;  // at a CAD vertex
+  int32_t wall_count; // points all over the walls
   double (*wall_x)[3];
   int32_t *wall_triangle; // of each, the background triangle
   double thickest;        // m, of the layers anywhere

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
 
@@ -86,7 +87,7 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
 
 // Whether a plane with normal n runs along the edge at one of its points, or comes near its end.
 static int may_graze(const CwPlanModel *model, int32_t e, const double n[3]) {
-  return model->edge_end[e] || fabs(cw_dot(n, model->edge_tangent[e])) < cw_policy.plan_along_edge;
+  return model->edge_end[e] || fabs(cw_dot(n, model->edge_tangent[e])) < sin(cw_policy.wanted_angle * CW_DEGREE);
 }
 
 // Full weight within half of the room, then less and less.
@@ -103,8 +104,8 @@ static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const do
     int last = cw_profile_bin(profile, place + room);
     for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
       double near = nearness(fabs(profile->low + (b + 0.5) * profile->width - place), room);
-      profile->grazed[b] += (model->edge_end[e] ? cw_policy.plan_end_weight : 1) * near;
-      if (model->edge_sharp[e] && near > profile->cut[b]) profile->cut[b] = near;
+      profile->grazed[b] += near;
+      if (near > profile->cut[b]) profile->cut[b] = near;
     }
   }
 }
@@ -185,15 +186,15 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
     double room = model->edge_room[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
     if (near == 0 || !may_graze(model, e, plane->normal)) continue;
     if (end && cw_plane_distance(end, model->edge_x[e]) < -room) continue;
-    place.grazed += (model->edge_end[e] ? cw_policy.plan_end_weight : 1) * near;
-    if (model->edge_sharp[e]) place.cut = fmax(place.cut, near);
+    place.grazed += near;
+    place.cut = fmax(place.cut, near);
   }
   return place;
 }
 
 // Of a plane with normal n, 0 where it crosses the edge at one of its points, 1 where it runs along.
 static double along_edge(const CwPlanModel *model, int32_t e, const double n[3]) {
-  return fmax(0, 1 - fabs(cw_dot(n, model->edge_tangent[e])) / cw_policy.plan_along_edge);
+  return fmax(0, 1 - fabs(cw_dot(n, model->edge_tangent[e])) / sin(cw_policy.wanted_angle * CW_DEGREE));
 }
 
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {

@@ -15,7 +15,7 @@ typedef struct {
   double area[CW_PROFILE_BINS];      // m2, of the section, mean over the bin
   double worst[CW_PROFILE_BINS];     // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
   double grazed[CW_PROFILE_BINS];    // points of CAD edges it runs along, and ends of them it comes near
-  double cut[CW_PROFILE_BINS];       // of those on sharp edges the one nearest: 1 within the layers, 0 at its room
+  double cut[CW_PROFILE_BINS];       // of the nearest of them: 1 within half of its room, 0 at the room
 } CwPlanProfile;
 
 // From about samples_most of the part's samples, or all of fewer. Fails with nothing: a part without extent along the

@@ -72,7 +72,7 @@ int cw_encroach_circle(const double a[2], const double b[2], const double c[2], 
   centre[0] = a[0] + x;
   centre[1] = a[1] + y;
   double longest = fmax(fmax(uu, vv), square(c[0] - b[0], c[1] - b[1]));
-  *radius = cw_policy.interface_sphere * sqrt(fmin(square(x, y), longest));
+  *radius = sqrt(fmin(square(x, y), longest));
   return 1;
 }
 
@@ -171,8 +171,8 @@ static CwStatus add_centres(Growing *growing, const CwCdt *cdt, const CwBeside *
     growing->input.surface(growing->input.surface_context, middle, x, NULL, NULL);
     double wanted = growing->input.size(growing->input.size_context, x);
     if (sqrt(square(middle[0] - growing->uv[p[0]][0], middle[1] - growing->uv[p[0]][1])) <
-            cw_policy.interface_least_distance * wanted ||
-        !has_room(&growing->input, middle, cw_policy.surface_least_height * wanted))
+            cw_policy.surface_least_distance * wanted ||
+        !has_room(&growing->input, middle, cw_policy.boundary_distance * wanted))
       continue;
     centre[count++] = (Centre){{middle[0], middle[1]}, radius / wanted, t};
   }
@@ -181,7 +181,7 @@ static CwStatus add_centres(Growing *growing, const CwCdt *cdt, const CwBeside *
     double x[3];
     growing->input.surface(growing->input.surface_context, centre[k].uv, x, NULL, NULL);
     double wanted = growing->input.size(growing->input.size_context, x);
-    if (!keeps_distance(&growing->input, centre[k].uv, cw_policy.interface_least_distance * wanted)) continue;
+    if (!keeps_distance(&growing->input, centre[k].uv, cw_policy.surface_least_distance * wanted)) continue;
     CW_TRY(add_point(growing, centre[k].uv));
     ++*added;
   }

@@ -61,7 +61,7 @@ void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwR
       int32_t v = from->layers->triangle[t][k];
       int near = failure->everywhere ? from->surface->region[t] == region
                                      : cw_distance(from->layers->top[v], failure->at) < distance;
-      if (near) most[v] = fmin(most[v], cw_policy.thinner * from->layers->thickness[v]);
+      if (near) most[v] = fmin(most[v], cw_policy.column_kept * from->layers->thickness[v]);
     }
   }
 }

@@ -159,8 +159,7 @@ static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
 }
 
 int cw_domain_least_regions(const CwCase *table, double cells) {
-  return (int)fmin(table->mesh.least_regions,
-                   fmax(cw_policy.regions_free, floor(cells / cw_policy.region_cells_fewest)));
+  return (int)fmin(table->mesh.least_regions, fmax(1, floor(cells / cw_policy.region_cells_fewest)));
 }
 
 CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase *table, double cells,

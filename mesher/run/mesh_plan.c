@@ -145,7 +145,7 @@ static int walls_limit(const CwMeshRun *run, double scale) {
   double wanted = 0, asked = 0;
   for (int d = 0; d < run->model.domain_count; d++) cw_domain_walls_ask(&run->domain[d], scale, &wanted, &asked);
   cw_log_debug(run->context.log, "size field: walls ask for %.2f times as many prisms", asked / wanted);
-  return asked <= cw_policy.prisms_asked * wanted;
+  return asked <= cw_policy.walls_ask_most * wanted;
 }
 
 // The scale multiplies the field with its growth, and with the edges on walls. Where meshes are so coarse that the
@@ -164,7 +164,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
     double growth = run->scale * run->gradation / allowed;
     if (growth <= 1 + GRADATION_TOLERANCE || round == GRADATION_ROUNDS) break;
     made_for = run->scale * pow(growth, round == 0 ? 0.25 : 1);
-    if (round == 0) greatest = cw_policy.scale_greater * made_for;
+    if (round == 0) greatest = cw_policy.walls_ask_most * made_for;
     run->gradation = allowed / made_for;
     if (round == 0 ? walls_limit(run, made_for) : run->wall_scale > 0)
       run->wall_scale = fmin(made_for, greatest) * (1 + GRADATION_TOLERANCE);

@@ -37,7 +37,7 @@ done:
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   const CwDomain *domain = &run->domain[task.domain];
   int patch = cw_cad_face_patch(domain->cad, task.index);
-  double largest = cw_policy.prism_largest / cw_policy.prism_longest * cw_domain_longest_edge(domain, patch);
+  double largest = cw_domain_longest_edge(domain, patch);
   return cw_surface_mesh_face(&domain->input, &domain->wall_curves, task.index, largest, bytes, size);
 }
 

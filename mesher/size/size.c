@@ -299,7 +299,7 @@ void cw_size_free(CwSize **size) {
 }
 
 double cw_size_scale_fine(void) {
-  return WIDTHS / cw_policy.size_least_open;
+  return WIDTHS / cw_policy.size_least;
 }
 
 void cw_size_set_scale(CwSize *size, double scale) {
@@ -313,8 +313,8 @@ double cw_size_scale(const CwSize *size) {
 // The least share of the wanted length that open edges are granted.
 static double least_at_open_edges(const CwSize *field) {
   double asked = field->open_edge_asks / field->scale;
-  double refused = (cw_policy.size_least_open - asked) / (cw_policy.size_least_open - cw_policy.size_least_asked);
-  return cw_policy.size_least_open + (1 - cw_policy.size_least_open) * fmin(fmax(refused, 0), 1);
+  double refused = (cw_policy.size_least - asked) / (cw_policy.size_least - cw_policy.size_least_asked);
+  return cw_policy.size_least + (1 - cw_policy.size_least) * fmin(fmax(refused, 0), 1);
 }
 
 double cw_size_at(const void *size, const double x[3]) {

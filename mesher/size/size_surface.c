@@ -123,7 +123,7 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   cw_background_normal(b, hit, met);
   double facing = cw_dot(inward, met);
   if (facing < cw_policy.size_facing) return INFINITY;
-  if (facing < cw_policy.size_parallel) {
+  if (facing < cw_policy.crease_cosine) {
     // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
     double meeting = distance * facing / sqrt(1 - facing * facing);
     if (crease_within(surface, x, fmax(2 * patch_size, 1.2 * meeting))) return INFINITY;
@@ -177,7 +177,7 @@ static void seed_piece(Surface *surface, const Piece *whole, double size, double
     double x[3], curvature;
     centre_of(&piece, x, &curvature);
     double turn = curvature > 0 ? surface->input.table->curvature_angle / curvature : INFINITY;
-    cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, cw_policy.size_least_curvature * patch_size)));
+    cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, cw_policy.size_least * patch_size)));
   }
 }
 
@@ -330,7 +330,7 @@ void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double share, doubl
   memcpy(&count, bytes, sizeof count);
   const Seed *seed = (const Seed *)((const char *)bytes + sizeof count);
   for (int64_t i = 0; i < count; i++) {
-    double size = seed[i].value, least = cw_policy.size_least_open * fmin(size, base);
+    double size = seed[i].value, least = cw_policy.size_least * fmin(size, base);
     double value = fmin(fmin(fmax(share * size, least), size), most);
     if (value < grid->value[seed[i].node]) grid->value[seed[i].node] = (float)value;
   }

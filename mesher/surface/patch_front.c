@@ -188,8 +188,8 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     while (i < 3 && !(work->corner[t][(i + 1) % 3] == a && work->corner[t][(i + 2) % 3] == b)) i++;
     if (i == 3 || is_done(work, t) || !place_point(work, t, i, uv)) continue;
     double cap = fmin(work->size[a], work->size[b]);
-    cap += cw_policy.front_growth * cap;
-    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.front_least_room, cap, &inserted));
+    cap += cw_policy.slope * cap;
+    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.least_distance, cap, &inserted));
     if (!inserted) continue;
     CW_TRY(set_row(&front, work->point_count - 1, 1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
     for (int32_t k = 0; k < work->border_count; k++) CW_TRY(push_edges(work, &front, work->fresh[k]));
@@ -200,8 +200,8 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     if (is_done(work, t) || !shape_of(work, t, 0, &shape)) continue;
     int32_t a = work->corner[t][1], b = work->corner[t][2];
     for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]) + shape.centre * shape.square[k];
-    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.front_least_room,
-                           size_cap(work, t) * (1 + 2 * cw_policy.front_growth), &inserted));
+    CW_TRY(cw_patch_insert(work, uv, t, cw_policy.least_distance, size_cap(work, t) * (1 + 2 * cw_policy.slope),
+                           &inserted));
   }
 done:
   free(front.entry);

@@ -34,7 +34,7 @@ static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, co
       // Height over the edge from the area, which the quality holds.
       double l = cw_patch_distance2(work->x[a], work->x[b]);
       double sum = l + cw_patch_distance2(x, work->x[a]) + cw_patch_distance2(x, work->x[b]);
-      double height = quality * sum / (2 * sqrt(3) * sqrt(l)), limit = cw_policy.surface_least_height * work->size[p];
+      double height = quality * sum / (2 * sqrt(3) * sqrt(l)), limit = cw_policy.boundary_distance * work->size[p];
       if (height < limit && quality > 0) worst = fmin(worst, 0.5 * height / limit);
     }
   }
@@ -143,10 +143,10 @@ static void remove_too_close(CwPatchWork *work) {
     int too_close = r.count <= 4;
     for (int k = 0; k < r.count && !too_close; k++) {
       int32_t a = r.ring[k], b = r.ring[(k + 1) % r.count], t = r.triangle[k];
-      double limit = cw_policy.surface_short_edge * edge_size(work, p, a);
+      double limit = cw_policy.surface_least_distance * edge_size(work, p, a);
       too_close = cw_patch_distance2(work->x[p], work->x[a]) < limit * limit;
       if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1)
-        too_close |= height_over(work, p, a, b) < cw_policy.surface_least_height * work->size[p];
+        too_close |= height_over(work, p, a, b) < cw_policy.boundary_distance * work->size[p];
     }
     if (too_close && r.count) cw_patch_remove(work, p, 0.45, 1.5);
   }
@@ -356,7 +356,7 @@ static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *
   int inserted;
   for (int32_t t = 0; t < count; t++) {
     if (work->corner[t][0] < 0) continue;
-    int steep = cw_patch_cuts_hold(cuts, work->corner[t]) || least_cosine(work, t) < cw_policy.surface_steep_cosine;
+    int steep = cw_patch_cuts_hold(cuts, work->corner[t]) || least_cosine(work, t) < cw_policy.upright_cosine;
     if (steep && flip_unfit(work, cuts, t)) {
       ++*changes;
       continue;

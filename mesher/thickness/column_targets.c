@@ -14,7 +14,6 @@
 #include "mesher/thickness/layer_thickness.h"
 
 static const double LITTLE_GROWTH = 1.1;
-// further, some made angles of 16 degrees where others have 19
 
 // How the wall lies about a vertex.
 typedef struct {
@@ -24,7 +23,7 @@ typedef struct {
 } Bend;
 
 double cw_column_thickness_least(double first, int layer_count) {
-  return cw_policy.even_layers * layer_count * first;
+  return layer_count * first;
 }
 
 // The column whose last layer is `last` times as tall as a regular tetrahedron on edges of `size`, or the tallest with
@@ -100,11 +99,11 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   Bend bend = bend_at(surface, columns->around, v);
   double size = size_at(in, x), thickness = 0, last = columns->asked[v].last;
   // In a concave place tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
-  if (bend.cosine < cw_policy.wall_flat_cosine && bend.rise > cw_policy.wall_concave_rise) last *= bend.cosine;
+  if (bend.cosine < cw_policy.crease_cosine && bend.rise > cw_policy.wall_concave_rise) last *= bend.cosine;
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * bend.normal[k];
-    double above = fmin(fmax(size, size_at(in, end)), size + cw_policy.thickness_slope * thickness);
+    double above = fmin(fmax(size, size_at(in, end)), size + cw_policy.slope * thickness);
     thickness = fair_thickness(targets->first_height[v], targets->layer_count, targets->growth[v], above, last);
   }
   *(double *)out = fmin(columns->asked[v].thickness, thickness);
@@ -173,8 +172,7 @@ static CwStatus take_asked(const CwContext *context, const CwSurfaceMesh *surfac
     targets->first_height[v] = asked[v].first_height;
     targets->growth[v] = asked[v].growth;
   }
-  CW_TRY(grade(context, surface, around,
-               cw_policy.thickness_slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
+  CW_TRY(grade(context, surface, around, cw_policy.slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
                targets->first_height));
 done:
   return status;
@@ -207,7 +205,7 @@ CwStatus cw_column_targets_make(const CwContext *context, const CwBoundaryInput 
   CW_TRY(cw_parallel_for(context, "thicknesses: fair ones", surface->vertex_count, sizeof *targets->target, find_fair,
                          &columns, targets->target));
   turn_copies(&surface->images, surface->vertex_count, targets);
-  double lowest = cw_layer_thickness(1, layer_count, cw_policy.kept_growth);
+  double lowest = cw_layer_thickness(1, layer_count, cw_policy.least_growth);
   for (int32_t v = 0; v < surface->vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
 done:
   free(asked);
@@ -249,7 +247,7 @@ CwStatus cw_column_targets_share(const CwContext *context, const CwColumnTargets
   CW_NEW_UNSET(graded, surface->vertex_count);
   CW_NEW_UNSET(of, surface->triangle_count);
   memcpy(graded, targets->target, (size_t)surface->vertex_count * sizeof *graded);
-  CW_TRY(grade(context, surface, around, cw_policy.thickness_slope, graded));
+  CW_TRY(grade(context, surface, around, cw_policy.slope, graded));
   Columns columns = {.in = in, .surface = surface, .targets = targets, .layers = layers, .graded = graded};
   CW_TRY(
       cw_parallel_for(context, "thicknesses: volume", surface->triangle_count, sizeof *of, find_taken, &columns, of));

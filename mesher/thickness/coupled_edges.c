@@ -90,7 +90,7 @@ static CwStatus find_breaks(const Pair *pair, double length, int *count, Break *
   for (int i = 1; i < *count; i++) {
     Break *last = &(*breaks)[kept - 1];
     const Break *here = &(*breaks)[i];
-    int apart = (here->s[0] - last->s[0]) * length > cw_policy.coupled_near * size_at(pair, here->s[0]);
+    int apart = (here->s[0] - last->s[0]) * length > cw_policy.size_least_share * size_at(pair, here->s[0]);
     int clash = (here->own[0] && last->own[0]) || (here->own[1] && last->own[1]);
     if (apart || (clash && i + 1 < *count && kept > 1)) {
       (*breaks)[kept++] = *here;

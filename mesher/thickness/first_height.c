@@ -13,7 +13,7 @@ double cw_column_room(const CwWallFlow *flow) {
 }
 
 static double even_layers(double room, int layer_count) {
-  return room / (cw_policy.even_layers * (layer_count > 0 ? layer_count : CW_LAYERS_LEAST));
+  return room / (layer_count > 0 ? layer_count : CW_LAYERS_LEAST);
 }
 
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {

@@ -68,13 +68,13 @@ static CwStatus look_across(void *context, int32_t ray, void *out) {
   return CW_OK;
 }
 
-// The distance that all but width_share of the area have, of the patch's areas by bin.
+// The distance that all but missed_share of the area have, of the patch's areas by bin.
 static double width_of(const double area[BINS + 1], double width) {
   double all = 0, less = 0;
   for (int i = 0; i <= BINS; i++) all += area[i];
   for (int i = 0; i < BINS; i++) {
     less += area[i];
-    if (less > cw_policy.width_share * all) return width * (i + 0.5) / BINS;
+    if (less > cw_policy.missed_share * all) return width * (i + 0.5) / BINS;
   }
   return width;
 }

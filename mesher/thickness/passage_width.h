@@ -9,7 +9,7 @@
 #include "mesher/parallel/context.h"
 
 // Of each wall patch, sets width[patch] (m or the unit of the model; on entry the greatest that is of interest) to the
-// distance along the inward normal to a wall that faces it, which all but width_share of the patch's area have at
+// distance along the inward normal to a wall that faces it, which all but missed_share of the patch's area have at
 // least; it stays where so much of the wall sees none within it. Other patches keep what they have. Collective; the
 // same bits for any number of ranks.
 CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwBackground *background, double *width);

@@ -18,6 +18,7 @@
 
 extern "C" {
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "mesher/region/audit.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_build.h"
@@ -304,7 +305,7 @@ static void check_thinning(const DomainSurfaces &boundary, CwRegionFailure failu
   int thinned = 0;
   for (int v = 0; v < boundary.surface.vertex_count; v++) {
     if (cw_distance(boundary.layers.top[v], failure.at) < 4 * 2.5e-3) {
-      assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
+      assert_near(most[v], cw_policy.column_kept * boundary.layers.thickness[v], 1e-15);
       thinned++;
     } else {
       assert_true(std::isinf(most[v]));
@@ -315,7 +316,8 @@ static void check_thinning(const DomainSurfaces &boundary, CwRegionFailure failu
   cw_region_failure_thin(&from, 0, &failure, 4, most.data());
   for (int t = 0; t < boundary.surface.triangle_count; t++) {
     for (int v : boundary.layers.triangle[t]) {
-      if (boundary.surface.region[t] == 0) assert_near(most[v], 0.7 * boundary.layers.thickness[v], 1e-15);
+      if (boundary.surface.region[t] == 0)
+        assert_near(most[v], cw_policy.column_kept * boundary.layers.thickness[v], 1e-15);
     }
   }
 }

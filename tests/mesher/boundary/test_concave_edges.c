@@ -85,11 +85,11 @@ static void concave_edges_are_opened(void **state) {
     int32_t opened;
     make_ring(&ring, i, LOW, 0.5);
     double before = least_bound(&ring);
-    assert_true(before < cw_policy.top_narrow);
+    assert_true(before < cw_policy.wanted_angle);
     assert_int_equal(cw_open_concave_edges(&ring.images, &ring.surface, &ring.wall, &ring.layers, &opened), CW_OK);
     print_message("  narrow concave edge on ray %d: %.1f degrees, then %.1f by %d columns; prisms %.2f\n", i, before,
                   least_bound(&ring), opened, least_prism(&ring));
-    assert_true(least_bound(&ring) >= cw_policy.top_narrow);
+    assert_true(least_bound(&ring) >= cw_policy.wanted_angle);
     assert_true(least_prism(&ring) >= 0.12);
     assert_in_range(opened, 1, 16);
     for (int32_t v = 0; v < POINTS; v++) {
@@ -146,7 +146,7 @@ static void others_stay(void **state) {
     ring.wall.obstacle_triangle_count = open_patch;
     ring.wall.obstacle_triangle = triangle;
     before = ring;
-    assert_true(open_patch ? least_bound(&ring) < cw_policy.top_narrow : least_bound(&ring) > 40);
+    assert_true(open_patch ? least_bound(&ring) < cw_policy.wanted_angle : least_bound(&ring) > 40);
     assert_int_equal(cw_open_concave_edges(&ring.images, &ring.surface, &ring.wall, &ring.layers, &opened), CW_OK);
     assert_int_equal(opened, 0);
     assert_memory_equal(ring.top, before.top, sizeof ring.top);

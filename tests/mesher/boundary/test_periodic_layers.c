@@ -74,10 +74,10 @@ static void check_lowered(const FlatRing *ring, const CwLayers *layers, double h
       for (int m = 1; m < 3; m++) {
         int32_t w = ring->triangle[t][(k + m) % 3];
         double away = hypot(ring->x[v][0] - ring->x[w][0], ring->x[v][1] - ring->x[w][1]);
-        graded[v] = fmin(graded[v], layers->thickness[w] + cw_policy.thickness_slope * away);
+        graded[v] = fmin(graded[v], layers->thickness[w] + cw_policy.slope * away);
       }
     }
-    assert_true(cw_prism_quality(wall, top) >= cw_policy.prism_valid);
+    assert_true(cw_prism_quality(wall, top) >= cw_policy.sound_quality);
   }
   for (int32_t v = 0; v < POINTS; v++) {
     double steps = log(layers->thickness[v] / height) / log(cw_policy.column_kept);

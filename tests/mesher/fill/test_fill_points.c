@@ -176,7 +176,7 @@ static void row_stands_over_the_last_triangles(void **unused) {
     NEAR(x[p][2], N * edge - 0.75 * spacing, 1e-12);
     for (int32_t q = 0; q < p; q++) {
       double distance = cw_distance(x[p], x[q]);
-      assert_true(distance > cw_policy.offset_apart * spacing * (1 - 1e-12));
+      assert_true(distance > cw_policy.least_distance * spacing * (1 - 1e-12));
       nearest = fmin(nearest, q < count - row ? distance : INFINITY);
       if (q < count - row && site[q].clear && (site[q].key >> site[q].level & 1)) { // a centre
         int within = 1;

@@ -107,7 +107,7 @@ static void bad_ones_become_good(void **state) {
   finish(&v, &again);
 }
 
-// Also where there are more of them than one for 250 tetrahedra: a small mesh has few tries, and they are worth it.
+// Also where there are more of them than one for 500 tetrahedra: a small mesh has few tries, and they are worth it.
 static void many_bad_ones_of_a_small_mesh(void **state) {
   CwTetPatch patch;
   CwTetWork w = lump(20, &patch);
@@ -118,9 +118,9 @@ static void many_bad_ones_of_a_small_mesh(void **state) {
     CwTetShape shape;
     for (int i = 0; i < 4; i++) x[i] = w.mesh->point[w.mesh->tet[w.next.tet[k]].corner[i]].x;
     cw_tet_shape(x, &shape);
-    bad += shape.dihedral_least < 13;
+    bad += shape.dihedral_least < cw_policy.flat_angle;
   }
-  assert_true(least < 8.0 && bad > w.mesh->tet_count / cw_policy.search_few && bad <= cw_policy.search_any);
+  assert_true(least < 8.0 && bad > w.mesh->tet_count / cw_policy.search_share && bad <= cw_policy.search_any);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(w.count.patches_changed >= 1 && least_angle(w.mesh, &volume) >= least);
   finish(&w, &patch);
@@ -211,7 +211,7 @@ static void tries_are_bounded(void **state) {
   judge_all(&w);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 12.0);
-  assert_int_equal(w.count.search_tries, 600); // none for determinants, as angles are what is bad
+  assert_int_equal(w.count.search_tries, 3 * cw_policy.search_fewest); // for angles, and twice that for determinants
   finish(&w, &patch);
 }
 

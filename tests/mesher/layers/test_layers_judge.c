@@ -30,7 +30,7 @@ static void make(One *one, double tall) {
 // 1 + d^2 there, so that the quality is 1 / (1 + d^2), and that of the layer top too. Less of that column alone helps.
 // Where it may give nothing for the shape all are thinned; for soundness it gives way all the same.
 static void column_that_helps(void **state) {
-  const double more = 3.7;
+  const double more = 4.5;
   One one;
   int helps[3];
   make(&one, 0.3 + more);

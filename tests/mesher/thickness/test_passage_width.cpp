@@ -63,7 +63,7 @@ static void open_faces_bound_no_layers(void **) {
 // A channel 7 wide beside one 3 wide, of a share of the floor.
 static void a_small_share_may_be_nearer(void **) {
   for (double share : {0.5, 2.0}) { // of what may be
-    double length = 40 * share * cw_policy.width_share;
+    double length = 40 * share * cw_policy.missed_share;
     TopoDS_Shape wide = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 40 - length, 30, 7).Shape();
     TopoDS_Shape low = BRepPrimAPI_MakeBox(gp_Pnt(40 - length, 0, 0), length, 30, 3).Shape();
     double width = width_seen(BRepAlgoAPI_Fuse(wide, low).Shape(), 10, floor_is_seen);
