@@ -33,7 +33,8 @@ NUMBER(double, boundary_distance, 0.5, none, "h",
        "or edge, where that is less: least distance of lattice points to boundary triangles, of points on surfaces to "
        "given edges, and of partition planes to CAD edges; a quarter more or less moves the mean aspect by 2 %")
 NUMBER(double, slope, 0.3, none, "1",
-       "thicknesses of columns change by no more per distance between them, nor do sizes away from short given edges")
+       "change per distance, at most: of thicknesses of columns, of sizes away from short given edges, and from layer "
+       "to layer where their number is automatic, each 1.3 times as tall as the one below")
 NUMBER(double, crease_cosine, 0.94, 1, "cosine",
        "20 degrees between normals: of the faces of a crease, or of CAD edges that are a feature; less apart are walls "
        "as good as flat, pairs that may be flipped and walls of a gap that no crease causes")
@@ -94,6 +95,8 @@ NUMBER(double, surface_clearly_less, 0.9, 1, "1",
 NUMBER(double, front_done_radius, 0.74, none, "h",
        "radius of the circumscribed circle of a triangle that is done; equilateral: 0.577")
 NUMBER(double, surface_long_edge, 1.45, none, "h", "longer ones are divided")
+NUMBER(double, interface_sphere, 1, 0, "1",
+       "radius over that of the circumscribed circle, kept free by the rule of region numbers; 1.05: no better")
 NUMBER(double, surface_least_distance, 0.62, 0, "h",
        "of points: edges that are shorter go, and new points of interfaces stay as far apart as lattice points keep "
        "from the boundary")
@@ -135,7 +138,6 @@ NUMBER(double, least_growth, 0.6, 1, "1",
        "of layers in thinned columns; of more than the usual number the last is as great a part of the first: without "
        "that tetrahedra had 20,000 times the volume of prisms beside them (17 layers, 150,000 cells)")
 NUMBER(double, tallest_column, 2.5, none, "h", "at the wall: about what columns come to, for the planes")
-NUMBER(double, growth_auto, 1.3, none, "1", "greatest ratio of neighbouring layers where their number is automatic")
 NUMBER(double, layer_count_share, 0.95, none, "1", "of the wall faces that have layers enough then")
 
 // Size field (size/).

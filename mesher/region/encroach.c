@@ -72,7 +72,7 @@ int cw_encroach_circle(const double a[2], const double b[2], const double c[2], 
   centre[0] = a[0] + x;
   centre[1] = a[1] + y;
   double longest = fmax(fmax(uu, vv), square(c[0] - b[0], c[1] - b[1]));
-  *radius = sqrt(fmin(square(x, y), longest));
+  *radius = cw_policy.interface_sphere * sqrt(fmin(square(x, y), longest));
   return 1;
 }
 

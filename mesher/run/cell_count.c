@@ -148,7 +148,7 @@ static void find_needed(const CwMeshRun *run, int *needed) {
 // long for narrow faces: the shape of the pump comes first.
 void cw_mesh_solve_layers(CwMeshRun *run) {
   const CwWalls *walls = &run->table->walls;
-  double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : cw_policy.growth_auto;
+  double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : 1 + cw_policy.slope;
   cw_start_layers(run);
   int in_log_layer = cw_walls_auto(walls) && isinf(least_given(run));
   cw_mesh_solve_scale(run);

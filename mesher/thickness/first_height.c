@@ -36,8 +36,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   } else if (cw_case_given(group->y_plus)) {
     first.asked = unit * group->y_plus;
   } else {
-    double roomy =
-        cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, cw_policy.growth_auto);
+    double roomy = cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, 1 + cw_policy.slope);
     first.asked = fmin(unit * y_plus_auto, roomy);
     if (flow->before > 0) first.asked = fmin(first.asked, even_layers(cw_column_room(flow), layer_count));
     first.source = CW_FIRST_AUTO;

@@ -48,7 +48,7 @@ double cw_column_room(const CwWallFlow *flow);
 double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
 
 // y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as
-// CW_LAYER_COUNT_USUAL layers that grow by growth_auto fit the passage, and `layer_count` even
+// CW_LAYER_COUNT_USUAL layers that grow by 1 + slope fit the passage, and `layer_count` even
 // ones before an open patch, in laminar flow too.
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
                                      double y_plus_auto, int layer_count);

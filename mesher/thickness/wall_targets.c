@@ -13,7 +13,7 @@ CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, dou
   double growth = cw_case_given(group->growth_ratio) ? group->growth_ratio : walls->growth_ratio;
   CwLayerTarget target = {.first_height = first_height, .growth = growth, .last = CW_LAST_LAYER_GIVEN};
   if (!cw_case_given(growth)) {
-    target.growth = cw_policy.growth_auto;
+    target.growth = 1 + cw_policy.slope;
     target.last = CW_LAST_LAYER;
   }
   // More than this would raise the first height.

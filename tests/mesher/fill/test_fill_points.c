@@ -173,7 +173,7 @@ static void row_stands_over_the_last_triangles(void **unused) {
   }
   assert_true(row > 0.35 * input.offset_count && row < 0.6 * input.offset_count);
   for (int32_t p = count - row; p < count; p++) {
-    NEAR(x[p][2], N * edge - 0.75 * spacing, 1e-12);
+    NEAR(x[p][2], N * edge - sqrt(2.0 / 3) * spacing, 1e-12);
     for (int32_t q = 0; q < p; q++) {
       double distance = cw_distance(x[p], x[q]);
       assert_true(distance > cw_policy.least_distance * spacing * (1 - 1e-12));

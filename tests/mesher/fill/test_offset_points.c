@@ -31,7 +31,7 @@ static void stands_inside_over_the_middle(void **unused) {
   NEAR(place.spacing, 2);
   NEAR(place.x[0], 1);
   NEAR(place.x[1], sqrt(1.0 / 3.0));
-  NEAR(place.x[2], -1.5);
+  NEAR(place.x[2], -2 * sqrt(2.0 / 3));
 }
 
 // The line of the order runs along no axis: it grows with each coordinate, by different amounts.
@@ -54,11 +54,11 @@ static void line_runs_along_no_axis(void **unused) {
   for (int k = 0; k < 3; k++) assert_true(grown[k] > 0.1 && fabs(grown[k] - grown[(k + 1) % 3]) > 0.1);
 }
 
-// At equal lengths its tetrahedron has edges within a twentieth of one another.
+// At equal lengths its tetrahedron is regular.
 static void makes_a_good_tetrahedron(void **unused) {
   CwOffsetPoint place = place_for(1, 1);
   double side = cw_norm(place.x);
-  assert_true(side > 0.94 && side < 1.0);
+  NEAR(side, 1);
 }
 
 static void spacing_is_between_the_wanted_length_and_the_edges(void **unused) {
