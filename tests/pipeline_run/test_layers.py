@@ -93,10 +93,10 @@ class AskedWalls(unittest.TestCase):
         self.assertEqual({patch["first_height_from"] for patch in patches}, {"auto"})
         for patch in patches:
             # In the log layer, or as much as six layers that grow by 1.3 leave of 0.35 of the passage; the trailing
-            # edge stands 1 mm before the interface: layers as tall as the first, and a 20th more, fill 0.6 of that.
+            # edge stands 1 mm before the interface: layers as tall as the first fill 0.6 of that.
             roomy = 0.35 * patch["passage_width_m"] * 0.3 / (1.3 ** 6 - 1)
             if patch["patch"] == "blade_trailing_edge":
-                roomy = min(roomy, 0.6e-3 / (1.05 * patch["layers"]))
+                roomy = min(roomy, 0.6e-3 / patch["layers"])
             if abs(patch["first_height_target_m"] / roomy - 1) > 1e-6:
                 self.assertLess(patch["first_height_target_m"], roomy)
                 self.assertGreaterEqual(patch["y_plus"], 30 * (1 - 1e-9))
@@ -122,7 +122,7 @@ class AskedWalls(unittest.TestCase):
             self.assertIsNone(patch["y_plus"])
             share = 0.02 * patch["passage_width_m"]
             if patch["patch"] == "blade_trailing_edge":  # 1 mm before the interface
-                share = min(share, 0.6e-3 / (1.05 * patch["layers"]))
+                share = min(share, 0.6e-3 / patch["layers"])
             self.assertAlmostEqual(patch["first_height_target_m"], share, places=9)
         hub = next(patch for patch in patches if patch["patch"] == "hub")
         self.assertAlmostEqual(hub["passage_width_m"], 0.008, places=6)
