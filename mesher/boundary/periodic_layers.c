@@ -247,7 +247,6 @@ typedef struct {
   double (*top)[3];
   double *off;    // of each point: how far from where it was made, m
   uint8_t *moved; // more than rounding
-  double least;   // prism quality asked for
 } Spread;
 
 // Of a triangle with a first point, how far its columns are off; whether it is no sound prism any more.
@@ -267,17 +266,17 @@ static CwStatus check_triangle(void *context, int32_t f, void *out) {
   }
   for (int k = 0; k < 3 && beside; k++) made->off = fmax(made->off, spread->off[corner[k]]);
   const double(*top)[3] = (const double(*)[3])spread->top;
-  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, top) >= spread->least);
+  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, top) >= cw_policy.sound_quality);
   return CW_OK;
 }
 
 // Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What
 // has not moved was checked as it was made. Collective.
-static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, double least, uint8_t *bad,
+static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad,
                       int32_t *bad_count) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = &part->wall.in;
-  Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}, .least = least};
+  Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}};
   CwLayerCrossing crossing = {0};
   Checked *checked = NULL;
   double most = 0;
@@ -393,7 +392,7 @@ CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *su
   layers->thinned_count = made.thinned_count;
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
-    CW_TRY(check(&part, &made, layers, cw_policy.sound_quality, bad, &bad_count));
+    CW_TRY(check(&part, &made, layers, bad, &bad_count));
     if (!bad_count) break;
     int32_t first = 0;
     while (!bad[first]) first++;

@@ -42,8 +42,8 @@ double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3
   return cw_layers_lean_quality(work, f, top) < cw_policy.prism_good ? cw_policy.prism_good : quality;
 }
 
-int cw_layers_is_sound(const CwLayerWork *work, int32_t f, const double (*top)[3], double limit) {
-  return prism_quality(work, f, top) >= fmin(cw_policy.sound_quality, limit);
+int cw_layers_is_sound(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
+  return prism_quality(work, f, top) >= cw_policy.sound_quality;
 }
 
 // The quality of prism f if its column k were thinned; k = 3: as it is.

@@ -15,8 +15,8 @@ double cw_layers_least(const CwLayerWork *work, int32_t v);
 // better with less thickness.
 double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3]);
 
-// Whether prism f is one that columns keep their first height for, where `limit` is asked for.
-int cw_layers_is_sound(const CwLayerWork *work, int32_t f, const double (*top)[3], double limit);
+// Whether prism f is one that columns keep their first height for.
+int cw_layers_is_sound(const CwLayerWork *work, int32_t f, const double (*top)[3]);
 
 // The columns of prism f of which less would make it better, alone: 1 in helps[k]. All, where none does that can still
 // give way. sound: what cw_layers_is_sound tells; its layer top counts then, and columns keep their least thickness.

@@ -54,7 +54,7 @@ static void set_moved(Repair *repair, int32_t v) {
 static void mark_corners(Repair *repair, int32_t f, int thinned) {
   const CwLayerWork *work = repair->work;
   const double(*top)[3] = (const double(*)[3])repair->top;
-  int marked[3] = {1, 1, 1}, sound = cw_layers_is_sound(work, f, top, repair->limit);
+  int marked[3] = {1, 1, 1}, sound = cw_layers_is_sound(work, f, top);
   if (thinned) cw_layers_helped_by(work, f, top, sound, marked);
   for (int k = 0; k < 3; k++) {
     uint8_t *mark = &repair->mark[work->in->triangle[f][k]];

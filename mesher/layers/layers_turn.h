@@ -20,8 +20,8 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge
 
 // What the layer top over triangle f counts beside its prism.
 double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
-// What it costs that the columns of triangle f lean: prism_good where no
-// determinant of a prism is small and there is room for three good cells between the layer top and what holds its edge.
+// What it costs that the columns of triangle f lean: prism_good where no determinant of a prism is small and there is
+// room for three good cells between the layer top and what holds its edge.
 double cw_layers_lean_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
 
 #endif

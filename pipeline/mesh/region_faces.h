@@ -21,8 +21,7 @@ typedef struct {
 // beginning with `name` and naming cell and place, unless every face is shared by two cells, or is one boundary face
 // with its normal outward and the right cell, or has only shared points. Indices are in range. A face of two cells on
 // either side, none of them listed as boundary, is told of where all its points are shared alone: elsewhere cells of
-// positive volume cannot have it unless the boundary overlaps itself. Time and memory grow linearly
-// with the cells.
+// positive volume cannot have it unless the boundary overlaps itself. Time and memory grow linearly with the cells.
 CwStatus cw_region_faces(const char *name, CwStatus fault, const CwRegionData *data, CwRegionFaces *faces);
 void cw_region_faces_free(CwRegionFaces *faces);
 

@@ -36,7 +36,7 @@ static void column_that_helps(void **state) {
   make(&one, 0.3 + more);
   const double(*top)[3] = (const double(*)[3])one.top;
   assert_float_equal(cw_layers_judge(&one.work, 0, top), cw_policy.turn_top / (1 + more * more), 1e-12);
-  assert_false(cw_layers_is_sound(&one.work, 0, top, cw_policy.prism_good));
+  assert_false(cw_layers_is_sound(&one.work, 0, top));
   for (int floor = 0; floor < 2; floor++) {
     one.least[0] = floor ? one.t[0] : 0;
     for (int sound = 0; sound < 2; sound++) {
@@ -65,7 +65,7 @@ static void columns_that_must_lean(void **state) {
     const double most = 0.1 / 0.6; // of which the columns keep 0.6
     one.base_cos[v] = 0.99 * most;
     assert_true(cw_layers_judge(&one.work, 0, top) >= cw_policy.prism_good);
-    assert_true(cw_layers_is_sound(&one.work, 0, top, cw_policy.prism_good));
+    assert_true(cw_layers_is_sound(&one.work, 0, top));
     one.base_cos[v] = 1.01 * most;
     assert_float_equal(cw_layers_judge(&one.work, 0, top), 0.1, 1e-12);
     one.base_cos[v] = 1;
