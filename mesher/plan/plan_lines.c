@@ -220,6 +220,34 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   lines->blocked += cramped >= HARDLY;
 }
 
+// A line that misses the domain. Where it passes just outside, the planes cut the boundary side by side, and between
+// their cuts there is less room the nearer it is: to edges, and to walls that it runs along.
+static void judge_missed(const Line *line, const CwPlanPart *part, Lines *lines) {
+  const CwPlanModel *model = line->model;
+  double run = line->to - line->from, step = LINE_STEP * model->base_size, cramped = 0;
+  for (int32_t i = 0; i < part->edge_count; i++) {
+    int32_t e = part->edge[i];
+    double x[3], d[3], h = model->edge_touch[e] / cw_policy.boundary_distance;
+    if (model->edge_room[e] == 0) continue;
+    cw_sub(model->edge_x[e], line->point, d);
+    at(line, fmin(fmax(cw_dot(d, line->direction), line->from), line->to), x);
+    double least = fmax(model->edge_room[e] / cw_policy.plan_room, SAME_LINE * h);
+    cramped = fmax(cramped, shortage(cw_distance(model->edge_x[e], x), least, cw_policy.plan_room * least));
+  }
+  int samples = (int)fmin(fmax(ceil(run / step), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  for (int i = 0; i < samples && cramped < 1; i++) {
+    double x[3];
+    at(line, line->from + run * (i + 0.5) / samples, x);
+    double h = cw_size_at(model->size, x);
+    CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * h);
+    if (wall.triangle < 0) continue;
+    if (fabs(cw_dot(line->direction, model->normal[wall.triangle])) > cw_policy.column_least_cosine) continue;
+    cramped = fmax(cramped, shortage(wall.distance, SAME_LINE * h, cw_policy.plan_room * h));
+  }
+  lines->cramped += cramped;
+  lines->blocked += cramped >= HARDLY;
+}
+
 static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
                            Lines *lines) {
   CwStatus status = CW_OK;
@@ -244,6 +272,7 @@ static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, con
     }
     from = to;
   }
+  if (!found && !lines->impossible) judge_missed(line, part, lines);
 done:
   free(line->neighbour);
   return status;

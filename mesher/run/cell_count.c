@@ -23,12 +23,12 @@ static double prisms_per_layer(double asked) {
 // Tetrahedra for each volume of h^3, likewise. A lattice is 8.2; those that fit it to the layer top come on top. In
 // coarse meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the layer top:
 // sizes change within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells,
-// within 5 % in others). In fine ones the share of the surfaces falls with the scale (measured in the paper's: 12.95 at
-// scale 0.760, 11.48 at 0.509, 10.66 at 0.358, 9.74 at 0.204, 9.65 at 0.180 and 9.26 at 0.094, which are 3 to 1000
-// million cells; within 0.6 %).
+// within 5 % in others). In fine ones the share of the surfaces falls with the scale (measured in the paper's: 12.75 at
+// scale 0.753, 11.44 at 0.507, 10.57 at 0.359, 9.56 at 0.205, 9.50 at 0.180, 9.27 at 0.140 and 9.28 at 0.092, which are
+// 3 to 1000 million cells; within 1.4 %).
 static double tets_per_volume(const CwMeshRun *run, double scale) {
   double walls = 0, volume = 0;
-  if (scale <= 1) return 8.605 + 5.71 * scale + 0.001 / (scale * scale);
+  if (scale <= 1) return 8.26 + 6.16 * scale + 0.0037 / (scale * scale);
   for (int d = 0; d < run->model.domain_count; d++) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);

@@ -75,6 +75,17 @@ static void sharp_lines_cost_much(void **) {
   assert_near(box.cost(1, 0, 0, 31, 15, 10), 0, 1e-9);
 }
 
+// The line runs upwards outside the wall y = 30 mm, where edges of 2 mm are wanted: both planes cut that wall and its
+// edges side by side, nearly at one place.
+static void lines_just_outside_cost_as_those_without_room(void **) {
+  Box box;
+  auto outside = [&](double y) { return box.cost(std::sqrt(0.75), 0.5, 0, 21, y, 10); };
+  assert_near(outside(30.001), 4, 1e-6);
+  assert_near(outside(31.9), 4, 1e-6);
+  for (double y = 30; y < 36; y += 0.25) printf("%g %g\n", y, outside(y));
+  assert_near(outside(36), 0, 1e-9);
+}
+
 // Behind x = 21 mm lie as many planes as hundreds of regions have, and the last ends where the new one would begin.
 static void the_last_of_many_planes_is_seen(void **) {
   Box box;
@@ -104,6 +115,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(lines_with_room_cost_nothing),   cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
       cmocka_unit_test(lines_that_lean_much_cost_much), cmocka_unit_test(lines_in_the_layers_are_refused),
-      cmocka_unit_test(sharp_lines_cost_much),          cmocka_unit_test(the_last_of_many_planes_is_seen)};
+      cmocka_unit_test(sharp_lines_cost_much),          cmocka_unit_test(lines_just_outside_cost_as_those_without_room),
+      cmocka_unit_test(the_last_of_many_planes_is_seen)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
