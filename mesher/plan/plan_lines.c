@@ -125,6 +125,16 @@ static double shortage(double room, double least, double wanted) {
   return fmin(fmax((wanted - room) / (wanted - least), 0), 1);
 }
 
+// Points at which a run of the line is looked at.
+static int samples_along(const Line *line, double run) {
+  return (int)fmin(fmax(ceil(run / (LINE_STEP * line->model->base_size)), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+}
+
+static void add_cramped(double cramped, Lines *lines) {
+  lines->cramped += cramped;
+  lines->blocked += cramped >= HARDLY;
+}
+
 static double near_an_edge(const Line *line, const CwPlanPart *part, const double x[3]) {
   const CwPlanModel *model = line->model;
   double worst = 0;
@@ -200,7 +210,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   if (lines->impossible) return;
   cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, cw_policy.plan_room * taken));
-  int samples = (int)fmin(fmax(ceil(run / (LINE_STEP * model->base_size)), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  int samples = samples_along(line, run);
   double step = run / samples;
   for (int i = 0; i < samples && !lines->impossible; i++) {
     double x[3], s = from->place + step * (i + 0.5);
@@ -216,15 +226,14 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
     if (wall.distance < wall.thickness) lines->impossible = 1;
   }
   if (beside > cw_policy.plan_line_beside * run && beside > 2 * step) lines->impossible = 1;
-  lines->cramped += cramped;
-  lines->blocked += cramped >= HARDLY;
+  add_cramped(cramped, lines);
 }
 
 // A line that misses the domain. Where it passes just outside, the planes cut the boundary side by side, and between
 // their cuts there is less room the nearer it is: to edges, and to walls that it runs along.
 static void judge_missed(const Line *line, const CwPlanPart *part, Lines *lines) {
   const CwPlanModel *model = line->model;
-  double run = line->to - line->from, step = LINE_STEP * model->base_size, cramped = 0;
+  double run = line->to - line->from, cramped = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
     double x[3], d[3], h = model->edge_touch[e] / cw_policy.boundary_distance;
@@ -234,7 +243,7 @@ static void judge_missed(const Line *line, const CwPlanPart *part, Lines *lines)
     double least = fmax(model->edge_room[e] / cw_policy.plan_room, SAME_LINE * h);
     cramped = fmax(cramped, shortage(cw_distance(model->edge_x[e], x), least, cw_policy.plan_room * least));
   }
-  int samples = (int)fmin(fmax(ceil(run / step), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  int samples = samples_along(line, run);
   for (int i = 0; i < samples && cramped < 1; i++) {
     double x[3];
     at(line, line->from + run * (i + 0.5) / samples, x);
@@ -244,8 +253,7 @@ static void judge_missed(const Line *line, const CwPlanPart *part, Lines *lines)
     if (fabs(cw_dot(line->direction, model->normal[wall.triangle])) > cw_policy.column_least_cosine) continue;
     cramped = fmax(cramped, shortage(wall.distance, SAME_LINE * h, cw_policy.plan_room * h));
   }
-  lines->cramped += cramped;
-  lines->blocked += cramped >= HARDLY;
+  add_cramped(cramped, lines);
 }
 
 static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
