@@ -7,6 +7,7 @@
 #include "mesher/cad/rays.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
+#include "mesher/plan/plan_profile.h"
 #include "mesher/policy.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, HITS_MOST = 64 };
@@ -37,7 +38,8 @@ typedef struct {
 typedef struct {
   const CwPlanModel *model;
   const CwPlan *plan;
-  int32_t above;
+  const CwPlane *plane;
+  int32_t node, above;
   double point[3], direction[3], from, to;
   int32_t neighbour_count, neighbour_space;
   Neighbour *neighbour;
@@ -61,7 +63,7 @@ static void cut(Line *line, const CwPlane *plane, int positive) {
 }
 
 // Cuts the line to the box of the part and to the cell of the node.
-static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
+static void cut_to_cell(Line *line, const CwPlanPart *part) {
   line->from = -INFINITY;
   line->to = INFINITY;
   for (int k = 0; k < 3; k++) {
@@ -71,20 +73,21 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
     cut(line, &side, 1);
   }
   const CwPlan *plan = line->plan;
-  if (cw_sector_holds(plan, node)) {
-    CwPlane end = cw_sector_end(plan, node);
+  if (cw_sector_holds(plan, line->node)) {
+    CwPlane end = cw_sector_end(plan, line->node);
     cut(line, &end, 1);
   }
-  for (CwPlanBound b = cw_plan_bound(plan, node); b.node >= 0; b = cw_plan_next_bound(plan, b)) {
+  for (CwPlanBound b = cw_plan_bound(plan, line->node); b.node >= 0; b = cw_plan_next_bound(plan, b)) {
     if (b.node != line->above) cut(line, &plan->node[b.node].plane, b.positive);
   }
 }
 
 // Collects the planes, not those of the line nor those below, that come within `room` of it; of the new plane its
 // periodic images.
-static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
+static CwStatus find_neighbours(Line *line, double room) {
   CwStatus status = CW_OK;
   const CwPlan *plan = line->plan;
+  const int32_t node = line->node;
   double ends[2][3];
   at(line, line->from, ends[0]);
   at(line, line->to, ends[1]);
@@ -92,7 +95,7 @@ static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, 
   for (int32_t c = 0; c < plan->node_count || c <= node; c++) {
     int in_wedge = plan->sector_turns && c >= plan->sector_first + plan->sector_count;
     for (int32_t turns = c == node; turns < (in_wedge ? plan->sector_turns : 1); turns++) {
-      Neighbour made = {c == node ? *plane : plan->node[c].plane, c, turns};
+      Neighbour made = {c == node ? *line->plane : plan->node[c].plane, c, turns};
       if (c == line->above) continue;
       if (turns) cw_symmetry_turn(plan->sector_turns, turns, made.plane.normal, made.plane.normal);
       double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
@@ -229,58 +232,67 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   add_cramped(cramped, lines);
 }
 
-// A line that misses the domain. Where it passes just outside, the planes cut the boundary side by side, and between
-// their cuts there is less room the nearer it is: to edges, and to walls that it runs along.
-static void judge_missed(const Line *line, const CwPlanPart *part, Lines *lines) {
+// Whether both planes of the line cross the edge at one of its points, and do not run along it.
+static int both_cross(const Line *line, int32_t e) {
+  return cw_plan_along_edge(line->model, e, line->plane->normal) == 0 &&
+         cw_plan_along_edge(line->model, e, line->plan->node[line->above].plane.normal) == 0;
+}
+
+// A stretch of the line outside the domain. Where it passes close by, the planes cut the boundary side by side, and
+// between their cuts there is less room the nearer it is: to edges that both cross, and to walls that it runs along.
+static double judge_outside(const Line *line, const CwPlanPart *part, double from, double to) {
   const CwPlanModel *model = line->model;
-  double run = line->to - line->from, cramped = 0;
+  double run = to - from, cramped = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
     double x[3], d[3], h = model->edge_touch[e] / cw_policy.boundary_distance;
-    if (model->edge_room[e] == 0) continue;
+    if (model->edge_room[e] == 0 || !both_cross(line, e)) continue;
     cw_sub(model->edge_x[e], line->point, d);
-    at(line, fmin(fmax(cw_dot(d, line->direction), line->from), line->to), x);
+    at(line, fmin(fmax(cw_dot(d, line->direction), from), to), x);
     double least = fmax(model->edge_room[e] / cw_policy.plan_room, SAME_LINE * h);
     cramped = fmax(cramped, shortage(cw_distance(model->edge_x[e], x), least, cw_policy.plan_room * least));
   }
   int samples = samples_along(line, run);
   for (int i = 0; i < samples && cramped < 1; i++) {
     double x[3];
-    at(line, line->from + run * (i + 0.5) / samples, x);
+    at(line, from + run * (i + 0.5) / samples, x);
     double h = cw_size_at(model->size, x);
     CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * h);
     if (wall.triangle < 0) continue;
     if (fabs(cw_dot(line->direction, model->normal[wall.triangle])) > cw_policy.column_least_cosine) continue;
     cramped = fmax(cramped, shortage(wall.distance, SAME_LINE * h, cw_policy.plan_room * h));
   }
-  add_cramped(cramped, lines);
+  return cramped;
 }
 
-static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
-                           Lines *lines) {
+static CwStatus judge_line(Line *line, const CwPlanPart *part, double sine, Lines *lines) {
   CwStatus status = CW_OK;
-  cut_to_cell(line, node, part);
+  cut_to_cell(line, part);
   if (!(line->to > line->from)) return CW_OK;
   CwRayHit hit[HITS_MOST];
   int32_t hits =
       cw_rays_hits(line->model->background->rays, line->point, line->direction, line->from, line->to, HITS_MOST, hit);
   if (hits == HITS_MOST) lines->impossible = 1; // there may be more of them
   int found = 0;
+  double outside = 0;
   End from = {line->from, -1, 0, 0};
   for (int32_t i = 0; i <= hits && !lines->impossible; i++) {
     End to = {line->to, -1, 0, 0};
     double x[3];
     if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
     at(line, (from.place + to.place) / 2, x);
-    if (to.place - from.place > SAME_POINT && cw_verticals_inside(line->model->inside, x)) {
-      if (!found) CW_TRY(find_neighbours(line, node, plane, NEIGHBOUR_REACH * line->model->base_size));
+    int is_stretch = to.place - from.place > SAME_POINT;
+    int inside = is_stretch && cw_verticals_inside(line->model->inside, x);
+    if (is_stretch && !inside) outside = fmax(outside, judge_outside(line, part, from.place, to.place));
+    if (inside) {
+      if (!found) CW_TRY(find_neighbours(line, NEIGHBOUR_REACH * line->model->base_size));
       found = 1;
       lines->sharp = fmin(lines->sharp, sine);
       judge_run(line, part, &from, &to, lines);
     }
     from = to;
   }
-  if (!found && !lines->impossible) judge_missed(line, part, lines);
+  add_cramped(outside, lines);
 done:
   free(line->neighbour);
   return status;
@@ -308,14 +320,14 @@ CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t nod
   CwPlanBound bound = cw_plan_bound(plan, node);
   for (; bound.node >= 0 && cost_of(&lines) < most; bound = cw_plan_next_bound(plan, bound)) {
     const CwPlane *other = &plan->node[bound.node].plane;
-    Line line = {.model = model, .plan = plan, .above = bound.node};
+    Line line = {.model = model, .plan = plan, .plane = plane, .node = node, .above = bound.node};
     double across[3];
     if (!cw_plane_line(other, plane, line.point, line.direction)) {
       lines.impossible = !room_between(model, other, plane);
       continue;
     }
     cw_cross(other->normal, plane->normal, across);
-    CW_TRY(judge_line(&line, node, part, plane, cw_norm(across), &lines));
+    CW_TRY(judge_line(&line, part, cw_norm(across), &lines));
   }
   *found = (CwPlanLines){cost_of(&lines), lines.cosine};
 done:

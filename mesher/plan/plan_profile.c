@@ -192,8 +192,7 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   return place;
 }
 
-// Of a plane with normal n, 0 where it crosses the edge at one of its points, 1 where it runs along.
-static double along_edge(const CwPlanModel *model, int32_t e, const double n[3]) {
+double cw_plan_along_edge(const CwPlanModel *model, int32_t e, const double n[3]) {
   return fmax(0, 1 - fabs(cw_dot(n, model->edge_tangent[e])) / sin(cw_policy.wanted_angle * CW_DEGREE));
 }
 
@@ -203,7 +202,7 @@ double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwP
     int32_t e = part->edge[i];
     double room = model->edge_touch[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
     if (near <= most || (end && cw_plane_distance(end, model->edge_x[e]) < -room)) continue;
-    most = fmax(most, near * along_edge(model, e, plane->normal));
+    most = fmax(most, near * cw_plan_along_edge(model, e, plane->normal));
   }
   return most;
 }
@@ -213,7 +212,7 @@ void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const dou
   for (int32_t i = 0; i < count; i++) touch[i] = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double place = cw_dot(n, model->edge_x[e]), room = model->edge_touch[e], along = along_edge(model, e, n);
+    double place = cw_dot(n, model->edge_x[e]), room = model->edge_touch[e], along = cw_plan_along_edge(model, e, n);
     if (along == 0) continue;
     int32_t first = (int32_t)fmax(ceil((place - room - low) / step), 0);
     for (int32_t p = first; p < count && low + step * p <= place + room; p++)

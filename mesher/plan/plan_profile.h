@@ -36,6 +36,8 @@ typedef struct {
 
 // Of one plane, where it lies on the positive side of `end` (NULL: everywhere).
 CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
+// Of a plane with normal n, 0 where it crosses the CAD edge at this point of it, 1 where it runs along.
+double cw_plan_along_edge(const CwPlanModel *model, int32_t e, const double n[3]);
 // How near one plane, where it lies on the positive side of `end` (NULL: everywhere), comes to an edge that it runs
 // along: 0 where there is room for triangles between both, 1 where there is none.
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);

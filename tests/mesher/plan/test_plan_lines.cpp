@@ -2,6 +2,7 @@
 // Lines in which a new plane meets the plane above it, in a box with layers on its walls.
 #include <vector>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 
 extern "C" {
@@ -10,13 +11,13 @@ extern "C" {
 
 #include "planned_solid.h"
 
-// A box of 40 x 30 x 20 mm with layers of 1 mm, divided by the plane x = 21 mm.
+// A solid with layers of 1 mm, as a rule a box of 40 x 30 x 20 mm, divided by the plane x = 21 mm.
 struct Box : PlannedSolid {
   CwPlanNode node[2] = {};
   double none[3] = {0, 0, 0};
   CwPlan plan = {1, 2, node, none, none, 0, 0, 0, 0};
 
-  Box() : PlannedSolid(BRepPrimAPI_MakeBox(40, 30, 20).Shape()) {
+  explicit Box(const TopoDS_Shape &shape = BRepPrimAPI_MakeBox(40, 30, 20).Shape()) : PlannedSolid(shape) {
     node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, 1}};
     node[1].parent = 0;
   }
@@ -82,8 +83,18 @@ static void lines_just_outside_cost_as_those_without_room(void **) {
   auto outside = [&](double y) { return box.cost(std::sqrt(0.75), 0.5, 0, 21, y, 10); };
   assert_near(outside(30.001), 4, 1e-6);
   assert_near(outside(31.9), 4, 1e-6);
-  for (double y = 30; y < 36; y += 0.25) printf("%g %g\n", y, outside(y));
   assert_near(outside(36), 0, 1e-9);
+}
+
+// The line comes from the wall y = 0, enters a blade from floor to ceiling at y = 12 mm, and leaves it through the
+// ceiling, so far before the edge of blade and ceiling at y = 48 mm, which both planes cross.
+static void lines_that_leave_a_blade_at_its_edge_cost_as_those_without_room(void **) {
+  TopoDS_Shape room = BRepPrimAPI_MakeBox(40, 60, 40).Shape();
+  TopoDS_Shape blade = BRepPrimAPI_MakeBox(gp_Pnt(10, 12, 0), gp_Pnt(30, 48, 40)).Shape();
+  Box box(BRepAlgoAPI_Cut(room, blade).Shape());
+  auto before = [&](double y) { return box.cost(1, -1, 2, 21, 48 - y, 40); };
+  assert_near(before(18), 1 - std::sqrt(5.0 / 6), 1e-9); // for the angle between the planes alone
+  assert_near(before(0.1) - before(18), 4, 1e-6);
 }
 
 // Behind x = 21 mm lie as many planes as hundreds of regions have, and the last ends where the new one would begin.
@@ -112,10 +123,13 @@ static void the_last_of_many_planes_is_seen(void **) {
 }
 
 int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(lines_with_room_cost_nothing),   cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
-      cmocka_unit_test(lines_that_lean_much_cost_much), cmocka_unit_test(lines_in_the_layers_are_refused),
-      cmocka_unit_test(sharp_lines_cost_much),          cmocka_unit_test(lines_just_outside_cost_as_those_without_room),
-      cmocka_unit_test(the_last_of_many_planes_is_seen)};
+  const CMUnitTest tests[] = {cmocka_unit_test(lines_with_room_cost_nothing),
+                              cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
+                              cmocka_unit_test(lines_that_lean_much_cost_much),
+                              cmocka_unit_test(lines_in_the_layers_are_refused),
+                              cmocka_unit_test(sharp_lines_cost_much),
+                              cmocka_unit_test(lines_just_outside_cost_as_those_without_room),
+                              cmocka_unit_test(lines_that_leave_a_blade_at_its_edge_cost_as_those_without_room),
+                              cmocka_unit_test(the_last_of_many_planes_is_seen)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
