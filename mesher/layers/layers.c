@@ -65,8 +65,8 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     layers->reason[v] = work.reason[v];
     if (layers->thickness[v] >= 0.99 * input->target[v]) continue;
     layers->thinned_count++;
-    // Neither gap nor neighbours: the wall is so sharp there that the offset stops at its floor.
-    if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_REPAIR;
+    // Neither gap nor neighbours: the offset stops at its floor (cw_layers_floor).
+    if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_SHARPNESS;
   }
 done:
   cw_box_tree_free(&tree);

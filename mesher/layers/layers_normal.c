@@ -142,7 +142,7 @@ double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double d
 }
 
 double cw_layers_floor(const CwLayerWork *work, int32_t v) {
-  return work->crease[v] == CW_CREASE_CONCAVE ? 0.3 : 0.55;
+  return work->crease[v] == CW_CREASE_CONCAVE ? 0.3 : CW_CONVEX_FLOOR;
 }
 
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {

@@ -31,7 +31,9 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
 // Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
 enum { CW_LAYER_NORMALS = 48 };
 int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]);
-// Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor).
+// Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor). Over convex
+// edges CW_CONVEX_FLOOR: sharper ones leave thinner layers.
+#define CW_CONVEX_FLOOR 0.55
 double cw_layers_floor(const CwLayerWork *work, int32_t v);
 // The column of v without any smoothing.
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);

@@ -8,8 +8,6 @@
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
 
-static const double FIRST_HEIGHT_TOLERANCE = 0.1;
-
 // Adds the prisms over a wall triangle that are thin for their length, or sheared: of small determinants.
 static void count_thin(const CwDomain *domain, int32_t t, CwLayerCoverage *of) {
   const CwColumnTargets *targets = &domain->targets;
@@ -27,12 +25,20 @@ static void count_thin(const CwDomain *domain, int32_t t, CwLayerCoverage *of) {
   }
 }
 
+const char *cw_layer_reason_name(int reason) {
+  static const char *const names[CW_LAYER_REASONS] = {[CW_LAYER_SHARPNESS] = "sharpness",
+                                                      [CW_LAYER_GAP] = "gap",
+                                                      [CW_LAYER_GRADATION] = "gradation",
+                                                      [CW_LAYER_REPAIR] = "repair"};
+  return names[reason];
+}
+
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
   const CwColumnTargets *targets = &domain->targets;
   double fraction[CW_LAYERS_MOST + 1];
   double first = cw_layer_fractions(domain->layers.thickness[vertex], targets->first_made[vertex], targets->layer_count,
                                     targets->growth[vertex], fraction);
-  return fabs(first / targets->first_height[vertex] - 1) <= FIRST_HEIGHT_TOLERANCE;
+  return fabs(first / targets->first_height[vertex] - 1) <= CW_FIRST_HEIGHT_TOLERANCE;
 }
 
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {

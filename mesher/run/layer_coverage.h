@@ -6,7 +6,7 @@
 #include "mesher/run/domain.h"
 
 // How the layers of a patch cover it, as far as it bounds one region.
-enum { CW_LAYER_REASONS = 4 };
+enum { CW_LAYER_REASONS = CW_LAYER_REPAIR + 1 };
 typedef struct {
   int64_t faces, full, first_met;   // wall faces; with the full thickness; with the first height
   int64_t reason[CW_LAYER_REASONS]; // by CwLayerReason: why not the full thickness; [0]: it is
@@ -16,7 +16,11 @@ typedef struct {
   double thin_wanted;               // how many times as tall the thinnest would have to be
   double thin_at[3];                // and a corner of its wall triangle, m
 } CwLayerCoverage;
-// Whether the first layer at a wall vertex is as high as asked, within a tenth.
+#define CW_FIRST_HEIGHT_TOLERANCE 0.1 // share by which a first layer may be off
+
+// What a reason is called in keys and messages; of CW_LAYER_FULL NULL.
+const char *cw_layer_reason_name(int reason);
+// Whether the first layer at a wall vertex is as high as asked, within the tolerance.
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex);
 
 // Of the patches up to `patches`, zeroed before.

@@ -6,7 +6,11 @@
 #include <stdio.h>
 
 #include "mesher/cad/cad_leave_out.h"
+#include "mesher/cad/sharp_edge.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/common/quality.h"
+#include "mesher/layers/layers_normal.h"
+#include "mesher/run/layer_coverage.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
@@ -139,7 +143,8 @@ void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, doubl
 void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, json_t *headlines) {
   tell(log, headlines,
        "walls.layer_count %d leaves edges %.2g times as long as the shape of the walls asks, between which tetrahedra "
-       "are flat; mesh.cells %.0f has room for it, and walls.layer_count auto takes as many as there is room for",
+       "are flat and columns short; mesh.cells %.0f has room for it, and walls.layer_count auto takes as many as there "
+       "is room for",
        given, scale, round_up(cells));
 }
 
@@ -166,6 +171,16 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          "of the walls: %s%s",
          domain->name, domain->layer_count, fitted.text,
          domain->layer_count > CW_LAYERS_LEAST ? "; fewer walls.layer_count have room for greater ones" : "");
+}
+
+void cw_warn_of_sharp_edges(CwLog *log, const CwDomain *domain, json_t *headlines) {
+  CwSharpEdge edge = cw_sharpest_edge(domain->cad, &domain->background);
+  if (sin(edge.angle / 2 * CW_DEGREE) >= (1 - CW_FIRST_HEIGHT_TOLERANCE) * CW_CONVEX_FLOOR) return;
+  tell(log, headlines,
+       "%s: walls meet at %.3g degrees (%.40s and %.40s at (%.3f, %.3f, %.3f) mm): over an edge that sharp the layers "
+       "are thinner than asked, the first one too; a blunter edge has room for them",
+       domain->name, edge.angle, cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, edge.face[0])),
+       cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, edge.face[1])), CW_MM(edge.at));
 }
 
 // What the warning of a domain adds up.
@@ -201,10 +216,17 @@ static void add_patch(const json_t *patch, Jumps *jumps) {
 
 // Why most faces of a patch miss their first height.
 static const char *main_reason(const json_t *patch) {
-  double gap = number(patch, "first_height_missed_by_gap_faces");
-  double gradation = number(patch, "first_height_missed_by_gradation_faces");
-  double repair = number(patch, "first_height_missed_by_repair_faces");
-  return gap >= fmax(gradation, repair) ? "gap" : gradation >= repair ? "gradation" : "repair";
+  int most = CW_LAYER_GAP;
+  double faces[CW_LAYER_REASONS];
+  for (int i = CW_LAYER_FULL + 1; i < CW_LAYER_REASONS; i++) {
+    char key[64];
+    snprintf(key, sizeof key, "first_height_missed_by_%s_faces", cw_layer_reason_name(i));
+    faces[i] = number(patch, key);
+  }
+  for (int i = CW_LAYER_FULL + 1; i < CW_LAYER_REASONS; i++) {
+    if (faces[i] > faces[most]) most = i;
+  }
+  return cw_layer_reason_name(most);
 }
 
 void cw_warn_of_missed(CwLog *log, const char *domain, const json_t *coverage, json_t *headlines) {

@@ -77,6 +77,12 @@ static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
                    (json_int_t)rule->left, "final_triangles", (json_int_t)rule->refined);
 }
 
+static void put_by_reason(json_t *result, const char *what, int reason, int64_t faces) {
+  char key[64];
+  snprintf(key, sizeof key, "%s_by_%s_faces", what, cw_layer_reason_name(reason));
+  json_object_set_new(result, key, json_integer((json_int_t)faces));
+}
+
 // Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the
 // last layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
 static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
@@ -104,20 +110,17 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
     cw_layer_ratio_add(&ratio, &run->summary[d][r].ratio[patch]);
   }
-  json_t *result = json_pack(
-      "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch),
-      "wall_faces", (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
-      (json_int_t)sum.first_met, "first_height_target_m", metres_json(target->first_height, 1), "mean_thickness_m",
-      metres_json(sum.faces ? sum.thickness / (double)sum.faces : 0, 1), "least_thickness_m",
-      metres_json(sum.faces ? sum.least : 0, 1), "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP],
-      "thinned_by_gradation_faces", (json_int_t)sum.reason[CW_LAYER_GRADATION], "thinned_by_repair_faces",
-      (json_int_t)sum.reason[CW_LAYER_REPAIR]);
+  json_t *result =
+      json_pack("{s:s, s:I, s:I, s:I, s:o, s:o, s:o}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
+                (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
+                (json_int_t)sum.first_met, "first_height_target_m", metres_json(target->first_height, 1),
+                "mean_thickness_m", metres_json(sum.faces ? sum.thickness / (double)sum.faces : 0, 1),
+                "least_thickness_m", metres_json(sum.faces ? sum.least : 0, 1));
   json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
-  json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)sum.missed[CW_LAYER_GAP]));
-  json_object_set_new(result, "first_height_missed_by_gradation_faces",
-                      json_integer((json_int_t)sum.missed[CW_LAYER_GRADATION]));
-  json_object_set_new(result, "first_height_missed_by_repair_faces",
-                      json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
+  for (int i = CW_LAYER_FULL + 1; i < CW_LAYER_REASONS; i++) {
+    put_by_reason(result, "thinned", i, sum.reason[i]);
+    put_by_reason(result, "first_height_missed", i, sum.missed[i]);
+  }
   json_object_set_new(result, "thin_prisms", json_integer((json_int_t)sum.thin));
   if (sum.thin > 0) {
     json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));

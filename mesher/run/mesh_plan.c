@@ -279,8 +279,10 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
     CW_TRY(cw_domain_measure_widths(&run->context, &run->domain[d]));
   }
   cw_start_layers(run);
-  for (int d = 0; d < run->model.domain_count; d++)
+  for (int d = 0; d < run->model.domain_count; d++) {
     cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
+    cw_warn_of_sharp_edges(run->context.log, &run->domain[d], run->headlines);
+  }
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
   CW_TRY(leave_out_narrow(run));

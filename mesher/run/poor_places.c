@@ -23,14 +23,16 @@ static int is_judged(const CwDomain *domain, int patch) {
   return domain->patch[patch].kind == CW_PATCH_WALL && domain->patch_target[patch].first.source != CW_FIRST_FITTED;
 }
 
-// How many times missed_share of the domain's faces miss their first height, beyond the first time.
+// How many times missed_share of the domain's faces miss their first height, beyond the first time; but for those
+// beside sharp edges, of which is told beforehand too.
 static double lacks_first_heights(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   double faces = 0, missed = 0;
   for (int p = 0; p < run->model.domain[d].patch_count; p++) {
     for (int32_t r = 0; is_judged(domain, p) && r < domain->plan.region_count; r++) {
-      faces += run->summary[d][r].coverage[p].faces;
-      missed += run->summary[d][r].coverage[p].faces - run->summary[d][r].coverage[p].first_met;
+      const CwLayerCoverage *of = &run->summary[d][r].coverage[p];
+      faces += of->faces;
+      missed += of->faces - of->first_met - of->missed[CW_LAYER_SHARPNESS];
     }
   }
   return faces > 0 ? fmax(missed / (cw_policy.missed_share * faces) - 1, 0) : 0;
@@ -90,6 +92,7 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
       if (surface->source[t] != t || !is_judged(domain, cw_cad_face_patch(domain->cad, surface->face[t]))) continue;
       for (int k = 0; k < 3; k++) {
         int32_t v = domain->layers.triangle[t][k];
+        if (domain->layers.reason[v] == CW_LAYER_SHARPNESS) continue;
         if (!cw_domain_first_is_met(domain, v)) CW_TRY(add_apart(run, d, surface->x[v], before));
       }
     }

@@ -341,23 +341,25 @@ done:
   return status;
 }
 
-static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces", "thinned_by_gradation_faces",
-                                           "thinned_by_repair_faces"};
+enum { REASONS = 4, COVERAGE_KINDS = 1 + REASONS };
+static const char *const coverage_key[COVERAGE_KINDS] = {"full_thickness_faces", "thinned_by_sharpness_faces",
+                                                         "thinned_by_gap_faces", "thinned_by_gradation_faces",
+                                                         "thinned_by_repair_faces"};
 
 static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *const *list) {
   CwStatus status = CW_OK;
-  static const char *const names[] = {"full thickness", "thinned by a gap", "thinned by gradation",
-                                      "thinned by repair"};
-  static const uint32_t colours[] = {0x5f9e7c, 0xe0b653, 0x8db4da, 0xc8665a};
+  static const char *const names[COVERAGE_KINDS] = {"full thickness", "thinned by a sharp edge", "thinned by a gap",
+                                                    "thinned by gradation", "thinned by repair"};
+  static const uint32_t colours[COVERAGE_KINDS] = {0x5f9e7c, 0x9a86b8, 0xe0b653, 0x8db4da, 0xc8665a};
   size_t count = 0, row = 0;
-  double *share[4] = {NULL};
+  double *share[COVERAGE_KINDS] = {NULL};
   const char **label = NULL;
   char(*words)[64] = NULL;
-  CwPlotSeries series[4];
+  CwPlotSeries series[COVERAGE_KINDS];
   for (int d = 0; d < data->mesh.domain_count; d++) count += json_array_size(list[d]);
   CW_NEW(label, count);
   CW_NEW(words, count);
-  for (int s = 0; s < 4; s++) {
+  for (int s = 0; s < COVERAGE_KINDS; s++) {
     CW_NEW(share[s], count);
     series[s] = (CwPlotSeries){names[s], colours[s], share[s]};
   }
@@ -367,7 +369,8 @@ static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *con
     json_array_foreach(list[d], k, patch) {
       const char *name = json_string_value(json_object_get(patch, "patch"));
       double faces = cw_json_real(patch, "wall_faces");
-      for (int s = 0; s < 4; s++) share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
+      for (int s = 0; s < COVERAGE_KINDS; s++)
+        share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
       snprintf(words[row], sizeof words[row], "%s", name ? name : "");
       for (char *c = words[row]; *c; c++) {
         if (*c == '_') *c = ' ';
@@ -380,12 +383,12 @@ static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *con
                  .label = label,
                  .count = (int)count,
                  .series = series,
-                 .series_count = 4,
+                 .series_count = COVERAGE_KINDS,
                  .limit = 100,
                  .width = 980};
   cw_plot_bars(page, &plot);
 done:
-  for (int s = 0; s < 4; s++) free(share[s]);
+  for (int s = 0; s < COVERAGE_KINDS; s++) free(share[s]);
   free(label);
   free(words);
   return status;
@@ -402,16 +405,18 @@ static void thickness_cells(FILE *page, json_t *patch, double faces) {
   share_cell(page, cw_json_real(patch, coverage_key[0]), faces);
   number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
   number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
-  for (int s = 1; s < 4; s++) count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+  for (int s = 1; s < COVERAGE_KINDS; s++)
+    count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
 }
 
 // The first layer against its target, the last against the tetrahedra.
 static void height_cells(FILE *page, json_t *patch, double faces) {
-  static const char *const missed[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
-                                       "first_height_missed_by_repair_faces"};
+  static const char *const missed[REASONS] = {
+      "first_height_missed_by_sharpness_faces", "first_height_missed_by_gap_faces",
+      "first_height_missed_by_gradation_faces", "first_height_missed_by_repair_faces"};
   number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
   share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
-  for (int s = 0; s < 3; s++) count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
+  for (int s = 0; s < REASONS; s++) count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
   share_cell(page, faces - cw_json_real(patch, "thin_last_layer_faces") - cw_json_real(patch, "thick_last_layer_faces"),
              faces);
   number_cell(page, cw_json_real(patch, "volume_ratio_95_percent"), 3);
@@ -464,20 +469,22 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
         "why the "
         "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
         "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
-        "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th>"
+        "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>sharp edge</th><th class=\"n\"><br>gap</th><th "
+        "class=\"n\"><br>gradation</th>"
         "<th class=\"n\"><br>repair</th></tr>\n",
         page);
-  layer_rows(page, data, list, 8, thickness_cells);
+  layer_rows(page, data, list, 9, thickness_cells);
   fputs(
       "</table>\n<p>The volume ratio is that of the last prism of a column and the tetrahedron on it, the greater over "
       "the less.</p>\n"
       "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
-      "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
+      "<th class=\"n\">Missed by<br>sharp edge</th><th class=\"n\"><br>gap</th><th class=\"n\"><br>gradation</th><th "
+      "class=\"n\"><br>repair</th>"
       "<th class=\"n\">Volume ratio<br>up to 4</th><th class=\"n p\"><br>95&#8239;% up to</th>"
       "<th class=\"n p\"><br>greatest</th>"
       "</tr>\n",
       page);
-  layer_rows(page, data, list, 9, height_cells);
+  layer_rows(page, data, list, 10, height_cells);
   fputs("</table>\n", page);
 done:
   return status;
