@@ -227,7 +227,8 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
   double l = suu.Dot(normal) / area, n = svv.Dot(normal) / area, k = suv.Dot(normal) / area;
   double mean = (e * n - 2 * m * k + g * l) / (2 * det);
   double gauss = (l * n - k * k) / det;
-  return (std::fabs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss))) / cad->unit;
+  double amount = (std::fabs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss))) / cad->unit;
+  return (mean > 0) != (cw_cad_face_reversed(cad, face) != 0) ? amount : -amount;
 }
 
 // One damped Newton step for the nearest point, in the B-rep's unit: from u, v with the vector d from x to the surface.

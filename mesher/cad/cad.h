@@ -60,7 +60,7 @@ void cw_cad_face_normal(const CwCad *cad, int face, const double uv[2], double n
 // where OpenCASCADE cannot have it.
 double cw_cad_face_volume(const CwCad *cad, int face);
 
-// Greatest absolute principal curvature, 1/m.
+// The principal curvature of the greater amount, 1/m: above 0 where the face bends away from the fluid, as round a rod.
 double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]);
 
 // Nearest point of the face's surface to x by Newton from the given (u,v), which it updates. Returns the

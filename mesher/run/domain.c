@@ -8,6 +8,7 @@
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/cad/face_radius.h"
 #include "mesher/layers/bare_faces.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
@@ -54,7 +55,7 @@ done:
   return status;
 }
 
-CwStatus cw_domain_measure_widths(const CwContext *context, CwDomain *domain) {
+CwStatus cw_domain_measure_walls(const CwContext *context, CwDomain *domain) {
   CwStatus status = CW_OK;
   double *width = NULL;
   int patches = cw_cad_patch_count(domain->cad);
@@ -68,6 +69,9 @@ CwStatus cw_domain_measure_widths(const CwContext *context, CwDomain *domain) {
                    1e3 * measured, 1e3 * *of);
     *of = measured;
   }
+  CW_NEW(domain->face_radius, cw_cad_face_count(domain->cad));
+  CW_TRY(cw_face_radii(domain->cad, &domain->background, domain->face_radius));
+  domain->sharp = cw_sharpest_edge(domain->cad, &domain->background);
 done:
   free(width);
   return status;
@@ -223,7 +227,11 @@ CwStatus cw_domain_targets(const CwContext *context, CwDomain *domain) {
   CwIncident around = {0};
   int faces = cw_cad_face_count(domain->cad);
   CW_NEW(layers, faces);
-  for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
+  for (int f = 0; f < faces; f++) {
+    layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
+    // Round a lesser radius the first layer would be more than twice as long on its outer side.
+    layers[f].first_height = fmin(layers[f].first_height, domain->face_radius[f]);
+  }
   CW_TRY(cw_incident_make(domain->surface.vertex_count, domain->surface.triangle_count,
                           (const int32_t(*)[3])domain->surface.triangle, &around));
   CW_TRY(cw_column_targets_make(context, &domain->input, &domain->surface, &around, layers, domain->layer_count,
@@ -298,6 +306,7 @@ void cw_domain_close(CwDomain *domain) {
   free(domain->layer_sample);
   free(domain->face_triangles);
   free(domain->patch_target);
+  free(domain->face_radius);
   free(domain->relative_size);
   free(domain->patch_layers);
 }

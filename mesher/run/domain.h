@@ -4,6 +4,7 @@
 #define CUTWATER_MESHER_RUN_DOMAIN_H
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/sharp_edge.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/parallel/context.h"
 #include "mesher/region/interface_rule.h"
@@ -37,6 +38,8 @@ typedef struct {
   CwSize *size;
   double base_size;            // edge length at relative size 1 and scale 1; the same for all domains
   CwPatchTarget *patch_target; // of each patch
+  double *face_radius;         // of each face (face_radius.h)
+  CwSharpEdge sharp;
   double *relative_size;       // of each patch
   CwLayerTarget *patch_layers; // of each patch, for so many layers
   int layer_count;
@@ -72,8 +75,9 @@ enum { CW_UNDIVIDED = -1 };
 CwStatus cw_domain_open(CwDomain *domain, const CwModel *model, int number, const char *geometry_dir);
 CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table);
 
-// Takes the widths of the passages from the solid where the model's are more. Collective.
-CwStatus cw_domain_measure_widths(const CwContext *context, CwDomain *domain);
+// Takes the widths of the passages from the solid where the model's are more, and the radii and the sharpest edge of
+// the walls. Collective.
+CwStatus cw_domain_measure_walls(const CwContext *context, CwDomain *domain);
 
 // Sets the number of layers and the first heights, of this y+ where the case leaves it open, and what patches ask of so
 // many.

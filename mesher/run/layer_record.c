@@ -6,7 +6,6 @@
 #include <stdio.h>
 
 #include "mesher/cad/cad_leave_out.h"
-#include "mesher/cad/sharp_edge.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "mesher/layers/layers_normal.h"
@@ -148,12 +147,31 @@ void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, j
        given, scale, round_up(cells));
 }
 
+// Where faces of a patch are rounded to less than its first height, that of the sharpest.
+static void add_rounded(const CwDomain *domain, int patch, List *list) {
+  const CwFirstHeight *first = &domain->patch_target[patch].first;
+  const char *group = cw_patch_group_name(domain->patch[patch].group);
+  double radius = INFINITY;
+  for (int f = 0; f < cw_cad_face_count(domain->cad); f++)
+    if (cw_cad_face_patch(domain->cad, f) == patch && cw_cad_face_is_wall(domain->cad, f))
+      radius = fmin(radius, domain->face_radius[f] * cw_model_unit());
+  if (radius >= (1 - CW_FIRST_HEIGHT_TOLERANCE) * first->height) return;
+  add(list, "%s%.40s %.3g mm instead of %.3g mm (", list->length ? ", " : "", cw_cad_patch_name(domain->cad, patch),
+      1e3 * radius, 1e3 * first->height);
+  if (isnan(first->y_plus))
+    add(list, "walls.first_height_%s_um: %.3g)", group, 1e6 * radius);
+  else
+    add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus * radius / first->height);
+}
+
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {
-  List laminar = {{0}, 0}, fitted = {{0}, 0};
+  List laminar = {{0}, 0}, fitted = {{0}, 0}, rounded = {{0}, 0};
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     const CwPatchTarget *target = &domain->patch_target[p];
     const char *name = cw_cad_patch_name(domain->cad, p);
-    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL || is_told(domain, p)) continue;
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
+    add_rounded(domain, p, &rounded);
+    if (is_told(domain, p)) continue;
     if (target->first.source == CW_FIRST_LAMINAR) add_laminar(target, name, &laminar);
     if (target->first.source == CW_FIRST_FITTED)
       add_fitted(target, name, cw_patch_group_name(domain->patch[p].group), &fitted);
@@ -171,16 +189,31 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          "of the walls: %s%s",
          domain->name, domain->layer_count, fitted.text,
          domain->layer_count > CW_LAYERS_LEAST ? "; fewer walls.layer_count have room for greater ones" : "");
+  if (rounded.length)
+    tell(log, headlines,
+         "%s: first heights greater than the radius that a wall is rounded to become that radius, there and less and "
+         "less beside: %s",
+         domain->name, rounded.text);
 }
 
-void cw_warn_of_sharp_edges(CwLog *log, const CwDomain *domain, json_t *headlines) {
-  CwSharpEdge edge = cw_sharpest_edge(domain->cad, &domain->background);
-  if (sin(edge.angle / 2 * CW_DEGREE) >= (1 - CW_FIRST_HEIGHT_TOLERANCE) * CW_CONVEX_FLOOR) return;
-  tell(log, headlines,
-       "%s: walls meet at %.3g degrees (%.40s and %.40s at (%.3f, %.3f, %.3f) mm): over an edge that sharp the layers "
-       "are thinner than asked, the first one too; a blunter edge has room for them",
-       domain->name, edge.angle, cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, edge.face[0])),
-       cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, edge.face[1])), CW_MM(edge.at));
+static int is_sharp(const CwSharpEdge *edge) {
+  return sin(edge->angle / 2 * CW_DEGREE) < (1 - CW_FIRST_HEIGHT_TOLERANCE) * CW_CONVEX_FLOOR;
+}
+
+void cw_put_sharp_edge(const CwDomain *domain, json_t *result) {
+  json_object_set_new(result, "sharp_edge_deg",
+                      is_sharp(&domain->sharp) ? cw_json_number(domain->sharp.angle) : json_null());
+}
+
+void cw_tell_of_sharp_edge(CwLog *log, const CwDomain *domain) {
+  const CwSharpEdge *edge = &domain->sharp;
+  if (!is_sharp(edge)) return;
+  cw_log(
+      log,
+      "%s: walls meet at %.3g degrees (%.40s and %.40s at (%.3f, %.3f, %.3f) mm): over an edge that sharp the layers "
+      "are thinner than asked, the first one too; a blunter edge has room for them",
+      domain->name, edge->angle, cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, edge->face[0])),
+      cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, edge->face[1])), CW_MM(edge->at));
 }
 
 // What the warning of a domain adds up.

@@ -19,8 +19,10 @@ void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch);
 // passage.
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines);
 
-// And of walls that meet in an edge so sharp that first heights beside it are missed: the sharpest of the domain.
-void cw_warn_of_sharp_edges(CwLog *log, const CwDomain *domain, json_t *headlines);
+// Tells, before anything is meshed too, of walls that meet in an edge so sharp that first heights beside it are missed;
+// and adds the angle of the sharpest to the entry of the domain.
+void cw_tell_of_sharp_edge(CwLog *log, const CwDomain *domain);
+void cw_put_sharp_edge(const CwDomain *domain, json_t *result);
 
 // And, where the number of layers is open, of a domain that has fewer than `needed`, for which about `cells` have room.
 void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, double cells, json_t *headlines);

@@ -246,6 +246,7 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
       "least_cell_volume_m3", metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   cw_put_left_out(domain, result);
+  cw_put_sharp_edge(domain, result);
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
   json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));

@@ -276,12 +276,12 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   CW_TRY(triangulate_domains(run));
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
-    CW_TRY(cw_domain_measure_widths(&run->context, &run->domain[d]));
+    CW_TRY(cw_domain_measure_walls(&run->context, &run->domain[d]));
   }
   cw_start_layers(run);
   for (int d = 0; d < run->model.domain_count; d++) {
     cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);
-    cw_warn_of_sharp_edges(run->context.log, &run->domain[d], run->headlines);
+    cw_tell_of_sharp_edge(run->context.log, &run->domain[d]);
   }
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));

@@ -53,7 +53,7 @@ Answers ask(const CwCad *cad) {
         add(answers.lengths, x);
         add(answers.directions, n);
         double curvature = cw_cad_face_curvature(cad, face[side], uv);
-        answers.lengths.push_back(curvature > 0 ? 1 / curvature : 0);
+        answers.lengths.push_back(curvature != 0 ? 1 / curvature : 0);
       }
     }
   }
