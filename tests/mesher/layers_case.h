@@ -136,7 +136,7 @@ static inline void case_run(Case *c, const char *name) {
   CwStatus status = case_make(c);
   if (status != CW_OK) print_error("%s: %s\n", name, cw_fail_message());
   assert_int_equal(status, CW_OK);
-  int32_t n = c->wall.point_count, full = 0, reason[4] = {0};
+  int32_t n = c->wall.point_count, full = 0, reason[CW_LAYER_REPAIR + 1] = {0};
   c->mean = 0;
   double least = INFINITY;
   for (int32_t v = 0; v < n; v++) {
@@ -148,10 +148,11 @@ static inline void case_run(Case *c, const char *name) {
   }
   assert_int_equal(n - full, c->out.thinned_count);
   c->share = (double)full / n;
-  print_message("  %-26s %7d triangles: %6.2f %% at %.2f mm, mean %.3f of it, least %.3f mm; gap %d, gradation %d, "
-                "repair %d; rounds %d\n",
-                name, c->wall.triangle_count, 100 * c->share, c->target / MM, c->mean, least / MM, reason[CW_LAYER_GAP],
-                reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
+  print_message(
+      "  %-26s %7d triangles: %6.2f %% at %.2f mm, mean %.3f of it, least %.3f mm; sharpness %d, gap %d, gradation %d, "
+      "repair %d; rounds %d\n",
+      name, c->wall.triangle_count, 100 * c->share, c->target / MM, c->mean, least / MM, reason[CW_LAYER_SHARPNESS],
+      reason[CW_LAYER_GAP], reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
   case_check_prisms(c);
   case_check_top(c);
   // Constrained columns stay in the surfaces that hold them, to first order where those are curved and not put

@@ -254,7 +254,7 @@ static void vtk_has_the_layer_top(void **state) {
   remove(path);
   assert_non_null(strstr(text, "POINTS 4 double\n0 0 -0.1"));
   assert_non_null(strstr(text, "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\n"));
-  assert_non_null(strstr(text, "SCALARS reason int 1\nLOOKUP_TABLE default\n1\n3\n")); // of its thinnest column
+  assert_non_null(strstr(text, "SCALARS reason int 1\nLOOKUP_TABLE default\n2\n4\n")); // of its thinnest column
   assert_non_null(strstr(text, "SCALARS region int 1\nLOOKUP_TABLE default\n3\n4\n"));
 }
 
