@@ -191,8 +191,8 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          domain->layer_count > CW_LAYERS_LEAST ? "; fewer walls.layer_count have room for greater ones" : "");
   if (rounded.length)
     tell(log, headlines,
-         "%s: first heights greater than the radius that a wall is rounded to become that radius, there and less and "
-         "less beside: %s",
+         "%s: first heights greater than the radius that a face is rounded to are that radius there, and grow from it "
+         "beside: %s",
          domain->name, rounded.text);
 }
 
