@@ -13,7 +13,6 @@ typedef struct {
 
 static int by_radius(const void *a, const void *b) {
   const Piece *p = a, *q = b;
-  if (p->face != q->face) return p->face < q->face ? -1 : 1;
   if (p->radius != q->radius) return p->radius < q->radius ? -1 : 1;
   return (p->area > q->area) - (p->area < q->area);
 }

@@ -7,8 +7,8 @@
 
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
-#include "mesher/common/model_unit.h"
 #include "mesher/cad/face_radius.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/layers/bare_faces.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"

@@ -39,7 +39,7 @@ typedef struct {
   double base_size;            // edge length at relative size 1 and scale 1; the same for all domains
   CwPatchTarget *patch_target; // of each patch
   double *face_radius;         // of each face (face_radius.h)
-  CwSharpEdge sharp;
+  CwSharpEdge sharp;           // the sharpest of the walls
   double *relative_size;       // of each patch
   CwLayerTarget *patch_layers; // of each patch, for so many layers
   int layer_count;

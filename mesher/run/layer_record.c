@@ -85,14 +85,19 @@ static void add_laminar(const CwPatchTarget *target, const char *patch, List *li
       1e3 * first->height);
 }
 
+// The key that asks for this first height, m, in brackets that are open.
+static void add_key(const char *group, double height, double y_plus, List *list) {
+  if (isnan(y_plus))
+    add(list, "walls.first_height_%s_um: %.3g)", group, 1e6 * height);
+  else
+    add(list, "walls.y_plus_%s: %.3g)", group, y_plus);
+}
+
 static void add_fitted(const CwPatchTarget *target, const char *patch, const char *group, List *list) {
   const CwFirstHeight *first = &target->first;
   add(list, "%s%.40s %.3g mm instead of %.3g mm in a passage %.3g mm wide (", list->length ? ", " : "", patch,
       1e3 * first->height, 1e3 * first->asked, 1e3 * target->flow.width);
-  if (isnan(first->y_plus))
-    add(list, "walls.first_height_%s_um: %.3g)", group, 1e6 * first->height);
-  else
-    add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus);
+  add_key(group, first->height, first->y_plus, list);
 }
 
 // Two digits, rounded up.
@@ -158,10 +163,7 @@ static void add_rounded(const CwDomain *domain, int patch, List *list) {
   if (radius >= (1 - CW_FIRST_HEIGHT_TOLERANCE) * first->height) return;
   add(list, "%s%.40s %.3g mm instead of %.3g mm (", list->length ? ", " : "", cw_cad_patch_name(domain->cad, patch),
       1e3 * radius, 1e3 * first->height);
-  if (isnan(first->y_plus))
-    add(list, "walls.first_height_%s_um: %.3g)", group, 1e6 * radius);
-  else
-    add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus * radius / first->height);
+  add_key(group, radius, first->y_plus * radius / first->height, list);
 }
 
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {
@@ -247,17 +249,17 @@ static void add_patch(const json_t *patch, Jumps *jumps) {
   if (weights > 0) add(&jumps->where, ", %.0f face weights below %.2g", weights, CW_SMALL_WEIGHT);
 }
 
+static double missed_by(const json_t *patch, int reason) {
+  char key[64];
+  snprintf(key, sizeof key, "first_height_missed_by_%s_faces", cw_layer_reason_name(reason));
+  return number(patch, key);
+}
+
 // Why most faces of a patch miss their first height.
 static const char *main_reason(const json_t *patch) {
   int most = CW_LAYER_GAP;
-  double faces[CW_LAYER_REASONS];
   for (int i = CW_LAYER_FULL + 1; i < CW_LAYER_REASONS; i++) {
-    char key[64];
-    snprintf(key, sizeof key, "first_height_missed_by_%s_faces", cw_layer_reason_name(i));
-    faces[i] = number(patch, key);
-  }
-  for (int i = CW_LAYER_FULL + 1; i < CW_LAYER_REASONS; i++) {
-    if (faces[i] > faces[most]) most = i;
+    if (missed_by(patch, i) > missed_by(patch, most)) most = i;
   }
   return cw_layer_reason_name(most);
 }

@@ -12,7 +12,7 @@ from cutwater import CELLS, PAPER, RUN, SOURCE, done, fresh, record
 
 NAMES = os.environ.get("CUTWATER_READ_BACK", "").split()
 ASKED = ("name", "operating_point", "fluid", "walls", "mesh")  # sections that say what is asked of any pump
-CELLS_OFF = 0.02  # of those of the generated pump, in the mean; of one, that of either may be so much off what is asked
+CELLS_OFF = 0.02  # of those of the generated pump, at most
 ANGLES = 0.8  # of those of the generated pump, at least: both meshes have a worst cell of their own
 
 
@@ -59,27 +59,22 @@ class ReadBack(unittest.TestCase):
         cells, angles = meshed(run)
         made_cells, made_angles = meshed(made)
         print(f"{name}: {cells} cells for {made_cells}, least dihedral angles {angles} for {made_angles}")
-        off = abs(cells / made_cells - 1)
-        self.assertLess(off, 2 * CELLS_OFF)
+        self.assertLess(abs(cells / made_cells - 1), CELLS_OFF)
         for domain, angle in made_angles.items():
             self.assertGreater(angles[domain], ANGLES * angle)
         self.assertTrue((run / "report/index.html").is_file())
         shutil.rmtree(run)
-        return off
 
     def test_the_file_makes_the_pump_that_was_written(self):
         if not NAMES:
-            self.assertLess(self.read_back("paper", PAPER, RUN), CELLS_OFF)
-            return
-        off = []
+            self.read_back("paper", PAPER, RUN)
         for name in NAMES:
             with self.subTest(name):
                 case, made = SOURCE / f"cases/{name}/case.yaml", fresh(f"made-{name}")
                 for stage in ("geometry", "mesh"):
                     done(self, stage, made, case=case, cells=CELLS, ranks=2)
-                off.append(self.read_back(name, case, made))
+                self.read_back(name, case, made)
                 shutil.rmtree(made)
-        self.assertLess(sum(off) / len(off), CELLS_OFF)
 
 
 if __name__ == "__main__":

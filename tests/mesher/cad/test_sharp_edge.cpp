@@ -42,7 +42,7 @@ static void the_edge_of_a_wedge_is_found(void **) {
   }
 }
 
-// Its other two edges have angles of (180 - 140) / 2 degrees.
+// Its other two edges have angles of (180 - 80) / 2 degrees.
 static void the_sharpest_counts(void **) {
   assert_near(sharpest(round_a_wedge(80)).angle, 50, 1e-6);
 }
