@@ -19,8 +19,8 @@ static const double WORTH = 0.05;                        // least gain of a step
 
 // What a subtree of the plan is worth.
 typedef struct {
-  double cost;   // of its planes, their lines and the unevenness of its regions
-  double cosine; // least between a line and the normal of a wall
+  double cost; // of its planes, their lines and the unevenness of its regions
+  int slant;   // whether a line leans to a wall's normal, or a plane stands slantwise on a wall
 } Worth;
 
 static int32_t regions_of(const CwPlan *plan, int32_t node) {
@@ -31,7 +31,7 @@ static int32_t regions_of(const CwPlan *plan, int32_t node) {
 // What a region is worth. Notes its work in the plan.
 static Worth weigh_region(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t region) {
   plan->predicted_cells[region] = part->work;
-  return (Worth){cw_plan_unevenness(part->work, model->mean_work, 1), 1};
+  return (Worth){cw_plan_unevenness(part->work, model->mean_work, 1), 0};
 }
 
 // What the plane of a node alone is worth in this cell. Notes its angle in the plan. May stop at any cost of `most` or
@@ -45,14 +45,15 @@ static CwStatus weigh_plane(const CwPlanModel *model, CwPlan *plan, const CwPlan
   plan->worst_angle[node] = place.worst;
   double cost = cw_plan_place_cost(place) + cw_plan_touch_cost(cw_plan_touch(model, part, plane, NULL));
   if (cost < most) CW_TRY(cw_plan_lines(model, plan, node, part, plane, most - cost, &lines));
-  *worth = (Worth){cost + lines.cost + LEANING_COST * fmax(0, UPRIGHT - lines.cosine), lines.cosine};
+  *worth = (Worth){cost + lines.cost + LEANING_COST * fmax(0, UPRIGHT - lines.cosine),
+                   lines.cosine <= cw_policy.upright_cosine || cw_plan_is_sharp(place.worst)};
 done:
   return status;
 }
 
 static void add_worth(const Worth *further, Worth *worth) {
   worth->cost += further->cost;
-  worth->cosine = fmin(worth->cosine, further->cosine);
+  worth->slant |= further->slant;
 }
 
 // Weighs the planes and regions of a subtree with this cell. May stop at any cost of `most` or more.
@@ -117,14 +118,14 @@ static CwPlane moved(const CwPlane *plane, const double centre[3], double reach,
 }
 
 // Moves the plane of `node` step by step to where its subtree, of which *worth is given and kept true, costs less,
-// where some line in it leans; then *moves becomes 1.
+// where something in it is slant; then *moves becomes 1.
 static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node,
                               Worth *worth, int *moves) {
   CwStatus status = CW_OK;
   CwPlane *plane = &plan->node[node].plane;
   double centre[3], reach, size = cbrt(part->volume);
   Worth least = *worth, tried;
-  if (least.cosine > cw_policy.upright_cosine) goto done;
+  if (!least.slant) goto done;
   *moves = 1;
   for (double step = FIRST_STEP * size; step > LAST_STEP * size;) {
     CwPlane best = *plane;

@@ -15,7 +15,7 @@ static const double LINE_STEP = 0.5; // base sizes between samples of a line
 static const double SAME_LINE = 1;   // edge length between two lines on one interface: nearer than that they are one
 static const double NEIGHBOUR_REACH = 5;         // base sizes: planes farther from a line do not matter to it
 static const double SAME_POINT = 1e-9;           // of the model's unit
-static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
+static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 and of 50 degrees
 static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one with hardly any besides
 static const double HARDLY = 0.8;                // shortage of room from which on a line has hardly any
 
@@ -305,7 +305,11 @@ static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlan
 }
 
 double cw_plan_sharpness(double sine) {
-  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 4 + 30 * (SHARP - sine) : 0);
+  return (1 - sine) + (sine < FAIR ? 1 : 0) + (cw_plan_is_sharp(sine) ? 4 + 30 * (SHARP - sine) : 0);
+}
+
+int cw_plan_is_sharp(double sine) {
+  return sine < SHARP;
 }
 
 static double cost_of(const Lines *lines) {

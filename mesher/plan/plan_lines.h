@@ -8,6 +8,8 @@
 
 // What an angle of this sine, to a wall or to another plane, costs.
 double cw_plan_sharpness(double sine);
+// Whether it is one that is hardly wanted: under 40.5 degrees, so that none is just under 40.
+int cw_plan_is_sharp(double sine);
 
 typedef struct {
   double cost;   // for each line as much as it lacks room, for all the sharpest angle

@@ -22,7 +22,7 @@
 #include "pipeline/wall_group.h"
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
-enum { GRADATION_ROUNDS = 4 };
+enum { GRADATION_ROUNDS = 8 };
 // Of the background triangulation, of the extent of the smallest domain: the impeller's, of which that is the 5000th.
 static const double DEFLECTION = 2e-4;
 // Edge length at relative size 1 and scale 1, of the cube root of the volume of all domains: a mesh of about 1.5
