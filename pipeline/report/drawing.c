@@ -238,7 +238,7 @@ done:
   return status;
 }
 
-static void draw_cell(CwDrawing *drawing, const CwCutCell *cell, uint32_t colour, int group) {
+static void draw_cell(CwDrawing *drawing, const CwCutCell *cell, uint32_t colour, int group, const double velocity[3]) {
   const CwCamera *camera = &drawing->camera;
   double p[CW_CUT_CORNERS][3], centre[2] = {cw_dot(camera->centre, camera->right), cw_dot(camera->centre, camera->up)};
   double area = 0;
@@ -259,7 +259,8 @@ static void draw_cell(CwDrawing *drawing, const CwCutCell *cell, uint32_t colour
                    .group = (uint16_t)group,
                    .edge_colour = ink,
                    .edge_width = size > 12 ? 0.9 : 0.6,
-                   .edge_strength = cw_picture_is_of_flow(drawing->spec) ? 0 : strength};
+                   .edge_strength = cw_picture_is_of_flow(drawing->spec) ? 0 : strength,
+                   .velocity = {(float)cw_dot(velocity, camera->right), -(float)cw_dot(velocity, camera->up)}};
   cw_render_polygon(&drawing->canvas, (const double(*)[3])p, cell->corners, &paint);
 }
 
@@ -270,8 +271,12 @@ void cw_drawing_add_cells(CwDrawing *drawing, const CwMesh *mesh, int region, co
   for (int64_t k = 0; k < cut->count; k++) {
     const int32_t cell = cut->cells[k].cell, pyramid = cell - cells->tetrahedron_count;
     uint32_t colour = kind[(pyramid >= 0) + (pyramid >= cells->pyramid_count)];
-    if (solved) colour = cw_colour_scale(cw_flow_cell_speed(flow, mesh, region, cells, cell));
-    draw_cell(drawing, &cut->cells[k], colour, cells->domain + 1);
+    double velocity[3] = {0, 0, 0};
+    if (solved) {
+      cw_flow_cell_velocity(flow, mesh, region, cells, cell, velocity);
+      colour = cw_colour_scale(cw_flow_speed_share(flow, velocity));
+    }
+    draw_cell(drawing, &cut->cells[k], colour, cells->domain + 1, velocity);
   }
 }
 

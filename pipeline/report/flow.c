@@ -163,11 +163,15 @@ static void middle_of(const CwRegionData *cells, int32_t cell, double middle[3])
     for (int i = 0; i < 3; i++) middle[i] += cells->points[corner[k]][i] / count;
 }
 
-double cw_flow_cell_speed(const CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, int32_t cell) {
-  double u[3], x[3], turn = mesh->domains[cells->domain].rotating ? flow->angular_speed : 0;
+void cw_flow_cell_velocity(const CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, int32_t cell,
+                           double velocity[3]) {
+  double x[3], turn = mesh->domains[cells->domain].rotating ? flow->angular_speed : 0;
   middle_of(cells, cell, x);
-  cw_foam_field_value(&flow->velocity, &flow->velocity.cells, flow->first_cell[region] + cell, u);
-  u[0] += turn * x[1];
-  u[1] -= turn * x[0];
-  return cw_colour_share(&flow->span[CW_FLOW_SPEED], cw_norm(u));
+  cw_foam_field_value(&flow->velocity, &flow->velocity.cells, flow->first_cell[region] + cell, velocity);
+  velocity[0] += turn * x[1];
+  velocity[1] -= turn * x[0];
+}
+
+double cw_flow_speed_share(const CwFlow *flow, const double velocity[3]) {
+  return cw_colour_share(&flow->span[CW_FLOW_SPEED], cw_norm(velocity));
 }

@@ -37,7 +37,10 @@ void cw_flow_skip(CwFlow *flow, const CwMesh *mesh, const int64_t *faces);
 // order of the manifest.
 CwStatus cw_flow_faces(CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, double *share[2]);
 
-// The share of the speed of a cell: its number in its region.
-double cw_flow_cell_speed(const CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, int32_t cell);
+// The velocity of a cell, its number in its region, relative to the frame of its zone, m/s.
+void cw_flow_cell_velocity(const CwFlow *flow, const CwMesh *mesh, int region, const CwRegionData *cells, int32_t cell,
+                           double velocity[3]);
+// The share of the colour scale of a velocity.
+double cw_flow_speed_share(const CwFlow *flow, const double velocity[3]);
 
 #endif

@@ -243,7 +243,7 @@ const CwPictureSpec cw_picture_list[] = {
     {.section = CW_SECTION_FLOW,
      .title = "Relative velocity on the middle plane",
      .caption = "Plane z = 0, cell by cell: in the rotor the speed in its turning frame, elsewhere the absolute "
-                "one.",
+                "one; white: streamlines of the velocity in the plane.",
      .colour = CW_COLOUR_SPEED,
      .wide = 1,
      .width = 1560,
@@ -252,7 +252,8 @@ const CwPictureSpec cw_picture_list[] = {
      .plane = CW_PLANE_Z0},
     {.section = CW_SECTION_FLOW,
      .title = "Relative velocity from blade to blade",
-     .caption = "On the surface of revolution midway between hub and shroud, seen from the suction side.",
+     .caption = "On the surface of revolution midway between hub and shroud, seen from the suction side; white: "
+                "streamlines of the velocity across the axis.",
      .wide = 1,
      .colour = CW_COLOUR_SPEED,
      .width = 1180,

@@ -12,6 +12,7 @@
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
 enum { FIT_MARGIN = 28, PLANES = CW_PLANE_MID_SPAN + 1 };
+static const double STREAMLINES = 14; // px apart
 
 // What all ranks draw together: each its regions, which are neighbours in the order of the manifest.
 typedef struct {
@@ -105,6 +106,7 @@ static void annotate(const CwDrawing *drawings, int index, CwAnnotation *annotat
   const CwDrawing *drawing = &drawings[index];
   const CwCamera *camera = &drawing->camera;
   annotation->metres_per_pixel = camera->metres_per_pixel;
+  annotation->streamlines_apart = drawing->spec->colour == CW_COLOUR_SPEED ? STREAMLINES : 0;
   annotation->axis_count = 3;
   for (int i = 0; i < 3; i++) annotation->axis[i] = (CwTriadAxis){names[i], {camera->right[i], -camera->up[i]}};
   if (drawing->spec->plane == CW_PLANE_MERIDIONAL) {
@@ -190,6 +192,14 @@ done:
   return status;
 }
 
+static CwStatus start_canvas(const CwPictureSpec *spec, CwCanvas *canvas) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, canvas));
+  if (spec->colour == CW_COLOUR_SPEED) CW_TRY(cw_render_keep_velocity(canvas));
+done:
+  return status;
+}
+
 // Puts all views to their places and begins the canvases.
 static CwStatus begin_canvases(const Board *board) {
   CwStatus status = CW_OK;
@@ -206,7 +216,7 @@ static CwStatus begin_canvases(const Board *board) {
         drawing->lacking = "the mesh has no such faces";
     }
     if (!drawing->lacking)
-      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawing->canvas));
+      CW_TRY(start_canvas(spec, &drawing->canvas));
   }
 done:
   return status;
@@ -274,6 +284,8 @@ static void pass_canvas(const CwRanks *ranks, CwCanvas *canvas, int from, int to
   cw_ranks_pass(ranks, canvas->group + first, samples, sizeof *canvas->group, from, to);
   cw_ranks_pass(ranks, canvas->colour + first, samples, sizeof *canvas->colour, from, to);
   if (canvas->depth) cw_ranks_pass(ranks, canvas->depth + first, samples, sizeof *canvas->depth, from, to);
+  if (canvas->velocity)
+    cw_ranks_pass(ranks, canvas->velocity, (int64_t)canvas->width * canvas->height, sizeof *canvas->velocity, from, to);
 }
 
 // What all ranks have drawn of a picture, on the canvas of the one that finishes it: in the order of the regions, from
@@ -285,7 +297,7 @@ static CwStatus join_canvas(const Board *board, int picture) {
   const int to = finisher(board, picture);
   if (ranks->size == 1) goto done;
   if (ranks->rank == to)
-    status = cw_render_start(canvas->width, canvas->height, background, canvas->depth != NULL, &other);
+    status = start_canvas(board->drawing[picture].spec, &other);
   CW_TRY(cw_ranks_agree(ranks, status));
   for (int step = 1; step < ranks->size; step++) {
     const int from = step <= to ? to - step : step;

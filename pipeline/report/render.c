@@ -22,7 +22,15 @@ done:
   return status;
 }
 
+CwStatus cw_render_keep_velocity(CwCanvas *canvas) {
+  CwStatus status = CW_OK;
+  CW_NEW(canvas->velocity, (size_t)canvas->width * (size_t)canvas->height);
+done:
+  return status;
+}
+
 void cw_render_free(CwCanvas *canvas) {
+  free(canvas->velocity);
   free(canvas->colour);
   free(canvas->depth);
   free(canvas->group);
@@ -55,11 +63,20 @@ static void touch(CwCanvas *canvas, int up, int down) {
   if (down >= canvas->bottom) canvas->bottom = down + 1;
 }
 
+// The velocity of the pixel of a sample: of the first of its samples; NULL of others.
+static float *velocity_at(const CwCanvas *canvas, size_t place) {
+  const size_t columns = (size_t)canvas->columns, i = place % columns, j = place / columns;
+  if (!canvas->velocity || i % CW_RENDER_SAMPLES || j % CW_RENDER_SAMPLES) return NULL;
+  return canvas->velocity[j / CW_RENDER_SAMPLES * (size_t)canvas->width + i / CW_RENDER_SAMPLES];
+}
+
 // Paints one sample; `line` is how far it lies within a line, 1 and more: wholly.
 static void put(CwCanvas *canvas, size_t place, double line, const CwPaint *paint) {
   line = fmin(fmax(line, 0), 1) * paint->edge_strength;
   canvas->colour[place] = line > 0 ? mix(paint->colour, paint->edge_colour, line) : paint->colour;
   canvas->group[place] = paint->group;
+  float *velocity = velocity_at(canvas, place);
+  if (velocity) memcpy(velocity, paint->velocity, sizeof paint->velocity);
 }
 
 typedef struct {
@@ -194,6 +211,8 @@ void cw_render_merge(CwCanvas *canvas, const CwCanvas *other, int later) {
     canvas->group[i] = other->group[i];
     canvas->colour[i] = other->colour[i];
     if (canvas->depth) canvas->depth[i] = other->depth[i];
+    float *velocity = velocity_at(canvas, i);
+    if (velocity) memcpy(velocity, velocity_at(other, i), sizeof other->velocity[0]);
   }
 }
 

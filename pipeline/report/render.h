@@ -20,11 +20,14 @@ typedef struct {
   uint16_t *group;  // what the sample shows; 0: background. An outline is drawn where it changes.
   uint32_t *colour; // 0xRRGGBB, where there is a group: what was never drawn on takes no memory
   float *depth;     // the same; NULL: none
+  float (*velocity)[2]; // of each pixel where there is a group, as the last paint there has it; NULL: none
 } CwCanvas;
 
 // `depth_buffer` 0: later triangles cover earlier ones (flat pictures). CW_ERR_MEMORY.
 CwStatus cw_render_start(int width, int height, uint32_t background, int depth_buffer, CwCanvas *canvas);
 void cw_render_free(CwCanvas *canvas);
+// Keeps velocities too, on a canvas on which nothing is drawn yet. CW_ERR_MEMORY.
+CwStatus cw_render_keep_velocity(CwCanvas *canvas);
 
 typedef struct {
   uint32_t colour, edge_colour; // 0xRRGGBB
@@ -32,6 +35,7 @@ typedef struct {
   unsigned edges;               // bit k: draw the edge from corner k to corner k + 1
   double edge_width;            // px
   double edge_strength;         // 0: invisible to 1: opaque
+  float velocity[2];            // to the right and downwards, in any unit
 } CwPaint;
 
 // Whether a polygon of `count` corners can hold samples of the canvas, by its box: most faces of a fine mesh lie
@@ -77,6 +81,7 @@ typedef struct {
   int axis_count;
   CwInsetFrame frame[4];
   int frame_count;
+  double streamlines_apart; // px; 0: none. On a canvas that keeps velocities.
 } CwAnnotation;
 
 typedef struct {
@@ -84,7 +89,7 @@ typedef struct {
   size_t size;
 } CwPng;
 
-// Averages the samples and writes scale bar, axes and frames. Free with cw_png_free. CW_ERR_LIBRARY,
+// Averages the samples and writes streamlines, scale bar, axes and frames. Free with cw_png_free. CW_ERR_LIBRARY,
 // CW_ERR_MEMORY.
 CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, CwPng *png);
 void cw_png_free(CwPng *png);

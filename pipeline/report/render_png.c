@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "pipeline/report/render.h"
+#include "pipeline/report/streamlines.h"
 
 static void average(const CwCanvas *canvas, unsigned char *pixels, int stride) {
   const int samples = CW_RENDER_SAMPLES * CW_RENDER_SAMPLES;
@@ -114,6 +115,43 @@ static void frames(cairo_t *cr, const CwAnnotation *annotation) {
   }
 }
 
+static void arrow_head(cairo_t *cr, const double from[2], const double to[2]) {
+  const double length = hypot(to[0] - from[0], to[1] - from[1]), size = 4.5;
+  const double ux = (to[0] - from[0]) / length * size, uy = (to[1] - from[1]) / length * size;
+  cairo_move_to(cr, to[0] + ux, to[1] + uy);
+  cairo_line_to(cr, to[0] - ux - 0.7 * uy, to[1] - uy + 0.7 * ux);
+  cairo_line_to(cr, to[0] - ux + 0.7 * uy, to[1] - uy - 0.7 * ux);
+  cairo_close_path(cr);
+  cairo_fill(cr);
+}
+
+// The streamlines of the canvas, with an arrow head in the middle of each.
+static CwStatus streamlines(cairo_t *cr, const CwCanvas *canvas, double apart) {
+  CwStatus status = CW_OK;
+  CwStreamlines lines = {0};
+  CwPixelFlow flow = {canvas->width, canvas->height, (const float(*)[2])canvas->velocity, NULL};
+  uint16_t *group = NULL;
+  CW_NEW(group, (size_t)canvas->width * (size_t)canvas->height);
+  for (int j = 0; j < canvas->height; j++)
+    for (int i = 0; i < canvas->width; i++)
+      group[j * canvas->width + i] = canvas->group[(size_t)j * CW_RENDER_SAMPLES * (size_t)canvas->columns +
+                                                   (size_t)i * CW_RENDER_SAMPLES];
+  flow.group = group;
+  CW_TRY(cw_streamlines_make(&flow, apart, &lines));
+  cairo_set_source_rgba(cr, 1, 1, 1, 0.7);
+  cairo_set_line_width(cr, 0.9);
+  for (int k = 0; k < lines.count; k++) {
+    const int first = k ? lines.end[k - 1] : 0, end = lines.end[k], middle = (first + end) / 2;
+    for (int i = first; i < end; i++) cairo_line_to(cr, lines.point[i][0], lines.point[i][1]);
+    cairo_stroke(cr);
+    arrow_head(cr, lines.point[middle - 1], lines.point[middle]);
+  }
+done:
+  free(group);
+  cw_streamlines_free(&lines);
+  return status;
+}
+
 static cairo_status_t append(void *closure, const unsigned char *bytes, unsigned length) {
   CwPng *png = closure;
   unsigned char *grown = realloc(png->bytes, png->size + length);
@@ -138,6 +176,8 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, 13);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  if (annotation && annotation->streamlines_apart > 0 && canvas->velocity)
+    CW_TRY(streamlines(cr, canvas, annotation->streamlines_apart));
   if (annotation && annotation->metres_per_pixel > 0) scale_bar(cr, canvas, annotation->metres_per_pixel);
   if (annotation) {
     triad(cr, canvas, annotation);

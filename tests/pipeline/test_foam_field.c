@@ -143,10 +143,15 @@ static void the_flow_lies_on_the_mesh(void **state) {
   }
   // (0, 2, 0) less 2 times (-1, 1, 0) in the frame that turns: (2, 0, 0) at (1, 1, 1); as it is in the other.
   flow.span[CW_FLOW_SPEED].most = 4;
-  assert_true(fabs(cw_flow_cell_speed(&flow, &mesh, 0, &cells[0], 0) - 0.5) < 1e-12);
-  assert_true(fabs(cw_flow_cell_speed(&flow, &mesh, 1, &cells[1], 0) - 0.5) < 1e-12);
+  double velocity[3];
+  cw_flow_cell_velocity(&flow, &mesh, 0, &cells[0], 0, velocity);
+  assert_true(fabs(velocity[0] - 2) < 1e-12 && fabs(velocity[1]) < 1e-12 && velocity[2] == 0);
+  cw_flow_cell_velocity(&flow, &mesh, 1, &cells[1], 0, velocity);
+  assert_true(velocity[0] == 0 && velocity[1] == 2 && velocity[2] == 0);
   flow.angular_speed = 0.5; // (0.5, 1.5, 0)
-  assert_true(fabs(cw_flow_cell_speed(&flow, &mesh, 0, &cells[0], 0) - sqrt(2.5) / 4) < 1e-12);
+  cw_flow_cell_velocity(&flow, &mesh, 0, &cells[0], 0, velocity);
+  assert_true(fabs(velocity[0] - 0.5) < 1e-12 && fabs(velocity[1] - 1.5) < 1e-12);
+  assert_true(fabs(cw_flow_speed_share(&flow, velocity) - sqrt(2.5) / 4) < 1e-12);
   cw_flow_close(&flow);
   // Of another mesh, or of another kind.
   write_field("solve/steady/200/p", "scalar", 1, (const double[]){1, 2, 3}, 3, "");

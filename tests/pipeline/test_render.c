@@ -174,8 +174,10 @@ static void merged_canvases_are_as_one(void **state) {
     CwCanvas one, part[3];
     unsigned random = 1;
     assert_int_equal(cw_render_start(40, 60, WHITE, depth, &one), CW_OK);
+    assert_int_equal(cw_render_keep_velocity(&one), CW_OK);
     for (int k = 0; k < 3; k++) {
       assert_int_equal(cw_render_start(40, 60, WHITE, depth, &part[k]), CW_OK);
+      assert_int_equal(cw_render_keep_velocity(&part[k]), CW_OK);
       for (int t = 0; t < 200; t++) {
         double p[3][3];
         for (int i = 0; i < 9; i++) {
@@ -183,7 +185,8 @@ static void merged_canvases_are_as_one(void **state) {
           p[i / 3][i % 3] = i % 3 == 2 ? (random >> 24) % 3 : (random >> 20) % 20 + 10 * k;
         }
         if (t % 3 == 0) p[1][2] = p[2][2] = p[0][2];
-        const CwPaint paint = {.colour = random >> 8, .group = (uint16_t)(1 + t + 200 * k)};
+        const CwPaint paint = {
+            .colour = random >> 8, .group = (uint16_t)(1 + t + 200 * k), .velocity = {(float)t, (float)k}};
         cw_render_triangle(&one, p, &paint);
         cw_render_triangle(&part[k], p, &paint);
       }
@@ -196,6 +199,15 @@ static void merged_canvases_are_as_one(void **state) {
       assert_int_equal(one.group[i], part[1].group[i]);
       if (one.group[i]) assert_int_equal(one.colour[i], part[1].colour[i]);
     }
+    int moving = 0;
+    for (int i = 0; i < one.width * one.height; i++) {
+      for (int c = 0; c < 2; c++) assert_true(one.velocity[i][c] == part[1].velocity[i][c]);
+      const int sample = CW_RENDER_SAMPLES * (i / one.width * one.columns + i % one.width);
+      if (!one.group[sample]) continue;
+      assert_int_equal(one.group[sample], 1 + one.velocity[i][0] + 200 * one.velocity[i][1]); // by the last paint
+      moving++;
+    }
+    assert_true(moving > 500);
     for (int k = 0; k < 3; k++) cw_render_free(&part[k]);
     cw_render_free(&one);
   }
