@@ -55,3 +55,9 @@ def y_plus(case):
             rows[words[1]] = {"least": float(words[2]), "most": float(words[3]), "mean": float(words[4])}
     return rows
 
+
+def converged(case):
+    """Whether the solver has ended by itself, with all residuals below residualControl of system/fvSolution."""
+    log = case / "log.simpleFoam"
+    last = log.read_text(errors="replace").rpartition("Starting time loop")[2] if log.exists() else ""
+    return "SIMPLE solution converged" in last

@@ -94,7 +94,7 @@ class Run:
         foam.prepare(source, case, self.options.ranks, self.export["files"], start)
         return foam.iterate(case, self.options.ranks, self.options.most, self.within, name)
 
-    def outcome(self, table, flow_m3_per_h):
+    def outcome(self, case, table, flow_m3_per_h):
         """What the flow of a case came to, as the record keeps it."""
         last = table[max(table)]
         found = {key: settling.windows(table, key) for key in ("head_m", "torque_n_m")}
@@ -102,9 +102,10 @@ class Run:
         done, left = settling.settled(table, self.within)
         power = mean["torque_n_m"] * self.omega
         useful = self.density * reports.GRAVITY * flow_m3_per_h / 3600 * mean["head_m"]
-        return {"settled": done, "iterations": max(table), "window_iterations": settling.WINDOW,
-                "left_of_way": left if math.isfinite(left) else None, "within": self.within,
-                "head_m": mean["head_m"], "head_scatter_m": found["head_m"][1] if found["head_m"] else None,
+        return {"settled": done or reports.converged(case), "iterations": max(table),
+                "window_iterations": settling.WINDOW, "left_of_way": left if math.isfinite(left) else None,
+                "within": self.within, "head_m": mean["head_m"],
+                "head_scatter_m": found["head_m"][1] if found["head_m"] else None,
                 "torque_n_m": mean["torque_n_m"],
                 "torque_scatter_n_m": found["torque_n_m"][1] if found["torque_n_m"] else None, "shaft_power_w": power,
                 "hydraulic_efficiency": useful / power if power > 0 else None,
@@ -149,7 +150,7 @@ def solve_curve(run, design):
             solved[share] = run.folder / "solve/points" / name
             table = run.solve(run.folder / "export/openfoam/points" / name, solved[share], f"{run.folder.name} {name}",
                               lambda start=nearest: start)
-        rows.append({"point": name, **point, **run.outcome(table, point["flow_m3_per_h"])})
+        rows.append({"point": name, **point, **run.outcome(solved[share], table, point["flow_m3_per_h"])})
         say(f"{name}: {headline(rows[-1])}")
     return sorted(rows, key=lambda row: row["flow_share"])
 
@@ -177,7 +178,7 @@ def write_results(run, table, seconds, curve):
     """history.csv, curve.csv and record.json, the last in the form of the other stages."""
     folder = run.folder / "solve"
     rows = [{"iteration": iteration, **row} for iteration, row in sorted(table.items())]
-    results = run.outcome(table, run.flow_m3_per_h)
+    results = run.outcome(folder / "steady", table, run.flow_m3_per_h)
     warnings = warnings_of(results, "operating point")
     for point in curve:
         warnings += warnings_of(point, point["point"]) if point["flow_share"] != 1 else []

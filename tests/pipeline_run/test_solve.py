@@ -81,6 +81,14 @@ class Reports(unittest.TestCase):
             20: {"head_m": 2.5, "torque_n_m": 8}, 30: {"head_m": 3.5, "torque_n_m": 9}})
         self.assertEqual(reports.history(case / "none"), {})
 
+    def test_a_solver_that_ended_by_itself_has_converged(self):
+        case = fresh("solve_converged")
+        self.assertFalse(reports.converged(case))
+        log, start, end = case / "log.simpleFoam", "Starting time loop\n", "SIMPLE solution converged in 31 iterations\n"
+        for text, converged in ((start + "Time = 10\n", False), (start + end, True), (start + end + start, False)):
+            log.write_text(text)
+            self.assertIs(reports.converged(case), converged)
+
 
 class Stop(unittest.TestCase):
     # A solver that takes no notice of its settings when they change for the first time, as OpenFOAM within 10 s.
