@@ -316,8 +316,8 @@ std::string make_symmetric(int count, double tolerance, double unit, CwCadPart &
   std::string why = images.find(made.solid, count, tolerance, unit);
   if (!why.empty()) {
     repeat_seams(images, made);
-    why = images.find(made.solid, count, tolerance, unit);
-    if (!why.empty()) return why;
+    if (!images.find(made.solid, count, tolerance, unit).empty()) return why; // of the solid as it was
+    why = "";
   }
   const std::vector<TopoDS_Face> faces = faces_to_cut(images);
   if (!faces.empty()) {
