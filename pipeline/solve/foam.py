@@ -19,6 +19,7 @@ from whole_file import write_whole  # noqa: E402  (what the scripts of pipeline/
 
 LOOK_EVERY = 2.0  # s between looks at the solver's reports
 TELL_EVERY = 10.0  # s between lines of progress
+WRITTEN, REPORTED = 100, 10  # iterations between fields and between reports, as the case is exported
 PROGRAMS = ("simpleFoam", "decomposePar", "reconstructPar", "mapFields", "foamDictionary", "renumberMesh", "mpirun")
 ENVIRONMENT = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
@@ -167,9 +168,11 @@ def run_solver(case, ranks, most, within, name):
 
 
 def iterate(case, ranks, most, within, name):
-    """Runs the solver until it has settled, by its last iteration too, or `most` iterations are done; its history. The
-    fields of the last iteration are then whole in the case folder."""
+    """Runs the solver until it has settled, by its last iteration too, or `most` iterations are done, up to the next
+    report; its history. The fields of the last iteration are then whole in the case folder."""
+    most = REPORTED * math.ceil(most / REPORTED)
     set_entry(case, "system/controlDict", "endTime", most)
+    set_entry(case, "system/controlDict", "writeInterval", math.gcd(WRITTEN, most))  # the solver writes no other end
     table = reports.history(case)
     done = -1  # iterations; the last ones may lie between two reports
     while done < max(table, default=0) < most and not settling.settled(table, within)[0]:

@@ -193,6 +193,15 @@ class Flow(unittest.TestCase):
         self.assertIn("Characteristic curve", pages[0])
         self.assertTrue(pages[0] == pages[1], "1 rank and 3")
 
+    def test_few_iterations_leave_whole_fields(self):
+        few = fresh("solve_few") / "run"
+        shutil.copytree(self.pump, few, ignore=shutil.ignore_patterns("solve"))
+        result = self.call("--run", few, "--most", 15)  # no multiple of what lies between two reports or two fields
+        self.assertEqual(result.returncode, 0, result.stdout)
+        found = record(few, "solve")["results"]
+        self.assertEqual((found["iterations"], found["settled"]), (20, False))
+        self.assertTrue((few / "solve/steady/20/U").exists())
+
     def test_what_is_missing_is_told_in_one_line(self):
         result = self.call("--run", self.pump.parent / "none")
         self.assertEqual(result.returncode, 1)
