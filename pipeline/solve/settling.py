@@ -4,21 +4,22 @@
 A quantity has settled when what is left of its way is less than a stated share of it. What is left is estimated from
 the means of the last three windows of iterations by Aitken's delta-squared process (A. C. Aitken, 1926): with the
 changes d1, d2 from window to window and q = d2 / d1, d2 q / (1 - q) is left where 0 < q < 1; else, where the means go
-to and fro, d2 counts."""
+to and fro, d2 counts. Windows of half the length tell of a slow way that the end of a quick one hides in the long
+ones: the worse of both counts."""
 import math
 
 WINDOW = 100  # iterations of one mean
 
 
-def windows(table, key):
+def windows(table, key, length=WINDOW):
     """Means of the last three windows of table[iteration][key], oldest first, and the scatter (half the range) of the
-    last; None before that."""
+    last; None before there are three of WINDOW."""
     iterations = sorted(table)
     if not iterations or iterations[-1] - iterations[0] < 3 * WINDOW:
         return None
     last, means = iterations[-1], []
     for back in (2, 1, 0):
-        part = [table[i][key] for i in iterations if last - (back + 1) * WINDOW < i <= last - back * WINDOW]
+        part = [table[i][key] for i in iterations if last - (back + 1) * length < i <= last - back * length]
         if not part:
             return None
         means.append(sum(part) / len(part))
@@ -44,8 +45,9 @@ def settled(table, within):
     """(whether head and torque have settled, share of its way that either has left at the most)."""
     worst = 0.0
     for key in ("head_m", "torque_n_m"):
-        found = windows(table, key)
-        if not found:
-            return False, math.inf
-        worst = max(worst, left_of_way(found[0]) / max(abs(found[0][-1]), 1e-300))
+        for length in (WINDOW, WINDOW // 2):
+            found = windows(table, key, length)
+            if not found:
+                return False, math.inf
+            worst = max(worst, left_of_way(found[0]) / max(abs(found[0][-1]), 1e-300))
     return worst <= within, worst

@@ -45,6 +45,17 @@ class Settled(unittest.TestCase):
         self.assertFalse(settling.settled(history(lambda i: 12 - 3 * math.exp(-i / 800)), 0.003)[0])
         self.assertTrue(settling.settled(history(lambda i: 12 - 3 * math.exp(-i / 80)), 0.003)[0])
 
+    def test_a_slow_way_behind_a_quick_one_is_seen(self):
+        # At first the quick part alone changes the means of long windows.
+        def value(i):
+            return 12 - 3 * math.exp(-i / 40) - 0.6 * math.exp(-i / 200)
+
+        for count in range(310, 2000, 10):
+            if settling.settled(history(value, count), 0.003)[0]:
+                break
+        self.assertLess(12 - value(count), 2 * 0.003 * 12)
+        self.assertLess(count, 1000)
+
     def test_three_windows_are_needed(self):
         self.assertEqual(settling.settled(history(lambda i: 10, count=250), 0.003), (False, math.inf))
         self.assertTrue(settling.settled(history(lambda i: 10, count=310), 0.003)[0])
