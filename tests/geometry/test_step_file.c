@@ -11,21 +11,21 @@
 #include "geometry/rotor.h"
 #include "geometry/step_file.h"
 #include "pipeline/case_read.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static CwSolid *rotor;
-static char folder[] = "step-file-test-XXXXXX";
 
 static int setup(void **state) {
   CwCase table;
   CwDesign design;
-  return !mkdtemp(folder) || cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
+  return make_test_folder(state) || cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
          cw_hydraulic_design(&table, &design) || cw_rotor_build(&design, &rotor);
 }
 
 static int teardown(void **state) {
   cw_solid_free(&rotor);
-  return rmdir(folder); // fails where a test leaves a file, a temporary one too
+  return remove_test_folder(state);
 }
 
 static char *slurp(const char *path, size_t *size) {
@@ -54,8 +54,8 @@ static void assert_same_files(const char *a, const char *b) {
 static void files_are_the_same_each_time(void **state) {
   const CwSolid *const solids[] = {rotor};
   char a[64], b[64];
-  snprintf(a, sizeof a, "%s/a", folder);
-  snprintf(b, sizeof b, "%s/b", folder);
+  snprintf(a, sizeof a, "%s/a", test_folder);
+  snprintf(b, sizeof b, "%s/b", test_folder);
   assert_int_equal(cw_step_write(solids, 1, a), CW_OK);
   assert_int_equal(cw_step_write(solids, 1, b), CW_OK);
   assert_same_files(a, b);
@@ -69,7 +69,7 @@ static void files_are_the_same_each_time(void **state) {
 static void faces_table(void **state) {
   const CwSolid *const solids[] = {rotor};
   char path[64];
-  snprintf(path, sizeof path, "%s/faces.csv", folder);
+  snprintf(path, sizeof path, "%s/faces.csv", test_folder);
   assert_int_equal(cw_faces_table_write(solids, 1, path), CW_OK);
   size_t size;
   char *text = slurp(path, &size);
@@ -94,7 +94,7 @@ static void short_disk_names_the_file(void **state) {
   const CwSolid *const solids[] = {rotor};
   char path[64];
   struct rlimit before, small;
-  snprintf(path, sizeof path, "%s/pump.step", folder);
+  snprintf(path, sizeof path, "%s/pump.step", test_folder);
   assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
   small = before;
   small.rlim_cur = 4096;

@@ -8,20 +8,20 @@
 
 #include "pipeline/atomic_file.h"
 #include "tests/sync_order.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[] = CUTWATER_BIN_DIR "/atomic-XXXXXX";
-static char whole[sizeof folder + 32];
+static char whole[sizeof test_folder + 32];
 
 static int make_folder(void **state) {
-  if (!mkdtemp(folder)) return -1;
-  snprintf(whole, sizeof whole, "%s/mesh.txt", folder);
+  if (make_test_folder(state)) return -1;
+  snprintf(whole, sizeof whole, "%s/mesh.txt", test_folder);
   return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_files(void **state) {
   unlink(whole);
-  return rmdir(folder); // fails unless every test left the folder clean
+  return remove_test_folder(state);
 }
 
 static void assert_content(const char *path, const char *expected) {
@@ -40,7 +40,7 @@ static int exists(const char *path) {
 // Files in the folder, the final one among them.
 static int files(void) {
   int count = 0;
-  DIR *list = opendir(folder);
+  DIR *list = opendir(test_folder);
   assert_non_null(list);
   for (struct dirent *entry; (entry = readdir(list));) count += entry->d_type == DT_REG;
   closedir(list);
@@ -91,7 +91,7 @@ static void what_killed_runs_left_is_cleared(void **state) {
   CwAtomicFile file = {0};
   assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
   assert_int_equal(files(), 2);
-  assert_int_equal(cw_atomic_file_clear(folder), CW_OK);
+  assert_int_equal(cw_atomic_file_clear(test_folder), CW_OK);
   assert_int_equal(files(), 1);
   assert_content(whole, "one");
   assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
@@ -152,7 +152,7 @@ static void names_are_given_to_what_is_on_the_disk(void **state) {
     assert_int_equal(cw_atomic_file_commit(&file), CW_OK);
     assert_int_equal(renames, by_name + 1);
     assert_int_equal(renames_on_disk, renames);
-    assert_int_equal(stat(folder, &about), 0);
+    assert_int_equal(stat(test_folder, &about), 0);
     assert_int_equal(synced_count, syncs_when_renamed + 1);
     assert_int_equal(synced[synced_count - 1].st_ino, about.st_ino);
   }
@@ -185,21 +185,21 @@ static void full_disk_is_an_error(void **state) {
 
 static void bad_places_are_errors(void **state) {
   CwAtomicFile file = {0};
-  char path[sizeof folder + 64];
-  snprintf(path, sizeof path, "%s/missing/file", folder);
+  char path[sizeof test_folder + 64];
+  snprintf(path, sizeof path, "%s/missing/file", test_folder);
   assert_int_equal(cw_atomic_file_open(path, &file), CW_ERR_IO);
   assert_null(file.temporary_path);
-  snprintf(path, sizeof path, "%s/", folder);
+  snprintf(path, sizeof path, "%s/", test_folder);
   assert_int_equal(cw_atomic_file_open(path, &file), CW_ERR_IO);
-  assert_int_equal(cw_atomic_file_open(folder, &file), CW_OK); // a folder stands under the final name
+  assert_int_equal(cw_atomic_file_open(test_folder, &file), CW_OK); // a folder stands under the final name
   assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
   assert_null(file.temporary_path);
 }
 
 static void directories_are_made_with_parents(void **state) {
-  char path[sizeof folder + 64];
+  char path[sizeof test_folder + 64];
   struct stat about;
-  snprintf(path, sizeof path, "%s/a//b/c/", folder);
+  snprintf(path, sizeof path, "%s/a//b/c/", test_folder);
   assert_int_equal(cw_make_directory(path), CW_OK);
   assert_int_equal(cw_make_directory(path), CW_OK);
   assert_int_equal(stat(path, &about), 0);
@@ -213,7 +213,7 @@ static void directories_are_made_with_parents(void **state) {
   assert_int_equal(cw_make_directory(path), CW_ERR_IO);
   const char *const made[] = {"a/b/c", "a/b", "a"};
   for (int i = 0; i < 3; ++i) {
-    snprintf(path, sizeof path, "%s/%s", folder, made[i]);
+    snprintf(path, sizeof path, "%s/%s", test_folder, made[i]);
     assert_int_equal(rmdir(path), 0);
   }
 }
@@ -231,5 +231,5 @@ int main(void) {
       cmocka_unit_test(bad_places_are_errors),
       cmocka_unit_test(directories_are_made_with_parents),
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_folder, remove_files);
 }

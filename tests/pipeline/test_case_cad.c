@@ -8,9 +8,10 @@
 
 #include "pipeline/case_cad.h"
 #include "pipeline/case_read.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[] = "/tmp/cutwater_case_XXXXXX", path[64];
+static char path[64];
 
 static CwStatus read_text(const char *cad, CwCase *table) {
   FILE *file = fopen(path, "w");
@@ -44,7 +45,7 @@ static void everything_is_read(void **state) {
                 &table))
     fail_msg("%s", cw_fail_message());
   const CwCaseCad *cad = table.cad;
-  snprintf(placed, sizeof placed, "%s/pump.step", folder);
+  snprintf(placed, sizeof placed, "%s/pump.step", test_folder);
   assert_string_equal(cad->files.text[0], placed);
   assert_string_equal(cad->files.text[1], "/abs/other.brep");
   near_to(cad->unit, 0.0254);
@@ -148,19 +149,19 @@ static void wrong_values_have_their_place(void **state) {
 }
 
 static int make_folder(void **state) {
-  if (!mkdtemp(folder)) return -1;
-  snprintf(path, sizeof path, "%s/case.yaml", folder);
+  if (make_test_folder(state)) return -1;
+  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
   return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_files(void **state) {
   unlink(path);
-  return rmdir(folder);
+  return remove_test_folder(state);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(everything_is_read), cmocka_unit_test(what_is_left_out_has_its_default),
       cmocka_unit_test(names_may_be_so_long), cmocka_unit_test(wrong_values_have_their_place)};
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_folder, remove_files);
 }

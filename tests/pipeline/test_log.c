@@ -10,28 +10,28 @@
 #include <unistd.h>
 
 #include "pipeline/log.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static CwLog *test_log;
 
 enum { TEXT_SIZE = 16384 };
 
-static char folder[] = CUTWATER_BIN_DIR "/log-XXXXXX";
-static char copy_path[sizeof folder + 32];
+static char copy_path[sizeof test_folder + 32];
 static int kept_stderr = -1;
 
 static int make_folder(void **state) {
-  if (!mkdtemp(folder)) return -1;
-  snprintf(copy_path, sizeof copy_path, "%s/log/mesh.log", folder);
+  if (make_test_folder(state)) return -1;
+  snprintf(copy_path, sizeof copy_path, "%s/log/mesh.log", test_folder);
   return 0;
 }
 
-static int remove_folder(void **state) {
-  char log_folder[sizeof folder + 8];
-  snprintf(log_folder, sizeof log_folder, "%s/log", folder);
+static int remove_files(void **state) {
+  char log_folder[sizeof test_folder + 8];
+  snprintf(log_folder, sizeof log_folder, "%s/log", test_folder);
   unlink(copy_path);
   rmdir(log_folder);
-  return rmdir(folder);
+  return remove_test_folder(state);
 }
 
 // Sends standard error to `file` until capture_end.
@@ -50,8 +50,8 @@ static void capture_end(void) {
 }
 
 static int open_capture(void) {
-  char name[sizeof folder + 32];
-  snprintf(name, sizeof name, "%s/stderr", folder);
+  char name[sizeof test_folder + 32];
+  snprintf(name, sizeof name, "%s/stderr", test_folder);
   int file = open(name, O_RDWR | O_CREAT | O_TRUNC, 0600);
   assert_true(file >= 0);
   unlink(name);
@@ -299,5 +299,5 @@ int main(void) {
       cmocka_unit_test(progress_on_a_terminal_rewrites_its_line),
       cmocka_unit_test(clock_and_memory_are_true),
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_folder, remove_files);
 }

@@ -8,22 +8,22 @@
 #include "pipeline/hash.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static CwLog *test_log;
 
-static char folder[] = CUTWATER_BIN_DIR "/record-XXXXXX";
-static char path[sizeof folder + 32];
+static char path[sizeof test_folder + 32];
 
 static int make_folder(void **state) {
-  if (!mkdtemp(folder)) return -1;
-  snprintf(path, sizeof path, "%s/record.json", folder);
+  if (make_test_folder(state)) return -1;
+  snprintf(path, sizeof path, "%s/record.json", test_folder);
   return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_files(void **state) {
   unlink(path);
-  return rmdir(folder);
+  return remove_test_folder(state);
 }
 
 static void record_is_written_whole_and_in_order(void **state) {
@@ -42,7 +42,7 @@ static void record_is_written_whole_and_in_order(void **state) {
   assert_int_equal(cw_record_json(record, "list2", NULL), CW_ERR_MEMORY);
   assert_int_equal(cw_record_integer(record, "zeta", 2), CW_OK); // keeps its place
   assert_int_equal(cw_record_file_digest(record, "known", "00ff"), CW_OK);
-  assert_int_equal(cw_record_file(record, folder, "none"), CW_ERR_IO);
+  assert_int_equal(cw_record_file(record, test_folder, "none"), CW_ERR_IO);
   cw_record_set_peak_memory(record, 5000000000);
   assert_int_equal(cw_record_write(record, path), CW_OK);
   cw_record_free(record);
@@ -96,8 +96,8 @@ static void peak_memory_is_that_of_the_process(void **state) {
 
 static void place_that_cannot_be_written_is_an_error(void **state) {
   CwRecord *record = NULL;
-  char missing[sizeof folder + 32];
-  snprintf(missing, sizeof missing, "%s/none/record.json", folder);
+  char missing[sizeof test_folder + 32];
+  snprintf(missing, sizeof missing, "%s/none/record.json", test_folder);
   assert_int_equal(cw_record_start("export", test_log, &record), CW_OK);
   assert_int_equal(cw_record_write(record, missing), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "none/record.json: cannot be written: No such file or directory"));
@@ -111,5 +111,5 @@ int main(void) {
       cmocka_unit_test(peak_memory_is_that_of_the_process),
       cmocka_unit_test(place_that_cannot_be_written_is_an_error),
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_folder, remove_files);
 }

@@ -10,23 +10,22 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/region/region_file.h"
 #include "tests/refused_write.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[256], path[300], other[300];
+static char path[300], other[300];
 
 static int make_folder(void **state) {
-  const char *base = getenv("TMPDIR");
-  snprintf(folder, sizeof folder, "%s/region-XXXXXX", base ? base : P_tmpdir);
-  if (!mkdtemp(folder)) return 1;
-  snprintf(path, sizeof path, "%s/rotor-0001.h5", folder);
-  snprintf(other, sizeof other, "%s/rotor-0002.h5", folder);
+  if (make_test_folder(state)) return 1;
+  snprintf(path, sizeof path, "%s/rotor-0001.h5", test_folder);
+  snprintf(other, sizeof other, "%s/rotor-0002.h5", test_folder);
   return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_files(void **state) {
   unlink(path);
   unlink(other);
-  return rmdir(folder); // fails where a temporary file was left behind
+  return remove_test_folder(state);
 }
 
 static double points[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.2, 0.2, 2}};
@@ -211,7 +210,7 @@ static void wrong_index_is_named(void **state) {
 static void folder_that_is_not_there_is_an_io_error(void **state) {
   CwRegionMesh r = region_by_hand();
   char nowhere[400];
-  snprintf(nowhere, sizeof nowhere, "%s/none/rotor-0001.h5", folder);
+  snprintf(nowhere, sizeof nowhere, "%s/none/rotor-0001.h5", test_folder);
   assert_int_equal(cw_region_write(nowhere, &r), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), strerror(ENOENT)));
   assert_non_null(strstr(cw_fail_message(), nowhere));
@@ -248,5 +247,5 @@ int main(void) {
       cmocka_unit_test(folder_that_is_not_there_is_an_io_error),
       cmocka_unit_test(no_write_is_lost_unseen),
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, make_folder, remove_files);
 }

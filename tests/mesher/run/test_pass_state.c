@@ -7,9 +7,9 @@
 
 #include "mesher/run/pass_state.h"
 #include "pipeline/case_schema.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char run[] = "pass-state-XXXXXX";
 static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "model.json"};
 enum { FILE_COUNT = sizeof FILES / sizeof *FILES };
 static const CwModel domains = {.domain_count = 2, .domain = {{.name = "rotor"}, {.name = "stator"}}};
@@ -17,7 +17,7 @@ static const CwModel domains = {.domain_count = 2, .domain = {{.name = "rotor"},
 enum { PATH_SIZE = 128 };
 
 static void path_of(char path[PATH_SIZE], const char *name) {
-  assert_true(snprintf(path, PATH_SIZE, "%s/%s", run, name) < PATH_SIZE);
+  assert_true(snprintf(path, PATH_SIZE, "%s/%s", test_folder, name) < PATH_SIZE);
 }
 
 static void write_file(const char *name, const char *text) {
@@ -31,7 +31,7 @@ static void write_file(const char *name, const char *text) {
 
 static int make_run(void **state) {
   char path[PATH_SIZE];
-  if (!mkdtemp(run)) return -1;
+  if (make_test_folder(state)) return -1;
   path_of(path, "geometry");
   mkdir(path, 0777);
   path_of(path, "mesh");
@@ -56,7 +56,7 @@ static int remove_run(void **state) {
   rmdir(path);
   path_of(path, "geometry");
   rmdir(path);
-  return rmdir(run);
+  return remove_test_folder(state);
 }
 
 static void check_start(const CwPassStart *read, const CwPassStart *written) {
@@ -70,7 +70,7 @@ static void state_comes_back_as_written(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
   char fingerprint[33];
-  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, fingerprint), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, test_folder, &domains, fingerprint), CW_OK);
   CwFinerPlace place[2] = {{0, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, {{1, 2, 3}, 0.1 / 3}}};
   const CwPassState written = {.pass = 3,
                                .first_pass = 2,
@@ -84,9 +84,9 @@ static void state_comes_back_as_written(void **unused) {
                                .best_lacks = 1,
                                .tried_whole = 1,
                                .finer = {.count = 2, .place = place}};
-  assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
+  assert_int_equal(cw_pass_state_write(test_folder, fingerprint, &written), CW_OK);
   CwPassState read = {0};
-  assert_int_equal(cw_pass_state_read(NULL, run, fingerprint, &read), CW_OK);
+  assert_int_equal(cw_pass_state_read(NULL, test_folder, fingerprint, &read), CW_OK);
   assert_int_equal(read.pass, 3);
   assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
   assert_int_equal(read.first_pass, 2);
@@ -110,23 +110,23 @@ static void another_case_or_geometry_starts_anew(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
   char before[33], after[33];
-  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, before), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, test_folder, &domains, before), CW_OK);
   table.mesh.cells++;
-  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, test_folder, &domains, after), CW_OK);
   assert_string_not_equal(before, after);
   CwPassState read = {0};
-  assert_int_equal(cw_pass_state_read(NULL, run, after, &read), CW_OK);
+  assert_int_equal(cw_pass_state_read(NULL, test_folder, after, &read), CW_OK);
   assert_int_equal(read.pass, 0);
   table.mesh.cells--;
   write_file("geometry/faces.csv", "changed");
-  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, test_folder, &domains, after), CW_OK);
   assert_string_not_equal(before, after);
 }
 
 static void broken_state_is_left_aside(void **unused) {
   write_file("mesh/pass.json", "{\"fingerprint\": \"x\", \"pass\": 2");
   CwPassState read = {0};
-  assert_int_equal(cw_pass_state_read(NULL, run, "x", &read), CW_OK);
+  assert_int_equal(cw_pass_state_read(NULL, test_folder, "x", &read), CW_OK);
   assert_int_equal(read.pass, 0);
 }
 
