@@ -10,6 +10,7 @@
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
 #   make -C cases NAME                       another case; `make -C cases` lists them
 #   make measurements [SECTIONS="scale cases"]  the benches, for docs/measurements.md (hours)
+#   make verify [PARTS="heads ubaldi"]      solved flows beside published ones, for docs/verification.md (hours)
 #   make dist                                an archive of the last commit that builds without git, in build/
 #   make clean                               removes build/ (runs/ stays)
 #
@@ -20,7 +21,7 @@ include pipeline/build.mk
 include pipeline/run.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help solve curve report check check-long check-sanitized measurements dist clean
+.PHONY: help solve curve report check check-long check-sanitized measurements verify dist clean
 
 help:
 	@sed -n '/^#   make/s/^#  //p; /^# \(CELLS\|HOSTS\)/s/^# //p' Makefile
@@ -45,6 +46,9 @@ check-sanitized:
 
 measurements: everything
 	@python3 $(ROOT)/tests/bench/measurements.py $(SECTIONS)
+
+verify: programs
+	@python3 $(ROOT)/tests/bench/verify.py $(PARTS)
 
 # The last commit, and what it is.
 dist:

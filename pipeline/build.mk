@@ -20,7 +20,7 @@ endef
 # Checks need the programs of others too, solving one of them.
 packages:
 	@$(ROOT)/pipeline/packages.sh $(if $(filter check-long,$(MAKECMDGOALS)),check-long,$\
-	  $(if $(filter check measurements,$(MAKECMDGOALS)),check,$\
+	  $(if $(filter check measurements verify,$(MAKECMDGOALS)),check,$\
 	  $(if $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS)),solve,build)))
 
 configure: packages

@@ -73,7 +73,7 @@ static void draw_face(const Work *work, int f, const CwCamera *camera, int insid
                   (i == 2 ? 1 : camera->metres_per_pixel); // depth is in metres
     }
     const double slope = 1 - fabs(normal[2]) / hypot(hypot(normal[0], normal[1]), normal[2]);
-    const CwPaint paint = {cw_render_shade(colour_of(f), 1.05 - 0.35 * slope), 0, (uint16_t)(f + 1), 0, 0, 0};
+    const CwPaint paint = {.colour = cw_render_shade(colour_of(f), 1.05 - 0.35 * slope), .group = (uint16_t)(f + 1)};
     cw_render_triangle(canvas, (const double(*)[3])p, &paint);
   }
 }

@@ -133,7 +133,7 @@ operating_point:
   flow_rate_m3_per_h: {flow}
   head_m: {head}
   speed_rpm: {speed}
-
+{fluid}
 cad:
   files: [pump.step]
 {cad}
@@ -142,15 +142,16 @@ walls:
   y_plus_hub_shroud: 30
   y_plus_volute: 30
   y_plus_pipe: 30
-  layer_count: 4
-  growth_ratio: 1.3
+  layer_count: {layers}
+  growth_ratio: {growth}
 
 mesh:
   cells: {cells}
 """
 
 
-def main(name, draw, cad, flow=25, head=10, speed=1450, cells=300000):
+def main(name, draw, cad, flow=25, head=10, speed=1450, cells=300000, fluid="",
+         layers=4, growth=1.3):
     """Draws into the folder of the command line. `draw` returns the bodies, in the order of their numbers in `cad`."""
     if len(sys.argv) != 2:
         sys.exit(f"usage: {name}.py FOLDER")
@@ -162,4 +163,5 @@ def main(name, draw, cad, flow=25, head=10, speed=1450, cells=300000):
     OCC.synchronize()
     gmsh.write(str(folder / "pump.step"))
     gmsh.finalize()
-    (folder / "case.yaml").write_text(CASE.format(name=name, flow=flow, head=head, speed=speed, cad=cad, cells=cells))
+    (folder / "case.yaml").write_text(CASE.format(name=name, flow=flow, head=head, speed=speed, fluid=fluid, cad=cad,
+                                                   cells=cells, layers=layers, growth=growth))

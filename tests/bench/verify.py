@@ -1,0 +1,379 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""verify.py [PART ...] [--runs runs/verify] [--small]
+
+Holds solved flow against what others published, and writes docs/verification.md with its pictures. Each part is a
+section of the page; parts that are not named stay as they were. All take some hours on two cores; a call that was
+killed goes on where it was. --small takes tiny meshes and ends early, to try the program: its page goes to the folder
+of runs.
+
+  heads       the head over the number of cells (figure 4 of the paper), with Celik's index
+  readings    which entry of the paper's Table 3 decides about the head
+  walls       y+ of a mesh that resolves the walls (figure 5)
+  velocities  relative velocity at 0.8, 1 and 1.2 times the design flow, from the large eddy simulation (figure 7)
+  solvers     OpenFOAM and code_saturne on one mesh
+  ubaldi      a pump that was measured: ERCOFTAC's test case U3"""
+import argparse
+import base64
+import csv
+import json
+import math
+import re
+import shutil
+import sys
+import time
+from collections import namedtuple
+from pathlib import Path
+
+import foam_read
+from programs import MPIRUN, SOURCE, execute
+
+PAGE = "verification.md"
+RATED_HEAD = 10           # m, of the paper's pump
+SHARES = (0.8, 1, 1.2)    # of the design flow, as in the paper
+LIMITS = (1, 3, 5)        # of y+, as in the paper
+Sizes = namedtuple("Sizes", "heads readings walls velocities solvers ubaldi iterations transient_turns les_turns")
+FULL = Sizes(("150k", "300k", "600k", "1200k", "2400k"), 300000, 1500000, 200000, 300000, 600000, 4000, 2, 1)
+SMALL = Sizes(("40k", "60k", "90k"), 40000, 60000, 40000, 60000, 80000, 100, 1 / 36, 1 / 36)
+
+
+class Bench:
+    """Runs of this bench, each a folder of its own, which are made once."""
+
+    def __init__(self, options):
+        self.runs, self.sizes = options.runs.resolve(), SMALL if options.small else FULL
+        self.docs = self.runs if options.small else SOURCE / "docs"
+        self.bin = SOURCE / "build/bin"
+
+    def case(self, name, text):
+        """The folder of a run of this case; what is there of another case goes."""
+        run = self.runs / name
+        run.mkdir(parents=True, exist_ok=True)
+        case = run / "case.yaml"
+        if not case.exists() or case.read_text() != text:
+            for stage in ("geometry", "mesh", "export", "solve", "report"):
+                shutil.rmtree(run / stage, ignore_errors=True)
+            case.write_text(text)
+        return run
+
+    def say(self, run, what):
+        print(f"verify: {run.name}: {what}", file=sys.stderr, flush=True)
+
+    def stage(self, stage, run, cells=None):
+        if stage != "report" and (run / stage / "record.json").exists():
+            return
+        self.say(run, stage)
+        execute(*([] if stage == "geometry" else [*MPIRUN, 2]), self.bin / f"cutwater-{stage}", "--case",
+                run / "case.yaml", "--run", run, *(["--cells", cells] if cells else []))
+
+    def meshed(self, run, cells):
+        for stage in ("geometry", "mesh", "export"):
+            self.stage(stage, run, cells)
+        return run
+
+    def solved(self, run, cells, *more):
+        """Meshes the run and solves its steady flow; what the flow came to."""
+        self.meshed(run, cells)
+        self.say(run, "solve")
+        execute(sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", run / "case.yaml", "--run", run, "--bin",
+                self.bin, "--most", self.sizes.iterations, *more)
+        return results(run, "solve")
+
+    def picture(self, run, cells, title, name):
+        """A picture of the run's report, beside the page; how the page shows it."""
+        self.stage("report", run, cells)
+        page = (run / "report/index.html").read_text()
+        found = re.search(rf'alt="{re.escape(title)}" src="data:image/png;base64,([^"]+)"', page)
+        if not found:
+            sys.exit(f"verify: {run}/report/index.html: no picture is called '{title}'")
+        (self.docs / f"verification-{name}.png").write_bytes(base64.b64decode(found[1]))
+        return f"![{title}](verification-{name}.png)"
+
+
+def results(run, stage):
+    return json.loads((run / stage / "record.json").read_text())["results"]
+
+
+def design(run):
+    return json.loads((run / "geometry/design.json").read_text())
+
+
+def table(names, rows):
+    return "\n".join("| " + " | ".join(str(word) for word in row) + " |"
+                     for row in [names, ["---"] * len(names), *rows])
+
+
+def case_text(name, **changes):
+    """The text of cases/NAME with other values of some keys; one that is not there begins operating_point."""
+    text = (SOURCE / "cases" / name / "case.yaml").read_text()
+    for key, value in changes.items():
+        text, found = re.subn(rf"(?m)^  {key}: .*\n", f"  {key}: {value}\n", text)
+        if not found:
+            text = text.replace("operating_point:", f"operating_point:\n  {key}: {value}\n#", 1)
+    return text
+
+
+def settled_word(result):
+    return "settled" if result["settled"] else "NOT settled"
+
+
+# ---- the parts: each prints nothing and returns its section
+
+
+def heads(bench):
+    """The paper's head rises with the cells, is within 5 % of the tested one at 8 million and changes by less than 1 %
+    from 16 million on; its figure has no numbers."""
+    rows, runs = [], []
+    for cells in bench.sizes.heads:
+        runs.append(bench.case(f"heads-{cells}", case_text("paper", test_head_m=RATED_HEAD)))
+        result = bench.solved(runs[-1], cells)
+        rows.append((f"{result['cells']:,}", f"{result['head_m']:.3f}", f"{result['head_scatter_m'] or 0:.2g}",
+                     f"{result['torque_n_m']:.3f}", result["iterations"], settled_word(result),
+                     f"{result['residual_p']:.1e}"))
+    told = execute(sys.executable, SOURCE / "pipeline/sweep.py", bench.runs / "heads.csv", *runs).text
+    shutil.copy(bench.runs / "heads.svg", bench.docs / "verification-heads.svg")
+    index = [line for line in told.splitlines() if "index" in line or "monotonously" in line]
+    return "\n".join([table(("cells", "head, m", "scatter, m", "torque, N m", "iterations", "", "residual of p"), rows),
+                      "", "![Head, torque and efficiency over the cells](verification-heads.svg)", "",
+                      "The three finest, by Celik's method:", "", "```", *index, "```"])
+
+
+def root(of, low, high):
+    """Where the increasing or decreasing of() is 0, by halving; None where it has one sign at both ends."""
+    at_low = of(low)
+    if at_low * of(high) > 0:
+        return None
+    for _ in range(7):
+        middle = (low + high) / 2
+        value = of(middle)
+        low, high, at_low = (low, middle, at_low) if at_low * value < 0 else (middle, high, value)
+    return (low + high) / 2
+
+
+def readings(bench):
+    """Table 3 is over-determined: what each of its entries would have to be for the rated head."""
+    entries = {"wrap_angle_deg": (71, 150), "outlet_diameter_mm": (170, 200), "outlet_width_mm": (3, 8),
+               "blade_count": (2, 6)}
+
+    def predicted(key, value):
+        value = round(value) if key == "blade_count" else round(value, 2)
+        more = {"base_diameter_mm": round(1.02 * value, 2)} if key == "outlet_diameter_mm" else {}
+        run = bench.case(f"readings-{key}-{value}", case_text("paper", **{key: value}, **more))
+        bench.stage("geometry", run)
+        return design(run)["predicted_head_m"] - RATED_HEAD
+
+    rows = []
+    for key, (low, high) in entries.items():
+        asked = re.search(rf"(?m)^  {key}: (\S+)", case_text("paper"))[1]
+        found = root(lambda value, key=key: predicted(key, value), low, high)
+        rows.append((f"`{key}`", asked, "none" if found is None else f"{found:.3g}",
+                     "-" if found is None else f"{100 * (found / float(asked) - 1):+.0f} %"))
+    solved = []
+    for name, text in (("as it stands (`priority: wrap`)", case_text("paper")),
+                       ("the head first (`priority: head`)", case_text("paper", priority="head"))):
+        run = bench.case(f"readings-{'head' if 'head first' in name else 'wrap'}", text)
+        result, made = bench.solved(run, bench.sizes.readings), design(run)
+        solved.append((name, f"{made['wrap_angle_deg']:.1f}", f"{made['outlet_blade_angle_deg']:.1f}",
+                       f"{made['predicted_head_m']:.2f}", f"{result['head_m']:.2f}", settled_word(result)))
+    return "\n".join(["The head that the hydraulic design predicts is the rated one of 10 m with one entry changed to:",
+                      "", table(("entry of Table 3", "there", "for 10 m", "change"), rows), "",
+                      f"Solved on {bench.sizes.readings:,} cells:", "",
+                      table(("Table 3", "wrap, degrees", "beta2, degrees", "predicted head, m", "solved head, m", ""),
+                            solved)])
+
+
+def walls(bench):
+    """In the paper's mesh L y+ is mostly within 3 on hub and shroud, and within 1 on the blades."""
+    run = bench.case("walls", case_text("paper-l"))
+    result = bench.solved(run, bench.sizes.walls)
+    case = run / "solve/steady"
+    areas, y_plus = foam_read.patch_areas(case), foam_read.patch_values(foam_read.latest(case) / "yPlus")
+    rows = []
+    for patches in (("hub",), ("shroud",), ("blade_pressure",), ("blade_suction",), ("blade_leading_edge",),
+                    ("blade_trailing_edge",)):
+        pairs = [pair for patch in patches for pair in zip(y_plus[patch], areas[patch])]
+        whole = sum(area for _, area in pairs)
+        rows.append((patches[0], f"{sum(y * area for y, area in pairs) / whole:.2f}",
+                     *(f"{100 * sum(area for y, area in pairs if y <= limit) / whole:.1f} %" for limit in LIMITS)))
+    return "\n".join([f"The case `paper-l` with {result['cells']:,} cells; {settled_word(result)} after "
+                      f"{result['iterations']} iterations.", "",
+                      table(("wall", "mean y+", *(f"area with y+ up to {limit}" for limit in LIMITS)), rows), "",
+                      bench.picture(run, bench.sizes.walls, "y+, rotor from above", "walls")])
+
+
+def velocities(bench):
+    """The paper compares with particle images, which are not published as numbers: only the pictures can be compared.
+    Mesh and cells are as the machine allows."""
+    cells, lines = bench.sizes.velocities, []
+    run = bench.case("velocities", case_text("paper", flow_shares=f"[{', '.join(map(str, SHARES))}]"))
+    bench.solved(run, cells, "--curve")
+    for share in SHARES:
+        flow = bench.runs / f"velocities-{share:g}"
+        eddies(bench, run, flow, share)
+        lines += [f"{share:g} Q:", "", bench.picture(flow, cells, "Relative velocity from blade to blade",
+                                                     f"velocities-{round(1000 * share):04d}"), ""]
+    return "\n".join([f"{results(run, 'export')['cells']:,} cells; k-omega SST for {bench.sizes.transient_turns:g} "
+                      f"turns, then Smagorinsky's model for {bench.sizes.les_turns:g}.", "", *lines])
+
+
+def eddies(bench, run, flow, share):
+    """The run `flow`: the mesh of `run`, with the fields at the end of the large eddy simulation at a share of the
+    flow, when the rotor stands where it was meshed."""
+    name = f"q{round(1000 * share):04d}"
+    steady = run / ("solve/steady" if share == 1 else f"solve/points/{name}")
+    case = flow / "export/openfoam"
+    done = flow / "done"
+    if done.exists():
+        return
+    shutil.rmtree(flow, ignore_errors=True)
+    flow.mkdir()
+    for stage in ("case.yaml", "geometry", "mesh", "log"):
+        (flow / stage).symlink_to(run / stage)
+    shutil.copytree(run / "export", flow / "export", symlinks=True, ignore=shutil.ignore_patterns("polyMesh", "points"))
+    (case / "constant/polyMesh").symlink_to(run / "export/openfoam/constant/polyMesh")
+    latest = foam_read.latest(steady)
+    shutil.copytree(latest, case / latest.name)
+    asked = re.search(r"volumetricFlowRate constant \S+;", (steady / "0/U").read_text())[0]
+    turn = 60 / 1450
+    for part, turns in (("transient", bench.sizes.transient_turns), ("les", bench.sizes.les_turns)):
+        for file, pattern, put in ((f"{part}/0/U", r"volumetricFlowRate constant \S+;", asked),
+                                   (f"{part}/system/controlDict", r"(?m)^endTime .*",
+                                    f"endTime {turns * turn:.10g};")):
+            path = case / file
+            path.write_text(re.sub(pattern, put, path.read_text()))
+        if part == "les":
+            script = case / "les/Allrun"
+            script.write_text(re.sub(r"\$turns \* \S+", f"$turns * {turns * turn:.10g}", script.read_text()))
+        bench.say(flow, part)
+        execute(case / part / "Allrun", 2, *([1] if part == "les" else []), folder=case / part)
+    end, put = foam_read.latest(case / "les"), flow / "solve/steady/1"
+    put.mkdir(parents=True)
+    for field in ("U", "p", "yPlus"):
+        shutil.copy(end / field, put / field)
+    done.touch()
+
+
+def solvers(bench):
+    """Both with a frozen rotor, the k-epsilon model and wall functions."""
+    text = case_text("paper") + "\nexport: {formats: [openfoam, code_saturne]}\n"
+    run = bench.case("solvers", text)
+    mine = bench.solved(run, bench.sizes.solvers)
+    other = run / "export/code_saturne"
+    if not (other / "head.csv").exists():
+        numbers = other / "SRC/pump.h"
+        numbers.write_text(re.sub(r"PUMP_ITERATIONS \d+", f"PUMP_ITERATIONS {min(bench.sizes.iterations, 1000)}",
+                                  numbers.read_text()))
+        bench.say(run, "code_saturne")
+        execute(other / "run", 1, folder=other)
+    with open(other / "head.csv", encoding="utf-8") as file:
+        last = list(csv.DictReader(file))[-100:]
+    mean = {key: sum(float(row[key]) for row in last) / len(last) for key in ("head_m", "torque_n_m")}
+    rows = [("OpenFOAM", f"{mine['head_m']:.3f}", f"{mine['torque_n_m']:.4f}", mine["iterations"]),
+            ("code_saturne", f"{mean['head_m']:.3f}", f"{mean['torque_n_m']:.4f}", last[-1]["iteration"]),
+            ("apart", f"{100 * (mean['head_m'] / mine['head_m'] - 1):+.1f} %",
+             f"{100 * (mean['torque_n_m'] / mine['torque_n_m'] - 1):+.1f} %", "")]
+    return "\n".join([f"{mine['cells']:,} cells.", "",
+                      table(("solver", "head, m", "torque, N m", "iterations"), rows)])
+
+
+# ERCOFTAC's test case U3 (tests/cad/ubaldi.py names its sources). Velocities are means of the files crcu0 to crcu3 over
+# two passages, and from 0.05 to 0.95 of the width; pressures are those of cp.dat over the circumference: (R / R2, 2 (p -
+# pt0) / (rho U2^2)).
+U3_TIP_SPEED, U3_RADIUS, U3_WIDTH = 2000 * math.pi / 30 * 0.21, 0.21, 0.0404  # m/s, m, m
+U3_RING = 1.02                                                             # of the radius, where velocities were measured
+U3_HEAD, U3_RADIAL, U3_TANGENTIAL = 0.65, 0.131, 0.382                     # 2 g H / U2^2; over U2
+U3_PRESSURE = ((0.53333, -0.024), (0.59524, -0.017), (0.66667, 0.093), (0.7381, 0.230), (0.78571, 0.286),
+               (0.83333, 0.361), (0.88095, 0.455), (0.92857, 0.511), (0.97619, 0.571), (1.01905, 0.584))
+SAMPLING = """functions
+{
+    sampled
+    {
+        type surfaces; libs (sampling); writeControl writeTime; surfaceFormat vtk;
+        formatOptions { vtk { legacy true; format ascii; } }
+        fields (U p); interpolationScheme cell;
+        surfaces
+        (
+            ring { type distanceSurface; distance 0; signed true; surfaceType searchableCylinder;
+                   point1 (0 0 -0.001); point2 (0 0 0.05); radius @radius@; }
+            casing { type patch; patches (casing); interpolate false; }
+        );
+    }
+}
+"""
+
+
+def ubaldi(bench):
+    """Measured in air; the flow with a frozen rotor stands for the mean over all positions of the wheel."""
+    run = bench.runs / "ubaldi"
+    if not (run / "pump.step").exists():
+        execute("/usr/bin/python3", SOURCE / "tests/cad/ubaldi.py", run)
+    result = bench.solved(run, bench.sizes.ubaldi)
+    case = run / "solve/steady"
+    control = (case / "system/controlDict").read_text()
+    (case / "system/controlDict").write_text(control[:control.index("functions")] +
+                                             SAMPLING.replace("@radius@", str(U3_RING * U3_RADIUS)))
+    execute("simpleFoam", "-postProcess", "-latestTime", folder=case)
+    (case / "system/controlDict").write_text(control)
+    sampled = foam_read.latest(case / "postProcessing/sampled")
+    radial, tangential = (speed / U3_TIP_SPEED
+                          for speed in foam_read.ring_means(sampled / "ring.vtk", 0.05 * U3_WIDTH, 0.95 * U3_WIDTH))
+    head = 2 * 9.80665 * result["head_m"] / U3_TIP_SPEED**2
+
+    def angle(radial, tangential):
+        return f"{math.degrees(math.atan2(U3_RING - tangential, radial)):.1f}"
+
+    rows = [("head coefficient, 2 g H / U2^2", U3_HEAD, f"{head:.3f}"),
+            ("radial velocity / U2 at 1.02 R2", U3_RADIAL, f"{radial:.3f}"),
+            ("tangential velocity / U2 there", U3_TANGENTIAL, f"{tangential:.3f}"),
+            ("relative flow angle there, degrees from the radius", angle(U3_RADIAL, U3_TANGENTIAL),
+             angle(radial, tangential))]
+    pressure = foam_read.radial_means(sampled / "casing.vtk", [r * U3_RADIUS for r, _ in U3_PRESSURE])
+    places = [(f"{r:.3f}", f"{measured:.3f}", f"{2 * p / U3_TIP_SPEED**2:.3f}")
+              for (r, measured), p in zip(U3_PRESSURE, pressure) if not math.isnan(p)]
+    return "\n".join([f"{result['cells']:,} cells; {settled_word(result)} after {result['iterations']} iterations.", "",
+                      table(("", "measured", "solved"), rows), "",
+                      "Static pressure on the casing, 2 (p - pt0) / (rho U2^2), mean over the circumference:", "",
+                      table(("R / R2", "measured", "solved"), places)])
+
+
+PARTS = {"heads": ("The head over the number of cells", heads), "readings": ("What decides about the head", readings),
+         "walls": ("y+ of resolved walls", walls), "velocities": ("Relative velocity in the impeller", velocities),
+         "solvers": ("Two solvers", solvers), "ubaldi": ("A pump that was measured", ubaldi)}
+
+
+def write_page(bench, made):
+    """The page with these sections (name: text) in the place of those that it had."""
+    path = bench.docs / PAGE
+    old = path.read_text() if path.exists() else ""
+    kept = dict(re.findall(r"<!-- part (\w+) -->\n(.*?)(?=<!-- part|\Z)", old, re.S))
+    commit = execute("git", "rev-parse", "--short=9", "HEAD", folder=SOURCE).text.strip()
+    for name, text in made.items():
+        title, part = PARTS[name]
+        words = " ".join((part.__doc__ or "").split())
+        kept[name] = (f"## {title}\n\n{words}\n\n{text}\n\n`tests/bench/verify.py {name}`, commit {commit}, "
+                      f"{time.strftime('%Y-%m-%d')}.\n\n")
+    head = ("<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->\n"
+            "<!-- Made by tests/bench/verify.py (`make verify`): change that, not this page. -->\n# Verification\n\n"
+            "Solved flows beside what others published. \"The paper\" is that of the README; its section 4 has the "
+            "figures.\n\n")
+    path.write_text(head + "".join(f"<!-- part {name} -->\n{kept[name]}" for name in PARTS if name in kept))
+    print(f"verify: {path}: {', '.join(made)}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("parts", nargs="*", metavar="PART")
+    parser.add_argument("--runs", type=Path, default=SOURCE / "runs/verify")
+    parser.add_argument("--small", action="store_true")
+    options = parser.parse_args()
+    unknown = set(options.parts) - set(PARTS)
+    if unknown:
+        sys.exit(f"verify: no part is called '{min(unknown)}'; allowed: {', '.join(PARTS)}")
+    bench = Bench(options)
+    bench.runs.mkdir(parents=True, exist_ok=True)
+    for name in options.parts or PARTS:
+        write_page(bench, {name: PARTS[name][1](bench)})
+
+
+if __name__ == "__main__":
+    main()
