@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Local improvement of a part that is divided. The planner takes planes one by one from a grid of directions; here a
-// plane that stands slantwise on walls, or whose lines end slantwise there, or above such a one, is shifted and turned a
+// Local improvement of a part that is divided. The planner takes planes one by one from a grid of directions; here one
+// that stands slantwise on walls, or whose lines end slantwise there, or above such a one, is shifted and turned a
 // little, to where angles, room, balance and lean together cost less.
 #ifndef CUTWATER_MESHER_PLAN_PLAN_IMPROVE_H
 #define CUTWATER_MESHER_PLAN_PLAN_IMPROVE_H

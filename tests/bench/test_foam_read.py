@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""What is read of OpenFOAM's files, by files of a mesh that is known by hand: a wedge 2 m long under a slope of 3 : 4."""
+"""What is read of OpenFOAM's files, by files of a mesh that is known by hand: a wedge 2 m long, its slope 3 : 4."""
 import array
 import math
 import unittest

@@ -277,11 +277,11 @@ def solvers(bench):
 
 
 # ERCOFTAC's test case U3 (tests/cad/ubaldi.py names its sources). Velocities are means of the files crcu0 to crcu3 over
-# two passages, and from 0.05 to 0.95 of the width; pressures are those of cp.dat over the circumference: (R / R2, 2 (p -
-# pt0) / (rho U2^2)).
+# two passages, and from 0.05 to 0.95 of the width; pressures are those of cp.dat over the circumference: R / R2, and
+# 2 (p - pt0) / (rho U2^2).
 U3_TIP_SPEED, U3_RADIUS, U3_WIDTH = 2000 * math.pi / 30 * 0.21, 0.21, 0.0404  # m/s, m, m
-U3_RING = 1.02                                                             # of the radius, where velocities were measured
-U3_HEAD, U3_RADIAL, U3_TANGENTIAL = 0.65, 0.131, 0.382                     # 2 g H / U2^2; over U2
+U3_RING = 1.02                                                                # R / R2 where velocities were measured
+U3_HEAD, U3_RADIAL, U3_TANGENTIAL = 0.65, 0.131, 0.382                        # 2 g H / U2^2; velocities over U2
 U3_PRESSURE = ((0.53333, -0.024), (0.59524, -0.017), (0.66667, 0.093), (0.7381, 0.230), (0.78571, 0.286),
                (0.83333, 0.361), (0.88095, 0.455), (0.92857, 0.511), (0.97619, 0.571), (1.01905, 0.584))
 SAMPLING = """functions

@@ -18,14 +18,15 @@ def polar(r, angle, z):
 
 
 def lines_and_arcs(start, pieces):
-    """A closed outline in the plane y = 0: each piece is the next (r, z), or ((r, z), centre) of an arc to it."""
+    """A closed outline in the plane y = 0: each piece is the next (r, z), or ((r, z), centre) of an arc to it, or
+    ((r, z), centre, end of the long axis) of an arc of an ellipse."""
     first = here = OCC.addPoint(start[0], 0, start[1])
     curves = []
     for number, piece in enumerate(pieces):
-        (r, z), centre = piece if isinstance(piece[0], tuple) else (piece, None)
+        (r, z), *places = piece if isinstance(piece[0], tuple) else (piece,)
         there = first if number == len(pieces) - 1 else OCC.addPoint(r, 0, z)
-        curves.append(OCC.addLine(here, there) if centre is None else
-                      OCC.addCircleArc(here, OCC.addPoint(centre[0], 0, centre[1]), there))
+        through = [here, *(OCC.addPoint(place[0], 0, place[1]) for place in places), there]
+        curves.append((OCC.addLine, OCC.addCircleArc, OCC.addEllipseArc)[len(places)](*through))
         here = there
     return OCC.addPlaneSurface([OCC.addCurveLoop(curves)])
 

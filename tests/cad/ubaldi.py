@@ -3,18 +3,18 @@
 """The pump of ERCOFTAC's test case U3, tested in air at the University of Genova: an unshrouded wheel of seven
 untwisted blades before a diffuser of twelve vanes, which opens into the atmosphere.
 
-Blades, vanes, clearance and operating point: J. F. Combes, "Test case U3: centrifugal pump with a vaned diffuser",
-ERCOFTAC Seminar and Workshop on Turbomachinery Flow Prediction VI, Aussois, 1998, tables 1 and 2, after M. Ubaldi,
-P. Zunino, G. Barigozzi and A. Cattanei, "An experimental investigation of stator induced unsteadiness on centrifugal
-impeller outflow", ASME Journal of Turbomachinery 118, 1996, pp. 41-54. Eye, bend and nose of the hub, of which both give
-a drawing alone: the case of OpenFOAM's turbomachinery interest group (M. Petit, M. Page, M. Beaudoin and H. Nilsson,
-"The ERCOFTAC centrifugal pump OpenFOAM case-study", 3rd IAHR Meeting on Cavitation and Dynamic Problems in Hydraulic
-Machinery, Brno, 2009), as is the ring behind the vanes."""
+Blades, vanes and operating point: J. F. Combes, "Test case U3: centrifugal pump with a vaned diffuser", ERCOFTAC
+Seminar and Workshop on Turbomachinery Flow Prediction VI, Aussois, 1998, tables 1 and 2, after M. Ubaldi, P. Zunino,
+G. Barigozzi and A. Cattanei, "An experimental investigation of stator induced unsteadiness on centrifugal impeller
+outflow", ASME Journal of Turbomachinery 118, 1996, pp. 41-54. Eye, bend and nose of the hub, of which both give a
+drawing alone, and the ring behind the vanes: the case of OpenFOAM's turbomachinery interest group (M. Petit, M. Page,
+M. Beaudoin and H. Nilsson, "The ERCOFTAC centrifugal pump OpenFOAM case-study", 3rd IAHR Meeting on Cavitation and
+Dynamic Problems in Hydraulic Machinery, Brno, 2009)."""
 import math
 
 import draw
 
-# Sides of a blade and of a vane: radius, mm, and angle, degrees, from the nose on. The wheel turns towards lesser angles.
+# Sides of a blade and of a vane: radius, mm, and angle, degrees, from the nose on. The wheel turns to lesser angles.
 BLADE = (
     "120.00 0.00  120.48 1.61  121.06 3.21  121.74 4.79  122.50 6.36  123.36 7.91  124.31 9.43  128.31 13.62 "
     "132.58 17.67  136.86 21.65  141.13 25.60  145.40 29.50  149.67 33.37  153.94 37.21  158.22 41.01  162.49 44.79 "
@@ -74,22 +74,11 @@ def body(sides, low, high):
 def wheel_water():
     """From the pipe of 184 mm round the bend of the casing, which begins at the height 0, and the hub, whose bend goes
     over into a nose: a part of an ellipse with a flat end, so that the passages are alike."""
-    occ, nose, end = draw.OCC, -72.6, 2
-    tip = -59.6 + (nose + 59.6) * math.sqrt(1 - (end / 9)**2)
-    place = {name: occ.addPoint(r, 0, z) for name, (r, z) in {
-        "end": (0, tip), "tip": (end, tip), "long axis": (0, nose), "hub": (9, -59.6), "hub bend": (109, -59.6), "back": (109, WIDTH), "rim": (INTERFACE, WIDTH),
-        "front": (INTERFACE, 0), "front bend": (117, 0), "bend": (117, -25), "pipe": (92, -25), "inlet": (92, -250),
-        "axis": (0, -250), "nose": (0, -59.6)}.items()}
-    curves = [occ.addLine(place["end"], place["tip"]),
-              occ.addEllipseArc(place["tip"], place["nose"], place["long axis"], place["hub"]),
-              occ.addCircleArc(place["hub"], place["hub bend"], place["back"]),
-              occ.addLine(place["back"], place["rim"]), occ.addLine(place["rim"], place["front"]),
-              occ.addLine(place["front"], place["front bend"]),
-              occ.addCircleArc(place["front bend"], place["bend"], place["pipe"]),
-              occ.addLine(place["pipe"], place["inlet"]), occ.addLine(place["inlet"], place["axis"]),
-              occ.addLine(place["axis"], place["end"])]
-    face = occ.addPlaneSurface([occ.addCurveLoop(curves)])
-    return [(3, tag) for dim, tag in occ.revolve([(2, face)], 0, 0, 0, 0, 0, 1, 2 * math.pi) if dim == 3]
+    below, nose, end = -59.6, -72.6, 2
+    tip = below + (nose - below) * math.sqrt(1 - (end / 9)**2)
+    return draw.revolved((0, tip), [
+        (end, tip), ((9, below), (0, below), (0, nose)), ((109, WIDTH), (109, below)), (INTERFACE, WIDTH),
+        (INTERFACE, 0), (117, 0), ((92, -25), (117, -25)), (92, -250), (0, -250), (0, tip)])
 
 
 def pump():

@@ -46,7 +46,7 @@ static void leaning_lines_are_raised(void **) {
   assert_near(wedge.cells[0] + wedge.cells[1] + wedge.cells[2], wedge.whole.work, 1e-9 * wedge.whole.work);
 }
 
-// Across a wall of 40 mm over a run of 30 the plane x = 25 mm stands at 37 degrees, and its line leans no more than that.
+// Across a wall of 40 mm over a run of 30 the plane x = 25 mm stands at 37 degrees; its line leans less.
 static void slantwise_planes_are_turned(void **) {
   Wedge wedge(30, 25);
   assert_true(wedge.cosine() > cw_policy.upright_cosine);
