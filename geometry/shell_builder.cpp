@@ -45,6 +45,20 @@ int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double 
   return (int)edges.size() - 1;
 }
 
+int CwShellBuilder::pole(double first, double last, int vertex) {
+  BRep_Builder builder;
+  Edge edge;
+  edge.first = first;
+  edge.last = last;
+  edge.begin = edge.end = vertex;
+  builder.MakeEdge(edge.edge);
+  builder.Degenerated(edge.edge, Standard_True);
+  builder.Add(edge.edge, vertices[vertex].Oriented(TopAbs_FORWARD));
+  builder.Add(edge.edge, vertices[vertex].Oriented(TopAbs_REVERSED));
+  edges.push_back(edge);
+  return (int)edges.size() - 1;
+}
+
 // Parameters at which a curve is held against its surface: even ones, and some between the knots of both splines, where
 // the peaks of their deviation are.
 static std::vector<double> samples_of(const Handle(Geom_Curve) & curve, const Handle(Geom2d_Curve) & on_surface,
@@ -77,7 +91,8 @@ void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<std:
       bool begun = false;
       for (double t : samples_of(edge.curve, use.curve, edge.first, edge.last)) {
         const gp_Pnt2d uv = use.curve->Value(t);
-        edge.deviation = std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
+        const gp_Pnt at = edge.curve.IsNull() ? points[edge.begin] : edge.curve->Value(t);
+        edge.deviation = std::max(edge.deviation, at.Distance(surface->Value(uv.X(), uv.Y())));
         if (begun) twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
         last = uv;
         begun = true;
@@ -110,6 +125,7 @@ void CwShellBuilder::add_loop(const std::vector<CwEdgeUse> &loop, bool outward, 
     if ((use.forward ? edge.end : edge.begin) != (next.forward ? edges[next.edge].begin : edges[next.edge].end))
       throw Standard_Failure(("open loop on face " + name + " after edge " + std::to_string(i)).c_str());
     builder.UpdateEdge(edge.edge, use.curve, face, least_tolerance);
+    if (edge.curve.IsNull()) builder.Range(edge.edge, face, edge.first, edge.last);
     builder.Add(wire, edge.edge.Oriented(use.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
     (use.forward == outward ? edge.forward_uses : edge.reversed_uses)++;
   }
@@ -121,7 +137,8 @@ CwSolid *CwShellBuilder::finish(const char *domain, double unit) {
   BRep_Builder builder;
   for (size_t i = 0; i < edges.size(); i++) {
     Edge &edge = edges[i];
-    if (edge.forward_uses != 1 || edge.reversed_uses != 1)
+    if (edge.curve.IsNull() ? edge.forward_uses + edge.reversed_uses != 1
+                            : edge.forward_uses != 1 || edge.reversed_uses != 1)
       throw Standard_Failure(("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
     const double tolerance = std::max(least_edge_tolerance, 2 * edge.deviation);
     builder.UpdateEdge(edge.edge, tolerance);

@@ -29,6 +29,8 @@ public:
   int vertex(const gp_Pnt &point);
   // An edge of `curve` from parameter `first` at vertex `begin` to `last` at `end`.
   int edge(const Handle(Geom_Curve) & curve, double first, double last, int begin, int end);
+  // The side of one face that is a single point; used by that face alone.
+  int pole(double first, double last, int vertex);
   // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv)
   // points out of the solid. Each face needs a surface of its own.
   void face(const Handle(Geom_Surface) & surface, const std::vector<CwEdgeUse> &loop, bool outward, const char *patch,
@@ -45,7 +47,7 @@ private:
   void add_loop(const std::vector<CwEdgeUse> &loop, bool outward, const std::string &name, TopoDS_Face &face);
   struct Edge {
     TopoDS_Edge edge;
-    Handle(Geom_Curve) curve;
+    Handle(Geom_Curve) curve; // null of a pole
     double first, last;
     int begin, end;
     double deviation = 0;

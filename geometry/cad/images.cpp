@@ -39,9 +39,11 @@ std::string fails(const char *what, const gp_Pnt &at, double off, double unit) {
   return text;
 }
 
+// Of items without an image, the sides of faces that are poles, none.
 std::set<int> images_of(const std::set<int> &items, const std::vector<int> &next) {
   std::set<int> found;
-  for (const int item : items) found.insert(next[item]);
+  for (const int item : items)
+    if (next[item] >= 0) found.insert(next[item]);
   return found;
 }
 
@@ -108,12 +110,12 @@ std::string CwImagesOfSolid::find(const TopoDS_Shape &solid, int passages, doubl
   for (int f = 0; f < faces.Extent(); f++) outline.push_back(cw_cad_numbers(faces(f + 1), TopAbs_EDGE, edges));
   for (int e = 0; e < edges.Extent(); e++) {
     const TopoDS_Edge &from = TopoDS::Edge(edges(e + 1));
-    if (BRep_Tool::Degenerated(from)) return "it has a pole";
+    if (BRep_Tool::Degenerated(from)) continue;
     const std::set<int> wanted = images_of(ends[e], vertex.next);
     const std::vector<gp_Pnt> points = cw_cad_edge_points(from, EDGE_STEPS);
     double nearest = INFINITY;
     for (int g = 0; g < edges.Extent(); g++) {
-      if (ends[g] != wanted) continue;
+      if (ends[g] != wanted || BRep_Tool::Degenerated(TopoDS::Edge(edges(g + 1)))) continue;
       double far = 0;
       for (int i = 1; i < EDGE_STEPS; i++) // the ends are vertices
         far = std::max(far, distance(points[i].Transformed(once), edges(g + 1)));
@@ -123,21 +125,29 @@ std::string CwImagesOfSolid::find(const TopoDS_Shape &solid, int passages, doubl
     if (nearest > tolerance) return fails("an edge", points[EDGE_STEPS / 2], nearest, unit);
   }
   CwFaceDistance to_face(solid);
+  std::vector<int> itself(edges.Extent()); // -1: a pole
+  for (int e = 0; e < edges.Extent(); e++)
+    itself[e] = BRep_Tool::Degenerated(TopoDS::Edge(edges(e + 1))) ? -1 : e;
   for (int f = 0; f < faces.Extent(); f++) {
     const TopoDS_Face &from = TopoDS::Face(faces(f + 1));
     const std::set<int> wanted = images_of(outline[f], edge.next);
     const std::vector<gp_Pnt> points = cw_cad_inner_points(from, FACE_LATTICE, FACE_SAMPLES);
     double nearest = INFINITY;
     for (int g = 0; g < faces.Extent(); g++) {
-      if (outline[g] != wanted) continue;
+      if (images_of(outline[g], itself) != wanted) continue;
       double far = 0;
       for (const gp_Pnt &point : points) far = std::max(far, to_face.at(g, point.Transformed(once), INFINITY));
       if (far < nearest) nearest = far, face.next[f] = g;
     }
+    for (const int e : outline[f]) // a face has one pole at the most
+      for (const int g : face.next[f] >= 0 ? outline[face.next[f]] : std::set<int>())
+        if (itself[e] < 0 && itself[g] < 0) edge.next[e] = g;
     off = std::max(off, nearest);
     if (nearest > tolerance) return fails("a face", points.empty() ? gp_Pnt() : points[0], nearest, unit);
   }
-  if (!close_sets(count, true, face) || !close_sets(count, false, edge) || !close_sets(count, false, vertex))
+  for (const int next : edge.next)
+    if (next < 0) return "it has a pole that no face's is the image of";
+  if (!close_sets(count, true, face) || !close_sets(count, false, edge) || !close_sets(count, true, vertex))
     return "its faces are no sets of " + std::to_string(count);
   return "";
 }

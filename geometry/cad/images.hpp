@@ -24,7 +24,7 @@ struct CwImagesOfSolid {
   CwImageSet face, edge, vertex;
 
   // Finds them within the tolerance, in the unit of the solid, and returns why there are none, "" where all is found. A
-  // face may be its own image. `unit`: m, for what is told.
+  // face may be its own image, and a corner on the axis, where faces may have their poles. `unit`: m, for what is told.
   std::string find(const TopoDS_Shape &solid, int count, double tolerance, double unit);
   // Chooses the first of each set: faces that hang together, and edges and vertices of theirs.
   void choose();

@@ -225,6 +225,10 @@ void Copies::add_vertices() {
   for (int v = 0; v < images.vertices.Extent(); v++) {
     if (images.vertex.first[v] != v) continue;
     const gp_Pnt point = BRep_Tool::Pnt(TopoDS::Vertex(images.vertices(v + 1)));
+    if (images.vertex.next[v] == v) { // one for all turns, on the axis
+      vertex[v].assign(images.count, builder.vertex(gp_Pnt(0, 0, point.Z())));
+      continue;
+    }
     for (int k = 0; k < images.count; k++) vertex[v].push_back(builder.vertex(point.Transformed(images.turn(k))));
   }
 }
@@ -237,6 +241,11 @@ void Copies::add_edges() {
     const int begin = vertex_number(TopExp::FirstVertex(forward)), end = vertex_number(TopExp::LastVertex(forward));
     for (int k = 0; k < images.count; k++) {
       double range[2];
+      if (BRep_Tool::Degenerated(forward)) {
+        BRep_Tool::Range(forward, range[0], range[1]);
+        edge[e].push_back(builder.pole(range[0], range[1], copy_of(vertex, images.vertex, begin, k)));
+        continue;
+      }
       const Handle(Geom_Curve) curve = copied_curve(e, k, range);
       edge[e].push_back(builder.edge(curve, range[0], range[1], copy_of(vertex, images.vertex, begin, k),
                                      copy_of(vertex, images.vertex, end, k)));
@@ -256,6 +265,9 @@ void shift_to(const gp_Pnt2d &at, const gp_Pnt2d &wanted, const Geom_Surface &su
 CwEdgeUse Copies::use_of(const TopoDS_Edge &used, const TopoDS_Face &face) const {
   double range[2], own[2];
   const int e = images.edges.FindIndex(used) - 1;
+  if (BRep_Tool::Degenerated(used))
+    return {e, used.Orientation() == TopAbs_FORWARD,
+            BRep_Tool::CurveOnSurface(TopoDS::Edge(old_edge(e).Oriented(TopAbs_FORWARD)), face, own[0], own[1])};
   const Handle(Geom_Curve) copy = copied_curve(images.edge.first[e], images.edge.turns[e], range);
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(old_edge(e), own[0], own[1]);
   const gp_Pnt at = copy->Value(range[0] + (range[1] - range[0]) / 3);

@@ -209,7 +209,7 @@ static CwStatus try_count(const CwCad *cad, double near, const FaceSamples *samp
   if (!*whole) goto done;
   CW_NEW(next, cw_cad_vertex_count(cad));
   for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) next[v] = vertex_image(cad, near, count, v);
-  status = cw_images_make(cw_cad_vertex_count(cad), next, count, 0, &symmetry->vertex, whole);
+  status = cw_images_make(cw_cad_vertex_count(cad), next, count, 1, &symmetry->vertex, whole); // one on the axis
   next = NULL;
 done:
   free(next);

@@ -203,7 +203,7 @@ CwStatus cw_periodic_images_make(CwNetwork *network, CwPeriodicImages *images, C
     CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, network->corner[i].x,
                   "a corner of planes and edges has no periodic image");
   }
-  status = cw_images_make(network->corner_count, next, symmetry->count, 0, &images->corner, &whole);
+  status = cw_images_make(network->corner_count, next, symmetry->count, 1, &images->corner, &whole);
   next = NULL;
   CW_TRY(status);
   CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, UNCLOSED);

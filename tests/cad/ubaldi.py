@@ -73,12 +73,11 @@ def body(sides, low, high):
 
 def wheel_water():
     """From the pipe of 184 mm round the bend of the casing, which begins at the height 0, and the hub, whose bend goes
-    over into a nose: a part of an ellipse with a flat end, so that the passages are alike."""
-    below, nose, end = -59.6, -72.6, 2
-    tip = below + (nose - below) * math.sqrt(1 - (end / 9)**2)
-    return draw.revolved((0, tip), [
-        (end, tip), ((9, below), (0, below), (0, nose)), ((109, WIDTH), (109, below)), (INTERFACE, WIDTH),
-        (INTERFACE, 0), (117, 0), ((92, -25), (117, -25)), (92, -250), (0, -250), (0, tip)])
+    over into a nose, half an ellipse."""
+    below, nose = -59.6, -72.6
+    return draw.revolved((0, nose), [
+        ((9, below), (0, below), (0, nose)), ((109, WIDTH), (109, below)), (INTERFACE, WIDTH), (INTERFACE, 0), (117, 0),
+        ((92, -25), (117, -25)), (92, -250), (0, -250), (0, nose)])
 
 
 def pump():

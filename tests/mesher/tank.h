@@ -36,8 +36,9 @@ inline void check(CwStatus status) {
 }
 
 // Casing: a prism with n sides, 40 mm to its corners, z = 0 to 40 mm. Hub: a frustum on its floor, 20 mm to the corners
-// below, 14 mm above, 15 mm high; on its top the flow meets the axis. The floor is cut into one face a side.
-inline TopoDS_Shape tank_solid(int n) {
+// below, 14 mm above, 15 mm high; on its top the flow meets the axis, or on its tip 6 mm above that. The floor is cut
+// into one face a side.
+inline TopoDS_Shape tank_solid(int n, bool tip = false) {
   const double outer = 40, low = 20, high = 14, top = 40, nose = 15, pitch = 2 * M_PI / n;
   struct Ring {
     double r, z;
@@ -66,7 +67,19 @@ inline TopoDS_Shape tank_solid(int n) {
       builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(axes), wire.Wire(), true).Face());
     }
   }
-  for (int end = 0; end < 2; end++) { // the water's face above, the hub's top below
+  if (tip) {
+    const gp_Pnt end(0, 0, nose + 6);
+    const TopoDS_Vertex apex = BRepBuilderAPI_MakeVertex(end);
+    std::vector<TopoDS_Edge> up;
+    for (int k = 0; k < n; k++) up.push_back(BRepBuilderAPI_MakeEdge(ring[3].vertex[k], apex));
+    for (int k = 0; k < n; k++) {
+      const gp_Pnt a = at(ring[3], k * pitch), b = at(ring[3], (k + 1) * pitch);
+      const gp_Ax3 axes(a, gp_Dir(gp_Vec(a, end).Crossed(gp_Vec(a, b))), gp_Dir(gp_Vec(a, b)));
+      BRepBuilderAPI_MakeWire wire(ring[3].edge[k], up[(k + 1) % n], up[k]);
+      builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(axes), wire.Wire(), true).Face());
+    }
+  }
+  for (int end = 0; end < (tip ? 1 : 2); end++) { // the water's face above, the hub's top below
     const Ring &of = ring[end ? 3 : 0];
     BRepBuilderAPI_MakeWire wire;
     for (int k = 0; k < n; k++) wire.Add(of.edge[k]);
@@ -77,9 +90,9 @@ inline TopoDS_Shape tank_solid(int n) {
   return BRepBuilderAPI_MakeSolid(shell).Solid();
 }
 
-// `odd`: the patch of one side of the casing has another name.
-inline CwCad *open_tank(int n, bool odd = false) {
-  return open_solid(tank_solid(n), [=](const TopoDS_Face &face) -> std::string {
+// `odd`: the patch of one side of the casing has another name. `tip`: the hub ends in one.
+inline CwCad *open_tank(int n, bool odd = false, bool tip = false) {
+  return open_solid(tank_solid(n, tip), [=](const TopoDS_Face &face) -> std::string {
     const gp_Ax3 axes = BRepAdaptor_Surface(face).Plane().Position();
     if (axes.Direction().Z() > 0.99) return "water,inlet";
     const bool first_side = std::fabs(axes.Direction().Z()) < 0.01 && axes.Location().Y() == 0;
@@ -101,7 +114,7 @@ struct Tank {
 
   // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24
   // mm from the axis, whose lines on the half-planes before and after differ.
-  Tank(int turns, int wedges, bool divided = false) : n(turns), cad(open_tank(turns)) {
+  Tank(int turns, int wedges, bool divided = false, bool tip = false) : n(turns), cad(open_tank(turns, false, tip)) {
     check(cw_background_make(cad, 1e-4, 0.2, &background));
     check(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside));
     check(cw_symmetry_find(cad, &background, &symmetry));

@@ -69,7 +69,9 @@ static void no_image_is_told_with_its_place(void **) {
   // A corner at (1, 1), turned by 120 degrees, is nearest to another by 2 sin(15 degrees) times its radius.
   const std::string three = images.find(box(), 3, tolerance, unit);
   assert_string_equal(three.c_str(), "a corner at radius 1.414, z 3.000 mm is 0.732 mm off its image");
-  assert_string_equal(images.find(BRepPrimAPI_MakeCone(3, 0, 7).Solid(), 2, 10, unit).c_str(), "it has a pole");
+  // A seam, for which there is another turned.
+  const std::string cone = images.find(BRepPrimAPI_MakeCone(3, 0, 7).Solid(), 2, tolerance, unit);
+  if (cone.find("off its image") == std::string::npos) fail_msg("%s", cone.c_str());
 }
 
 int main(void) {

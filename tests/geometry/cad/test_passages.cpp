@@ -6,6 +6,7 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <GProp_GProps.hxx>
 
 #include "geometry/cad/divide.h"
@@ -89,6 +90,14 @@ static void a_seam_that_ends_at_a_blade(void **) {
   check(cone, 3, volume_of(cone));
 }
 
+// A cone up to its tip, and half a ball: all passages meet in a corner on the axis, where their faces have poles.
+static void a_nose_that_ends_on_the_axis(void **) {
+  for (TopoDS_Shape nose : {BRepPrimAPI_MakeCone(60, 0, 40).Shape(), BRepPrimAPI_MakeSphere(60, 0, M_PI / 2).Shape()}) {
+    for (int k = 0; k < 5; k++) nose = BRepAlgoAPI_Cut(nose, turned(small_box(45, -2, -1, 30, 4, 40), 72 * k)).Shape();
+    check(nose, 5, volume_of(nose));
+  }
+}
+
 static void what_is_not_symmetric_stays(void **) {
   TopoDS_Shape ring = ring_less(small_box(40, -2, -1, 30, 4, 12), 5);
   ring = BRepAlgoAPI_Cut(ring, turned(small_box(39.9, -2, -1, 30, 4, 12), 72)).Shape(); // one is deeper by 0.1 mm
@@ -106,6 +115,7 @@ int main(void) {
       cmocka_unit_test(pierced_rings),
       cmocka_unit_test(a_disc_with_blades),
       cmocka_unit_test(a_seam_that_ends_at_a_blade),
+      cmocka_unit_test(a_nose_that_ends_on_the_axis),
       cmocka_unit_test(what_is_not_symmetric_stays),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -20,6 +20,7 @@ static void turns_are_counted(void **) {
   assert_int_equal(turns_of(open_tank(5)), 5);
   assert_int_equal(turns_of(open_tank(6)), 6);
   assert_int_equal(turns_of(open_tank(6, true)), 1);
+  assert_int_equal(turns_of(open_tank(5, false, true)), 5);
   const auto box = [](const TopoDS_Face &) -> std::string { return "side,wall"; };
   assert_int_equal(turns_of(open_solid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), box)), 1); // the axis at its edge
 }

@@ -6,8 +6,8 @@ extern "C" {
 
 #include "tank.h"
 
-static void network_is_its_own_copy(void **) {
-  Tank tank(5, 2, true);
+static void is_its_own_copy(bool tip) {
+  Tank tank(5, 2, true, tip);
   DomainSurfaces &boundary = tank.boundary;
   check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
@@ -30,6 +30,15 @@ static void network_is_its_own_copy(void **) {
   }
 }
 
+static void network_is_its_own_copy(void **) {
+  is_its_own_copy(false);
+}
+
+// The faces of all passages meet in a corner on the axis, which is its own image.
+static void so_is_one_with_a_corner_on_the_axis(void **) {
+  is_its_own_copy(true);
+}
+
 // A plan whose half-planes do not repeat with the solid.
 static void uneven_plans_are_told(void **) {
   Tank tank(6, 1);
@@ -45,6 +54,7 @@ static void uneven_plans_are_told(void **) {
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(network_is_its_own_copy),
+      cmocka_unit_test(so_is_one_with_a_corner_on_the_axis),
       cmocka_unit_test(uneven_plans_are_told),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
