@@ -205,7 +205,7 @@ def velocities(bench):
     """The paper compares with particle images, which are not published as numbers: only the pictures can be compared.
     Mesh and cells are as the machine allows."""
     cells, lines = bench.sizes.velocities, []
-    run = bench.case("velocities", case_text("paper", flow_shares=f"[{', '.join(map(str, SHARES))}]"))
+    run = bench.case("velocities", f"{case_text('paper')}\noperating_points:\n  flow_shares: {list(SHARES)}\n")
     bench.solved(run, cells, "--curve")
     for share in SHARES:
         flow = bench.runs / f"velocities-{share:g}"
@@ -233,12 +233,15 @@ def eddies(bench, run, flow, share):
     (case / "constant/polyMesh").symlink_to(run / "export/openfoam/constant/polyMesh")
     latest = foam_read.latest(steady)
     shutil.copytree(latest, case / latest.name)
-    asked = re.search(r"volumetricFlowRate constant \S+;", (steady / "0/U").read_text())[0]
+    exported = (run / "export/openfoam/points" / name / "0/U").read_text()
+    asked = re.search(r"volumetricFlowRate constant \S+;", exported)[0]
     turn = 60 / 1450
     for part, turns in (("transient", bench.sizes.transient_turns), ("les", bench.sizes.les_turns)):
         for file, pattern, put in ((f"{part}/0/U", r"volumetricFlowRate constant \S+;", asked),
                                    (f"{part}/system/controlDict", r"(?m)^endTime .*",
-                                    f"endTime {turns * turn:.10g};")):
+                                    f"endTime {turns * turn:.10g};"),
+                                   (f"{part}/system/controlDict", r"(?m)^writeInterval .*",  # so that it writes its end
+                                    f"writeInterval {math.gcd(90, round(360 * turns))};")):
             path = case / file
             path.write_text(re.sub(pattern, put, path.read_text()))
         if part == "les":
@@ -250,6 +253,7 @@ def eddies(bench, run, flow, share):
     put.mkdir(parents=True)
     for field in ("U", "p", "yPlus"):
         shutil.copy(end / field, put / field)
+    shutil.copy(run / "solve/record.json", flow / "solve/record.json")  # without it the report shows no flow
     done.touch()
 
 
