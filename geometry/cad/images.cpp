@@ -39,11 +39,9 @@ std::string fails(const char *what, const gp_Pnt &at, double off, double unit) {
   return text;
 }
 
-// Of items without an image, the sides of faces that are poles, none.
 std::set<int> images_of(const std::set<int> &items, const std::vector<int> &next) {
   std::set<int> found;
-  for (const int item : items)
-    if (next[item] >= 0) found.insert(next[item]);
+  for (const int item : items) found.insert(next[item]);
   return found;
 }
 
@@ -107,7 +105,13 @@ std::string CwImagesOfSolid::find(const TopoDS_Shape &solid, int passages, doubl
   }
   std::vector<std::set<int>> ends, outline;
   for (int e = 0; e < edges.Extent(); e++) ends.push_back(cw_cad_numbers(edges(e + 1), TopAbs_VERTEX, vertices));
-  for (int f = 0; f < faces.Extent(); f++) outline.push_back(cw_cad_numbers(faces(f + 1), TopAbs_EDGE, edges));
+  std::vector<int> pole(faces.Extent(), -1); // of each face: the side that is a point, which its outline leaves out
+  for (int f = 0; f < faces.Extent(); f++) {
+    outline.push_back(cw_cad_numbers(faces(f + 1), TopAbs_EDGE, edges));
+    for (const int e : outline[f])
+      if (BRep_Tool::Degenerated(TopoDS::Edge(edges(e + 1)))) pole[f] = e;
+    outline[f].erase(pole[f]);
+  }
   for (int e = 0; e < edges.Extent(); e++) {
     const TopoDS_Edge &from = TopoDS::Edge(edges(e + 1));
     if (BRep_Tool::Degenerated(from)) continue;
@@ -125,25 +129,20 @@ std::string CwImagesOfSolid::find(const TopoDS_Shape &solid, int passages, doubl
     if (nearest > tolerance) return fails("an edge", points[EDGE_STEPS / 2], nearest, unit);
   }
   CwFaceDistance to_face(solid);
-  std::vector<int> itself(edges.Extent()); // -1: a pole
-  for (int e = 0; e < edges.Extent(); e++)
-    itself[e] = BRep_Tool::Degenerated(TopoDS::Edge(edges(e + 1))) ? -1 : e;
   for (int f = 0; f < faces.Extent(); f++) {
     const TopoDS_Face &from = TopoDS::Face(faces(f + 1));
     const std::set<int> wanted = images_of(outline[f], edge.next);
     const std::vector<gp_Pnt> points = cw_cad_inner_points(from, FACE_LATTICE, FACE_SAMPLES);
     double nearest = INFINITY;
     for (int g = 0; g < faces.Extent(); g++) {
-      if (images_of(outline[g], itself) != wanted) continue;
+      if (outline[g] != wanted) continue;
       double far = 0;
       for (const gp_Pnt &point : points) far = std::max(far, to_face.at(g, point.Transformed(once), INFINITY));
       if (far < nearest) nearest = far, face.next[f] = g;
     }
-    for (const int e : outline[f]) // a face has one pole at the most
-      for (const int g : face.next[f] >= 0 ? outline[face.next[f]] : std::set<int>())
-        if (itself[e] < 0 && itself[g] < 0) edge.next[e] = g;
     off = std::max(off, nearest);
     if (nearest > tolerance) return fails("a face", points.empty() ? gp_Pnt() : points[0], nearest, unit);
+    if (pole[f] >= 0) edge.next[pole[f]] = pole[face.next[f]];
   }
   for (const int next : edge.next)
     if (next < 0) return "it has a pole that no face's is the image of";

@@ -284,8 +284,10 @@ static void pass_canvas(const CwRanks *ranks, CwCanvas *canvas, int from, int to
   cw_ranks_pass(ranks, canvas->group + first, samples, sizeof *canvas->group, from, to);
   cw_ranks_pass(ranks, canvas->colour + first, samples, sizeof *canvas->colour, from, to);
   if (canvas->depth) cw_ranks_pass(ranks, canvas->depth + first, samples, sizeof *canvas->depth, from, to);
-  if (canvas->velocity)
-    cw_ranks_pass(ranks, canvas->velocity, (int64_t)canvas->width * canvas->height, sizeof *canvas->velocity, from, to);
+  if (!canvas->velocity) return;
+  const int up = rows[0] / CW_RENDER_SAMPLES, down = (rows[1] + CW_RENDER_SAMPLES - 1) / CW_RENDER_SAMPLES;
+  cw_ranks_pass(ranks, canvas->velocity + (size_t)up * (size_t)canvas->width, (int64_t)(down - up) * canvas->width,
+                sizeof *canvas->velocity, from, to);
 }
 
 // What all ranks have drawn of a picture, on the canvas of the one that finishes it: in the order of the regions, from

@@ -65,8 +65,9 @@ static void touch(CwCanvas *canvas, int up, int down) {
 
 // The velocity of the pixel of a sample: of the first of its samples; NULL of others.
 static float *velocity_at(const CwCanvas *canvas, size_t place) {
+  if (!canvas->velocity) return NULL;
   const size_t columns = (size_t)canvas->columns, i = place % columns, j = place / columns;
-  if (!canvas->velocity || i % CW_RENDER_SAMPLES || j % CW_RENDER_SAMPLES) return NULL;
+  if (i % CW_RENDER_SAMPLES || j % CW_RENDER_SAMPLES) return NULL;
   return canvas->velocity[j / CW_RENDER_SAMPLES * (size_t)canvas->width + i / CW_RENDER_SAMPLES];
 }
 

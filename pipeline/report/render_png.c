@@ -129,14 +129,13 @@ static void arrow_head(cairo_t *cr, const double from[2], const double to[2]) {
 static CwStatus streamlines(cairo_t *cr, const CwCanvas *canvas, double apart) {
   CwStatus status = CW_OK;
   CwStreamlines lines = {0};
-  CwPixelFlow flow = {canvas->width, canvas->height, (const float(*)[2])canvas->velocity, NULL};
   uint16_t *group = NULL;
   CW_NEW(group, (size_t)canvas->width * (size_t)canvas->height);
   for (int j = 0; j < canvas->height; j++)
     for (int i = 0; i < canvas->width; i++)
       group[j * canvas->width + i] = canvas->group[(size_t)j * CW_RENDER_SAMPLES * (size_t)canvas->columns +
                                                    (size_t)i * CW_RENDER_SAMPLES];
-  flow.group = group;
+  const CwPixelFlow flow = {canvas->width, canvas->height, (const float(*)[2])canvas->velocity, group};
   CW_TRY(cw_streamlines_make(&flow, apart, &lines));
   cairo_set_source_rgba(cr, 1, 1, 1, 0.7);
   cairo_set_line_width(cr, 0.9);

@@ -66,14 +66,10 @@ class Bench:
         execute(*([] if stage == "geometry" else [*MPIRUN, 2]), self.bin / f"cutwater-{stage}", "--case",
                 run / "case.yaml", "--run", run, *(["--cells", cells] if cells else []))
 
-    def meshed(self, run, cells):
-        for stage in ("geometry", "mesh", "export"):
-            self.stage(stage, run, cells)
-        return run
-
     def solved(self, run, cells, *more):
         """Meshes the run and solves its steady flow; what the flow came to."""
-        self.meshed(run, cells)
+        for stage in ("geometry", "mesh", "export"):
+            self.stage(stage, run, cells)
         self.say(run, "solve")
         execute(sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", run / "case.yaml", "--run", run, "--bin",
                 self.bin, "--most", self.sizes.iterations, *more)
@@ -104,12 +100,12 @@ def table(names, rows):
 
 
 def case_text(name, **changes):
-    """The text of cases/NAME with other values of some keys; one that is not there begins operating_point."""
+    """The text of cases/NAME with other values of some keys; one that is not there goes into operating_point."""
     text = (SOURCE / "cases" / name / "case.yaml").read_text()
     for key, value in changes.items():
         text, found = re.subn(rf"(?m)^  {key}: .*\n", f"  {key}: {value}\n", text)
         if not found:
-            text = text.replace("operating_point:", f"operating_point:\n  {key}: {value}\n#", 1)
+            text = re.sub(r"(?m)^operating_point:.*\n", lambda line, put=f"  {key}: {value}\n": line[0] + put, text)
     return text
 
 
@@ -189,11 +185,10 @@ def walls(bench):
     case = run / "solve/steady"
     areas, y_plus = foam_read.patch_areas(case), foam_read.patch_values(foam_read.latest(case) / "yPlus")
     rows = []
-    for patches in (("hub",), ("shroud",), ("blade_pressure",), ("blade_suction",), ("blade_leading_edge",),
-                    ("blade_trailing_edge",)):
-        pairs = [pair for patch in patches for pair in zip(y_plus[patch], areas[patch])]
+    for patch in ("hub", "shroud", "blade_pressure", "blade_suction", "blade_leading_edge", "blade_trailing_edge"):
+        pairs = list(zip(y_plus[patch], areas[patch]))
         whole = sum(area for _, area in pairs)
-        rows.append((patches[0], f"{sum(y * area for y, area in pairs) / whole:.2f}",
+        rows.append((patch, f"{sum(y * area for y, area in pairs) / whole:.2f}",
                      *(f"{100 * sum(area for y, area in pairs if y <= limit) / whole:.1f} %" for limit in LIMITS)))
     return "\n".join([f"The case `paper-l` with {result['cells']:,} cells; {settled_word(result)} after "
                       f"{result['iterations']} iterations.", "",

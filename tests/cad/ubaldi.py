@@ -45,7 +45,9 @@ def outline(sides, z):
     at, curves, ends = {}, [], []
 
     def point(place):
-        return at.setdefault(place, draw.OCC.addPoint(*draw.polar(place[0], -math.radians(place[1]), z)))
+        if place not in at:
+            at[place] = draw.OCC.addPoint(*draw.polar(place[0], -math.radians(place[1]), z))
+        return at[place]
 
     def join(places):
         if len(set(places)) > 1:
@@ -86,9 +88,10 @@ def pump():
     draw.cut(ring, draw.copies(body(VANE, 0, WIDTH), 12))
 
 
-SPEED, DENSITY, TIP_SPEED = 2000, 1.2, 2000 * math.pi / 30 * 0.21  # rpm, kg/m3, m/s
-FLOW = 0.0475 * TIP_SPEED * math.pi * 0.42**2 / 4 * 3600            # m3/h, of the flow coefficient 4 Q / (pi D2^2 U2)
-HEAD = 0.65 * TIP_SPEED**2 / (2 * 9.80665)                          # m, of the rise of total pressure over rho U2^2 / 2
+SPEED, DENSITY = 2000, 1.2  # rpm, kg/m3
+TIP_SPEED = SPEED * math.pi / 30 * 0.21  # m/s
+FLOW = 0.0475 * TIP_SPEED * math.pi * 0.42**2 / 4 * 3600  # m3/h, of the flow coefficient 4 Q / (pi D2^2 U2)
+HEAD = 0.65 * TIP_SPEED**2 / (2 * 9.80665)  # m, of the rise of total pressure over rho U2^2 / 2
 FLUID = f"""
 fluid:                           # air at 25 degrees Celsius
   density_kg_per_m3: {DENSITY}
