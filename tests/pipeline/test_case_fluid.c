@@ -7,13 +7,14 @@
 
 #include "pipeline/case_read.h"
 #include "pipeline/water.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static CwStatus read_with(const char *fluid, CwCase *table) {
-  char path[] = "case-fluid-XXXXXX";
-  const int file = mkstemp(path);
-  assert_true(file >= 0);
-  FILE *stream = fdopen(file, "w");
+  char path[sizeof test_folder + 16];
+  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
+  FILE *stream = fopen(path, "w");
+  assert_non_null(stream);
   fprintf(stream, "name: f\noperating_point:\n  flow_rate_m3_per_h: 25\n  head_m: 10\n  speed_rpm: 1450\nfluid:\n%s",
           fluid);
   fclose(stream);
@@ -59,5 +60,5 @@ int main(void) {
       cmocka_unit_test(given_values_stay),
       cmocka_unit_test(contradictions_are_told),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

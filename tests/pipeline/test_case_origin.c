@@ -10,18 +10,18 @@
 #include "pipeline/case_schema.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
-#include "tests/remove_folder.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char run[] = "/tmp/cutwater-origin-XXXXXX", path[sizeof run + 40];
+static char path[sizeof test_folder + 40];
 static CwCase paper;
 
 static int make_run(void **state) {
   CwRecord *record;
-  char folder[sizeof run + 20];
-  assert_non_null(mkdtemp(run));
+  char folder[sizeof test_folder + 20];
+  assert_int_equal(make_test_folder(state), 0);
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &paper), CW_OK);
-  snprintf(folder, sizeof folder, "%s/geometry", run);
+  snprintf(folder, sizeof folder, "%s/geometry", test_folder);
   snprintf(path, sizeof path, "%s/record.json", folder);
   assert_int_equal(cw_make_directory(folder), CW_OK);
   assert_int_equal(cw_record_start("geometry", NULL, &record), CW_OK);
@@ -31,12 +31,8 @@ static int make_run(void **state) {
   return 0;
 }
 
-static int remove_run(void **state) {
-  return remove_folder(run);
-}
-
 static void the_same_case_is_taken(void **state) {
-  assert_int_equal(cw_case_origin_check(&paper, run, "geometry"), CW_OK);
+  assert_int_equal(cw_case_origin_check(&paper, test_folder, "geometry"), CW_OK);
 }
 
 // Of each number of the case: another value is refused just where the pump follows from the key.
@@ -54,7 +50,7 @@ static void every_key_of_the_pump_counts_and_no_other(void **state) {
     else
       value = key->type == CW_KEY_CHOICE && value > 0 ? 0 : value + 1;
     cw_case_key_set(key, value, &other);
-    CwStatus status = cw_case_origin_check(&other, run, "geometry");
+    CwStatus status = cw_case_origin_check(&other, test_folder, "geometry");
     if (status != (cw_case_key_shapes_pump(key) ? CW_ERR_INPUT : CW_OK)) fail_msg("%s: status %d", name, status);
     if (status != CW_OK && !strstr(cw_fail_message(), name)) fail_msg("%s: %s", name, cw_fail_message());
     shape += status != CW_OK;
@@ -66,20 +62,20 @@ static void the_line_says_what_differs(void **state) {
   char wanted[300];
   CwCase other = paper;
   other.impeller.outlet_diameter = 0.22;
-  assert_int_equal(cw_case_origin_check(&other, run, "geometry"), CW_ERR_INPUT);
+  assert_int_equal(cw_case_origin_check(&other, test_folder, "geometry"), CW_ERR_INPUT);
   snprintf(
       wanted, sizeof wanted,
       "%s/geometry: made with impeller.outlet_diameter_mm: 200, the case file has 220; allowed: the same pump, run "
       "cutwater-geometry on this case file first",
-      run);
+      test_folder);
   assert_string_equal(cw_fail_message(), wanted);
   other.impeller.outlet_diameter = NAN;
-  assert_int_equal(cw_case_origin_check(&other, run, "geometry"), CW_ERR_INPUT);
+  assert_int_equal(cw_case_origin_check(&other, test_folder, "geometry"), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "outlet_diameter_mm: 200, the case file has (left out); "));
   other = paper;
   strcpy(other.name, "other");
   other.impeller.outlet_diameter = 0.22;
-  assert_int_equal(cw_case_origin_check(&other, run, "geometry"), CW_ERR_INPUT);
+  assert_int_equal(cw_case_origin_check(&other, test_folder, "geometry"), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "geometry: made with name: paper, the case file has other; "));
 }
 
@@ -87,16 +83,16 @@ static void the_line_says_what_differs(void **state) {
 static void another_unit_is_the_same_pump(void **state) {
   CwCase other = paper;
   other.impeller.outlet_diameter = nextafter(paper.impeller.outlet_diameter, 1);
-  assert_int_equal(cw_case_origin_check(&other, run, "geometry"), CW_OK);
+  assert_int_equal(cw_case_origin_check(&other, test_folder, "geometry"), CW_OK);
 }
 
 static void a_record_that_is_missing_or_broken_is_told(void **state) {
-  assert_int_equal(cw_case_origin_check(&paper, run, "mesh"), CW_ERR_IO);
+  assert_int_equal(cw_case_origin_check(&paper, test_folder, "mesh"), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "mesh/record.json: it is missing; cutwater-mesh writes it"));
   json_t *none = json_pack("{s:{}}", "results");
   assert_int_equal(cw_sealed_json_write(none, path), CW_OK);
   json_decref(none);
-  assert_int_equal(cw_case_origin_check(&paper, run, "geometry"), CW_ERR_INPUT);
+  assert_int_equal(cw_case_origin_check(&paper, test_folder, "geometry"), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "geometry/record.json: does not say of which case; run cutwater-geometry"));
 }
 
@@ -108,5 +104,5 @@ int main(void) {
       cmocka_unit_test(another_unit_is_the_same_pump),
       cmocka_unit_test(a_record_that_is_missing_or_broken_is_told),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "mesher/boundary/surface_mesh.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 enum { VERTICES = 4, TRIANGLES = 4, REGIONS = 2 };
@@ -91,12 +92,10 @@ static void freed_ones_are_empty(void **state) {
 }
 
 static void vtk_has_all_triangles(void **state) {
-  char path[] = "cutwater-test-XXXXXX.vtk", text[4000] = {0};
+  char path[sizeof test_folder + 16], text[4000] = {0};
   Tetrahedron of;
   make(&of);
-  int file = mkstemps(path, 4);
-  assert_true(file >= 0);
-  close(file);
+  snprintf(path, sizeof path, "%s/it.vtk", test_folder);
   assert_int_equal(cw_surface_mesh_vtk(&of.surface, path), CW_OK);
   FILE *stream = fopen(path, "r");
   assert_non_null(stream);
@@ -116,5 +115,5 @@ int main(void) {
       cmocka_unit_test(freed_ones_are_empty),
       cmocka_unit_test(vtk_has_all_triangles),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -6,6 +6,7 @@
 
 #include "layers_case.h"
 #include "mesher/common/vec.h"
+#include "tests/test_folder.h"
 
 static void flat_square(void **state) {
   Case c = {.target = 0.6 * MM};
@@ -240,12 +241,10 @@ static void spoiled_layers_are_told(void **state) {
 }
 
 static void vtk_has_the_layer_top(void **state) {
-  char path[] = "cutwater-test-XXXXXX.vtk", text[4000] = {0};
+  char path[sizeof test_folder + 16], text[4000] = {0};
   Square of;
   square(&of);
-  int file = mkstemps(path, 4);
-  assert_true(file >= 0);
-  close(file);
+  snprintf(path, sizeof path, "%s/it.vtk", test_folder);
   assert_int_equal(cw_layers_vtk(&of.layers, of.region, path), CW_OK);
   FILE *stream = fopen(path, "r");
   assert_non_null(stream);
@@ -271,5 +270,5 @@ int main(void) {
       cmocka_unit_test(spoiled_layers_are_told),
       cmocka_unit_test(vtk_has_the_layer_top),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
