@@ -93,6 +93,7 @@ class CodeSaturne(unittest.TestCase):
               f"{other['head_m']:.3f} m by OpenFOAM ({other['iterations']}); torque {torque:.3f} and "
               f"{other['torque_n_m']:.3f} N m")
         self.assertAlmostEqual(head / other["head_m"], 1, delta=0.03)
+        self.assertAlmostEqual(torque / other["torque_n_m"], 1, delta=0.05)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@
 #define PUMP_H
 
 #define PUMP_TURBULENCE @turbulence@
-#define PUMP_ITERATIONS 600 // in all; with more of them ./run goes on
+#define PUMP_ITERATIONS 500 // in all; with more of them ./run goes on
+#define PUMP_SECOND_ORDER 0 // share of it in the velocity's convection: with 1 the flow does not come to rest
 #define PUMP_SPEED @speed@ // rad/s about +z
 #define PUMP_FLOW @flow_rate@
 #define PUMP_DENSITY @density@
