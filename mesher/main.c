@@ -62,7 +62,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_profiler_json(&run.context, &account, &sides));
   CW_TRY(cw_record_json(run.record, "together", account));
   CW_TRY(cw_record_json(run.record, "side_by_side", sides));
-  long long mine = cw_peak_memory_bytes(), all = 0;
+  long long mine = cw_host_memory_peak(run.context.team), all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
   if (run.rank == 0 && !run.stopped) { // else there is no mesh to vouch for
     CW_TRY(cw_stage_path(&args, "mesh/record.json", &record_path));

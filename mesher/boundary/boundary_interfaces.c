@@ -21,6 +21,7 @@ static CwStatus start_nodes(const CwBoundaryInput *in, const CwWallCurves *curve
   CW_NEW(free_curves->nodes.x, free_curves->nodes.capacity);
   CW_NEW(free_curves->nodes.on_plane, free_curves->nodes.capacity);
   memcpy(free_curves->nodes.x, layers->top, (size_t)surface->vertex_count * sizeof *free_curves->nodes.x);
+  free_curves->corner_count = network->corner_count;
   CW_NEW(free_curves->corner_node, network->corner_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
@@ -338,7 +339,10 @@ done:
 }
 
 // Nodes and outlines go from one to the other.
-static void take_over(CwFreeCurves *free_curves, CwInterfaces *interfaces) {
+static CwStatus take_over(CwFreeCurves *free_curves, CwInterfaces *interfaces) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_arrays_own(free_curves, cw_free_curves_arrays, &free_curves->memory));
+  free_curves->nodes.capacity = free_curves->nodes.count;
   *interfaces = (CwInterfaces){.nodes = free_curves->nodes,
                                .images = free_curves->images,
                                .outline_count = free_curves->outline_count,
@@ -350,6 +354,8 @@ static void take_over(CwFreeCurves *free_curves, CwInterfaces *interfaces) {
   free_curves->outline = NULL;
   free_curves->outline_images = (CwImages){0};
   cw_free_curves_free(free_curves);
+done:
+  return status;
 }
 
 CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves, void *const *open_patch_bytes,
@@ -358,7 +364,7 @@ CwStatus cw_interfaces_make(const CwBoundaryInput *in, CwFreeCurves *free_curves
   CwPatchBlock block;
   const CwPeriodicImages *images = in->images;
   int32_t faces = cw_cad_face_count(in->cad), open_patches = 0, on_planes = 0;
-  take_over(free_curves, interfaces);
+  CW_TRY(take_over(free_curves, interfaces));
   for (int32_t f = 0; f < faces; f++) {
     if (!open_patch_bytes[f]) continue;
     cw_patch_block(open_patch_bytes[f], &block);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sliding constraints of the columns, the layer envelope, and the layer top.
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,7 +87,8 @@ static void curve_direction(const CwCurve *curve, const double x[3], double dire
 typedef struct {
   const CwBoundaryInput *in;
   const CwSurfaceMesh *surface;
-  double (*uv)[2]; // of each wall vertex that an open patch holds
+  double (*uv)[2];       // of each wall vertex that an open patch holds
+  pthread_mutex_t *lock; // of the CAD, which one thread may ask at a time
 } Snap;
 
 void cw_boundary_hold(const CwBoundaryInput *in, CwConstraint constraint, const double uv[2], double x[3]) {
@@ -108,7 +110,9 @@ void cw_boundary_hold(const CwBoundaryInput *in, CwConstraint constraint, const 
 
 static void snap(const void *context, int32_t vertex, double x[3]) {
   const Snap *snap = context;
+  pthread_mutex_lock(snap->lock);
   cw_boundary_hold(snap->in, snap->surface->constraint[vertex], snap->uv[vertex], x);
+  pthread_mutex_unlock(snap->lock);
 }
 
 // Edges may be flipped inside one CAD face and one region: curves stay. Periodic images are left to follow.
@@ -196,7 +200,8 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
   int32_t *constraint_count = NULL, (*open_patch_triangle)[3] = NULL;
   double(*constraint_normal)[2][3] = NULL;
   uint8_t *constraint_stays = NULL;
-  Snap snapping = {in, surface, NULL};
+  pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  Snap snapping = {in, surface, NULL, &lock};
   CwFlipMesh mesh = {0};
   int64_t *group = NULL;
   *layers = (CwLayers){0};

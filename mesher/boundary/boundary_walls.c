@@ -163,6 +163,7 @@ done:
 static CwStatus list_regions(CwSurfaceMesh *surface, int32_t regions) {
   CwStatus status = CW_OK;
   int32_t *start, *fill = NULL;
+  surface->region_count = regions;
   CW_NEW(surface->region_start, regions + 1);
   CW_NEW(surface->region_triangle, surface->triangle_count);
   CW_NEW(fill, regions);

@@ -70,18 +70,38 @@ done:
   return status;
 }
 
-void cw_free_curves_free(CwFreeCurves *free_curves) {
-  cw_node_images_free(&free_curves->images);
-  cw_images_free(&free_curves->outline_images);
-  cw_curve_nodes_free(free_curves->curve_count, &free_curves->curve);
-  free(free_curves->nodes.x);
-  free(free_curves->nodes.on_plane);
-  free(free_curves->corner_node);
-  free(free_curves->tight);
-  for (int32_t i = 0; i < free_curves->outline_count; i++) {
-    free(free_curves->outline[i].loop_start);
-    free(free_curves->outline[i].corner);
+void cw_node_table_arrays(CwNodeTable *nodes, CwArrayVisit visit, void *given) {
+  CW_SHOW(visit, given, nodes->x, nodes->count);
+  CW_SHOW(visit, given, nodes->on_plane, nodes->count);
+}
+
+void cw_outlines_arrays(int32_t count, CwInterfaceOutline **outline, CwImages *images, CwArrayVisit visit,
+                        void *given) {
+  CW_SHOW(visit, given, images->next, count);
+  CW_SHOW(visit, given, images->first, count);
+  CW_SHOW(visit, given, images->turns, count);
+  CW_SHOW_POINTERS(visit, given, *outline, count);
+  for (int32_t i = 0; *outline && i < count; i++) {
+    CW_SHOW(visit, given, (*outline)[i].loop_start, (*outline)[i].loop_count + 1);
+    CW_SHOW(visit, given, (*outline)[i].corner, (*outline)[i].corner_count);
   }
-  free(free_curves->outline);
+}
+
+void cw_free_curves_arrays(void *product, CwArrayVisit visit, void *given) {
+  CwFreeCurves *free_curves = product;
+  cw_node_table_arrays(&free_curves->nodes, visit, given);
+  cw_node_images_arrays(&free_curves->images, visit, given);
+  CW_SHOW(visit, given, free_curves->corner_node, free_curves->corner_count);
+  CW_SHOW_POINTERS(visit, given, free_curves->curve, free_curves->curve_count);
+  for (int32_t i = 0; free_curves->curve && i < free_curves->curve_count; i++) {
+    CW_SHOW(visit, given, free_curves->curve[i].node, free_curves->curve[i].count);
+    CW_SHOW(visit, given, free_curves->curve[i].parameter, free_curves->curve[i].count);
+  }
+  CW_SHOW(visit, given, free_curves->tight, free_curves->tight_count);
+  cw_outlines_arrays(free_curves->outline_count, &free_curves->outline, &free_curves->outline_images, visit, given);
+}
+
+void cw_free_curves_free(CwFreeCurves *free_curves) {
+  cw_arrays_free(free_curves, cw_free_curves_arrays, &free_curves->memory);
   memset(free_curves, 0, sizeof *free_curves);
 }

@@ -39,7 +39,8 @@ typedef struct {
 typedef struct {
   CwNodeTable nodes;
   CwNodeImages images;  // of the nodes
-  int32_t *corner_node; // of each corner of the network, or -1
+  int32_t corner_count; // of the network
+  int32_t *corner_node; // of each of them, or -1
   int32_t curve_count;
   CwCurveNodes *curve; // along each curve of the network; none along wall curves
   int32_t tight_count; // places where layers leave no room for a free curve, or layer top and free curves cross
@@ -47,6 +48,7 @@ typedef struct {
   int32_t outline_count;
   CwInterfaceOutline *outline; // of all planes, by node
   CwImages outline_images;     // where turns take each outline
+  CwHostMemory *memory;        // where its arrays lie; NULL: they are this rank's
 } CwFreeCurves;
 
 // Checks what free curves hold that are not tight: each begins and ends at the nodes of its corners, with distinct
@@ -57,6 +59,10 @@ CwStatus cw_free_curves_audit(const CwFreeCurves *free_curves, const CwNetwork *
 // Appends a node.
 CwStatus cw_node_table_add(CwNodeTable *nodes, const double x[3], int on_plane, int32_t *node);
 
+// Shows the arrays (CwArrays): of all; of a table of nodes; of outlines with their images.
+void cw_free_curves_arrays(void *free_curves, CwArrayVisit visit, void *given);
+void cw_node_table_arrays(CwNodeTable *nodes, CwArrayVisit visit, void *given);
+void cw_outlines_arrays(int32_t count, CwInterfaceOutline **outline, CwImages *images, CwArrayVisit visit, void *given);
 void cw_free_curves_free(CwFreeCurves *free_curves);
 
 #ifdef __cplusplus

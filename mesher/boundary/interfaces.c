@@ -137,22 +137,23 @@ done:
   return status;
 }
 
-void cw_interfaces_free(CwInterfaces *interfaces) {
-  cw_node_images_free(&interfaces->images);
-  cw_images_free(&interfaces->outline_images);
-  free(interfaces->nodes.x);
-  free(interfaces->nodes.on_plane);
-  free(interfaces->open_patch.triangle);
-  free(interfaces->open_patch.face);
-  free(interfaces->open_patch.region);
-  for (int32_t i = 0; i < interfaces->outline_count; i++) {
-    free(interfaces->outline[i].loop_start);
-    free(interfaces->outline[i].corner);
+void cw_interfaces_arrays(void *product, CwArrayVisit visit, void *given) {
+  CwInterfaces *interfaces = product;
+  CwOpenPatches *open_patch = &interfaces->open_patch;
+  cw_node_table_arrays(&interfaces->nodes, visit, given);
+  cw_node_images_arrays(&interfaces->images, visit, given);
+  cw_outlines_arrays(interfaces->outline_count, &interfaces->outline, &interfaces->outline_images, visit, given);
+  CW_SHOW(visit, given, open_patch->triangle, open_patch->count);
+  CW_SHOW(visit, given, open_patch->face, open_patch->count);
+  CW_SHOW(visit, given, open_patch->region, open_patch->count);
+  for (int planned = 0; planned < 2; planned++) {
+    CwInterfaceTriangles *triangles = planned ? &interfaces->planned : &interfaces->refined;
+    CW_SHOW(visit, given, triangles->triangle, triangles->count);
+    CW_SHOW(visit, given, triangles->region, triangles->count);
   }
-  free(interfaces->outline);
-  free(interfaces->refined.triangle);
-  free(interfaces->refined.region);
-  free(interfaces->planned.triangle);
-  free(interfaces->planned.region);
+}
+
+void cw_interfaces_free(CwInterfaces *interfaces) {
+  cw_arrays_free(interfaces, cw_interfaces_arrays, &interfaces->memory);
   memset(interfaces, 0, sizeof *interfaces);
 }

@@ -34,6 +34,7 @@ typedef struct {
   CwOpenPatches open_patch;
   CwInterfaceTriangles refined; // that the regions have
   CwInterfaceTriangles planned; // before the rule of region numbers (interface_rule.h); NULL without it
+  CwHostMemory *memory;         // where its arrays lie; NULL: they are this rank's
 } CwInterfaces;
 
 // Checks what finished interfaces hold: corners within the nodes and distinct, the two regions of a triangle distinct,
@@ -45,6 +46,8 @@ CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions);
 // a look.
 CwStatus cw_interfaces_vtk(const CwInterfaces *interfaces, const char *path);
 
+// Shows its arrays (CwArrays).
+void cw_interfaces_arrays(void *interfaces, CwArrayVisit visit, void *given);
 void cw_interfaces_free(CwInterfaces *interfaces);
 
 #ifdef __cplusplus

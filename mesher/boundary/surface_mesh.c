@@ -107,15 +107,21 @@ CwStatus cw_surface_mesh_vtk(const CwSurfaceMesh *surface, const char *path) {
   return cw_vtk_write(path, &triangles);
 }
 
+void cw_surface_mesh_arrays(void *product, CwArrayVisit visit, void *given) {
+  CwSurfaceMesh *surface = product;
+  const int64_t vertices = surface->vertex_count, triangles = surface->triangle_count;
+  CW_SHOW(visit, given, surface->x, vertices);
+  CW_SHOW(visit, given, surface->constraint, vertices);
+  cw_node_images_arrays(&surface->images, visit, given);
+  CW_SHOW(visit, given, surface->triangle, triangles);
+  CW_SHOW(visit, given, surface->face, triangles);
+  CW_SHOW(visit, given, surface->region, triangles);
+  CW_SHOW(visit, given, surface->region_start, surface->region_count + 1);
+  CW_SHOW(visit, given, surface->region_triangle, triangles);
+  CW_SHOW(visit, given, surface->source, triangles);
+}
+
 void cw_surface_mesh_free(CwSurfaceMesh *surface) {
-  free(surface->x);
-  free(surface->constraint);
-  cw_node_images_free(&surface->images);
-  free(surface->triangle);
-  free(surface->face);
-  free(surface->region);
-  free(surface->region_start);
-  free(surface->region_triangle);
-  free(surface->source);
+  cw_arrays_free(surface, cw_surface_mesh_arrays, &surface->memory);
   memset(surface, 0, sizeof *surface);
 }

@@ -9,6 +9,7 @@
 
 #include "mesher/boundary/wall_curves.h"
 #include "mesher/network/periodic_images.h"
+#include "mesher/parallel/host_memory.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -22,8 +23,10 @@ typedef struct {
   CwNodeImages images;                     // of the vertices
   int32_t triangle_count;                  //
   int32_t (*triangle)[3], *face, *region;  // normal out of the domain; the CAD face and the region of each
+  int32_t region_count;                    //
   int32_t *region_start, *region_triangle; // triangles of each region, ascending
   int32_t *source;                         // the triangle that this one is a copy of, turned; or itself
+  CwHostMemory *memory;                    // where its arrays lie; NULL: they are this rank's
 } CwSurfaceMesh;
 
 // Checks what every surface mesh holds: corners within the vertices and distinct, each vertex in a triangle, each edge
@@ -34,6 +37,8 @@ CwStatus cw_surface_mesh_audit(const CwSurfaceMesh *surface, int32_t regions);
 // Writes the triangles as VTK PolyData (cell data face, region), for a look.
 CwStatus cw_surface_mesh_vtk(const CwSurfaceMesh *surface, const char *path);
 
+// Shows its arrays (CwArrays).
+void cw_surface_mesh_arrays(void *surface, CwArrayVisit visit, void *given);
 void cw_surface_mesh_free(CwSurfaceMesh *surface);
 
 #ifdef __cplusplus

@@ -81,7 +81,7 @@ static CwStatus smoothing_make(CwLayerWork *work) {
   smoothing = work->smoothing;
   smoothing->work = work;
   CW_NEW(smoothing->reach, work->n);
-  CW_NEW(smoothing->local, work->n);
+  CW_TRY(cw_scratch_make((int64_t)work->n * (int64_t)sizeof(int32_t), &smoothing->local));
   CW_NEW(smoothing->member, work->n);
   CW_NEW(smoothing->place, work->n);
   CW_NEW(smoothing->lean_t, work->n);
@@ -108,7 +108,7 @@ void cw_smoothing_free(CwSmoothing **smoothing) {
   leans_free((*smoothing)->block_count, (*smoothing)->lean);
   free((*smoothing)->source);
   free((*smoothing)->reach);
-  free((*smoothing)->local);
+  cw_scratch_free(&(*smoothing)->local);
   free((*smoothing)->member);
   free((*smoothing)->place);
   free((*smoothing)->lean_t);

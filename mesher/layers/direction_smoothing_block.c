@@ -447,7 +447,9 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
   Part part = {0};
   CwLean *lean_of = NULL;
   int32_t count = cw_smoothing_block_size(smoothing, block);
-  CW_TRY(part_make(smoothing, block, smoothing->local, &part));
+  void *local = NULL;
+  CW_TRY(cw_scratch_take(smoothing->local, &local));
+  CW_TRY(part_make(smoothing, block, local, &part));
   for (int32_t i = 0; i < part.all; i++) start(smoothing, &part, i);
   for (int32_t i = 0; i < part.count; i++) set_share(&part, i);
   for (int round = 0; round <= WIDENINGS; round++) {
@@ -473,5 +475,6 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
 done:
   free(lean_of);
   part_free(&part);
+  cw_scratch_give(smoothing->local, local);
   return status;
 }

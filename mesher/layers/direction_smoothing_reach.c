@@ -22,17 +22,24 @@ static const double ROUNDING = 1e-9;       // of a length summed along edges
 
 typedef struct {
   const CwSmoothing *smoothing;
-  CwSmoothingReach *reach; // scratch of a block: of every vertex of the domain; out of reach in between
-  int32_t *visited;        // those that are not
-  int32_t block;           // vertices of each but the last
+  CwScratch *reached; // of a block: every vertex of the domain; no waves when given back
+  CwScratch *visited; // of a block: those that a wave has come to
+  int32_t block;      // vertices of each but the last
 } Blocks;
+
+// The wave that a vertex belongs to: that of source number wave - 1; 0: none so far.
+typedef struct {
+  double distance;
+  int32_t wave;
+} Reached;
 
 // The layer top of the distances in a block.
 typedef struct {
-  Blocks *blocks;
+  const CwSmoothing *smoothing;
+  Reached *reached; // every vertex of the domain
+  int32_t visited_count, *visited;
   CwBox box;   // of the block
   double most; // longest way of a wave that can come to it
-  int32_t visited_count;
   CwHeap heap;
 } Spread;
 
@@ -47,18 +54,19 @@ static double distance_to(const CwBox *box, const double x[3]) {
 // v has its distance: offers its neighbours a way through it.
 static CwStatus settle(Spread *spread, int32_t v) {
   CwStatus status = CW_OK;
-  const CwSmoothing *smoothing = spread->blocks->smoothing;
+  const CwSmoothing *smoothing = spread->smoothing;
   const CwLayerWork *work = smoothing->work;
-  CwSmoothingReach *reach = spread->blocks->reach, at = reach[v];
-  double most = cw_policy.smoothing_reach * smoothing->source[at.source].thickness;
+  Reached *reached = spread->reached, at = reached[v];
+  double most = cw_policy.smoothing_reach * smoothing->source[at.wave - 1].thickness;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
-    if (reach[w].distance <= at.distance) continue;
+    double before = reached[w].wave ? reached[w].distance : INFINITY;
+    if (before <= at.distance) continue;
     double distance = at.distance + cw_distance(work->in->x[v], work->in->x[w]);
-    if (distance >= reach[w].distance || distance > most) continue;
+    if (distance >= before || distance > most) continue;
     if (distance + distance_to(&spread->box, work->in->x[w]) > spread->most) continue;
-    if (reach[w].source < 0) spread->blocks->visited[spread->visited_count++] = w;
-    reach[w] = (CwSmoothingReach){distance, at.source};
+    if (!reached[w].wave) spread->visited[spread->visited_count++] = w;
+    reached[w] = (Reached){distance, at.wave};
     CW_TRY(cw_heap_push(&spread->heap, distance, w));
   }
 done:
@@ -67,7 +75,7 @@ done:
 
 // Sets the box of a block's vertices and the longest way of a wave that can come to it: 0 where none can.
 static void measure(Spread *spread, int32_t first, int32_t last) {
-  const CwSmoothing *smoothing = spread->blocks->smoothing;
+  const CwSmoothing *smoothing = spread->smoothing;
   const CwLayerWork *work = smoothing->work;
   CwBox *box = &spread->box;
   *box = cw_box_empty();
@@ -80,34 +88,43 @@ static void measure(Spread *spread, int32_t first, int32_t last) {
 
 static CwStatus find_block(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  Blocks *blocks = context;
+  const Blocks *blocks = context;
   const CwSmoothing *smoothing = blocks->smoothing;
   const CwLayerWork *work = smoothing->work;
   int32_t first = block * blocks->block, left = work->n - first;
   int32_t last = left < blocks->block ? work->n : first + blocks->block;
-  Spread spread = {.blocks = blocks};
+  Spread spread = {.smoothing = smoothing};
+  void *reached = NULL, *visited = NULL;
   CwSmoothingReach *made = NULL;
   CW_NEW(made, last - first);
+  CW_TRY(cw_scratch_take(blocks->reached, &reached));
+  CW_TRY(cw_scratch_take(blocks->visited, &visited));
+  spread.reached = reached;
+  spread.visited = visited;
   measure(&spread, first, last);
   for (int32_t i = 0; spread.most > 0 && i < smoothing->source_count; i++) {
     int32_t v = smoothing->source[i].vertex;
     if (distance_to(&spread.box, work->in->x[v]) > spread.most) continue;
-    blocks->reach[v] = (CwSmoothingReach){0, i};
-    blocks->visited[spread.visited_count++] = v;
+    spread.reached[v] = (Reached){0, i + 1};
+    spread.visited[spread.visited_count++] = v;
   }
   int32_t sources = spread.visited_count;
-  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, blocks->visited[i])); // nothing is nearer
+  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, spread.visited[i])); // nothing is nearer
   while (spread.heap.count) {
     CwHeapItem least = cw_heap_pop(&spread.heap);
-    if (least.key == blocks->reach[least.v].distance) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
+    if (least.key == spread.reached[least.v].distance) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
   }
-  for (int32_t i = first; i < last; i++) made[i - first] = blocks->reach[work->curve[i]];
+  for (int32_t i = first; i < last; i++) {
+    const Reached *at = &spread.reached[work->curve[i]];
+    made[i - first] = at->wave ? (CwSmoothingReach){at->distance, at->wave - 1} : (CwSmoothingReach){INFINITY, -1};
+  }
   *size = (int64_t)(last - first) * (int64_t)sizeof *made;
   *bytes = made;
   made = NULL;
 done:
-  for (int32_t i = 0; i < spread.visited_count; i++)
-    blocks->reach[blocks->visited[i]] = (CwSmoothingReach){INFINITY, -1};
+  for (int32_t i = 0; i < spread.visited_count; i++) spread.reached[spread.visited[i]] = (Reached){0};
+  cw_scratch_give(blocks->reached, reached);
+  cw_scratch_give(blocks->visited, visited);
   cw_heap_free(&spread.heap);
   free(made);
   return status;
@@ -120,11 +137,10 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   Blocks blocks = {.smoothing = smoothing, .block = block};
   int64_t *size = NULL;
   void **bytes = NULL;
-  CW_NEW(blocks.reach, n);
-  CW_NEW(blocks.visited, n);
+  CW_TRY(cw_scratch_make((int64_t)n * (int64_t)sizeof(Reached), &blocks.reached));
+  CW_TRY(cw_scratch_make((int64_t)n * (int64_t)sizeof(int32_t), &blocks.visited));
   CW_NEW(bytes, count);
   CW_NEW(size, count);
-  for (int32_t v = 0; v < n; v++) blocks.reach[v] = (CwSmoothingReach){INFINITY, -1};
   CwSchedule schedule = {
       .step = "layers: reach of smoothing", .count = count, .run = find_block, .context = &blocks, .gather = 1};
   CW_TRY(cw_schedule_run(smoothing->work->in->context, &schedule, bytes, size, NULL));
@@ -137,7 +153,7 @@ done:
   for (int32_t b = 0; bytes && b < count; b++) free(bytes[b]);
   free(bytes);
   free(size);
-  free(blocks.reach);
-  free(blocks.visited);
+  cw_scratch_free(&blocks.reached);
+  cw_scratch_free(&blocks.visited);
   return status;
 }

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_LAYERS_DIRECTION_SMOOTHING_WORK_H
 
 #include "mesher/layers/layer_columns.h"
+#include "mesher/parallel/scratch.h"
 
 enum { CW_SMOOTHING_BLOCK = 4096 }; // vertices
 
@@ -37,7 +38,7 @@ typedef struct CwSmoothing {
   int32_t source_count;
   CwSmoothingSource *source; // in order of their vertices
   CwSmoothingReach *reach;
-  int32_t *local;          // scratch of a block: local number + 1 of every vertex of the domain, else 0
+  CwScratch *local;        // of a block: local number + 1 of every vertex of the domain, else 0, also when given back
   int32_t count;           // vertices in reach that may lean
   int32_t *member, *place; // these, block by block; the place of each vertex among them, -1: none of them
   int32_t block_count;

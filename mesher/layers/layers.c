@@ -125,10 +125,16 @@ done:
   return status;
 }
 
+void cw_layers_arrays(void *product, CwArrayVisit visit, void *given) {
+  CwLayers *layers = product;
+  CW_SHOW(visit, given, layers->triangle, layers->triangle_count);
+  CW_SHOW(visit, given, layers->top, layers->column_count);
+  CW_SHOW(visit, given, layers->thickness, layers->column_count);
+  CW_SHOW(visit, given, layers->reason, layers->column_count);
+  CW_SHOW(visit, given, layers->first_height, layers->column_count);
+}
+
 void cw_layers_free(CwLayers *layers) {
-  free(layers->triangle);
-  free(layers->top);
-  free(layers->thickness);
-  free(layers->reason);
+  cw_arrays_free(layers, cw_layers_arrays, &layers->memory);
   memset(layers, 0, sizeof *layers);
 }

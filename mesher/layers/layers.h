@@ -21,6 +21,7 @@
 #include <stdint.h>
 
 #include "mesher/layers/layer_input.h"
+#include "mesher/parallel/host_memory.h"
 #include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
@@ -36,8 +37,10 @@ typedef struct {
   double (*top)[3];       // outer end of each column
   double *thickness;      // normal thickness of each column: the least over the faces around, m
   uint8_t *reason;        // CwLayerReason
+  double *first_height;   // of each column, by which it is divided, m; NULL until that is known (even_columns.h)
   int32_t repair_rounds;
   int32_t thinned_count; // columns below 0.99 of the target
+  CwHostMemory *memory;  // where its arrays lie; NULL: they are this rank's
 } CwLayers;
 
 // Outcome where no valid envelope is found: CW_OUTCOME_FINER with the place where the wall crosses itself, an edge
@@ -47,6 +50,8 @@ typedef struct {
 // points without triangles, thicknesses not above 0). Every column has a thickness > 0. Equal input gives equal bits.
 // Collective.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
+// Shows its arrays (CwArrays).
+void cw_layers_arrays(void *layers, CwArrayVisit visit, void *given);
 void cw_layers_free(CwLayers *layers);
 
 // Checks what finished layers hold: corners of triangles within the columns and distinct, thicknesses above 0, and no

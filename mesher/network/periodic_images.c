@@ -66,6 +66,11 @@ done:
   return status;
 }
 
+void cw_node_images_arrays(CwNodeImages *images, CwArrayVisit visit, void *given) {
+  CW_SHOW(visit, given, images->next, images->capacity);
+  CW_SHOW(visit, given, images->turns, images->capacity);
+}
+
 void cw_node_images_free(CwNodeImages *images) {
   free(images->next);
   free(images->turns);

@@ -7,6 +7,7 @@
 
 #include "mesher/cad/symmetry.h"
 #include "mesher/network/network.h"
+#include "mesher/parallel/host_memory.h"
 
 typedef struct {
   const CwSymmetry *symmetry; // NULL: none, every item stands for itself
@@ -33,6 +34,7 @@ CwStatus cw_image_link_copy(CwNodeImages *images, int32_t node, int32_t count, i
 int32_t cw_image_node(const CwNodeImages *images, int32_t node, int32_t turns);
 int32_t cw_image_node_turns(const CwNodeImages *images, int32_t node);
 CwStatus cw_node_images_copy(const CwNodeImages *images, CwNodeImages *copy);
+void cw_node_images_arrays(CwNodeImages *images, CwArrayVisit visit, void *given);
 void cw_node_images_free(CwNodeImages *images);
 
 // Copies to be made of an item, itself included, and the `turns`-th of them; without symmetry 1 and itself. A copy that

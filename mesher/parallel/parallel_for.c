@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/parallel/team.h"
 
 // Blocks enough for dozens of ranks to end together, none so small that to take it is as much work as to do it.
 enum { BLOCKS = 256, LEAST_BLOCK = 64, MOST_BLOCK = 4096 };
@@ -16,6 +18,7 @@ typedef struct {
   const int32_t *start; // of each item's list; NULL: one each
   size_t width;
   int32_t block; // items of one
+  char *out;     // of all items, where this rank does all; else NULL
 } Share;
 
 static int32_t block_of(int32_t count) {
@@ -34,15 +37,19 @@ static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *s
   int32_t first = block * share->block, left = share->count - first;
   int32_t last = left < share->block ? share->count : first + share->block;
   size_t length = place_of(share, last) - place_of(share, first);
-  char *result = NULL;
-  CW_NEW(result, length);
+  char *own = NULL, *result = share->out ? share->out + place_of(share, first) : NULL;
+  if (result)
+    memset(result, 0, length);
+  else
+    CW_NEW(own, length);
+  if (own) result = own;
   for (int32_t i = first; i < last; i++)
     CW_TRY(share->body(share->given, i, result + place_of(share, i) - place_of(share, first)));
-  *bytes = result;
+  *bytes = own;
   *size = (int64_t)length;
-  result = NULL;
+  own = NULL;
 done:
-  free(result);
+  free(own);
   return status;
 }
 
@@ -54,7 +61,8 @@ CwStatus cw_parallel_for(const CwContext *context, const char *step, int32_t cou
 CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32_t count, const int32_t *start,
                                size_t width, CwParallelBody body, void *given, void *out) {
   CwStatus status = CW_OK;
-  Share share = {body, given, count, start, width, block_of(count)};
+  int alone = cw_team_ranks(cw_team_of(context)) == 1;
+  Share share = {body, given, count, start, width, block_of(count), alone ? out : NULL};
   int32_t blocks = (count + share.block - 1) / share.block;
   void **bytes = NULL;
   int64_t *size = NULL;
@@ -63,7 +71,7 @@ CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32
   CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .alike = 1, .gather = 1};
   CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
   for (int32_t i = 0; i < blocks; i++) {
-    if (size[i] > 0) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
+    if (bytes[i]) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
   }
 done:
   for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);

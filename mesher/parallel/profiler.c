@@ -36,6 +36,7 @@ typedef struct {
 typedef struct {
   const char *step;
   double own;
+  int least_ranks;
   int32_t count;
   Account *item;
 } Sides;
@@ -118,7 +119,8 @@ done:
   return status;
 }
 
-CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t count, const double *cost, double own) {
+CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t count, const double *cost, double own,
+                            int least_ranks) {
   CwStatus status = CW_OK;
   CwProfiler *profiler = profiler_of(context);
   if (!profiler) goto done;
@@ -126,7 +128,7 @@ CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t 
   CW_REQUIRE(larger, CW_ERR_MEMORY, "out of memory: %d steps side by side", profiler->step_count + 1);
   profiler->step = larger;
   Sides *made = &profiler->step[profiler->step_count++];
-  *made = (Sides){.step = step, .own = own};
+  *made = (Sides){.step = step, .own = own, .least_ranks = least_ranks};
   CW_NEW(made->item, count);
   made->count = count;
   for (int32_t s = 0; s < count; s++) made->item[s] = (Account){.cost = cost[s], .part_count = 1, .name = {step}};
@@ -264,7 +266,8 @@ CwStatus cw_profiler_json(const CwContext *context, json_t **account, json_t **g
   for (int32_t i = 0; i < profiler->step_count; i++) {
     const Sides *step = &profiler->step[i];
     json_t *array = json_array(), *made = NULL;
-    json_array_append_new(*groups, json_pack("{s:s, s:f, s:o}", "step", step->step, "own", step->own, "side", array));
+    json_array_append_new(*groups, json_pack("{s:s, s:f, s:i, s:o}", "step", step->step, "own", step->own,
+                                             "least_ranks", step->least_ranks, "side", array));
     for (int32_t s = 0; s < step->count; s++) {
       CW_TRY(account_of_all(context, &step->item[s], &made));
       json_object_set_new(made, "cost", cw_json_number(step->item[s].cost));

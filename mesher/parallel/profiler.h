@@ -25,8 +25,9 @@ CwStatus cw_profiler_tasks(const CwContext *context, const char *step, int32_t c
                            const int32_t *after, const double *seconds, double own, int64_t bytes);
 
 // A step goes on side by side: accounts for `count` items, of predicted costs of which the share `own` is what every
-// rank of an item does for itself. All ranks.
-CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t count, const double *cost, double own);
+// rank of an item does for itself, by groups of so many ranks at least. All ranks.
+CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t count, const double *cost, double own,
+                            int least_ranks);
 // From here to the next call all parts and tasks of this rank count to an item of the last step; -1: to no item.
 void cw_profiler_item(const CwContext *context, int32_t item);
 // The account of an item of the last step, to travel to the ranks that had no part in it.
@@ -35,7 +36,7 @@ CwStatus cw_profiler_take(const CwContext *context, int32_t item, const char *by
 
 // A profiler is needed. [out] account, groups: references of the caller. *account: {"every_rank": [{"part", "seconds",
 // "most"}], "tasks": [{"step", "task_cost", "task_after", "task_seconds", "most", "bytes"}]}: seconds of rank 0, and of
-// the rank with most. *items: [{"step", "own", "side": [account with "cost"]}]. Collective.
+// the rank with most. *items: [{"step", "own", "least_ranks", "side": [account with "cost"]}]. Collective.
 CwStatus cw_profiler_json(const CwContext *context, json_t **account, json_t **groups);
 
 // NULL is fine.

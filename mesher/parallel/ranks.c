@@ -43,7 +43,7 @@ void cw_team_sleep(double seconds) {
   nanosleep(&pause, NULL);
 }
 
-static double thread_seconds(void) {
+double cw_team_thread_seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
@@ -55,13 +55,13 @@ CwTeamWait cw_team_wait_begin(void) {
                       .until = own_core ? now + LOOK_SECONDS : 0,
                       .seen = now,
                       .since = now,
-                      .used = thread_seconds()};
+                      .used = cw_team_thread_seconds()};
 }
 
 // Whether another program had the core since the last look. A look may take long of itself: it moves what has come.
 static int lost_core(CwTeamWait *wait, double now) {
   if (now - wait->seen <= LATE) return 0;
-  double used = thread_seconds(), lost = (now - wait->since) - (used - wait->used);
+  double used = cw_team_thread_seconds(), lost = (now - wait->since) - (used - wait->used);
   wait->since = now;
   wait->used = used;
   return lost > LATE;
@@ -75,7 +75,7 @@ void cw_team_wait_on(CwTeamWait *wait) {
   cw_team_sleep(wait->pause);
   if (wait->pause < MOST_PAUSE) wait->pause *= PAUSE_GROWTH;
   wait->seen = wait->since = cw_seconds();
-  wait->used = thread_seconds();
+  wait->used = cw_team_thread_seconds();
 }
 
 void cw_team_wait(MPI_Request *request) {
@@ -101,13 +101,42 @@ done:
   return status;
 }
 
-static void count_cores(void) {
-  MPI_Comm host;
-  int ranks;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
-  MPI_Comm_size(host, &ranks);
-  MPI_Comm_free(&host);
-  own_core = ranks <= sysconf(_SC_NPROCESSORS_ONLN);
+// The ranks by host, and the cores that each may run on.
+static CwStatus find_hosts(CwTeam *all) {
+  CwStatus status = CW_OK;
+  MPI_Comm host, firsts;
+  cpu_set_t own;
+  MPI_Comm_split_type(all->comm, MPI_COMM_TYPE_SHARED, all->rank, MPI_INFO_NULL, &host);
+  CW_TRY(make_team(host, all->threads, &all->host));
+  own_core = all->host->ranks <= sysconf(_SC_NPROCESSORS_ONLN);
+  CW_NEW(all->host_of, all->ranks);
+  CW_NEW(all->cores, all->ranks);
+  int first = all->rank;
+  MPI_Bcast(&first, 1, MPI_INT, 0, host);
+  MPI_Allgather(&first, 1, MPI_INT, all->host_of, 1, MPI_INT, all->comm);
+  for (int rank = 0; rank < all->ranks; rank++) all->hosts += all->host_of[rank] == rank;
+  MPI_Comm_split(all->comm, first == all->rank ? 0 : MPI_UNDEFINED, all->rank, &firsts);
+  if (first == all->rank) CW_TRY(make_team(firsts, all->threads, &all->firsts));
+  CPU_ZERO(&own);
+  if (sched_getaffinity(0, sizeof own, &own)) CPU_ZERO(&own);
+  MPI_Allgather(&own, sizeof own, MPI_BYTE, all->cores, sizeof own, MPI_BYTE, all->comm);
+done:
+  return status;
+}
+
+// NULL is fine.
+static void free_team(CwTeam **team) {
+  CwTeam *old = *team;
+  if (!old) return;
+  free_team(&old->host);
+  free_team(&old->firsts);
+  cw_threads_free(&old->pool);
+  free(old->host_of);
+  free(old->cores);
+  free(old->slot_rank);
+  if (old->comm != MPI_COMM_WORLD) MPI_Comm_free(&old->comm);
+  free(old);
+  *team = NULL;
 }
 
 CwStatus cw_mpi_start(int *argc, char ***argv, CwTeam **all) {
@@ -121,8 +150,8 @@ CwStatus cw_mpi_start(int *argc, char ***argv, CwTeam **all) {
   CW_REQUIRE(started || MPI_Init_thread(argc, argv, MPI_THREAD_MULTIPLE, &given) == MPI_SUCCESS, CW_ERR_LIBRARY,
              "MPI cannot be started");
   MPI_Query_thread(&given);
-  count_cores();
   CW_TRY(make_team(MPI_COMM_WORLD, given >= MPI_THREAD_MULTIPLE, all));
+  CW_TRY(find_hosts(*all));
 done:
   return status;
 }
@@ -130,9 +159,8 @@ done:
 void cw_mpi_end(CwTeam **all) {
   if (!*all) return;
   cw_team_barrier(*all);
+  free_team(all);
   MPI_Finalize();
-  free(*all);
-  *all = NULL;
 }
 
 int cw_team_rank(const CwTeam *team) {
@@ -233,8 +261,6 @@ CwStatus cw_team_split(const CwTeam *team, int number, CwTeam **part) {
 }
 
 void cw_team_join(const CwTeam *team, CwTeam **part) {
-  MPI_Comm_free(&(*part)->comm);
-  free(*part);
-  *part = NULL;
+  free_team(part);
   cw_team_barrier(team);
 }

@@ -10,6 +10,8 @@
 #include "mesher/parallel/team.h"
 #include "pipeline/log.h"
 
+static const int64_t SHARED_LEAST = 1 << 20; // bytes of results that are worth memory of their own
+
 typedef struct {
   double cost;
   int32_t task;
@@ -72,6 +74,78 @@ done:
   return status;
 }
 
+static int64_t padded(const TaskEnd *end) {
+  return ((int64_t)end->size + 15) / 16 * 16;
+}
+
+// Where the results of each rank lie, those of a host together.
+typedef struct {
+  int64_t *size, *end;      // of each rank: bytes; where they end, once all are placed
+  int64_t *of_host, *begin; // of each host: bytes; where they begin
+  int64_t all;
+} Places;
+
+static CwStatus place_results(const CwTeam *team, int32_t count, const TaskEnd *end, Places *places) {
+  CwStatus status = CW_OK;
+  int hosts = 0;
+  CW_NEW(places->size, team->ranks);
+  CW_NEW(places->end, team->ranks);
+  CW_NEW(places->of_host, team->hosts);
+  CW_NEW(places->begin, team->hosts);
+  for (int32_t task = 0; task < count; task++) places->size[(int)end[task].owner] += padded(&end[task]);
+  for (int first = 0; first < team->ranks; first++) {
+    if (team->host_of[first] != first) continue;
+    places->begin[hosts] = places->all;
+    for (int rank = first; rank < team->ranks; rank++) {
+      if (team->host_of[rank] != first) continue;
+      places->end[rank] = places->all;
+      places->all += places->size[rank];
+    }
+    places->of_host[hosts] = places->all - places->begin[hosts];
+    hosts++;
+  }
+done:
+  return status;
+}
+
+// The same into memory that the ranks of a host share.
+static CwStatus share_results(const CwTeam *team, int32_t count, const TaskEnd *end, void **bytes,
+                              CwHostMemory **held) {
+  CwStatus status = CW_OK;
+  Places places = {0};
+  void **part = NULL;
+  CW_NEW(part, team->hosts);
+  CW_TRY(place_results(team, count, end, &places));
+  CW_TRY(cw_host_memory_make(team->host, places.all, held));
+  char *at = cw_host_memory_at(*held);
+  for (int32_t task = 0; task < count; task++) {
+    int owner = (int)end[task].owner;
+    void *made = bytes[task];
+    bytes[task] = end[task].size > 0 ? at + places.end[owner] : NULL;
+    places.end[owner] += padded(&end[task]);
+    if (owner != team->rank) continue;
+    if (end[task].size > 0) memcpy(bytes[task], made, (size_t)end[task].size);
+    free(made);
+  }
+  for (int rank = 0, on_host = 0; rank < team->ranks; rank++) {
+    if (team->host_of[rank] != team->host_of[team->rank]) continue;
+    cw_host_memory_spread(team->host, *held, places.end[rank] - places.size[rank], places.size[rank], on_host++);
+  }
+  if (team->hosts > 1) {
+    for (int host = 0; host < team->hosts; host++) part[host] = at + places.begin[host];
+    if (team->firsts) CW_TRY(cw_team_gather(team->firsts, places.of_host, part));
+    cw_host_memory_spread(team->host, *held, 0, places.all, 0);
+  }
+  cw_host_memory_seal(*held);
+done:
+  free(places.size);
+  free(places.end);
+  free(places.of_host);
+  free(places.begin);
+  free(part);
+  return status;
+}
+
 // The tasks in the order in which they are taken.
 typedef struct {
   int32_t *task, *before; // by place; before: NULL where none waits
@@ -122,17 +196,16 @@ typedef struct {
   const CwSchedule *schedule;
   void **bytes;
   TaskEnd *end;   // by task
-  double seconds; // of this rank's tasks
+  int32_t *dealt; // places of this rank
 } Work;
 
 static CwStatus run_task(Work *work, int32_t task) {
   CwStatus status = CW_OK;
   void *result = NULL;
   int64_t size = 0;
-  double start = cw_processor_seconds();
+  double start = cw_team_thread_seconds();
   CW_TRY(work->schedule->run(work->schedule->context, task, &result, &size));
-  double seconds = cw_processor_seconds() - start;
-  work->seconds += seconds;
+  double seconds = cw_team_thread_seconds() - start;
   work->end[task] = (TaskEnd){work->team->rank, (double)size, seconds};
   if (work->bytes)
     work->bytes[task] = result;
@@ -165,18 +238,36 @@ done:
   return status;
 }
 
-// Tasks in turn to each rank; one that waits for another, to the rank of that.
+static CwStatus run_dealt(void *given, int32_t item) {
+  Work *work = given;
+  return run_task(work, work->dealt[item]);
+}
+
+static int rank_of_place(const CwTeam *team, int32_t place) {
+  return team->slot_rank ? team->slot_rank[place % team->slots] : place % team->ranks;
+}
+
+// Tasks in turn to each rank; one that waits for another, to the rank of that. With threads none may wait.
 static CwStatus deal_tasks(Work *work, const Order *order) {
   CwStatus status = CW_OK;
-  for (int32_t place = 0, ended = 0; place < work->schedule->count; place++) {
+  int32_t count = 0;
+  CW_NEW_UNSET(work->dealt, work->schedule->count);
+  for (int32_t place = 0; place < work->schedule->count; place++) {
     int32_t first = place;
     while (order->before && order->before[first] >= 0) first = order->before[first];
-    if (first % work->team->ranks != work->team->rank) continue;
-    CW_TRY(run_task(work, order->task[place]));
-    if (work->schedule->unit) cw_progress(work->log, ++ended * work->team->ranks);
+    if (rank_of_place(work->team, first) == work->team->rank) work->dealt[count++] = order->task[place];
+  }
+  if (work->team->pool) {
+    CW_TRY(cw_threads_run(work->team->pool, count, run_dealt, work));
+  } else {
+    for (int32_t i = 0; i < count; i++) {
+      CW_TRY(run_task(work, work->dealt[i]));
+      if (work->schedule->unit) cw_progress(work->log, (i + 1) * work->team->ranks);
+    }
   }
   cw_team_barrier(work->team);
 done:
+  free(work->dealt);
   return status;
 }
 
@@ -187,24 +278,29 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   Work work = {.team = cw_team_of(context), .log = cw_log_of(context), .schedule = schedule, .bytes = bytes};
   int32_t count = schedule->count;
   int64_t gathered = 0;
-  double *time = NULL;
+  double *time = NULL, own = 0;
   const char *part = cw_profiler_part(context, "exchange");
   CW_NEW(work.end, count);
   CW_NEW(time, count);
   for (int32_t task = 0; task < count; task++) work.end[task] = (TaskEnd){-1, -1, -1};
   CW_TRY(put_in_order(schedule, &order));
   if (schedule->unit) cw_progress_start(work.log, schedule->step, count, schedule->unit);
-  int served = work.team->ranks > 1 && work.team->threads && count > 0 && !schedule->alike;
+  int with_threads = work.team->slots > work.team->ranks; // of any rank
+  int served = work.team->ranks > 1 && work.team->threads && !with_threads && count > 0 && !schedule->alike;
   CW_TRY(served ? take_tasks(&work, &order) : deal_tasks(&work, &order));
   cw_team_most(work.team, (int64_t)3 * count, &work.end->owner);
   for (int32_t task = 0; task < count; task++) {
     time[task] = work.end[task].seconds;
+    if (work.end[task].owner == work.team->rank) own += time[task];
     if (size) size[task] = (int64_t)work.end[task].size;
     if (schedule->gather) gathered += size[task];
   }
-  if (schedule->gather) CW_TRY(gather_results(work.team, count, work.end, bytes));
-  CW_TRY(
-      cw_profiler_tasks(context, schedule->step, count, schedule->cost, schedule->after, time, work.seconds, gathered));
+  int shares = schedule->held && work.team->host && work.team->host->ranks > 1 && gathered >= SHARED_LEAST;
+  if (schedule->held) *schedule->held = NULL;
+  if (schedule->gather)
+    CW_TRY(shares ? share_results(work.team, count, work.end, bytes, schedule->held)
+                  : gather_results(work.team, count, work.end, bytes));
+  CW_TRY(cw_profiler_tasks(context, schedule->step, count, schedule->cost, schedule->after, time, own, gathered));
   if (seconds) memcpy(seconds, time, (size_t)count * sizeof *time);
   if (schedule->unit) {
     cw_progress(work.log, count);

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "mesher/parallel/context.h"
+#include "mesher/parallel/host_memory.h"
 #include "pipeline/status.h"
 
 // Runs task `task`; may return a byte buffer (malloc'd) as its result through *bytes and *size, or leave them
@@ -26,6 +27,9 @@ typedef struct {
   void *context;
   int alike;  // 1: tasks of about the same cost, too short to ask for each: rank r takes every task r + k ranks
   int gather; // 1: every rank gets every result in bytes[task]
+  // [out] Where many results lie, once on each host: the caller frees it and not those. NULL there, or NULL: each is
+  // the caller's.
+  CwHostMemory **held;
 } CwSchedule;
 
 // Runs all tasks over the ranks of the context's team; all give the same schedule.

@@ -7,11 +7,21 @@
 #include <stdint.h>
 
 #include "mesher/parallel/context.h"
+#include "mesher/parallel/threads.h"
 
 struct CwTeam {
   int rank, ranks;
   int threads; // 1: several threads of a rank may send at a time
   MPI_Comm comm;
+  // Of all ranks:
+  CwTeam *host;   // those of this host; NULL in a part of the ranks
+  CwTeam *firsts; // the first ranks of the hosts; NULL on others
+  int hosts;
+  int *host_of;     // of each rank the first rank on its host
+  cpu_set_t *cores; // where each may run
+  // Of ranks that work in the place of others:
+  CwThreads *pool;       // of this rank; NULL: it works alone
+  int slots, *slot_rank; // threads of all its ranks; the rank of each; NULL: one a rank
 };
 
 // The team of a context; one of this rank alone where it has none.
@@ -21,6 +31,8 @@ const CwTeam *cw_team_of(const CwContext *context);
 void cw_team_wait(MPI_Request *request);
 void cw_team_barrier(const CwTeam *team);
 void cw_team_sleep(double seconds);
+// Processor time of this thread.
+double cw_team_thread_seconds(void);
 
 // The same for who looks for something else: after each look in vain cw_team_wait_on(), which sleeps no longer than
 // about a third of the time waited so far.

@@ -215,6 +215,8 @@ CwStatus cw_interface_rule_merge(const CwPeriodicImages *images, CwInterfaces *i
   CwStatus status = CW_OK;
   const char **block = NULL;
   int32_t header[HEADER];
+  CW_TRY(cw_arrays_own(interfaces, cw_interfaces_arrays, &interfaces->memory));
+  interfaces->nodes.capacity = interfaces->nodes.count;
   *counts = (CwInterfaceRuleCounts){.planned = interfaces->refined.count};
   CW_NEW(block, interfaces->outline_count);
   for (int32_t r = 0; r < regions; r++) {

@@ -61,40 +61,54 @@ done:
   return status;
 }
 
+CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwSharedNodes *shared) {
+  CwStatus status = CW_OK;
+  const CwNodeTable *nodes = &from->interfaces->nodes;
+  *shared = (CwSharedNodes){.node_count = nodes->count, .layer_count = layer_count};
+  for (int32_t i = 0; i < nodes->count; i++) shared->shared_node_count += nodes->on_plane[i];
+  CW_NEW_UNSET(shared->base, nodes->count);
+  CW_NEW_UNSET(shared->node, shared->shared_node_count);
+  for (int32_t i = 0, found = 0; i < nodes->count; i++) {
+    shared->base[i] = nodes->on_plane[i] ? shared->count : -1;
+    if (!nodes->on_plane[i]) continue;
+    shared->node[found++] = i;
+    shared->count += i < from->surface->vertex_count ? layer_count + 1 : 1;
+  }
+done:
+  return status;
+}
+
+void cw_shared_nodes_arrays(void *product, CwArrayVisit visit, void *given) {
+  CwSharedNodes *shared = product;
+  CW_SHOW(visit, given, shared->base, shared->node_count);
+  CW_SHOW(visit, given, shared->node, shared->shared_node_count);
+}
+
+void cw_shared_nodes_free(CwSharedNodes *shared) {
+  cw_arrays_free(shared, cw_shared_nodes_arrays, &shared->memory);
+  *shared = (CwSharedNodes){0};
+}
+
 CwStatus cw_region_context_make(CwRegionContext *context) {
   CwStatus status = CW_OK;
-  const CwRegionInput *from = &context->from;
   CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
              context->layer_count, CW_LAYERS_MOST);
-  CW_NEW(context->shared_base, from->interfaces->nodes.count);
-  CW_NEW(context->shared_node, from->interfaces->nodes.count);
-  for (int32_t i = 0; i < from->interfaces->nodes.count; i++) {
-    context->shared_base[i] = -1;
-    if (!from->interfaces->nodes.on_plane[i]) continue;
-    context->shared_base[i] = context->shared_count;
-    context->shared_node[context->shared_node_count++] = i;
-    context->shared_count += i < from->surface->vertex_count ? context->layer_count + 1 : 1;
-  }
   CW_TRY(find_open_edges(context));
-  CW_TRY(cw_open_edge_places_make(from, &context->open_edge_places));
+  CW_TRY(cw_open_edge_places_make(&context->from, &context->open_edge_places));
 done:
   return status;
 }
 
 void cw_region_context_free(CwRegionContext *context) {
-  free(context->shared_base);
-  free(context->shared_node);
   free(context->open_edge);
   cw_open_edge_places_free(&context->open_edge_places);
-  context->shared_base = NULL;
-  context->shared_node = NULL;
   context->open_edge = NULL;
 }
 
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]) {
   const CwRegionInput *from = &context->from;
   CwHash hash = cw_hash_start();
-  double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
+  double numbers[3] = {context->layer_count, (double)context->shared->count, context->fill};
   cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
 #ifdef CUTWATER_EXPERIMENT
   cw_hash_bytes(&hash, &cw_policy, sizeof cw_policy);
@@ -110,7 +124,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
       cw_hash_bytes(&hash, from->layers->top[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
       cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
-      cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
+      cw_hash_bytes(&hash, &context->shared->base[v], sizeof(int64_t));
     }
   }
   for (int32_t t = 0; t < from->interfaces->open_patch.count; t++) {
@@ -129,7 +143,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
     for (int k = 0; k < 3; k++) {
       int32_t node = from->interfaces->refined.triangle[t][k];
       cw_hash_bytes(&hash, from->interfaces->nodes.x[node], sizeof(double[3]));
-      cw_hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
+      cw_hash_bytes(&hash, &context->shared->base[node], sizeof(int64_t));
     }
     double centre =
         from->in->size_at(from->in->size, from->interfaces->nodes.x[from->interfaces->refined.triangle[t][0]]);
@@ -153,7 +167,7 @@ static void place_point(Build *build, int32_t i, int32_t *next, CwRegionMesh *me
   const CwRegionContext *context = build->context;
   const CwRegionInput *from = &context->from;
   const int32_t levels = context->layer_count, node = i < build->inner.node_count ? build->inner.node[i] : -1;
-  const int64_t base = node >= 0 ? context->shared_base[node] : -1;
+  const int64_t base = node >= 0 ? context->shared->base[node] : -1;
   const int on_top = node >= 0 && node < from->surface->vertex_count;
   double fraction[CW_LAYERS_MOST + 1];
   if (on_top) {
@@ -179,7 +193,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0, next = 0, *order = NULL;
   for (int32_t i = 0; i < build->inner.node_count; i++) {
     int on_top = build->inner.node[i] < from->surface->vertex_count,
-        is_shared = context->shared_base[build->inner.node[i]] >= 0;
+        is_shared = context->shared->base[build->inner.node[i]] >= 0;
     if (on_top) total += levels;
     if (is_shared) shared += on_top ? levels + 1 : 1;
   }
@@ -190,13 +204,13 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   CW_NEW(build->place, build->fill.point_count);
   CW_NEW(build->column, build->inner.node_count);
   for (int32_t i = 0; i < build->inner.node_count; i++) {
-    if (context->shared_base[build->inner.node[i]] >= 0) place_point(build, i, &next, mesh);
+    if (context->shared->base[build->inner.node[i]] >= 0) place_point(build, i, &next, mesh);
   }
   CW_NEW_UNSET(order, build->fill.point_count);
   CW_TRY(cw_hilbert_order(build->fill.point_count, (const double(*)[3])build->fill.x, order));
   for (int32_t k = 0; k < build->fill.point_count; k++) {
     int32_t i = order[k];
-    if (i >= build->inner.node_count || context->shared_base[build->inner.node[i]] < 0)
+    if (i >= build->inner.node_count || context->shared->base[build->inner.node[i]] < 0)
       place_point(build, i, &next, mesh);
   }
 done:

@@ -8,7 +8,21 @@
 #include "mesher/region/region_input.h"
 #include "pipeline/case.h"
 
-// What all regions of a domain share.
+// The points of a domain's mesh that its regions share: those of nodes on partition planes, with their columns.
+typedef struct {
+  int32_t node_count, layer_count;  // of all nodes of the boundary; of the columns
+  int64_t *base;                    // of each node: first shared number of its column (or its own), -1: not shared
+  int64_t count;                    // of the points
+  int32_t shared_node_count, *node; // the shared nodes by ascending base
+  CwHostMemory *memory;             // where its arrays lie; NULL: they are this rank's
+} CwSharedNodes;
+
+CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwSharedNodes *shared);
+// Shows its arrays (CwArrays).
+void cw_shared_nodes_arrays(void *shared, CwArrayVisit visit, void *given);
+void cw_shared_nodes_free(CwSharedNodes *shared);
+
+// What the regions of a domain are made from.
 typedef struct {
   CwRegionInput from;
   const char *domain;
@@ -16,10 +30,8 @@ typedef struct {
   CwFillMethod fill;
   const double *first_height; // of each wall vertex, by which its column is divided, m
   const double *growth;       // of each wall vertex, largest ratio of neighbouring layers
+  const CwSharedNodes *shared;
   // Filled by cw_region_context_make:
-  int64_t *shared_base; // of each boundary node: first shared number of its column (or its own), -1: not shared
-  int64_t shared_count;
-  int32_t shared_node_count, *shared_node; // the shared nodes by ascending base
   CwOpenEdgePlaces open_edge_places;
   int32_t open_edge_count;
   int32_t (*open_edge)[3]; // wall edges on open patches: smaller vertex, greater vertex, open patch face; sorted

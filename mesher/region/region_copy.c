@@ -26,16 +26,16 @@ void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMe
 
 // The boundary node under a shared number: the last whose base is not greater.
 static int32_t node_of(const CwRegionContext *context, int64_t id) {
-  int32_t low = 0, high = context->shared_node_count;
+  int32_t low = 0, high = context->shared->shared_node_count;
   while (high - low > 1) {
     int32_t middle = low + (high - low) / 2;
-    if (context->shared_base[context->shared_node[middle]] <= id) {
+    if (context->shared->base[context->shared->node[middle]] <= id) {
       low = middle;
     } else {
       high = middle;
     }
   }
-  return context->shared_node[low];
+  return context->shared->node[low];
 }
 
 // Number and place of the shared point that `turns` turns make of `id`, which may be *turned.
@@ -43,10 +43,10 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
   CwStatus status = CW_OK;
   const CwRegionInput *from = &context->from;
   int32_t first = node_of(context, id), node = cw_image_node(&from->interfaces->images, first, turns);
-  int64_t level = id - context->shared_base[first];
+  int64_t level = id - context->shared->base[first];
   CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no periodic image",
              context->domain, CW_MM(from->interfaces->nodes.x[first]));
-  *turned = context->shared_base[node] + level;
+  *turned = context->shared->base[node] + level;
   if (node < from->surface->vertex_count && level < context->layer_count) {
     double fraction[CW_LAYERS_MOST + 1];
     cw_layer_fractions(from->layers->thickness[node], context->first_height[node], context->layer_count,

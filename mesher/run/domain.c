@@ -269,8 +269,9 @@ CwStatus cw_domain_share(CwLog *log, CwDomain *domain, const CwCase *table) {
                                       .domain = domain->name,
                                       .layer_count = domain->layer_count,
                                       .growth = domain->targets.growth,
+                                      .shared = &domain->shared,
                                       .fill = table->mesh.fill,
-                                      .first_height = domain->targets.first_made};
+                                      .first_height = domain->layers.first_height};
   CW_TRY(cw_region_context_make(&domain->context));
 done:
   return status;
@@ -278,6 +279,7 @@ done:
 
 void cw_domain_clear(CwDomain *domain) {
   cw_region_context_free(&domain->context);
+  cw_shared_nodes_free(&domain->shared);
   cw_interfaces_free(&domain->interfaces);
   cw_free_curves_free(&domain->free_curves);
   cw_layers_free(&domain->layers);

@@ -61,6 +61,7 @@ typedef struct {
   CwLayers layers;
   CwFreeCurves free_curves;
   CwInterfaces interfaces;
+  CwSharedNodes shared;
   CwRegionContext context;
   int32_t *number, colours;       // region numbers
   int32_t pair_count, (*pair)[2]; // adjacent regions

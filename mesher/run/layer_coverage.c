@@ -13,7 +13,7 @@ static void count_thin(const CwDomain *domain, int32_t t, CwLayerCoverage *of) {
   const CwColumnTargets *targets = &domain->targets;
   const int32_t *corner = domain->layers.triangle[t];
   double determinant[CW_LAYERS_MOST], first[3];
-  for (int k = 0; k < 3; k++) first[k] = targets->first_made[corner[k]];
+  for (int k = 0; k < 3; k++) first[k] = domain->layers.first_height[corner[k]];
   cw_column_determinants(targets, &domain->surface, &domain->layers, t, first, determinant);
   for (int k = 0; k < targets->layer_count; k++) {
     if (determinant[k] >= CW_SMALL_DETERMINANT) continue;
@@ -36,8 +36,8 @@ const char *cw_layer_reason_name(int reason) {
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
   const CwColumnTargets *targets = &domain->targets;
   double fraction[CW_LAYERS_MOST + 1];
-  double first = cw_layer_fractions(domain->layers.thickness[vertex], targets->first_made[vertex], targets->layer_count,
-                                    targets->growth[vertex], fraction);
+  double first = cw_layer_fractions(domain->layers.thickness[vertex], domain->layers.first_height[vertex],
+                                    targets->layer_count, targets->growth[vertex], fraction);
   return fabs(first / targets->first_height[vertex] - 1) <= CW_FIRST_HEIGHT_TOLERANCE;
 }
 

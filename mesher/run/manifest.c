@@ -47,7 +47,7 @@ static CwStatus manifest_json(CwMeshRun *run, json_t **manifest) {
   json_object_set_new(*manifest, "format", json_integer(CW_MANIFEST_FORMAT));
   for (int d = 0; d < model->domain_count; d++) {
     json_t *made = json_array_get(json_object_get(*manifest, "domains"), (size_t)d);
-    json_object_set_new(made, "shared_points", json_integer((json_int_t)run->domain[d].context.shared_count));
+    json_object_set_new(made, "shared_points", json_integer((json_int_t)run->domain[d].shared.count));
     json_object_set_new(made, "solid_volume_m3", metres_json(run->domain[d].solid_volume, 3));
     json_object_set_new(made, "regions", regions_json(run, d));
   }
@@ -225,7 +225,7 @@ static void put_balance(const CwMeshRun *run, int d, json_t *result) {
 static json_t *sums_json(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   CwQuality quality;
-  int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
+  int64_t points = domain->shared.count, tets = 0, prisms = 0;
   double allowed = CW_TET_BOUND_MOST, solid = domain->solid_volume;
   int32_t tetgen = 0;
   cw_quality_start(&quality);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run/mesh_plan.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,7 +77,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
       task[count++] = (CwMeshTask){d, f, cw_domain_background_cost(&run->domain[d], f)};
     }
   }
-  CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
+  CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, &results, NULL));
   cw_profiler_part(&run->context, "background joined");
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_take_background(&run->context, &run->domain[d], results.bytes[d]));
@@ -128,7 +129,7 @@ static CwStatus run_parts(CwMeshRun *run, const char *name, CwMeshStep body, con
     free(cost);
     cost = NULL;
   }
-  CW_TRY(cw_run_step(run, name, "parts", body, count, task, NULL, results->bytes, NULL));
+  CW_TRY(cw_run_step(run, name, "parts", body, count, task, NULL, results, NULL));
 done:
   free(cost);
   free(task);
@@ -461,6 +462,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     log_plan(run, d);
   }
+  malloc_trim(0); // what planning has left free lies between what stays
   if (run->rank == 0) {
     CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->model.domain_count, "domains"));
   }

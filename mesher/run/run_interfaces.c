@@ -9,26 +9,72 @@
 #include "mesher/run/run_step.h"
 #include "pipeline/log.h"
 
+static CwStatus make_curves(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &((CwMeshRun *)given)->domain[d];
+  cw_profiler_part(context, "free curves");
+  CW_TRY(cw_free_curves_make(&domain->input, &domain->wall_curves, &domain->surface, &domain->layers,
+                             &domain->free_curves, outcome));
+  if (outcome->kind == CW_OUTCOME_DONE) CW_AUDIT(cw_free_curves_audit(&domain->free_curves, &domain->network));
+done:
+  return status;
+}
+
+static CwStatus hand_curves(void *given, const CwGroupHand *hand) {
+  CwFreeCurves *curves = &((CwMeshRun *)given)->domain[hand->item].free_curves;
+  return cw_group_hold(hand, curves, sizeof *curves, cw_free_curves_arrays, &curves->memory);
+}
+
+// Outcome: CW_OUTCOME_ASYMMETRIC before CW_OUTCOME_THIN, with the places of all domains.
+static CwStatus run_curves(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  CwOutcome of_domain[CW_DOMAINS_MOST];
+  const CwDomainWork work = {
+      .step = "free curves", .own = 1, .copied = 1, .work = make_curves, .hand = hand_curves, .given = run};
+  CW_TRY(cw_run_domains(run, &work, of_domain));
+  for (int d = 0; d < run->model.domain_count; d++) {
+    of_domain[d].domain = d;
+    if (of_domain[d].kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain[d], places));
+    if (of_domain[d].kind != CW_OUTCOME_DONE) *outcome = of_domain[d];
+    if (outcome->kind == CW_OUTCOME_ASYMMETRIC) break;
+  }
+done:
+  return status;
+}
+
+// Results of a step, of each domain.
+typedef struct {
+  CwMeshRun *run;
+  const CwResults *results;
+} Merging;
+
+static CwStatus merge_inner(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  const Merging *merging = given;
+  CwDomain *domain = &merging->run->domain[d];
+  void **bytes = merging->results->bytes[d];
+  cw_profiler_part(context, "inner surfaces merged");
+  CW_TRY_STAGE(cw_interfaces_make(&domain->input, &domain->free_curves, bytes, bytes + cw_cad_face_count(domain->cad),
+                                  &domain->interfaces, outcome),
+               outcome);
+  CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
+done:
+  return status;
+}
+
+static CwStatus hand_inner(void *given, const CwGroupHand *hand) {
+  CwDomain *domain = &((const Merging *)given)->run->domain[hand->item];
+  CwInterfaces *interfaces = &domain->interfaces;
+  if (!hand->mine) cw_free_curves_free(&domain->free_curves);
+  return cw_group_hold(hand, interfaces, sizeof *interfaces, cw_interfaces_arrays, &interfaces->memory);
+}
+
 CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwResults results = {0}; // of each domain first those of its faces
+  CwResults results = {.shared = 1}; // of each domain first those of its faces
   CwMeshTask *open_patch = NULL, *task = NULL;
   int32_t open_patches, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
-  cw_profiler_part(&run->context, "free curves");
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CwDomain *domain = &run->domain[d];
-    CwOutcome of_domain = {.domain = d};
-    CW_TRY(cw_free_curves_make(&domain->input, &domain->wall_curves, &domain->surface, &domain->layers,
-                               &domain->free_curves, &of_domain));
-    if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
-    if (of_domain.kind == CW_OUTCOME_DONE) {
-      CW_AUDIT(cw_free_curves_audit(&domain->free_curves, &domain->network));
-      continue;
-    }
-    *outcome = of_domain;
-    if (outcome->kind == CW_OUTCOME_ASYMMETRIC) goto done;
-  }
-  if (outcome->kind != CW_OUTCOME_DONE) goto done;
+  CW_TRY_STAGE(run_curves(run, places, outcome), outcome);
   cw_face_counts(run, faces);
   CW_TRY(cw_face_tasks(run, 0, &open_patches, &open_patch));
   count = open_patches;
@@ -48,16 +94,18 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
       task[count++] = (CwMeshTask){d, faces[d] + i, domain->free_curves.outline[i].corner_count};
     }
   }
-  CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
-  cw_profiler_part(&run->context, "inner surfaces merged");
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_interfaces_make(&run->domain[d].input, &run->domain[d].free_curves, results.bytes[d],
-                              results.bytes[d] + faces[d], &run->domain[d].interfaces, outcome));
-    outcome->domain = d;
-    if (outcome->kind != CW_OUTCOME_DONE) goto done;
-    CW_AUDIT(cw_interfaces_audit(&run->domain[d].interfaces, run->domain[d].plan.region_count));
+  CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, &results, NULL));
+  CwOutcome of_domain[CW_DOMAINS_MOST];
+  const CwDomainWork work = {.step = "inner surfaces merged",
+                             .own = 1,
+                             .copied = 1,
+                             .work = merge_inner,
+                             .hand = hand_inner,
+                             .given = &(Merging){run, &results}};
+  CW_TRY(cw_run_domains(run, &work, of_domain));
+  *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
+  for (int d = 0; outcome->kind == CW_OUTCOME_DONE && d < run->model.domain_count; d++)
     CW_TRY(cw_domain_number(&run->domain[d]));
-  }
 done:
   cw_results_free(&results);
   free(open_patch);
@@ -65,9 +113,45 @@ done:
   return status;
 }
 
+static CwStatus merge_rule(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  const Merging *merging = given;
+  CwDomain *domain = &merging->run->domain[d];
+  cw_profiler_part(context, "interfaces merged");
+  CW_TRY(cw_interface_rule_merge(&domain->images, &domain->interfaces, domain->plan.region_count,
+                                 merging->results->bytes[d], &domain->rule));
+  CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
+  const CwRegionInput from = cw_domain_region_input(domain, context->log);
+  CW_TRY(cw_shared_nodes_make(&from, domain->layer_count, &domain->shared));
+done:
+  return status;
+}
+
+static CwStatus hand_rule(void *given, const CwGroupHand *hand) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &((const Merging *)given)->run->domain[hand->item];
+  CwInterfaces *interfaces = &domain->interfaces;
+  CwSharedNodes *shared = &domain->shared;
+  if (!hand->mine) cw_interfaces_free(interfaces);
+  CW_TRY(cw_group_hold(hand, interfaces, sizeof *interfaces, cw_interfaces_arrays, &interfaces->memory));
+  CW_TRY(cw_group_hold(hand, shared, sizeof *shared, cw_shared_nodes_arrays, &shared->memory));
+  cw_group_give(hand, &domain->rule, sizeof domain->rule);
+done:
+  return status;
+}
+
+static void log_rule(CwLog *log, const CwDomain *domain) {
+  if (domain->rule.planned == 0) return;
+  cw_log(log,
+         "%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
+         "centres inserted %lld, triangles left to both sides %lld",
+         domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
+         (long long)domain->rule.inserted, (long long)domain->rule.left);
+}
+
 CwStatus cw_run_region_rule(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwResults results = {0};
+  CwResults results = {.shared = 1};
   CwMeshTask *task = NULL;
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
@@ -86,20 +170,16 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
     }
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
-  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
-  cw_profiler_part(&run->context, "interfaces merged");
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CwDomain *domain = &run->domain[d];
-    CW_TRY(cw_interface_rule_merge(&domain->images, &domain->interfaces, domain->plan.region_count, results.bytes[d],
-                                   &domain->rule));
-    CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
-    if (domain->rule.planned == 0) continue;
-    cw_log(run->context.log,
-           "%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
-           "centres inserted %lld, triangles left to both sides %lld",
-           domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
-           (long long)domain->rule.inserted, (long long)domain->rule.left);
-  }
+  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, &results, NULL));
+  CwOutcome of_domain[CW_DOMAINS_MOST]; // all done
+  const CwDomainWork work = {.step = "interfaces merged",
+                             .own = 1,
+                             .copied = 1,
+                             .work = merge_rule,
+                             .hand = hand_rule,
+                             .given = &(Merging){run, &results}};
+  CW_TRY(cw_run_domains(run, &work, of_domain));
+  for (int d = 0; d < run->model.domain_count; d++) log_rule(run->context.log, &run->domain[d]);
 done:
   cw_results_free(&results);
   free(task);

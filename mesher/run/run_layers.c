@@ -1,62 +1,58 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run/run_layers.h"
 
+#include <math.h>
+
 #include "mesher/parallel/groups.h"
 #include "mesher/parallel/profiler.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/log.h"
 
-// Of the work, what every rank of a group does for itself, and of that on a wall triangle what one takes that is a
-// periodic image. Measured from 0.3 to 21 million cells.
-static const double OWN_THICKNESS = 0.3, COPIED_THICKNESS = 0.15, OWN_LAYERS = 0.05, COPIED_LAYERS = 0.65;
+typedef struct {
+  CwMeshRun *run;
+  const CwResults *results; // of the wall faces
+} Walls;
 
-// Returns the wall triangles.
-static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DOMAINS_MOST]) {
-  int64_t all = 0;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    const CwSurfaceMesh *surface = &run->domain[d].surface;
-    int32_t firsts = 0;
-    for (int32_t t = 0; t < surface->triangle_count; t++) firsts += surface->source[t] == t;
-    cost[d] = firsts + copied * (surface->triangle_count - firsts);
-    all += surface->triangle_count;
-  }
-  return all;
-}
-
-static CwStatus find_thickness(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
-  CwMeshRun *run = given;
-  return cw_domain_targets(context, &run->domain[d]);
-}
-
-static CwStatus hand_thickness(void *given, const CwGroupHand *hand) {
+static CwStatus merge(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwMeshRun *run = given;
-  CwDomain *domain = &run->domain[hand->item];
+  const Walls *walls = given;
+  CwDomain *domain = &walls->run->domain[d];
+  const double *most = walls->run->most_thickness[d];
+  cw_profiler_part(context, "walls merged");
+  CW_TRY_STAGE(cw_surface_mesh_make(context, &domain->input, &domain->wall_curves, walls->results->bytes[d],
+                                    &domain->surface, outcome),
+               outcome);
+  CW_AUDIT(cw_surface_mesh_audit(&domain->surface, domain->plan.region_count));
+  CW_TRY(cw_domain_targets(context, domain));
+  for (int32_t v = 0; most && v < domain->surface.vertex_count; v++)
+    domain->targets.target[v] = fmin(domain->targets.target[v], most[v]);
+done:
+  return status;
+}
+
+static CwStatus hand_walls(void *given, const CwGroupHand *hand) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &((const Walls *)given)->run->domain[hand->item];
+  CwSurfaceMesh *surface = &domain->surface;
   CwColumnTargets *targets = &domain->targets;
-  int32_t n = domain->surface.vertex_count;
-  targets->layer_count = domain->layer_count;
-  CW_GROUP_ARRAY(hand, targets->first_height, n);
-  CW_GROUP_ARRAY(hand, targets->growth, n);
-  CW_GROUP_ARRAY(hand, targets->target, n);
-  CW_GROUP_ARRAY(hand, targets->least, n);
+  CW_TRY(cw_group_hold(hand, surface, sizeof *surface, cw_surface_mesh_arrays, &surface->memory));
+  CW_TRY(cw_group_hold(hand, targets, sizeof *targets, cw_column_targets_arrays, &targets->memory));
   cw_group_give(hand, &domain->layer_share, sizeof domain->layer_share);
 done:
   return status;
 }
 
-CwStatus cw_run_thickness(CwMeshRun *run) {
-  CwOutcome outcome[CW_DOMAINS_MOST]; // all done: thicknesses are never tried another way
-  double cost[CW_DOMAINS_MOST];
-  find_costs(run, COPIED_THICKNESS, cost);
-  CwGroupWork work = {.step = "thicknesses of the layers",
-                      .count = run->model.domain_count,
-                      .cost = cost,
-                      .own = OWN_THICKNESS,
-                      .run = find_thickness,
-                      .hand = hand_thickness,
-                      .given = run};
-  return cw_groups_run(&run->context, &work, outcome);
+CwStatus cw_run_merge_walls(CwMeshRun *run, const CwResults *results, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  CwOutcome of_domain[CW_DOMAINS_MOST];
+  Walls walls = {run, results};
+  const CwDomainWork work = {
+      .step = "walls merged", .own = 0.4, .copied = 0.75, .work = merge, .hand = hand_walls, .given = &walls};
+  CW_TRY(cw_run_domains(run, &work, of_domain));
+  *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
+done:
+  return status;
 }
 
 // Share of the column over a vertex that its last layer takes where it is so high.
@@ -77,41 +73,26 @@ static CwStatus grow(void *given, const CwContext *context, int32_t d, CwOutcome
                outcome);
   CW_AUDIT(cw_layers_audit(&domain->layers, (const double(*)[3])domain->surface.x));
   cw_profiler_part(context, "layers: small prisms");
-  CW_TRY(cw_column_targets_even(context, &domain->targets, &domain->surface, &domain->layers));
+  CW_TRY(cw_columns_divide(context, &domain->targets, &domain->surface, &domain->layers));
 done:
   return status;
 }
 
 static CwStatus hand_layers(void *given, const CwGroupHand *hand) {
-  CwStatus status = CW_OK;
-  CwMeshRun *run = given;
-  CwDomain *domain = &run->domain[hand->item];
-  CwLayers *layers = &domain->layers;
-  int32_t n = layers->column_count = domain->surface.vertex_count;
-  layers->triangle_count = domain->surface.triangle_count;
-  CW_GROUP_ARRAY(hand, layers->triangle, layers->triangle_count);
-  CW_GROUP_ARRAY(hand, layers->top, n);
-  CW_GROUP_ARRAY(hand, layers->thickness, n);
-  CW_GROUP_ARRAY(hand, layers->reason, n);
-  CW_GROUP_ARRAY(hand, domain->targets.first_made, n);
-done:
-  return status;
+  CwLayers *layers = &((CwMeshRun *)given)->domain[hand->item].layers;
+  return cw_group_hold(hand, layers, sizeof *layers, cw_layers_arrays, &layers->memory);
 }
 
 CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwOutcome of_domain[CW_DOMAINS_MOST];
-  double started = cw_seconds(), cost[CW_DOMAINS_MOST];
-  int64_t faces = find_costs(run, COPIED_LAYERS, cost);
-  CwGroupWork work = {.step = "layers",
-                      .count = run->model.domain_count,
-                      .cost = cost,
-                      .own = OWN_LAYERS,
-                      .run = grow,
-                      .hand = hand_layers,
-                      .given = run};
+  double started = cw_seconds();
+  int64_t faces = 0;
+  const CwDomainWork work = {
+      .step = "layers", .own = 0.1, .copied = 0.5, .work = grow, .hand = hand_layers, .given = run};
+  for (int d = 0; d < run->model.domain_count; d++) faces += run->domain[d].surface.triangle_count;
   cw_progress_start(run->context.log, "layers", faces, "wall faces");
-  CW_TRY(cw_groups_run(&run->context, &work, of_domain));
+  CW_TRY(cw_run_domains(run, &work, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   if (outcome->kind == CW_OUTCOME_DONE) cw_progress(run->context.log, faces);
   cw_progress_end(run->context.log);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What is done about the layers of all domains, side by side: the thicknesses they are asked to have, and the layers.
+// What is done about the walls and layers of all domains, side by side: the walls joined with the thicknesses that
+// their columns are asked to have, and the layers. The products lie once on each host.
 #ifndef CUTWATER_MESHER_RUN_RUN_LAYERS_H
 #define CUTWATER_MESHER_RUN_RUN_LAYERS_H
 
-#include "mesher/run/run_state.h"
+#include "mesher/run/run_step.h"
 
 // All are collective.
 
-// First heights and targets of all wall vertices, and what they take of the volume, once the walls are merged.
-CwStatus cw_run_thickness(CwMeshRun *run);
+// Surface meshes from the results of their faces, first heights and targets of all wall vertices, and what these take
+// of the volume. Outcome: that of cw_surface_mesh_make for the first domain that is not done.
+CwStatus cw_run_merge_walls(CwMeshRun *run, const CwResults *results, CwOutcome *outcome);
 
 // Layers of those thicknesses and the room of their columns. Outcome: that of cw_boundary_grow for the first domain
 // whose layers do not fit its symmetry or plan.

@@ -58,8 +58,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
     }
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
-  CW_TRY(
-      cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes, run->region_seconds));
+  CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, &results, run->region_seconds));
   cw_profiler_part(&run->context, "results");
   run->cells = 0;
   for (int32_t i = 0; i < count; i++) {

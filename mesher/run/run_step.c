@@ -19,7 +19,7 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
 }
 
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
-                     const CwMeshTask *task, const int32_t *after, void ***bytes, double **seconds) {
+                     const CwMeshTask *task, const int32_t *after, CwResults *results, double **seconds) {
   CwStatus status = CW_OK;
   void **result = NULL;
   int64_t *size = NULL;
@@ -37,10 +37,11 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
                          .after = after,
                          .run = run_one,
                          .context = &context,
-                         .gather = 1};
+                         .gather = 1,
+                         .held = results->shared ? &results->memory : NULL};
   CW_TRY(cw_schedule_run(&run->context, &schedule, result, size, time));
   for (int32_t i = 0; i < count; i++) {
-    bytes[task[i].domain][task[i].index] = result[i];
+    results->bytes[task[i].domain][task[i].index] = result[i];
     result[i] = NULL;
     if (seconds) seconds[task[i].domain][task[i].index] = time[i];
   }
@@ -56,6 +57,24 @@ done:
   return status;
 }
 
+CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcome[CW_DOMAINS_MOST]) {
+  double cost[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    double made = domain->symmetry ? 1.0 / domain->symmetry->count : 1;
+    cost[d] = domain->prism_integral * (made + of->copied * (1 - made));
+  }
+  CwGroupWork work = {.step = of->step,
+                      .count = run->model.domain_count,
+                      .cost = cost,
+                      .own = of->own,
+                      .by_threads = 1,
+                      .run = of->work,
+                      .hand = of->hand,
+                      .given = of->given};
+  return cw_groups_run(&run->context, &work, outcome);
+}
+
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count) {
   CwStatus status = CW_OK;
   for (int d = 0; d < domains; d++) {
@@ -68,10 +87,11 @@ done:
 
 void cw_results_free(CwResults *results) {
   for (int d = 0; d < CW_DOMAINS_MOST; d++) {
-    for (int32_t i = 0; results->bytes[d] && i < results->count[d]; i++) free(results->bytes[d][i]);
+    for (int32_t i = 0; results->bytes[d] && !results->memory && i < results->count[d]; i++) free(results->bytes[d][i]);
     free(results->bytes[d]);
     results->bytes[d] = NULL;
   }
+  cw_host_memory_free(&results->memory);
 }
 
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {

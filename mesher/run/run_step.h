@@ -3,21 +3,38 @@
 #ifndef CUTWATER_MESHER_RUN_RUN_STEP_H
 #define CUTWATER_MESHER_RUN_RUN_STEP_H
 
+#include "mesher/parallel/groups.h"
 #include "mesher/run/mesh_steps.h"
 
 // Arrays of results of all domains, freed with their contents.
 typedef struct {
   int32_t count[CW_DOMAINS_MOST];
   void **bytes[CW_DOMAINS_MOST];
+  int shared;           // 1: they may lie once on each host: nobody takes one over
+  CwHostMemory *memory; // where they do; NULL: each has its own
 } CwResults;
 
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count);
 void cw_results_free(CwResults *results);
 
-// Runs a step over tasks of all domains; collective. Results: bytes[d][i] for task index i of domain d; seconds[d][i]
+// Runs a step over tasks of all domains; collective. results->bytes[d][i] for task index i of domain d; seconds[d][i]
 // likewise where seconds is given. after: as in CwSchedule.
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
-                     const CwMeshTask *task, const int32_t *after, void ***bytes, double **seconds);
+                     const CwMeshTask *task, const int32_t *after, CwResults *results, double **seconds);
+
+// Work on the walls of all domains side by side, whose products come to lie once on each host.
+typedef struct {
+  const char *step; // in the profiler
+  double own;       // of the work, what no thread takes from another
+  double copied;    // of that on a wall triangle, what one takes that is a periodic image
+  // As those of CwGroupWork.
+  CwStatus (*work)(void *given, const CwContext *context, int32_t domain, CwOutcome *outcome);
+  CwStatus (*hand)(void *given, const CwGroupHand *hand);
+  void *given;
+} CwDomainWork;
+
+// outcome: of each domain. Collective.
+CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcome[CW_DOMAINS_MOST]);
 
 // CAD faces of each domain.
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]);

@@ -50,7 +50,7 @@ done:
 CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int again = 0; // the same walls, for thinner layers
-  CwResults results = {0};
+  CwResults results = {.shared = 1};
   CwMeshTask *task = NULL;
   int32_t count, faces[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++) again |= run->most_thickness[d] != NULL;
@@ -64,16 +64,8 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     CW_TRY(cw_stage_view(run, CW_STAGE_CURVES));
     if (run->stopped) break;
     CW_TRY(cw_results_make(&results, run->model.domain_count, faces));
-    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
-    cw_profiler_part(&run->context, "walls merged");
-    for (int d = 0; d < run->model.domain_count; d++) {
-      CW_TRY(cw_surface_mesh_make(&run->context, &run->domain[d].input, &run->domain[d].wall_curves, results.bytes[d],
-                                  &run->domain[d].surface, outcome));
-      outcome->domain = d;
-      if (outcome->kind != CW_OUTCOME_DONE) goto done;
-      CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].surface, run->domain[d].plan.region_count));
-    }
-    CW_TRY(cw_run_thickness(run));
+    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, &results, NULL));
+    CW_TRY_STAGE(cw_run_merge_walls(run, &results, outcome), outcome);
     for (int d = 0; d < run->model.domain_count; d++) {
       cw_log_debug(run->context.log, "%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
                    run->domain[d].layer_share);
@@ -90,12 +82,6 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   if (run->stopped) goto done;
   run->surface_scale = run->scale;
   if (run->scale <= 1 && fabs(cw_predicted_off(run)) <= TOLERANCE_FINE) cw_mesh_fit_volume(run);
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CwDomain *domain = &run->domain[d];
-    for (int32_t v = 0; run->most_thickness[d] && v < domain->surface.vertex_count; v++) {
-      domain->targets.target[v] = fmin(domain->targets.target[v], run->most_thickness[d][v]);
-    }
-  }
 done:
   cw_results_free(&results);
   free(task);

@@ -194,7 +194,7 @@ CwStatus cw_column_targets_make(const CwContext *context, const CwBoundaryInput 
                                 CwColumnTargets *targets) {
   CwStatus status = CW_OK;
   CwLayerTarget *asked = NULL;
-  *targets = (CwColumnTargets){.layer_count = layer_count};
+  *targets = (CwColumnTargets){.layer_count = layer_count, .vertex_count = surface->vertex_count};
   CW_NEW_UNSET(targets->first_height, surface->vertex_count);
   CW_NEW_UNSET(targets->growth, surface->vertex_count);
   CW_NEW_UNSET(targets->target, surface->vertex_count);
@@ -262,11 +262,15 @@ done:
   return status;
 }
 
+void cw_column_targets_arrays(void *product, CwArrayVisit visit, void *given) {
+  CwColumnTargets *targets = product;
+  CW_SHOW(visit, given, targets->first_height, targets->vertex_count);
+  CW_SHOW(visit, given, targets->growth, targets->vertex_count);
+  CW_SHOW(visit, given, targets->target, targets->vertex_count);
+  CW_SHOW(visit, given, targets->least, targets->vertex_count);
+}
+
 void cw_column_targets_free(CwColumnTargets *targets) {
-  free(targets->first_height);
-  free(targets->first_made);
-  free(targets->growth);
-  free(targets->target);
-  free(targets->least);
+  cw_arrays_free(targets, cw_column_targets_arrays, &targets->memory);
   *targets = (CwColumnTargets){0};
 }

@@ -16,11 +16,12 @@
 // Of each wall vertex.
 typedef struct {
   int layer_count;
+  int32_t vertex_count;
   double *first_height; // m
-  double *first_made;   // the same by which the column is divided, once it stands (even_columns.h), m
   double *growth;       // largest ratio of neighbouring layers
   double *target;       // thickness, m
   double *least;        // thickness down to which a column is thinned for its shape: it has that first height, m
+  CwHostMemory *memory; // where its arrays lie; NULL: they are this rank's
 } CwColumnTargets;
 
 // Thickness below which layers of `first` (m) hardly grow any more: columns are asked to be no shorter.
@@ -42,6 +43,8 @@ CwStatus cw_column_targets_share(const CwContext *context, const CwColumnTargets
                                  const CwSurfaceMesh *surface, const CwIncident *around, const CwLayerTarget *layers,
                                  double *share);
 
+// Shows its arrays (CwArrays).
+void cw_column_targets_arrays(void *targets, CwArrayVisit visit, void *given);
 void cw_column_targets_free(CwColumnTargets *targets);
 
 #endif

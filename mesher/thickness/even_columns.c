@@ -96,7 +96,7 @@ static CwStatus judge(void *context, int32_t i, void *out) {
   if (surface->source[t] != t) return CW_OK;
   if (is_thick(columns, t)) return CW_OK;
   *made = LEFT;
-  for (int k = 0; k < 3; k++) first[k] = columns->targets->first_made[corner[k]];
+  for (int k = 0; k < 3; k++) first[k] = columns->layers->first_height[corner[k]];
   if (least_determinant(columns, t, first) >= LEAST) return CW_OK;
   for (int k = 0; k < 3; k++) first[k] = even_first(columns, corner[k]);
   if (least_determinant(columns, t, first) >= ENOUGH) *made = SMALL;
@@ -124,14 +124,14 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
   return changed;
 }
 
-CwStatus cw_column_targets_even(const CwContext *context, CwColumnTargets *targets, const CwSurfaceMesh *surface,
-                                const CwLayers *layers) {
+CwStatus cw_columns_divide(const CwContext *context, const CwColumnTargets *targets, const CwSurfaceMesh *surface,
+                           CwLayers *layers) {
   CwStatus status = CW_OK;
   Columns columns = {surface, layers, targets, NULL};
   int32_t *list = NULL, count = surface->triangle_count, kept = 0, changed;
   uint8_t *judgement = NULL, *mark = NULL;
-  CW_NEW_UNSET(targets->first_made, surface->vertex_count);
-  memcpy(targets->first_made, targets->first_height, (size_t)surface->vertex_count * sizeof *targets->first_made);
+  CW_NEW_UNSET(layers->first_height, surface->vertex_count);
+  memcpy(layers->first_height, targets->first_height, (size_t)surface->vertex_count * sizeof *layers->first_height);
   CW_NEW(judgement, count);
   CW_NEW(mark, surface->vertex_count);
   CW_NEW_UNSET(list, count);
@@ -147,7 +147,7 @@ CwStatus cw_column_targets_even(const CwContext *context, CwColumnTargets *targe
     for (int32_t i = 0; i < kept; i++) {
       for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[layers->triangle[list[i]][k]] = 1;
     }
-    changed = even_marked(&columns, mark, targets->first_made);
+    changed = even_marked(&columns, mark, layers->first_height);
     if (changed)
       CW_TRY(
           cw_parallel_for(context, "thicknesses: small prisms", kept, sizeof *judgement, judge, &columns, judgement));

@@ -10,9 +10,10 @@ further rows are a model, marked so: the processor seconds of each task of the r
 on the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost
 first, with what waits for it, each rank takes the next task when it is free and waits where that one comes after
 another; a schedule starts when the one before has ended on all ranks).
-What no task accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are
-grouped as the mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row
-of 2 ranks, measured and modelled, and --check tell how far it holds here.
+What no task accounts for is done by every rank, or by one on each host while the others wait, and gains nothing. Where
+domains are worked on side by side, ranks are grouped as the mesher does it and the longest group counts. The model
+knows no network and no shared memory bus; the row of 2 ranks, measured and modelled, and --check tell how far it holds
+here.
 
 --check RANKS runs the mesher on so many ranks, more than there are cores too, and sets the processor seconds of the
 longest rank beside the model, step by step. --cells-per-region takes the place of the case's.
@@ -41,7 +42,6 @@ from programs import ENVIRONMENT, SOURCE, gmsh, gmsh_first_size, size_for
 
 PAPER = {6: 81.13, 12: 75.92, 18: 60.94, 24: 51.04}  # efficiency, %
 TASKS = " (tasks)"
-LEAST_RANKS = 2  # of a group
 
 
 def case_with(arguments, folder):
@@ -68,16 +68,16 @@ def mesh(arguments, geometry, ranks):
         return seconds, json.loads((pathlib.Path(run) / "mesh/record.json").read_text())
 
 
-def group_sides(cost, own, ranks):
+def group_sides(cost, own, least_ranks, ranks):
     """The groups of sides, each with its ranks: the mesher's own rule (cw_groups_divide)."""
     best, least = None, None
-    for groups in range(1, max(2, min(len(cost), ranks // LEAST_RANKS) + 1)):
+    for groups in range(1, max(2, min(len(cost), ranks // least_ranks) + 1)):
         sides, work = [[] for _ in range(groups)], [0.0] * groups
         for side in sorted(range(len(cost)), key=lambda side: -cost[side]):
             group = work.index(min(work))
             sides[group].append(side)
             work[group] += cost[side]
-        ranks_of = [LEAST_RANKS] * groups if groups > 1 else [ranks]
+        ranks_of = [least_ranks] * groups if groups > 1 else [ranks]
         while sum(ranks_of) < ranks:
             longest = max(range(groups), key=lambda group: work[group] / ranks_of[group])
             ranks_of[longest] += 1
@@ -198,7 +198,8 @@ def longest_groups(sides, ranks, seconds_of):
     seconds = {}
     for step, entry in enumerate(sides):
         groups = []
-        for members, ranks_of in group_sides([side["cost"] for side in entry["side"]], entry["own"], ranks):
+        for members, ranks_of in group_sides([side["cost"] for side in entry["side"]], entry["own"],
+                                             entry["least_ranks"], ranks):
             groups.append({})
             for side in members:
                 add(groups[-1], seconds_of(step, side, ranks_of))

@@ -227,6 +227,9 @@ static void fill_the_box(int rule) {
   std::vector<double> growth(boundary.surface.vertex_count, 1.5);
   context.growth = growth.data();
   context.first_height = first.data();
+  CwSharedNodes shared_nodes;
+  Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
+  context.shared = &shared_nodes;
   Box::check(cw_region_context_make(&context));
   double volume = 0;
   uint64_t open_faces = 0;
@@ -248,8 +251,9 @@ static void fill_the_box(int rule) {
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
   assert_int_equal(open_faces, 0);
-  shared.check(context.shared_count);
+  shared.check(shared_nodes.count);
   cw_region_context_free(&context);
+  cw_shared_nodes_free(&shared_nodes);
   free(pair);
 }
 
@@ -346,6 +350,9 @@ static void a_crossing_boundary_is_examined(void **) {
   std::vector<double> growth(boundary.surface.vertex_count, 1.5);
   context.growth = growth.data();
   context.first_height = first.data();
+  CwSharedNodes shared_nodes;
+  Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
+  context.shared = &shared_nodes;
   Box::check(cw_region_context_make(&context));
   CwRegionMesh mesh;
   assert_int_equal(cw_region_build(&context, 0, 1, &mesh), CW_ERR_MESH);
@@ -369,6 +376,7 @@ static void a_crossing_boundary_is_examined(void **) {
   Box::check(cw_region_failure_examine(&regions, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
   cw_region_context_free(&context);
+  cw_shared_nodes_free(&shared_nodes);
   std::remove(path.c_str());
 }
 

@@ -55,6 +55,92 @@ static CwStatus hand_over(void *context, const CwGroupHand *hand) {
   return CW_OK;
 }
 
+// A product: values, and rows that point to values of their own. Row r of domain d has r + d of them.
+typedef struct {
+  int32_t *value;
+} Row;
+typedef struct {
+  int32_t domain, count, row_count;
+  double *x, *none;
+  Row *row;
+  CwHostMemory *memory;
+} Product;
+static Product product[DOMAINS];
+
+static void show(void *of, CwArrayVisit visit, void *given) {
+  Product *p = of;
+  CW_SHOW(visit, given, p->x, p->count);
+  CW_SHOW(visit, given, p->none, p->count);
+  CW_SHOW_POINTERS(visit, given, p->row, p->row_count);
+  for (int32_t r = 0; p->row && r < p->row_count; r++) CW_SHOW(visit, given, p->row[r].value, r + p->domain);
+}
+
+static CwStatus halve(void *context, int32_t item, void *out) {
+  *(double *)out = 0.5 * item;
+  return CW_OK;
+}
+
+static CwStatus make_product(void *given, const CwContext *context, int32_t domain, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  Product *p = &product[domain];
+  ((Work *)given)->ran[domain]++;
+  *p = (Product){.domain = domain, .count = count_of(domain), .row_count = 5};
+  CW_NEW(p->x, p->count);
+  CW_NEW(p->row, p->row_count);
+  CW_TRY(cw_parallel_for(context, "halves", p->count, sizeof *p->x, halve, NULL, p->x));
+  for (int32_t r = 0; r < p->row_count; r++) {
+    CW_NEW(p->row[r].value, r + domain);
+    for (int32_t i = 0; i < r + domain; i++) p->row[r].value[i] = 100 * domain + 10 * r + i;
+  }
+  if (domain == 1) cw_outcome_set(outcome, CW_OUTCOME_THIN, NULL, "thin, with what shows where");
+done:
+  return status;
+}
+
+static CwStatus hold_product(void *given, const CwGroupHand *hand) {
+  Product *p = &product[hand->item];
+  return cw_group_hold(hand, p, sizeof *p, show, &p->memory);
+}
+
+static int product_wrong(int32_t domain) {
+  const Product *p = &product[domain];
+  int wrong = p->count != count_of(domain) || p->row_count != 5 || p->domain != domain || p->none != NULL;
+  for (int32_t i = 0; !wrong && i < p->count; i++) wrong += p->x[i] != 0.5 * i;
+  for (int32_t r = 0; !wrong && r < 5; r++) {
+    for (int32_t i = 0; i < r + domain; i++) wrong += p->row[r].value[i] != 100 * domain + 10 * r + i;
+  }
+  return wrong;
+}
+
+// One rank makes a domain and all have it, in one place; who wants to change it makes it its own.
+static int hold(const CwContext *context, int *ran) {
+  static Work work;
+  const double cost[DOMAINS] = {3, 2, 1};
+  const CwGroupWork domains = {.step = "held",
+                               .count = DOMAINS,
+                               .cost = cost,
+                               .own = 0.1,
+                               .by_threads = 1,
+                               .run = make_product,
+                               .hand = hold_product,
+                               .given = &work};
+  CwOutcome outcome[DOMAINS];
+  int wrong = cw_groups_run(context, &domains, outcome) != CW_OK;
+  for (int32_t d = 0; d < DOMAINS; d++) {
+    Product *p = &product[d];
+    wrong += outcome[d].kind != (d == 1 ? CW_OUTCOME_THIN : CW_OUTCOME_DONE);
+    wrong += product_wrong(d);
+    wrong += (p->memory != NULL) != (cw_team_ranks(context->team) > 1);
+    wrong += p->memory && !cw_host_memory_is_shared(p->memory);
+    wrong += cw_arrays_own(p, show, &p->memory) != CW_OK || p->memory || product_wrong(d);
+    p->x[0] = p->row[4].value[0] = cw_team_rank(context->team);
+    *ran += work.ran[d];
+    cw_arrays_free(p, show, &p->memory);
+    wrong += p->x || p->row;
+  }
+  return wrong;
+}
+
 static int items_wrong(const Work *work, int32_t domain) {
   int wrong = 0;
   for (int32_t i = 0; i < count_of(domain); i++) wrong += work->made[domain][i] != value_of(domain, i);
@@ -118,8 +204,10 @@ static int be_a_rank(int argc, char **argv) {
     for (int32_t i = 0; i < count_of(0); i++) wrong += work.made[1][i] != value_of(0, i);
   }
   wrong += profiler_wrong(&context, 2);
+  int held_ran = 0;
+  wrong += hold(&context, &held_ran);
   cw_profiler_free(&context.profiler);
-  printf("RANK %d RAN %d WRONG %d\n", rank, ran, wrong);
+  printf("RANK %d RAN %d HELD %d WRONG %d\n", rank, ran, held_ran, wrong);
   cw_log_close(&test_log);
   return end_as_rank(all, wrong != 0);
 }
@@ -134,6 +222,7 @@ static void all_ranks_get_all(void **state) {
     assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
     assert_int_equal(lines, ranks[i]);
     assert_int_equal(count_lines_with(output, "cutwater-test: work on domain "), 2 * DOMAINS); // whichever rank it was
+    assert_int_equal(sum_of(output, " HELD ", &lines), DOMAINS);
     assert_int_equal(sum_of(output, " RAN ", &lines), ran[i]); // 5: three of them on one domain, two on the others
   }
 }
@@ -159,10 +248,10 @@ static void a_killed_rank_ends_the_run(void **state) {
   assert_int_equal(launch(5, "killed", output, sizeof output), 128 + SIGKILL);
 }
 
-static void check_groups(int count, const double *cost, double own, int ranks, int groups, const int *group_of,
-                         const int *ranks_of) {
+static void check_groups(int count, const double *cost, double own, int ranks, int least, int groups,
+                         const int *group_of, const int *ranks_of) {
   int found_of[CW_GROUPS_MOST], found_ranks[CW_GROUPS_MOST];
-  assert_int_equal(cw_groups_divide(count, cost, own, ranks, found_of, found_ranks), groups);
+  assert_int_equal(cw_groups_divide(count, cost, own, ranks, least, found_of, found_ranks), groups);
   for (int s = 0; s < count; s++) assert_int_equal(found_of[s], group_of[s]);
   for (int g = 0; g < groups; g++) assert_int_equal(found_ranks[g], ranks_of[g]);
 }
@@ -170,13 +259,15 @@ static void check_groups(int count, const double *cost, double own, int ranks, i
 static void groups_follow_the_costs(void **state) {
   const double even[2] = {1, 1}, uneven[2] = {1, 3}, pump[4] = {10, 12, 1, 2};
   const int none[4] = {0}, both[2] = {0, 1}, turned[2] = {1, 0}, pipes[4] = {1, 0, 0, 1};
-  check_groups(1, even, 0.5, 24, 1, none, (int[]){24});
-  check_groups(2, even, 0.5, 3, 1, none, (int[]){3});
-  check_groups(2, even, 0.1, 4, 2, both, (int[]){2, 2});
-  check_groups(2, even, 0.1, 7, 2, both, (int[]){4, 3});
-  check_groups(2, uneven, 0.1, 24, 2, turned, (int[]){18, 6});
-  check_groups(2, uneven, 0, 4, 1, none, (int[]){4}); // 3 / 2 against 4 / 4
-  check_groups(4, pump, 0.1, 4, 2, pipes, (int[]){2, 2});
+  check_groups(1, even, 0.5, 24, 2, 1, none, (int[]){24});
+  check_groups(2, even, 0.5, 3, 2, 1, none, (int[]){3});
+  check_groups(2, even, 0.1, 4, 2, 2, both, (int[]){2, 2});
+  check_groups(2, even, 0.1, 7, 2, 2, both, (int[]){4, 3});
+  check_groups(2, uneven, 0.1, 24, 2, 2, turned, (int[]){18, 6});
+  check_groups(2, uneven, 0, 4, 2, 1, none, (int[]){4}); // 3 / 2 against 4 / 4
+  check_groups(4, pump, 0.1, 4, 2, 2, pipes, (int[]){2, 2});
+  check_groups(2, even, 0.1, 2, 1, 2, both, (int[]){1, 1});
+  check_groups(2, uneven, 0, 2, 1, 1, none, (int[]){2}); // 4 / 2 against 3
 }
 
 int main(int argc, char **argv) {

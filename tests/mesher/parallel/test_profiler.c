@@ -88,7 +88,7 @@ static void items_have_their_own_accounts(void **state) {
   const int32_t after[2] = {-1, 0};
   CwSchedule schedule = {.step = "step", .count = 2, .cost = cost, .after = after, .run = task};
   cw_profiler_part(context, "together");
-  assert_int_equal(cw_profiler_groups(context, "items", 2, COST, 0.25), CW_OK);
+  assert_int_equal(cw_profiler_groups(context, "items", 2, COST, 0.25, 2), CW_OK);
   cw_profiler_item(context, 1);
   cw_profiler_part(context, "alone");
   work(0.03);

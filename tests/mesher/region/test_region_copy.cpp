@@ -129,6 +129,9 @@ static void fill_the_tank(bool divided, bool rule) {
   context.layer_count = 4;
   context.growth = growth.data();
   context.first_height = first.data();
+  CwSharedNodes shared_nodes;
+  check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
+  context.shared = &shared_nodes;
   check(cw_region_context_make(&context));
   double volume = 0;
   SharedPoints shared;
@@ -157,9 +160,10 @@ static void fill_the_tank(bool divided, bool rule) {
     cw_region_free(&mesh);
   }
   assert_near(volume / solid_volume(tank.cad), 1, 1e-12);
-  shared.check(context.shared_count);
+  shared.check(shared_nodes.count);
 
   cw_region_context_free(&context);
+  cw_shared_nodes_free(&shared_nodes);
   free(pair);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Upright columns of two layers over the unit square, whose triangles have an area of 1/2 and 2 + sqrt(2) around.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "mesher/layers/thin_prism.h"
@@ -22,10 +23,9 @@ static void make(int layers, double asked, const double thickness[4], double mad
   memcpy(own, thickness, sizeof own);
   memcpy(top, x, sizeof top);
   for (int v = 0; v < 4; v++) top[v][2] = thickness[v];
-  assert_int_equal(cw_column_targets_even(NULL, &targets, &surface, &columns), CW_OK);
-  memcpy(made, targets.first_made, sizeof own);
-  targets.first_height = targets.growth = NULL;
-  cw_column_targets_free(&targets);
+  assert_int_equal(cw_columns_divide(NULL, &targets, &surface, &columns), CW_OK);
+  memcpy(made, columns.first_height, sizeof own);
+  free(columns.first_height);
 }
 
 static double determinant(double thickness) {
