@@ -185,7 +185,7 @@ static CwGroupHand hand_of(const CwTeam *all, const CwGroupWork *work, const Gro
                       .from = groups->first[g],
                       .maker = -1,
                       .everywhere = 1};
-  if (!work->by_threads || all->ranks == 1) return hand;
+  if (!work->by_threads) return hand;
   int maker = maker_on(all, groups, g, all->host_of[all->rank]);
   if (maker >= 0) hand.maker = before_on_host(all, maker);
   for (int rank = 0; rank < all->ranks; rank++) {

@@ -46,12 +46,6 @@ CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutc
 
 // Hands over `size` bytes, as many on all ranks. Straight from array to array.
 void cw_group_give(const CwGroupHand *hand, void *data, int64_t size);
-// The same for an array of `count` items, which is allocated where it comes to.
-#define CW_GROUP_ARRAY(hand, pointer, count)                                                                           \
-  do {                                                                                                                 \
-    if (!(hand)->mine) CW_NEW_UNSET(pointer, count);                                                                   \
-    cw_group_give(hand, pointer, (int64_t)(count) * (int64_t)sizeof *(pointer));                                       \
-  } while (0)
 
 // Hands over a product of `size` bytes: its numbers, and its arrays, once for each host, which nobody changes from here
 // on. [in,out] memory: the field of the product for where they lie. CW_ERR_MEMORY.

@@ -37,12 +37,10 @@ static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *s
   int32_t first = block * share->block, left = share->count - first;
   int32_t last = left < share->block ? share->count : first + share->block;
   size_t length = place_of(share, last) - place_of(share, first);
-  char *own = NULL, *result = share->out ? share->out + place_of(share, first) : NULL;
-  if (result)
-    memset(result, 0, length);
-  else
-    CW_NEW(own, length);
-  if (own) result = own;
+  char *own = NULL;
+  if (!share->out) CW_NEW_UNSET(own, length);
+  char *result = own ? own : share->out + place_of(share, first);
+  memset(result, 0, length);
   for (int32_t i = first; i < last; i++)
     CW_TRY(share->body(share->given, i, result + place_of(share, i) - place_of(share, first)));
   *bytes = own;

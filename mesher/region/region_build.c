@@ -64,7 +64,7 @@ done:
 CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwSharedNodes *shared) {
   CwStatus status = CW_OK;
   const CwNodeTable *nodes = &from->interfaces->nodes;
-  *shared = (CwSharedNodes){.node_count = nodes->count, .layer_count = layer_count};
+  *shared = (CwSharedNodes){.node_count = nodes->count};
   for (int32_t i = 0; i < nodes->count; i++) shared->shared_node_count += nodes->on_plane[i];
   CW_NEW_UNSET(shared->base, nodes->count);
   CW_NEW_UNSET(shared->node, shared->shared_node_count);

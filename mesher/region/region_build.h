@@ -10,7 +10,7 @@
 
 // The points of a domain's mesh that its regions share: those of nodes on partition planes, with their columns.
 typedef struct {
-  int32_t node_count, layer_count;  // of all nodes of the boundary; of the columns
+  int32_t node_count;               // of all nodes of the boundary
   int64_t *base;                    // of each node: first shared number of its column (or its own), -1: not shared
   int64_t count;                    // of the points
   int32_t shared_node_count, *node; // the shared nodes by ascending base

@@ -42,15 +42,9 @@ done:
   return status;
 }
 
-// Results of a step, of each domain.
-typedef struct {
-  CwMeshRun *run;
-  const CwResults *results;
-} Merging;
-
 static CwStatus merge_inner(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  const Merging *merging = given;
+  const CwMerging *merging = given;
   CwDomain *domain = &merging->run->domain[d];
   void **bytes = merging->results->bytes[d];
   cw_profiler_part(context, "inner surfaces merged");
@@ -63,7 +57,7 @@ done:
 }
 
 static CwStatus hand_inner(void *given, const CwGroupHand *hand) {
-  CwDomain *domain = &((const Merging *)given)->run->domain[hand->item];
+  CwDomain *domain = &((const CwMerging *)given)->run->domain[hand->item];
   CwInterfaces *interfaces = &domain->interfaces;
   if (!hand->mine) cw_free_curves_free(&domain->free_curves);
   return cw_group_hold(hand, interfaces, sizeof *interfaces, cw_interfaces_arrays, &interfaces->memory);
@@ -101,7 +95,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
                              .copied = 1,
                              .work = merge_inner,
                              .hand = hand_inner,
-                             .given = &(Merging){run, &results}};
+                             .given = &(CwMerging){run, &results}};
   CW_TRY(cw_run_domains(run, &work, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   for (int d = 0; outcome->kind == CW_OUTCOME_DONE && d < run->model.domain_count; d++)
@@ -115,7 +109,7 @@ done:
 
 static CwStatus merge_rule(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  const Merging *merging = given;
+  const CwMerging *merging = given;
   CwDomain *domain = &merging->run->domain[d];
   cw_profiler_part(context, "interfaces merged");
   CW_TRY(cw_interface_rule_merge(&domain->images, &domain->interfaces, domain->plan.region_count,
@@ -129,7 +123,7 @@ done:
 
 static CwStatus hand_rule(void *given, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
-  CwDomain *domain = &((const Merging *)given)->run->domain[hand->item];
+  CwDomain *domain = &((const CwMerging *)given)->run->domain[hand->item];
   CwInterfaces *interfaces = &domain->interfaces;
   CwSharedNodes *shared = &domain->shared;
   if (!hand->mine) cw_interfaces_free(interfaces);
@@ -177,7 +171,7 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
                              .copied = 1,
                              .work = merge_rule,
                              .hand = hand_rule,
-                             .given = &(Merging){run, &results}};
+                             .given = &(CwMerging){run, &results}};
   CW_TRY(cw_run_domains(run, &work, of_domain));
   for (int d = 0; d < run->model.domain_count; d++) log_rule(run->context.log, &run->domain[d]);
 done:

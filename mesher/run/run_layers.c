@@ -9,14 +9,9 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/log.h"
 
-typedef struct {
-  CwMeshRun *run;
-  const CwResults *results; // of the wall faces
-} Walls;
-
 static CwStatus merge(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  const Walls *walls = given;
+  const CwMerging *walls = given;
   CwDomain *domain = &walls->run->domain[d];
   const double *most = walls->run->most_thickness[d];
   cw_profiler_part(context, "walls merged");
@@ -33,7 +28,7 @@ done:
 
 static CwStatus hand_walls(void *given, const CwGroupHand *hand) {
   CwStatus status = CW_OK;
-  CwDomain *domain = &((const Walls *)given)->run->domain[hand->item];
+  CwDomain *domain = &((const CwMerging *)given)->run->domain[hand->item];
   CwSurfaceMesh *surface = &domain->surface;
   CwColumnTargets *targets = &domain->targets;
   CW_TRY(cw_group_hold(hand, surface, sizeof *surface, cw_surface_mesh_arrays, &surface->memory));
@@ -46,7 +41,7 @@ done:
 CwStatus cw_run_merge_walls(CwMeshRun *run, const CwResults *results, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwOutcome of_domain[CW_DOMAINS_MOST];
-  Walls walls = {run, results};
+  CwMerging walls = {run, results};
   const CwDomainWork work = {
       .step = "walls merged", .own = 0.4, .copied = 0.75, .work = merge, .hand = hand_walls, .given = &walls};
   CW_TRY(cw_run_domains(run, &work, of_domain));

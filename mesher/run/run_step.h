@@ -33,6 +33,12 @@ typedef struct {
   void *given;
 } CwDomainWork;
 
+// What such work is given where it merges the results of a step.
+typedef struct {
+  CwMeshRun *run;
+  const CwResults *results;
+} CwMerging;
+
 // outcome: of each domain. Collective.
 CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcome[CW_DOMAINS_MOST]);
 
