@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -109,12 +110,15 @@ CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const dou
   CwStatus status = CW_OK;
   int ends[2] = {-1, -1}, how = 0;
   bool whole = false;
-  pid_t child = -1;
+  pid_t child = -1, parent;
   CW_REQUIRE(pipe(ends) == 0, CW_ERR_LIBRARY, "%s: no pipe for TetGen: %s", input->name, strerror(errno));
   fflush(NULL); // or the child might print it again
+  parent = getpid();
   child = fork();
   CW_REQUIRE(child >= 0, CW_ERR_LIBRARY, "%s: no process for TetGen: %s", input->name, strerror(errno));
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // or it would hold the memory of a rank that was killed
+    if (getppid() != parent) _exit(1);
     signal(SIGABRT, SIG_DFL);
     signal(SIGSEGV, SIG_DFL);
     signal(SIGPIPE, SIG_IGN);

@@ -140,32 +140,38 @@ static Groups find_groups(const CwTeam *all, const CwGroupWork *work) {
 
 // Threads of this rank for all of its group on its host, on the cores that these have; work comes to each host by its
 // threads.
-static CwStatus start_threads(const CwTeam *all, const Groups *groups, CwTeam *own) {
+static CwStatus start_threads(const CwTeam *all, CwLog *log, const Groups *groups, CwTeam *own) {
   CwStatus status = CW_OK;
   cpu_set_t cores;
-  int g = groups->mine, count = 0;
+  int g = groups->mine, count = 0, makers = 0;
+  int *maker_number = NULL; // by the first rank of a host: of the group's maker there, from 1; 0: none yet
   CPU_ZERO(&cores);
+  CW_NEW(maker_number, all->ranks);
   CW_NEW(own->slot_rank, groups->ranks[g]);
   for (int rank = groups->first[g]; in_group(groups, g, rank); rank++) {
-    int maker = maker_on(all, groups, g, all->host_of[rank]), number = 0; // of the maker among those of the group
-    for (int other = groups->first[g]; other < maker; other++)
-      number += maker_on(all, groups, g, all->host_of[other]) == other;
-    own->slot_rank[own->slots++] = number;
-    if (maker != all->rank) continue;
+    int host = all->host_of[rank];
+    if (!maker_number[host]) maker_number[host] = ++makers;
+    own->slot_rank[own->slots++] = maker_number[host] - 1;
+    if (host != all->host_of[all->rank]) continue;
     CPU_OR(&cores, &cores, &all->cores[rank]);
     count++;
   }
-  if (count > 1) CW_TRY(cw_threads_make(count, CPU_COUNT(&cores) ? &cores : NULL, &own->pool));
+  if (count > 1) {
+    CW_TRY(cw_threads_make(count, CPU_COUNT(&cores) ? &cores : NULL, &own->pool));
+    int made = cw_threads_count(own->pool);
+    if (made < count) cw_log_warn(log, "%d of %d threads can be started; the work on walls takes longer", made, count);
+  }
 done:
+  free(maker_number);
   return status;
 }
 
 // This rank's team for the step. [out] own: NULL: all ranks.
-static CwStatus go_apart(const CwTeam *all, const CwGroupWork *work, const Groups *groups, CwTeam **own) {
+static CwStatus go_apart(const CwTeam *all, CwLog *log, const CwGroupWork *work, const Groups *groups, CwTeam **own) {
   CwStatus status = CW_OK;
   if (all->ranks == 1 || (groups->count == 1 && !work->by_threads)) goto done;
   CW_TRY(cw_team_split(all, groups->works ? groups->mine : groups->count, own));
-  if (work->by_threads && groups->works) CW_TRY(start_threads(all, groups, *own));
+  if (work->by_threads && groups->works) CW_TRY(start_threads(all, log, groups, *own));
 done:
   return status;
 }
@@ -205,7 +211,7 @@ CwStatus cw_groups_run(const CwContext *context, const CwGroupWork *work, CwOutc
   memset(outcome, 0, (size_t)work->count * sizeof *outcome);
   CW_TRY(cw_profiler_groups(context, work->step, work->count, work->cost, work->own, least_ranks(work)));
   const Groups groups = find_groups(all, work);
-  CW_TRY(go_apart(all, work, &groups, &own));
+  CW_TRY(go_apart(all, log, work, &groups, &own));
   CwContext group = context ? *context : (CwContext){0};
   group.team = own ? own : all;
   cw_log_keep(log, all->rank == groups.first[groups.mine]);

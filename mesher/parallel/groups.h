@@ -12,7 +12,7 @@
 #include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
-enum { CW_GROUPS_MOST = 16 };
+enum { CW_GROUPS_MOST = 64 }; // items
 
 // An item while its results are handed over.
 typedef struct {

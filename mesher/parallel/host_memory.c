@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/random.h>
 #include <sys/shm.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "mesher/parallel/ranks.h"
 #include "mesher/parallel/team.h"
@@ -18,6 +20,16 @@ struct CwHostMemory {
   int64_t size;
   int shared;
 };
+
+// As all ranks of a host know it: its number, and what stands at its end. Where ranks of one host do not share the
+// numbers, another's segment may have this one.
+typedef struct {
+  int number; // -1: none
+  uint64_t sign;
+} Segment;
+
+// Why the system last shared none, as errno; 0: it always has.
+static int refusal;
 
 // Of this process, as its memory is: bytes that it shares, now and at most; at most without them.
 static int64_t shared_now, shared_peak, own_peak;
@@ -37,7 +49,8 @@ static void note_peak(void) {
     text[length] = 0;
     fclose(file);
   }
-  int64_t own = 1024 * (kibibytes(text, "VmHWM:") - kibibytes(text, "RssShmem:"));
+  int64_t most = kibibytes(text, "VmHWM:");
+  int64_t own = most > 0 ? 1024 * (most - kibibytes(text, "RssShmem:")) : cw_peak_memory_bytes();
   if (own > own_peak) own_peak = own;
   errno = 0;
 }
@@ -63,20 +76,54 @@ static char *attach(int number) {
   return at == (void *)-1 ? NULL : at;
 }
 
+// A segment of `size` bytes and its sign, which goes with the last process that has it, however that ends: Linux lets
+// others attach to one that is marked to go.
+static Segment make_segment(int64_t size, char **at) {
+  Segment made = {.number = shmget(IPC_PRIVATE, (size_t)size + sizeof made.sign, IPC_CREAT | S_IRUSR | S_IWUSR)};
+  *at = attach(made.number);
+  if (made.number >= 0) shmctl(made.number, IPC_RMID, NULL);
+  if (!*at) return (Segment){.number = -1};
+  if (getrandom(&made.sign, sizeof made.sign, GRND_NONBLOCK) < 0) made.sign = (uint64_t)getpid();
+  memcpy(*at + size, &made.sign, sizeof made.sign);
+  return made;
+}
+
+// NULL where the number is not this host's, or is another's.
+static char *find_segment(const Segment *segment, int64_t size) {
+  struct shmid_ds about;
+  char *at = NULL;
+  if (segment->number < 0 || shmctl(segment->number, IPC_STAT, &about)) return NULL;
+  if (about.shm_segsz == (size_t)size + sizeof segment->sign) at = attach(segment->number);
+  if (at && memcmp(at + size, &segment->sign, sizeof segment->sign)) {
+    shmdt(at);
+    at = NULL;
+  }
+  if (!at && !errno) errno = EIDRM;
+  return at;
+}
+
 // [out] at: NULL where not all ranks can have it. Collective.
 static void share(const CwTeam *host, int64_t size, char **at) {
-  int number = -1, owner = cw_team_rank(host) == 0;
-  if (owner) number = shmget(IPC_PRIVATE, (size_t)size, IPC_CREAT | S_IRUSR | S_IWUSR);
-  cw_team_broadcast(host, &number, sizeof number, 0);
-  *at = attach(number);
-  double missing = *at == NULL;
-  cw_team_most(host, 1, &missing);
-  if (owner && number >= 0) shmctl(number, IPC_RMID, NULL); // goes with the last that has it
-  if (missing > 0 && *at) {
+  int owner = cw_team_rank(host) == 0;
+  Segment segment = {0};
+  errno = 0;
+  if (owner) segment = make_segment(size, at);
+  double why = owner && !*at ? errno : 0;
+  cw_team_broadcast(host, &segment, sizeof segment, 0);
+  errno = 0;
+  if (!owner) *at = find_segment(&segment, size);
+  if (!owner && !*at && segment.number >= 0) why = errno;
+  cw_team_most(host, 1, &why);
+  if (why > 0) refusal = (int)why;
+  if (why > 0 && *at) {
     shmdt(*at);
     *at = NULL;
   }
   errno = 0;
+}
+
+int cw_host_memory_refusal(void) {
+  return refusal;
 }
 
 CwStatus cw_host_memory_make(const CwTeam *host, int64_t size, CwHostMemory **memory) {

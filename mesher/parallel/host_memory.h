@@ -34,7 +34,10 @@ void cw_host_memory_spread(const CwTeam *host, CwHostMemory *memory, int64_t sta
 // From here on it is only read: the system stops who writes.
 void cw_host_memory_seal(CwHostMemory *memory);
 void cw_host_memory_free(CwHostMemory **memory); // not collective; NULL is fine
-// Peak memory of this rank in bytes, without what its host's ranks share; that counts on the first of them.
+// Why the system last refused to share memory on this host, as errno; 0: it never has.
+int cw_host_memory_refusal(void);
+// Peak memory of this rank in bytes, without what its host's ranks share; that counts on the first of them. Linux's own
+// peak of the process (VmHWM, getrusage) begins anew with each piece of memory made or freed.
 int64_t cw_host_memory_peak(const CwTeam *all);
 
 // Frees a product's arrays: those of malloc, or the memory that they lie in. [in,out] memory: the product's; NULL:

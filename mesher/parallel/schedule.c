@@ -247,10 +247,12 @@ static int rank_of_place(const CwTeam *team, int32_t place) {
   return team->slot_rank ? team->slot_rank[place % team->slots] : place % team->ranks;
 }
 
-// Tasks in turn to each rank; one that waits for another, to the rank of that. With threads none may wait.
+// Tasks in turn to each rank; one that waits for another, to the rank of that.
 static CwStatus deal_tasks(Work *work, const Order *order) {
   CwStatus status = CW_OK;
   int32_t count = 0;
+  CW_REQUIRE(!work->team->pool || !order->before, CW_ERR_INPUT, "%s: threads take tasks that wait for none",
+             work->schedule->step);
   CW_NEW_UNSET(work->dealt, work->schedule->count);
   for (int32_t place = 0; place < work->schedule->count; place++) {
     int32_t first = place;
@@ -295,7 +297,8 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
     if (size) size[task] = (int64_t)work.end[task].size;
     if (schedule->gather) gathered += size[task];
   }
-  int shares = schedule->held && work.team->host && work.team->host->ranks > 1 && gathered >= SHARED_LEAST;
+  // As all ranks find it: hosts of one rank and of several may be side by side.
+  int shares = schedule->held && work.team->host && work.team->hosts < work.team->ranks && gathered >= SHARED_LEAST;
   if (schedule->held) *schedule->held = NULL;
   if (schedule->gather)
     CW_TRY(shares ? share_results(work.team, count, work.end, bytes, schedule->held)

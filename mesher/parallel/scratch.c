@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/parallel/scratch.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -47,6 +48,7 @@ void cw_scratch_give(CwScratch *scratch, void *array) {
   }
   pthread_mutex_unlock(&scratch->lock);
   free(array); // where there was no room for it
+  errno = 0;
 }
 
 void cw_scratch_free(CwScratch **scratch) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/parallel/threads.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -57,19 +58,26 @@ static void *serve(void *given) {
   return NULL;
 }
 
+// One more, on these cores, or on any where the system does not allow these.
+static int add_thread(CwThreads *threads, const cpu_set_t *cores) {
+  pthread_attr_t how;
+  pthread_attr_init(&how);
+  if (cores) pthread_attr_setaffinity_np(&how, sizeof *cores, cores);
+  int failed = pthread_create(&threads->thread[threads->count], &how, serve, threads);
+  pthread_attr_destroy(&how);
+  return failed && cores ? add_thread(threads, NULL) : failed;
+}
+
 CwStatus cw_threads_make(int count, const cpu_set_t *cores, CwThreads **threads) {
   CwStatus status = CW_OK;
-  pthread_attr_t how;
   CW_NEW(*threads, 1);
   CwThreads *made = *threads;
   CW_NEW(made->thread, count);
   pthread_mutex_init(&made->lock, NULL);
   pthread_cond_init(&made->begin, NULL);
   pthread_cond_init(&made->end, NULL);
-  pthread_attr_init(&how);
-  if (cores) pthread_attr_setaffinity_np(&how, sizeof *cores, cores);
-  while (made->count < count - 1 && !pthread_create(&made->thread[made->count], &how, serve, made)) made->count++;
-  pthread_attr_destroy(&how);
+  while (made->count < count - 1 && !add_thread(made, cores)) made->count++;
+  errno = 0; // fewer are enough
 done:
   return status;
 }
@@ -95,6 +103,10 @@ CwStatus cw_threads_run(CwThreads *threads, int32_t count, CwStatus (*body)(void
   }
   pthread_mutex_unlock(&threads->lock);
   return status;
+}
+
+int cw_threads_count(const CwThreads *threads) {
+  return threads->count + 1;
 }
 
 void cw_threads_free(CwThreads **threads) {

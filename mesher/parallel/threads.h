@@ -17,6 +17,7 @@ CwStatus cw_threads_make(int count, const cpu_set_t *cores, CwThreads **threads)
 // Calls body for the items 0 .. count - 1, each by the thread that is free. What the first failing item says is
 // returned.
 CwStatus cw_threads_run(CwThreads *threads, int32_t count, CwStatus (*body)(void *given, int32_t item), void *given);
-void cw_threads_free(CwThreads **threads); // NULL is fine
+int cw_threads_count(const CwThreads *threads); // that were made, and the caller
+void cw_threads_free(CwThreads **threads);      // NULL is fine
 
 #endif

@@ -462,7 +462,9 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     log_plan(run, d);
   }
+#ifdef __GLIBC__
   malloc_trim(0); // what planning has left free lies between what stays
+#endif
   if (run->rank == 0) {
     CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->model.domain_count, "domains"));
   }

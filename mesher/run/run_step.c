@@ -2,6 +2,7 @@
 #include "mesher/run/run_step.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/parallel/schedule.h"
@@ -57,7 +58,17 @@ done:
   return status;
 }
 
+static void tell_of_copies(CwMeshRun *run) {
+  if (run->copies_told || run->rank != 0 || !cw_host_memory_refusal()) return;
+  cw_log_warn(run->context.log,
+              "the system shares no memory between the ranks (%s): each holds surfaces and layers for itself; allow "
+              "System V shared memory (kernel.shmmax, kernel.shmall, one IPC namespace a host), or ask for fewer ranks",
+              strerror(cw_host_memory_refusal()));
+  run->copies_told = 1;
+}
+
 CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcome[CW_DOMAINS_MOST]) {
+  CwStatus status = CW_OK;
   double cost[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
@@ -72,7 +83,10 @@ CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcom
                       .run = of->work,
                       .hand = of->hand,
                       .given = of->given};
-  return cw_groups_run(&run->context, &work, outcome);
+  CW_TRY(cw_groups_run(&run->context, &work, outcome));
+  tell_of_copies(run);
+done:
+  return status;
 }
 
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count) {

@@ -30,8 +30,8 @@ wait $mpirun"""
 LOST = {"killed": "ip netns pids 10.77.0.3 | xargs kill -9", "cut off": "ip -n 10.77.0.3 link set eth0 down"}
 
 
-def on_hosts(*line, way=(), inside=()):
-    return execute([HOSTS, COUNT, TOP, *inside, "mpirun", "-q", "--hostfile", TOP / "hosts", *way, *line], timeout=1000)
+def on_hosts(*line, where=("--hostfile", TOP / "hosts"), way=(), inside=()):
+    return execute([HOSTS, COUNT, TOP, *inside, "mpirun", "-q", *where, *way, *line], timeout=1000)
 
 
 def without_launcher(stage, run, cells=CELLS):
@@ -74,6 +74,16 @@ class Hosts(unittest.TestCase):
                 result = on_hosts(*without_launcher("mesh", run), way=way)
                 self.assertEqual(result.returncode, 0, result.stdout)
                 self.assertEqual(digests(run / "mesh"), digests(self.one / "mesh"))
+
+    def test_hosts_of_other_numbers_of_ranks(self):
+        for slots in ((2, 1), (1, 2), (1, 3, 2)):
+            with self.subTest(slots):
+                run = self.with_geometry("uneven")
+                hosts = ",".join(f"10.77.0.{k + 1}:{slots_of}" for k, slots_of in enumerate(slots))
+                for stage in ("mesh", "export"):
+                    result = on_hosts(*without_launcher(stage, run), where=("--host", hosts))
+                    self.assertEqual(result.returncode, 0, result.stdout)
+                    self.assertEqual(digests(run / stage), digests(self.one / stage))
 
     def test_not_much_slower_than_one_host(self):
         seconds = {"one": [], "several": []}
