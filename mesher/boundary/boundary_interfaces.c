@@ -16,10 +16,10 @@ static CwStatus start_nodes(const CwBoundaryInput *in, const CwWallCurves *curve
                             const CwLayers *layers, CwFreeCurves *free_curves) {
   CwStatus status = CW_OK;
   const CwNetwork *network = in->network;
-  free_curves->nodes.capacity = surface->vertex_count + 4096;
+  free_curves->nodes.x_room = free_curves->nodes.plane_room = surface->vertex_count + 4096;
   free_curves->nodes.count = surface->vertex_count;
-  CW_NEW(free_curves->nodes.x, free_curves->nodes.capacity);
-  CW_NEW(free_curves->nodes.on_plane, free_curves->nodes.capacity);
+  CW_NEW(free_curves->nodes.x, free_curves->nodes.x_room);
+  CW_NEW(free_curves->nodes.on_plane, free_curves->nodes.plane_room);
   memcpy(free_curves->nodes.x, layers->top, (size_t)surface->vertex_count * sizeof *free_curves->nodes.x);
   free_curves->corner_count = network->corner_count;
   CW_NEW(free_curves->corner_node, network->corner_count);
@@ -57,9 +57,7 @@ static double free_end(const CwBoundaryInput *in, const CwWallCurves *curves, co
 
 static CwStatus add_tight(CwFreeCurves *free_curves, const double x[3]) {
   CwStatus status = CW_OK;
-  void *grown = realloc(free_curves->tight, (size_t)(free_curves->tight_count + 1) * sizeof *free_curves->tight);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", free_curves->tight_count);
-  free_curves->tight = grown;
+  CW_GROW(free_curves->tight, free_curves->tight_room, free_curves->tight_count + 1);
   memcpy(free_curves->tight[free_curves->tight_count++], x, sizeof *free_curves->tight);
 done:
   return status;
@@ -160,12 +158,7 @@ static CwStatus find_polygons(const CwBoundaryInput *in, const CwWallCurves *cur
   if (free_curves->tight_count > 0) goto done;
   CW_TRY(cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                           (const int32_t(*)[2])outline->edge, outline->boundary, &polygons));
-  if (polygons.polygon_count == 0) goto done;
-  CwInterfaceOutline *grown =
-      realloc(free_curves->outline,
-              (size_t)(free_curves->outline_count + polygons.polygon_count) * sizeof *free_curves->outline);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", free_curves->outline_count);
-  free_curves->outline = grown;
+  CW_GROW(free_curves->outline, free_curves->outline_room, free_curves->outline_count + polygons.polygon_count);
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
     int32_t first = polygons.polygon_start[p], last = polygons.polygon_start[p + 1];
     int32_t start = polygons.loop_start[first], end = polygons.loop_start[last];
@@ -342,7 +335,6 @@ done:
 static CwStatus take_over(CwFreeCurves *free_curves, CwInterfaces *interfaces) {
   CwStatus status = CW_OK;
   CW_TRY(cw_arrays_own(free_curves, cw_free_curves_arrays, &free_curves->memory));
-  free_curves->nodes.capacity = free_curves->nodes.count;
   *interfaces = (CwInterfaces){.nodes = free_curves->nodes,
                                .images = free_curves->images,
                                .outline_count = free_curves->outline_count,

@@ -170,7 +170,7 @@ static void turn_copies(ConcaveEdges *concave, int32_t v) {
   const CwPeriodicImages *images = concave->images;
   const CwNodeImages *nodes = &concave->surface->images;
   int32_t turns = 1, from = concave->part.local[v];
-  for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1), turns++) {
+  for (int32_t at = cw_image_after(nodes, v, v); at >= 0; at = cw_image_after(nodes, at, v), turns++) {
     int32_t local = concave->part.local[at];
     if (local >= 0) cw_image_point(images, turns, concave->top[from], concave->top[local]);
   }
@@ -207,18 +207,17 @@ static void spread(ConcaveEdges *concave, uint8_t *moved, int32_t *opened) {
   for (int32_t v = 0; v < surface->vertex_count; v++) {
     const double *end = concave->turning[v] ? concave->top[concave->part.local[v]] : layers->top[v];
     if (memcmp(end, layers->top[v], sizeof *layers->top) == 0) continue;
-    int32_t local = concave->part.local[v], at = v, turns = 0;
+    int32_t local = concave->part.local[v];
     double column[3];
     cw_sub(end, surface->x[v], column);
     double thickness = cw_layers_least_cosine(&concave->work, local, column);
     int same = fabs(thickness - layers->thickness[v]) < 0.01 * thickness;
-    do {
-      cw_image_point(concave->images, turns++, end, layers->top[at]);
+    for (int32_t at = v, turns = 0; at >= 0; at = cw_image_after(&surface->images, at, v), turns++) {
+      cw_image_point(concave->images, turns, end, layers->top[at]);
       layers->thickness[at] = thickness;
       if (!same) layers->reason[at] = CW_LAYER_REPAIR;
       moved[at] = 1;
-      at = cw_image_node(&surface->images, at, 1);
-    } while (at >= 0 && at != v);
+    }
     ++*opened;
   }
 }

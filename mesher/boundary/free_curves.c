@@ -54,15 +54,8 @@ done:
 
 CwStatus cw_node_table_add(CwNodeTable *nodes, const double x[3], int on_plane, int32_t *node) {
   CwStatus status = CW_OK;
-  if (nodes->count == nodes->capacity) {
-    int32_t capacity = 2 * nodes->capacity;
-    void *xs = realloc(nodes->x, (size_t)capacity * sizeof *nodes->x);
-    if (xs) nodes->x = xs;
-    void *flags = realloc(nodes->on_plane, (size_t)capacity);
-    if (flags) nodes->on_plane = flags;
-    CW_REQUIRE(xs && flags, CW_ERR_MEMORY, "out of memory: %d nodes", capacity);
-    nodes->capacity = capacity;
-  }
+  CW_GROW(nodes->x, nodes->x_room, nodes->count + 1);
+  CW_GROW(nodes->on_plane, nodes->plane_room, nodes->count + 1);
   cw_copy(x, nodes->x[nodes->count]);
   nodes->on_plane[nodes->count] = (uint8_t)on_plane;
   *node = nodes->count++;
@@ -71,6 +64,7 @@ done:
 }
 
 void cw_node_table_arrays(CwNodeTable *nodes, CwArrayVisit visit, void *given) {
+  nodes->x_room = nodes->plane_room = nodes->count; // who copies them makes room for no more
   CW_SHOW(visit, given, nodes->x, nodes->count);
   CW_SHOW(visit, given, nodes->on_plane, nodes->count);
 }

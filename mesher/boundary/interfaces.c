@@ -84,7 +84,7 @@ done:
 
 CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions) {
   CwStatus status = CW_OK;
-  const CwInterfaceTriangles *planned = interfaces->planned.triangle ? &interfaces->planned : &interfaces->refined;
+  const CwInterfaceTriangles *planned = cw_interfaces_of(interfaces, 1);
   CW_TRY(audit_corners(interfaces, "open patches", interfaces->open_patch.count,
                        (const int32_t(*)[3])interfaces->open_patch.triangle));
   for (int32_t t = 0; t < interfaces->open_patch.count; t++) {
@@ -92,7 +92,7 @@ CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions) {
                "open patches: triangle %d lies in region %d of %d", t, interfaces->open_patch.region[t], regions);
   }
   CW_TRY(audit_triangles(interfaces, &interfaces->refined, regions));
-  if (interfaces->planned.triangle) CW_TRY(audit_triangles(interfaces, planned, regions));
+  if (planned != &interfaces->refined) CW_TRY(audit_triangles(interfaces, planned, regions));
   for (int32_t i = 0; i < interfaces->outline_count; i++) {
     const CwInterfaceOutline *outline = &interfaces->outline[i];
     CW_TRY(audit_outline(interfaces, outline, planned, outline->triangle_start, outline->triangle_count));

@@ -37,6 +37,11 @@ typedef struct {
   CwHostMemory *memory;         // where its arrays lie; NULL: they are this rank's
 } CwInterfaces;
 
+// The triangles on the planes, or those `planned` where there are such.
+static inline const CwInterfaceTriangles *cw_interfaces_of(const CwInterfaces *interfaces, int planned) {
+  return planned && interfaces->planned.triangle ? &interfaces->planned : &interfaces->refined;
+}
+
 // Checks what finished interfaces hold: corners within the nodes and distinct, the two regions of a triangle distinct,
 // outlines whose triangles follow one another, and each edge of one outline in two of its triangles, but for those of
 // its loops, which are in one. CW_ERR_MESH with the first that does not hold. regions: their number.

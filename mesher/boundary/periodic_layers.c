@@ -36,24 +36,18 @@ static void part_free(Part *part) {
   cw_wall_part_free(&part->wall);
 }
 
-// The first ones.
-typedef struct {
-  const double (*x)[3];
-  const int32_t *vertex; // of each item of the tree
-} Firsts;
-
-static CwBox box_of(const void *context, int32_t item) {
-  const Firsts *firsts = context;
-  return cw_box_of_point(firsts->x[firsts->vertex[item]]);
-}
-
-// A point, and whether one of others was met within reach of it.
+// A point, and whether one of the first ones was met within reach of it.
 typedef struct {
   const double (*x)[3], *p;
   const int32_t *vertex; // of each item of the tree
   double reach;
   int met;
 } Near;
+
+static CwBox box_of(const void *context, int32_t item) {
+  const Near *near = context;
+  return cw_box_of_point(near->x[near->vertex[item]]);
+}
 
 static int meet(void *context, int32_t item) {
   Near *near = context;
@@ -99,8 +93,8 @@ static CwStatus mark_near(const CwSurfaceMesh *surface, const CwLayerInput *whol
     cw_box_add_point(&within, whole->x[v]);
     vertex[firsts++] = v;
   }
-  CW_TRY(cw_box_tree_make(whole->context, firsts, &within, box_of, &(Firsts){whole->x, vertex}, &tree));
   Reach reach = {&tree, {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest}, is_first};
+  CW_TRY(cw_box_tree_make(whole->context, firsts, &within, box_of, &reach.near, &tree));
   CW_TRY(cw_parallel_for(whole->context, "layers: reach", whole->point_count, sizeof *near, find_near, &reach, near));
 done:
   cw_box_tree_free(&tree);
@@ -124,8 +118,8 @@ done:
 }
 
 int32_t cw_image_first_member(const CwNodeImages *nodes, const uint8_t *is_first, int32_t v) {
-  int32_t first = is_first[v] ? v : -1;
-  for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
+  int32_t first = -1;
+  for (int32_t at = v; at >= 0; at = cw_image_after(nodes, at, v)) {
     if (is_first[at] && (first < 0 || at < first)) first = at;
   }
   return first;
@@ -137,13 +131,11 @@ static void turn_from(const Part *part, const CwLayers *made, int32_t from, int3
                       CwLayers *layers) {
   const CwPeriodicImages *images = part->images;
   const CwNodeImages *nodes = &part->surface->images;
-  int32_t at = v, turns = 0;
-  do {
-    cw_image_point(images, turns++, end, layers->top[at]);
+  for (int32_t at = v, turns = 0; at >= 0; at = cw_image_after(nodes, at, v), turns++) {
+    cw_image_point(images, turns, end, layers->top[at]);
     layers->thickness[at] = made->thickness[part->wall.local[from]];
     layers->reason[at] = made->reason[part->wall.local[from]];
-    at = cw_image_node(nodes, at, 1);
-  } while (at >= 0 && at != v);
+  }
 }
 
 // Takes the columns of the first ones from the part and turns them for the copies. Of two members of an image set that
@@ -156,11 +148,7 @@ static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers)
   for (int32_t v = 0; v < part->wall.whole->point_count; v++) {
     if (!part->is_first[v] || placed[v]) continue;
     turn_from(part, made, v, v, made->top[part->wall.local[v]], layers);
-    int32_t at = v;
-    do {
-      placed[at] = 1;
-      at = cw_image_node(nodes, at, 1);
-    } while (at >= 0 && at != v);
+    for (int32_t at = v; at >= 0; at = cw_image_after(nodes, at, v)) placed[at] = 1;
   }
 done:
   free(placed);
@@ -173,16 +161,12 @@ static double place_image(const Part *part, const CwLayerWork *work, int32_t v, 
   const CwNodeImages *nodes = &part->surface->images;
   double least = INFINITY;
   for (int around = 0; around < 2; around++) { // all are placed before prisms are looked at
-    int32_t at = v, turns = 0;
-    do {
+    for (int32_t at = v, turns = 0; at >= 0; at = cw_image_after(nodes, at, v), turns++) {
       int32_t local = part->wall.local[at], first = 0;
       if (!around && local >= 0) cw_image_point(images, turns, end, top[local]);
-      if (around && part->is_first[at]) {
+      if (around && part->is_first[at])
         least = fmin(least, cw_layers_around(work, local, (const double(*)[3])top, -INFINITY, &first));
-      }
-      turns++;
-      at = cw_image_node(nodes, at, 1);
-    } while (at >= 0 && at != v);
+    }
   }
   return least;
 }
@@ -207,10 +191,9 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
       if (!part->is_first[v] || cw_image_first_member(nodes, part->is_first, v) != v) continue;
       const double *own = made->top[part->wall.local[v]];
       double best = -INFINITY, kept[3], end[3];
-      int32_t from = v, turns = 0;
+      int32_t from = v, turns = 1;
       memcpy(kept, layers->top[v], sizeof kept);
-      for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
-        turns++;
+      for (int32_t at = cw_image_after(nodes, v, v); at >= 0; at = cw_image_after(nodes, at, v), turns++) {
         if (!part->is_first[at]) continue;
         cw_image_point(images, count - turns, made->top[part->wall.local[at]], end);
         if (cw_distance(end, own) < SAME) continue;
@@ -330,15 +313,12 @@ static void lower(const Part *part, int32_t v, double thickness, CwLayers *layer
   double *end = layers->top[first], share = thickness / layers->thickness[first];
   for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
   if (whole->constraint_count[first]) whole->snap(whole->snap_context, first, end);
-  int32_t at = first, turns = 0;
-  do {
+  for (int32_t at = first, turns = 0; at >= 0; at = cw_image_after(nodes, at, first), turns++) {
     if (at != first) cw_image_point(images, turns, end, layers->top[at]);
     layers->thickness[at] = thickness;
     layers->reason[at] = CW_LAYER_REPAIR;
     lowered[at] = 1;
-    turns++;
-    at = cw_image_node(nodes, at, 1);
-  } while (at >= 0 && at != first);
+  }
 }
 
 // Lowers the columns of all image sets with a bad one, and those around that would stand out.

@@ -8,15 +8,8 @@
 
 CwStatus cw_wall_curves_add(CwWallCurves *curves, const double x[3], CwConstraint constraint, int32_t *vertex) {
   CwStatus status = CW_OK;
-  if (curves->vertex_count == curves->vertex_capacity) {
-    int32_t capacity = curves->vertex_capacity ? 2 * curves->vertex_capacity : 4096;
-    void *xs = realloc(curves->x, (size_t)capacity * sizeof *curves->x);
-    if (xs) curves->x = xs;
-    void *constraints = realloc(curves->constraint, (size_t)capacity * sizeof *curves->constraint);
-    if (constraints) curves->constraint = constraints;
-    CW_REQUIRE(xs && constraints, CW_ERR_MEMORY, "out of memory: %d vertices of wall curves", capacity);
-    curves->vertex_capacity = capacity;
-  }
+  CW_GROW(curves->x, curves->x_room, curves->vertex_count + 1);
+  CW_GROW(curves->constraint, curves->constraint_room, curves->vertex_count + 1);
   cw_copy(x, curves->x[curves->vertex_count]);
   curves->constraint[curves->vertex_count] = constraint;
   *vertex = curves->vertex_count++;

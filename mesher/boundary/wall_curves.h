@@ -17,7 +17,7 @@ typedef struct {
 } CwConstraint;
 
 typedef struct {
-  int32_t vertex_count, vertex_capacity;
+  int32_t vertex_count, x_room, constraint_room;
   double (*x)[3];
   CwConstraint *constraint; // of each vertex
   CwNodeImages images;      // of the vertices

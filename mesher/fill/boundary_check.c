@@ -3,12 +3,13 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/intersect.h"
+#include "mesher/common/mix.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/vec.h"
-#include "mesher/fill/fill_shape.h"
 
 static void middle(const CwFillInput *input, int32_t triangle, double mm[3]) {
   for (int i = 0; i < 3; i++) {
@@ -38,6 +39,86 @@ static int has_no_area(const double a[3], const double b[3], const double c[3]) 
   return 1;
 }
 
+// An edge of a triangle at its end of the smaller number.
+typedef struct {
+  int32_t high; // the other end
+  int32_t sign; // +1: towards it
+} Directed;
+
+static int same_place(const double a[3], const double b[3]) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static uint64_t scatter(const double x[3]) {
+  uint64_t hash = 0;
+  for (int i = 0; i < 3; i++) {
+    double value = x[i] + 0.0; // -0 is 0
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    hash = cw_mix(hash + CW_MIX_STEP + bits);
+  }
+  return hash;
+}
+
+// Fails where two points are at one place: they meet in a hash table.
+static CwStatus check_points(const CwFillInput *input) {
+  CwStatus status = CW_OK;
+  int32_t *table = NULL; // 1 + point
+  uint64_t space = 2 * (uint64_t)input->point_count + 1;
+  CW_NEW(table, space);
+  for (int32_t p = 0; p < input->point_count; p++) {
+    const double *x = input->x[p];
+    uint64_t k = (scatter(x) >> 32) * space >> 32;
+    for (; table[k]; k = k + 1 < space ? k + 1 : 0)
+      CW_REQUIRE(!same_place(input->x[table[k] - 1], x), CW_ERR_MESH,
+                 "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, CW_MM(x));
+    table[k] = 1 + p;
+  }
+done:
+  free(table);
+  return status;
+}
+
+// Fails where an edge does not have as many triangles in one direction as in the other, or where two points coincide.
+static CwStatus check_closed(const CwFillInput *input) {
+  CwStatus status = CW_OK;
+  Directed *edge = NULL;
+  int64_t *start = NULL, count = 3 * (int64_t)input->triangle_count;
+  int32_t *sum = NULL; // of the signs of the edges from one point to each other
+  CW_TRY(check_points(input));
+  CW_NEW(edge, count);
+  CW_NEW(sum, input->point_count);
+  CW_NEW(start, (int64_t)input->point_count + 2);
+  CW_REQUIRE(input->triangle_count >= 4, CW_ERR_MESH, "%s: the boundary has %d triangles; at least 4 are needed",
+             input->name, input->triangle_count);
+  for (int64_t k = 0; k < count; k++) {
+    const int32_t *p = input->triangle[k / 3];
+    int32_t a = p[k % 3], b = p[(k + 1) % 3];
+    start[(a < b ? a : b) + 2]++;
+  }
+  for (int32_t p = 0; p < input->point_count; p++) start[p + 2] += start[p + 1];
+  for (int64_t k = 0; k < count; k++) { // leaves start[p + 1] at the end of the list of p
+    const int32_t *p = input->triangle[k / 3];
+    int32_t a = p[k % 3], b = p[(k + 1) % 3];
+    edge[start[(a < b ? a : b) + 1]++] = a < b ? (Directed){b, 1} : (Directed){a, -1};
+  }
+  for (int32_t p = 0; p < input->point_count; p++) {
+    for (int64_t k = start[p]; k < start[p + 1]; k++) sum[edge[k].high] += edge[k].sign;
+    for (int64_t k = start[p]; k < start[p + 1]; k++) { // all sums are 0 again, or it fails
+      const double *a = input->x[p], *b = input->x[edge[k].high];
+      CW_REQUIRE(sum[edge[k].high] == 0, CW_ERR_MESH,
+                 "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
+                 "%.6g) mm",
+                 input->name, CW_MM(a), CW_MM(b));
+    }
+  }
+done:
+  free(edge);
+  free(start);
+  free(sum);
+  return status;
+}
+
 CwStatus cw_boundary_check(const CwFillInput *input) {
   CwStatus status = CW_OK;
   double mm[3];
@@ -59,7 +140,7 @@ CwStatus cw_boundary_check(const CwFillInput *input) {
                      input->name, mm[0], mm[1], mm[2]);
     goto done;
   }
-  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(check_closed(input));
 done:
   return status;
 }

@@ -34,9 +34,9 @@ typedef struct {
   const char *name; // for messages: "rotor region 3"
   CwLog *log;       // how the fill went; NULL: nowhere
   // The last `offset_count` triangles have offset points over them (offset_points.h), of which those over the last
-  // `interface_count` are chosen first. The last `open_count` keep points of
-  // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the
-  // inner points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
+  // `interface_count` are chosen first. The last `open_count` keep points of the lattice out by the distance alone, not
+  // by their spheres: the caller sees to these. `inner` where given: the inner points, which are else those of
+  // cw_fill_points. `inner_site`, where given too: their places in the lattice.
   int32_t offset_count, interface_count, open_count, inner_count;
   // From `bare_first` on, so many triangles have no cells behind them either: faces of the whole mesh's boundary.
   int32_t bare_first, bare_count;
@@ -53,6 +53,12 @@ typedef struct {
   int32_t flips;   // to bring them in
   int32_t tetgen;  // 1: by TetGen, after all; the others then tell of the kernel's try
 } CwFillRecovery;
+
+// What the improvement of tetrahedra has changed.
+typedef struct {
+  int32_t edges_removed, faces_removed, points_moved, points_added, search_tries, patches_changed;
+  double least_before, least_after; // least quality, as cw_tet_quality; the limit where none is below
+} CwTetChanges;
 
 typedef struct {
   int32_t point_count; // the given points first, in their order

@@ -11,7 +11,7 @@ CwStatus cw_fill_to_mesh(const CwFill *fill, CwTetMesh *mesh) {
   int32_t(*neighbour)[4] = NULL, count = fill->tetrahedron_count;
   memset(mesh, 0, sizeof *mesh);
   CW_NEW(neighbour, count);
-  CW_TRY(cw_tet_neighbours(fill->point_count, count, (const int32_t(*)[4])fill->tetrahedron, neighbour));
+  CW_TRY(cw_tet_neighbours(count, (const int32_t(*)[4])fill->tetrahedron, neighbour));
   mesh->point_count = mesh->point_space = fill->point_count + CW_ENCLOSING_POINTS;
   mesh->tet_count = mesh->tet_space = count;
   CW_NEW(mesh->point, mesh->point_count);
@@ -63,8 +63,7 @@ CwStatus cw_fill_from_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t source_
   for (int32_t t = 0; t < kept; t++) {
     for (int i = 0; i < 4; i++) fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
   }
-  fill->x = malloc((size_t)points * sizeof *fill->x);
-  CW_REQUIRE(fill->x, CW_ERR_MEMORY, "out of memory: %d points", points);
+  CW_NEW_UNSET(fill->x, points);
   for (int32_t p = CW_ENCLOSING_POINTS; p < mesh->point_count; p++) {
     int32_t to = number[mesh->source[p]];
     if (to >= 0) memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);

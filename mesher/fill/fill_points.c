@@ -100,33 +100,21 @@ static inline int holds(const Box *box, uint64_t place) {
   return (at_most(box->low, place) & at_most(place, box->high)) == GUARDS;
 }
 
-static double size_at(const CwFillInput *input, const double x[3]) {
-  return input->size(input->size_context, x);
-}
-
 static CwStatus reach_of(Tree *tree, int32_t t, CwReachBox *box, double *area, double *weight) {
   CwStatus status = CW_OK;
   const CwFillInput *input = tree->input;
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
-  double u[3], v[3], normal[3], mean[3], h;
+  double normal[3], mean[3], h;
   for (int i = 0; i < 3; i++) mean[i] = (a[i] + b[i] + c[i]) / 3.0;
   CW_TRY(cw_lattice_size(input, mean, &h));
   cw_reach_of_triangle(a, b, c, 1.5 * h, tree->clearance, box, &tree->items.ball[t]);
-  cw_sub(b, a, u);
-  cw_sub(c, a, v);
-  cw_cross(u, v, normal);
+  cw_normal(a, b, c, normal);
   double here = cw_norm(normal);
   *area += here;
   *weight += here * log(h);
 done:
   return status;
-}
-
-static double distance_square(const double a[3], const double b[3]) {
-  double d[3];
-  cw_sub(a, b, d);
-  return cw_dot(d, d);
 }
 
 // Of these items those whose boxes hold a place, into tree->items.near.
@@ -148,33 +136,22 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
   int32_t near = find_near(tree, list + reached->triangles, reached->count - reached->triangles, place);
   for (int32_t k = 0; k < near; k++) {
     const CwOffsetPoint *point = &tree->items.offset[tree->items.near[k] - input->triangle_count];
-    double nearest = cw_policy.least_distance * point->spacing;
-    if (distance_square(x, point->x) < nearest * nearest) return 1;
+    double nearest = cw_policy.least_distance * point->spacing, d[3];
+    cw_sub(x, point->x, d);
+    if (cw_dot(d, d) < nearest * nearest) return 1;
   }
   near = find_near(tree, list, reached->triangles, place);
   int32_t first_open = input->triangle_count - input->open_count;
   for (int32_t k = 0; k < near && !is_offset && tree->items.near[k] < first_open; k++) {
     if (cw_reach_in_ball(&tree->items.ball[tree->items.near[k]], x)) return 1;
   }
-  double h = near ? tree->clearance * size_at(input, x) : 0.0;
+  double h = near ? tree->clearance * input->size(input->size_context, x) : 0.0;
   for (int32_t k = 0; k < near; k++) {
     const int32_t *q = input->triangle[tree->items.near[k]];
     const CwReachBall *ball = &tree->items.ball[tree->items.near[k]];
     if (cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], ball, h, tree->clearance, x)) return 1;
   }
   return 0;
-}
-
-// 1 where x lies inside.
-static CwStatus test_inside(Tree *tree, const double x[3], int *inside) {
-  CwStatus status = CW_OK;
-  int32_t count;
-  const double *z;
-  *inside = 0;
-  CW_TRY(cw_verticals_cut(tree->verticals, x[0], x[1], &count, &z));
-  for (int32_t k = 0; k < count; k++) *inside ^= z[k] > x[2];
-done:
-  return status;
 }
 
 static void centre_of(const Tree *tree, const int32_t at[3], int level, double x[3]) {
@@ -260,11 +237,10 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
   double centre[3], size, edge = tree->frame.unit * (double)(1 << level);
   int64_t first;
   int32_t child_count[8];
-  int inside;
   centre_of(tree, at, level, centre);
   CW_TRY(cw_lattice_size(tree->input, centre, &size));
   if (list_count == 0 || level == 0 || edge <= COARSE * CW_LATTICE_CONSTANT * size) {
-    CW_TRY(test_inside(tree, centre, &inside));
+    int inside = cw_verticals_inside(tree->verticals, centre);
     if (list_count || inside) CW_TRY(add_cell(tree, at, level, list, list_count, inside));
     goto done;
   }
@@ -293,26 +269,22 @@ static void shorten_lists(Tree *tree) {
 }
 
 // Of the candidates of offset points, one after the other, those that are inside and that neither the boundary nor
-// those chosen before forbid.
-static CwStatus choose_offsets(Tree *tree, int32_t *chosen) {
-  CwStatus status = CW_OK;
+// those chosen before forbid. Returns how many.
+static int32_t choose_offsets(Tree *tree) {
+  int32_t chosen = 0;
   Box *reach = tree->items.reach + tree->input->triangle_count;
-  *chosen = 0;
   for (int32_t p = 0; p < tree->input->offset_count; p++) reach[p] = nowhere;
   for (int32_t p = 0; p < tree->input->offset_count; p++) {
     const double *x = tree->items.offset[p].x;
-    int inside;
-    if (tree->items.offset_cell[p] < 0 || is_forbidden(tree, &tree->reached[tree->items.offset_cell[p]], x, 1))
+    int32_t cell = tree->items.offset_cell[p];
+    if (cell < 0 || is_forbidden(tree, &tree->reached[cell], x, 1) || !cw_verticals_inside(tree->verticals, x))
       continue;
-    CW_TRY(test_inside(tree, x, &inside));
-    if (!inside) continue;
     reach[p] = reach_of_offset(tree, p);
     tree->items.chosen[p] = 1;
-    ++*chosen;
+    chosen++;
   }
   shorten_lists(tree);
-done:
-  return status;
+  return chosen;
 }
 
 static int is_asked(const CwFillInput *input, const double x[3]) {
@@ -330,9 +302,8 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwRadix *places, 
   double(*points)[3] = NULL;
   CwLatticeSite *sites = NULL;
   const double *z = NULL;
-  int32_t kept = 0, crossings = 0, chosen;
+  int32_t kept = 0, crossings = 0, chosen = choose_offsets(tree);
   uint64_t cut = ~0ull;
-  CW_TRY(choose_offsets(tree, &chosen));
   CW_REQUIRE(place_count < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
   CW_NEW_UNSET(points, place_count + chosen);

@@ -32,7 +32,7 @@ static inline int cw_reach_holds(const CwReachBox *box, const float p[3]) {
 // Whether x is nearer to the triangle than is allowed where h is wanted.
 int cw_reach_is_near(const double a[3], const double b[3], const double c[3], const CwReachBall *ball, double h,
                      double clearance, const double x[3]);
-// Whether it is in the sphere, whose radius has its square times `share`, 1 at most.
+// Whether it is in the sphere.
 static inline int cw_reach_in_ball(const CwReachBall *ball, const double x[3]) {
   double u = x[0] - ball->centre[0], v = x[1] - ball->centre[1], w = x[2] - ball->centre[2];
   return u * u + v * v + w * w < ball->square;

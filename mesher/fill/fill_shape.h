@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What a fill must hold at its boundary: that it is closed, that each of its triangles is a face, and which
-// of the tetrahedra lie inside.
+// What a fill must hold at its boundary: that each of its triangles is a face, and which of the tetrahedra lie inside.
 #ifndef CUTWATER_MESHER_FILL_FILL_SHAPE_H
 #define CUTWATER_MESHER_FILL_FILL_SHAPE_H
 
@@ -10,10 +9,6 @@
 extern "C" {
 #endif
 
-// Fails with CW_ERR_MESH, place in mm, where an edge does not have as many triangles in one direction as in
-// the other, or where two points coincide.
-CwStatus cw_fill_check_closed(const CwFillInput *input);
-
 // Keeps the tetrahedra inside the boundary, by its orientation (so shells may lie in voids of others), and
 // drops the points that are not used by them; order is kept. Fails with CW_ERR_MESH where a triangle is no
 // face.
@@ -21,8 +16,7 @@ CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill);
 
 // Neighbours of tetrahedra: neighbour[t][i] = 4 * other + its face at the face opposite corner i of t, -1
 // where there is none. Fails with CW_ERR_MESH where a face has more than two.
-CwStatus cw_tet_neighbours(int32_t point_count, int32_t tetrahedron_count, const int32_t (*tetrahedron)[4],
-                           int32_t (*neighbour)[4]);
+CwStatus cw_tet_neighbours(int32_t tetrahedron_count, const int32_t (*tetrahedron)[4], int32_t (*neighbour)[4]);
 
 #ifdef __cplusplus
 }

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/fill/kernel.h"
 
+#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "mesher/common/model_unit.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill_mesh.h"
 #include "mesher/fill/fill_points.h"
-#include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel_core.h"
 #include "mesher/fill/kernel_facets.h"
 #include "mesher/fill/kernel_recover.h"
@@ -41,14 +38,6 @@ done:
   free(made_site);
   free(x);
   return status;
-}
-
-// What has been freed, to the system: what comes next is of other sizes, and would stand beside it at the
-// peak.
-static void give_back(void) {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
 }
 
 enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
@@ -180,7 +169,7 @@ static CwStatus finish(const CwFillInput *input, const CwKernelCore *core, CwTet
   if (facets.missing_count) goto done;
   CW_TRY(keep_inside(input, &facets, mesh));
   cw_facets_free(&facets);
-  give_back();
+  malloc_trim(0); // what comes next is of other sizes, and would stand beside what has been freed at the peak
   CW_TRY(cw_tet_improve_mesh(mesh, core->fixed_count, &count, &changes));
   CW_TRY(cw_fill_from_mesh(mesh, core->fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(core, fill));
@@ -188,8 +177,9 @@ static CwStatus finish(const CwFillInput *input, const CwKernelCore *core, CwTet
   cw_log_debug(input->log,
                "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
                "added, least sine %.3g to %.3g",
-               input->name, fill->tetrahedron_count, core->tet_count, changes.edges_removed, changes.faces_removed,
-               changes.points_moved, changes.points_added, changes.least_before, changes.least_after);
+               input->name, fill->tetrahedron_count, core->lattice.tet_count, changes.edges_removed,
+               changes.faces_removed, changes.points_moved, changes.points_added, changes.least_before,
+               changes.least_after);
 done:
   cw_facets_free(&facets);
   fill->recovery = recovery;
@@ -206,7 +196,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   *outcome = CW_KERNEL_NOT_RECOVERED;
   CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &core, &count, &mesh));
-  give_back();
+  malloc_trim(0); // as in finish()
   CW_TRY(cw_delaunay_connect(&mesh));
   CW_TRY(cw_kernel_core_carve(&core, &mesh));
   CW_TRY(finish(input, &core, &mesh, count, fill, outcome));

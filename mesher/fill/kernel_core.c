@@ -10,13 +10,13 @@
 // Numbers inner points: the skin after the boundary; deep points after the skin; others, which the core does
 // not name, after the skin in *x.
 static CwStatus order_points(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
-                             const CwLatticeCore *lattice, CwKernelCore *core, int32_t *number, double (*x)[3]) {
+                             CwKernelCore *core, int32_t *number, double (*x)[3]) {
   CwStatus status = CW_OK;
   int32_t skin = input->point_count, deep = 0, shell = core->fixed_count;
-  CW_NEW(core->deep, core->deep_count);
+  CW_NEW(core->deep, core->lattice.deep_count);
   memcpy(x, input->x, (size_t)input->point_count * sizeof *x);
   for (int32_t p = 0; p < inner_count; p++) {
-    int role = lattice->role ? lattice->role[p] : CW_LATTICE_SHELL;
+    int role = core->lattice.role ? core->lattice.role[p] : CW_LATTICE_SHELL;
     if (role == CW_LATTICE_DEEP) {
       number[p] = core->fixed_count + deep;
       memcpy(core->deep[deep++], inner[p], sizeof *inner);
@@ -33,33 +33,24 @@ done:
 CwStatus cw_kernel_core_make(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
                              const CwLatticeSite *site, CwKernelCore *core, int32_t *count, double (**x)[3]) {
   CwStatus status = CW_OK;
-  CwLatticeCore lattice = {0};
+  CwLatticeCore *lattice = &core->lattice;
   int32_t *number = NULL;
   memset(core, 0, sizeof *core);
   *x = NULL;
-  if (site) CW_TRY(cw_lattice_core_make(inner_count, site, &lattice));
-  core->fixed_count = input->point_count + lattice.skin_count;
-  core->skin_count = lattice.skin_count;
-  core->deep_count = lattice.deep_count;
-  *count = input->point_count + inner_count - lattice.deep_count;
+  if (site) CW_TRY(cw_lattice_core_make(inner_count, site, lattice));
+  core->fixed_count = input->point_count + lattice->skin_count;
+  *count = input->point_count + inner_count - lattice->deep_count;
   CW_NEW(*x, *count);
   CW_NEW(number, inner_count);
-  CW_TRY(order_points(input, inner_count, inner, &lattice, core, number, *x));
-  for (int32_t t = 0; t < lattice.tet_count; t++) {
-    for (int i = 0; i < 4; i++) lattice.tet[t][i] = number[lattice.tet[t][i]];
+  CW_TRY(order_points(input, inner_count, inner, core, number, *x));
+  for (int32_t t = 0; t < lattice->tet_count; t++) {
+    for (int i = 0; i < 4; i++) lattice->tet[t][i] = number[lattice->tet[t][i]];
   }
-  for (int32_t f = 0; f < lattice.face_count; f++) {
-    for (int i = 0; i < 3; i++) lattice.face[f][i] = number[lattice.face[f][i]];
+  for (int32_t f = 0; f < lattice->face_count; f++) {
+    for (int i = 0; i < 3; i++) lattice->face[f][i] = number[lattice->face[f][i]];
   }
-  core->tet_count = lattice.tet_count;
-  core->tet = lattice.tet;
-  core->face_count = lattice.face_count;
-  core->face = lattice.face;
-  lattice.tet = NULL;
-  lattice.face = NULL;
 done:
   free(number);
-  cw_lattice_core_free(&lattice);
   if (status != CW_OK) {
     cw_kernel_core_free(core);
     free(*x);
@@ -91,16 +82,16 @@ static void turned(const int32_t corner[3], int32_t face[3]) {
 
 static CwStatus sort_skin(const CwKernelCore *core, const CwTetMesh *mesh, Skin *skin) {
   CwStatus status = CW_OK;
-  int32_t *number = NULL, first = core->fixed_count - core->skin_count, corner[3], face[3];
-  CW_NEW(number, core->skin_count);
+  int32_t *number = NULL, first = core->fixed_count - core->lattice.skin_count, corner[3], face[3];
+  CW_NEW(number, core->lattice.skin_count);
   CW_NEW(skin->start, mesh->point_count + 1);
-  CW_NEW(skin->rest, core->face_count);
+  CW_NEW(skin->rest, core->lattice.face_count);
   for (int32_t p = 0; p < mesh->point_count; p++) {
     if (mesh->source[p] >= first && mesh->source[p] < core->fixed_count) number[mesh->source[p] - first] = p;
   }
   for (int store = 0; store < 2; store++) { // counts, then fills from behind
-    for (int32_t f = 0; f < core->face_count; f++) {
-      for (int i = 0; i < 3; i++) corner[i] = number[core->face[f][i] - first];
+    for (int32_t f = 0; f < core->lattice.face_count; f++) {
+      for (int i = 0; i < 3; i++) corner[i] = number[core->lattice.face[f][i] - first];
       turned(corner, face);
       if (store)
         memcpy(skin->rest[--skin->start[face[0]]], face + 1, sizeof *skin->rest);
@@ -125,7 +116,7 @@ static int is_of_skin(const Skin *skin, const int32_t corner[3]) {
 
 // Parts the mesh along the skin, and takes out the tetrahedra inside it, which see its faces as the core does.
 static int32_t part(const CwKernelCore *core, const Skin *skin, CwTetMesh *mesh, int32_t *waiting) {
-  int32_t found = 0, first = core->fixed_count - core->skin_count;
+  int32_t found = 0, first = core->fixed_count - core->lattice.skin_count;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwTet *tet = &mesh->tet[t];
     int on_skin = 0, count = 0, inside = 0;
@@ -156,11 +147,11 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   Skin skin = {0};
   int32_t waiting = -1;
-  if (!core->face_count) goto done;
+  if (!core->lattice.face_count) goto done;
   CW_TRY(sort_skin(core, mesh, &skin));
   int32_t found = part(core, &skin, mesh, &waiting);
-  CW_REQUIRE(found == core->face_count, CW_ERR_MESH, "the Delaunay mesh has %d of the %d faces of the lattice's core",
-             found, core->face_count);
+  CW_REQUIRE(found == core->lattice.face_count, CW_ERR_MESH,
+             "the Delaunay mesh has %d of the %d faces of the lattice's core", found, core->lattice.face_count);
   while (waiting >= 0) {
     const CwTet *tet = &mesh->tet[waiting];
     waiting = tet->corner[2];
@@ -176,21 +167,22 @@ done:
 
 CwStatus cw_kernel_core_append(const CwKernelCore *core, CwFill *fill) {
   CwStatus status = CW_OK;
-  if (!core->tet_count) goto done;
-  int64_t tets = (int64_t)fill->tetrahedron_count + core->tet_count;
+  const CwLatticeCore *lattice = &core->lattice;
+  if (!lattice->tet_count) goto done;
+  int64_t tets = (int64_t)fill->tetrahedron_count + lattice->tet_count;
   int32_t more = fill->point_count - core->fixed_count;
   CW_REQUIRE(tets < INT32_MAX, CW_ERR_MESH, "%lld tetrahedra in one region", (long long)tets);
-  double(*x)[3] = realloc(fill->x, ((size_t)fill->point_count + (size_t)core->deep_count) * sizeof *x);
-  CW_REQUIRE(x, CW_ERR_MEMORY, "out of memory: %d points", core->deep_count);
+  double(*x)[3] = realloc(fill->x, ((size_t)fill->point_count + (size_t)lattice->deep_count) * sizeof *x);
+  CW_REQUIRE(x, CW_ERR_MEMORY, "out of memory: %d points", lattice->deep_count);
   fill->x = x;
   int32_t(*tet)[4] = realloc(fill->tetrahedron, (size_t)tets * sizeof *tet);
   CW_REQUIRE(tet, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)tets);
   fill->tetrahedron = tet;
-  memcpy(fill->x + fill->point_count, core->deep, (size_t)core->deep_count * sizeof *x);
-  fill->point_count += core->deep_count;
-  for (int32_t t = 0; t < core->tet_count; t++) {
+  memcpy(fill->x + fill->point_count, core->deep, (size_t)lattice->deep_count * sizeof *x);
+  fill->point_count += lattice->deep_count;
+  for (int32_t t = 0; t < lattice->tet_count; t++) {
     for (int i = 0; i < 4; i++) {
-      int32_t p = core->tet[t][i];
+      int32_t p = lattice->tet[t][i];
       tet[fill->tetrahedron_count][i] = p < core->fixed_count ? p : p + more;
     }
     fill->tetrahedron_count++;
@@ -201,7 +193,6 @@ done:
 
 void cw_kernel_core_free(CwKernelCore *core) {
   free(core->deep);
-  free(core->tet);
-  free(core->face);
+  cw_lattice_core_free(&core->lattice);
   memset(core, 0, sizeof *core);
 }

@@ -12,13 +12,9 @@
 #include "mesher/fill/fill.h"
 
 typedef struct {
-  int32_t fixed_count; // points of the boundary and then those of the core's skin, which have to stay
-  int32_t skin_count, deep_count;
+  int32_t fixed_count;   // points of the boundary and then those of the core's skin, which have to stay
+  CwLatticeCore lattice; // its corners: fixed points; deep ones count on from there
   double (*deep)[3];
-  int32_t tet_count;
-  int32_t (*tet)[4]; // fixed points; deep ones count on from there
-  int32_t face_count;
-  int32_t (*face)[3]; // fixed points, normal out of the core
 } CwKernelCore;
 
 // Finds the core among the inner points with these places; with `site` NULL it is empty. *x, *count: all points

@@ -66,9 +66,8 @@ static int draw(Recovery *r, int below) {
   return (int)((r->random >> 16) % (uint32_t)below);
 }
 
-// Takes the edge p-q away: at once (*moved = 2), or in steps: a flip of a face or edge next to it that adds
-// no crossings
-// (*moved = 1), found by chance, for there may be circles.
+// Takes the edge p-q away: at once (*moved = 2), or in steps: a flip of a face or edge next to it that adds no
+// crossings (*moved = 1), found by chance, for there may be circles.
 static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int depth, int *moved) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
@@ -114,8 +113,7 @@ static CwStatus look_towards(Recovery *r, int32_t a, int32_t b, int *found, Obst
   *found = t >= 0;
   for (int32_t k = 0; k < flips->star_count && !*found; k++) {
     const CwTet *tet = &mesh->tet[flips->star[k]];
-    int at = 0, zeros = 0, zero = -1, within = 1, count = 0;
-    while (tet->corner[at] != a) at++;
+    int at = cw_tet_corner_of(tet, a), zeros = 0, zero = -1, within = 1, count = 0;
     for (int i = 0; i < 4 && within; i++) {
       if (i == at) continue;
       int32_t p[4];

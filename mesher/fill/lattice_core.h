@@ -47,10 +47,10 @@ typedef struct {
 } CwLatticeCore;
 
 // The core of the lattice that has these points, which ascend by their keys; points beside the lattice lie in no clear
-// cell. Every tetrahedron of the core,
-// and of the lattice round each point of its skin, has an empty sphere among all points and those of the boundary,
-// with room: it is in each Delaunay mesh of them. The faces of the core's surface are therefore in each Delaunay
-// mesh of all points but the deep ones. Holds where points are moved by less than a hundredth of their cell, too.
+// cell. Every tetrahedron of the core, and of the lattice round each point of its skin, has an empty sphere among all
+// points and those of the boundary, with room: it is in each Delaunay mesh of them. The faces of the core's surface are
+// therefore in each Delaunay mesh of all points but the deep ones. Holds where points are moved by less than a
+// hundredth of their cell, too.
 CwStatus cw_lattice_core_make(int32_t count, const CwLatticeSite *site, CwLatticeCore *core);
 void cw_lattice_core_free(CwLatticeCore *core);
 

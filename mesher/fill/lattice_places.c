@@ -78,7 +78,7 @@ static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int lev
   for (int k = 0; k < 9; k++) {
     int32_t there[3];
     for (int i = 0; i < 3; i++) there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
-    uint64_t key = cw_lattice_key(there), *seen = &lattice->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
+    uint64_t key = cw_lattice_key(there), *seen = &lattice->seen[key * CW_MIX_STEP >> (64 - SEEN)];
     if (*seen != key) // of equal places the first one counts
       lattice->place[lattice->place_count++] = (CwRadix){key, cell, level};
     *seen = key;
@@ -177,6 +177,5 @@ void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]) {
 
 void cw_lattice_point(const CwLatticeFrame *frame, const CwRadix *place, double x[3]) {
   cw_lattice_fixed(frame, place->key, x);
-  for (int i = 0; i < 3; i++)
-    x[i] += frame->unit * JITTER * (double)(1 << place->tag) * shake(place->key, i);
+  for (int i = 0; i < 3; i++) x[i] += frame->unit * JITTER * (double)(1 << place->tag) * shake(place->key, i);
 }

@@ -29,9 +29,8 @@ typedef struct {
 CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size);
 
 // Places in all cells that a slab of the input reaches, by ascending keys (as in CwLatticeSite), each once: `item` is
-// the first cell that has it, `tag` the level there.
-// The spacing is fitted so that the cells that count get as many leaves as the field asks for, whatever powers of two
-// are near it. Caller frees *place.
+// the first cell that has it, `tag` the level there. The spacing is fitted so that the cells that count get as many
+// leaves as the field asks for, whatever powers of two are near it. Caller frees *place.
 CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
                            const CwLatticeCell *cell, int64_t *count, CwRadix **place);
 

@@ -30,7 +30,7 @@ CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t) {
   return place;
 }
 
-uint64_t cw_offset_point_key(const CwOffsetPoint *place) {
+static uint64_t key_of(const CwOffsetPoint *place) {
   return cw_radix_key(place->along) >> 1 | (place->on_interface ? 0 : (uint64_t)1 << 63);
 }
 
@@ -42,7 +42,7 @@ CwStatus cw_offset_points(const CwFillInput *input, CwOffsetPoint **places) {
   CW_NEW_UNSET(order, input->offset_count);
   for (int32_t p = 0; p < input->offset_count; p++) {
     made[p] = cw_offset_point(input, input->triangle_count - input->offset_count + p);
-    order[p] = (CwRadix){cw_offset_point_key(&made[p]), p, 0};
+    order[p] = (CwRadix){key_of(&made[p]), p, 0};
   }
   CW_TRY(cw_radix_sort(input->offset_count, order));
   CW_NEW_UNSET(place, input->offset_count);

@@ -13,7 +13,7 @@
 
 typedef struct {
   double x[3], spacing; // m
-  double along;         // the line of cw_offset_point_key
+  double along;         // a line, in whose order places are taken
   int32_t triangle;
   int on_interface;
 } CwOffsetPoint;
@@ -22,11 +22,9 @@ typedef struct {
 // and of the triangle's edges, which it exceeds by little; where less is wanted than the edges are long, that counts
 // twice.
 CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t);
-// Ascends in the order in which places are best taken: those over interfaces first, since they are continued on the
-// other side, and along a line. What is taken so is as regular as the triangles
-// are; in any other order, gaps are left between beginnings.
-uint64_t cw_offset_point_key(const CwOffsetPoint *place);
-// The places of the last `offset_count` triangles of the input in that order, equal ones as their triangles. Caller
-// frees *places.
+// The places of the last `offset_count` triangles of the input in the order in which they are best taken: those over
+// interfaces first, since they are continued on the other side, and along a line; equal ones as their triangles. What
+// is taken so is as regular as the triangles are; in any other order, gaps are left between beginnings. Caller frees
+// *places.
 CwStatus cw_offset_points(const CwFillInput *input, CwOffsetPoint **places);
 #endif

@@ -6,7 +6,7 @@
 
 #include "mesher/policy.h"
 
-// Pattern search (R. Hooke, T. Jeeves, 1961): steps of this share of the distance to a corner, then half and a quarter.
+// Pattern search: steps of this share of the distance to a corner, then half and a quarter.
 enum { STEPS = 3 };
 static const double FIRST_STEP = 0.2;
 

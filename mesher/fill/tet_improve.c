@@ -71,7 +71,7 @@ CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *sour
   if (fixed_count < *source_count) CW_TRY(cw_tet_search(&w));
   w.count.least_after = least_quality(&w);
   *source_count = w.source_count;
-  if (changes) *changes = w.count;
+  *changes = w.count;
 done:
   cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);

@@ -10,7 +10,6 @@
 #include "pipeline/status.h"
 
 #include "mesher/fill/fill.h"
-#include "mesher/fill/tet_changes.h"
 #include "mesher/fill/tet_mesh.h"
 
 #ifdef __cplusplus
@@ -20,9 +19,7 @@ extern "C" {
 // All tetrahedra of *mesh are inside; their faces on the boundary have no neighbour. Points that come from the first
 // `fixed_count` given ones stay. New points have sources from *source_count on, which is counted up. The least quality
 // round any place does not fall but for even edges, and then not below sound_quality (policy_table.h). Deterministic.
-// `changes` may be NULL.
-CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *source_count,
-                             CwTetChanges *changes);
+CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *source_count, CwTetChanges *changes);
 
 // The same for a fill whose first `fixed_count` points are those of the boundary. Where it fails *fill is
 // empty.

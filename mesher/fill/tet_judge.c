@@ -112,7 +112,7 @@ CwStatus cw_tet_judge_all(CwTetWork *w, CwTetShapes *shapes) {
   CwStatus status = CW_OK;
   int32_t list[BLOCK + CW_TET_PAD];
   CW_TRY(cw_tet_set_places(w, shapes));
-  shapes->slender.count = shapes->tet_count = 0;
+  shapes->slender.count = 0;
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
   for (int32_t from = 0; from < w->mesh->tet_count; from += BLOCK) {
     int count = 0;
@@ -125,7 +125,6 @@ CwStatus cw_tet_judge_all(CwTetWork *w, CwTetShapes *shapes) {
     }
     cw_tet_pad_list(list, count);
     CW_TRY(cw_tet_judge(w, shapes, list, count, NULL));
-    shapes->tet_count += count;
   }
 done:
   return status;

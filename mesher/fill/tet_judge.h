@@ -9,9 +9,8 @@
 
 // The shapes that relaxing and the changes for the aspect go by.
 typedef struct {
-  double floor;            // quality below which none becomes worse for the sake of the aspect
-  CwTetList slender;       // of those judged last
-  int32_t tet_count;       // without free places, when all were judged last
+  double floor;       // quality below which none becomes worse for the sake of the aspect
+  CwTetList slender;  // of those judged last
   uint8_t *irregular; // by point, where relaxing is to follow: 1 where one round it is not as in a lattice; or NULL
   int32_t irregular_space;
   Cw4f *place; // of each point when they were last judged or moved together, from `middle`

@@ -18,8 +18,7 @@ CwStatus cw_tet_move_point(CwTetWork *w, int32_t t, int32_t point, int *done_it)
   cavity.count = n;
   for (int k = 0; k < n; k++) {
     const CwTet *tet = &w->mesh->tet[star[k]];
-    int corner = 0;
-    while (tet->corner[corner] != point) corner++;
+    int corner = cw_tet_corner_of(tet, point);
     // Inward: (face, point) positive.
     for (int i = 0; i < 3; i++) cavity.face[k][i] = cw_tet_at(w, tet->corner[cw_tet_face[corner][2 - i]]);
     if (tet->quality < least) least = tet->quality;

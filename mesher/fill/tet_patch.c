@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/tet.h"
+#include "mesher/fill/tet_topology.h"
 
 typedef struct {
   int32_t key, value;
@@ -101,27 +101,8 @@ done:
   return status;
 }
 
-// A face of the hull: corners ascending, and 4 * tetrahedron + face outside of it, -1 on the boundary.
-typedef struct {
-  int32_t corner[3], outside;
-} Side;
-
-static Side side_of(const int32_t corner[4], int i, int32_t outside) {
-  Side s = {{corner[cw_tet_face[i][0]], corner[cw_tet_face[i][1]], corner[cw_tet_face[i][2]]}, outside};
-  for (int k = 0; k < 3; k++) {
-    int m = k == 1; // compares 0-1, 1-2, 0-1
-    int32_t low = s.corner[m], high = s.corner[m + 1];
-    s.corner[m] = low < high ? low : high;
-    s.corner[m + 1] = low < high ? high : low;
-  }
-  return s;
-}
-
-static int compare_sides(const void *left, const void *right) {
-  return memcmp(((const Side *)left)->corner, ((const Side *)right)->corner, sizeof(int32_t[3]));
-}
-
-static CwStatus find_hull(const CwTetPatch *patch, const CwTetMesh *whole, int32_t *count, Side **hull) {
+// The faces of the hull in their order; the owner is what lies outside of each, below 0 on the boundary.
+static CwStatus find_hull(const CwTetPatch *patch, const CwTetMesh *whole, int32_t *count, CwTetSide **hull) {
   CwStatus status = CW_OK;
   Pair *list = NULL;
   *count = 0;
@@ -133,9 +114,10 @@ static CwStatus find_hull(const CwTetPatch *patch, const CwTetMesh *whole, int32
   for (int32_t k = 0; k < 4 * patch->tet_count; k++) {
     const CwTet *tet = &whole->tet[patch->tet[k / 4]];
     int32_t next = tet->neighbour[k % 4];
-    if (next < 0 || find(list, patch->tet_count, next / 4) < 0) (*hull)[(*count)++] = side_of(tet->corner, k % 4, next);
+    if (next < 0 || find(list, patch->tet_count, next / 4) < 0)
+      (*hull)[(*count)++] = cw_tet_side(tet->corner, k % 4, next);
   }
-  qsort(*hull, (size_t)*count, sizeof **hull, compare_sides);
+  qsort(*hull, (size_t)*count, sizeof **hull, cw_tet_sides_compare);
 done:
   free(list);
   return status;
@@ -144,7 +126,7 @@ done:
 CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwTetMesh *whole, int32_t *source_count, int32_t **place) {
   CwStatus status = CW_OK;
   const CwTetMesh *mesh = &patch->mesh;
-  Side *hull = NULL;
+  CwTetSide *hull = NULL;
   int32_t *point = NULL, sides;
   *place = NULL;
   CW_TRY(find_hull(patch, whole, &sides, &hull));
@@ -175,11 +157,11 @@ CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwTetMesh *whole, int32_t *so
         tet->neighbour[i] = 4 * (*place)[next / 4] + next % 4;
         continue;
       }
-      Side wanted = side_of(tet->corner, i, -1);
-      const Side *side = bsearch(&wanted, hull, (size_t)sides, sizeof *hull, compare_sides);
+      CwTetSide wanted = cw_tet_side(tet->corner, i, -1);
+      const CwTetSide *side = bsearch(&wanted, hull, (size_t)sides, sizeof *hull, cw_tet_sides_compare);
       CW_REQUIRE(side, CW_ERR_MESH, "a patch of %d tetrahedra came back with another hull", patch->tet_count);
-      tet->neighbour[i] = side->outside;
-      if (side->outside >= 0) whole->tet[side->outside / 4].neighbour[side->outside % 4] = 4 * (*place)[k] + i;
+      tet->neighbour[i] = side->owner;
+      if (side->owner >= 0) whole->tet[side->owner / 4].neighbour[side->owner % 4] = 4 * (*place)[k] + i;
     }
   }
 done:

@@ -18,7 +18,6 @@ typedef struct {
   int8_t cut[RING][RING];
 } RingTable;
 
-// Removes the edge a-b of t where that raises the least quality round it.
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it) {
   CwStatus status = CW_OK;
   int32_t old[RING], ring[RING], tet[2 * RING][4];
@@ -63,7 +62,6 @@ done:
   return status;
 }
 
-// Two tetrahedra at a face become three round a new edge, where that is better.
 CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
   CwStatus status = CW_OK;
   const CwTet *tet = &w->mesh->tet[t];

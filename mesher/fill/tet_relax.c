@@ -84,9 +84,6 @@ done:
   return status;
 }
 
-// Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
-// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by ever shorter steps to where its
-// tetrahedra's edges are more even.
 CwStatus cw_tet_relax(CwTetWork *w, CwTetShapes *shapes, int moves) {
   CwStatus status = CW_OK;
   CwTetMesh *mesh = w->mesh;

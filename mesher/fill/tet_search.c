@@ -230,8 +230,7 @@ done:
   return status;
 }
 
-// Goes on from the best that was found (iterated local search; H. Lourenco, O. Martin and T. Stuetzle, in: Handbook of
-// Metaheuristics, 2003).
+// Goes on from the best that was found.
 static CwStatus search_patch(Search *s, int32_t t) {
   CwStatus status = CW_OK;
   Rated trial, *best = &s->now.rated;

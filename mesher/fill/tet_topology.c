@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "mesher/common/branchless.h"
-#include "mesher/common/tet.h"
 
 int cw_tet_star(CwTetMesh *mesh, int32_t t, int32_t point, int most, int32_t *star) {
   int count = 0;
@@ -62,21 +61,15 @@ int cw_tet_ring_is_short(const CwTetMesh *mesh, int32_t t, int32_t a, int32_t b)
   return (after_one == other) | ((after_one == after_other) & (after_one >= 0));
 }
 
-// A face by its points, the least and the greatest of which are together one number.
-typedef struct {
-  uint64_t ends;
-  int32_t middle, owner; // 4 * tetrahedron + face
-} Side;
-
-static inline Side side_of(const int32_t corner[4], int i, int32_t owner) {
-  int32_t a = corner[cw_tet_face[i][0]], b = corner[cw_tet_face[i][1]], c = corner[cw_tet_face[i][2]];
-  int32_t low = a < b ? a : b, high = a < b ? b : a, least = low < c ? low : c, most = high > c ? high : c;
-  return (Side){(uint64_t)(uint32_t)least << 32 | (uint32_t)most, a ^ b ^ c ^ least ^ most, owner};
+int cw_tet_sides_compare(const void *left, const void *right) {
+  const CwTetSide *a = left, *b = right;
+  if (a->ends != b->ends) return a->ends < b->ends ? -1 : 1;
+  return (a->middle > b->middle) - (a->middle < b->middle);
 }
 
 // The side with the same points, `count` where there is none. Looks at all of them, without a branch: where the search
 // would end is as good as random.
-static inline int find_side(const Side *side, int count, const Side *wanted) {
+static inline int find_side(const CwTetSide *side, int count, const CwTetSide *wanted) {
   int found = count;
   for (int m = 0; m < count; m++) {
     int same = (int)(cw_branchless(side[m].ends == wanted->ends) & cw_branchless(side[m].middle == wanted->middle));
@@ -88,14 +81,14 @@ static inline int find_side(const Side *side, int count, const Side *wanted) {
 CwStatus cw_tet_exchange(CwTetMesh *mesh, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                          int32_t *slot) {
   CwStatus status = CW_OK;
-  Side side[8 * CW_CAVITY];
+  CwTetSide side[8 * CW_CAVITY];
   int sides = 0;
   for (int k = 0; k < old_count; k++) {
     const CwTet *tet = &mesh->tet[old[k]];
     for (int i = 0; i < 4; i++) { // each is written, and stays where it is not within
       int32_t next = tet->neighbour[i] >> 2, within = 0;
       for (int m = 0; m < old_count; m++) within |= next == old[m];
-      side[sides] = side_of(tet->corner, i, tet->neighbour[i]);
+      side[sides] = cw_tet_side(tet->corner, i, tet->neighbour[i]);
       sides += 1 - within;
     }
   }
@@ -110,7 +103,7 @@ CwStatus cw_tet_exchange(CwTetMesh *mesh, int old_count, const int32_t *old, int
     CwTet *tet = &mesh->tet[slot[k]];
     memcpy(tet->corner, corner[k], sizeof tet->corner);
     for (int i = 0; i < 4; i++) {
-      Side one = side_of(corner[k], i, 4 * slot[k] + i);
+      CwTetSide one = cw_tet_side(corner[k], i, 4 * slot[k] + i);
       int m = find_side(side, sides, &one);
       if (m == sides) {
         side[sides++] = one;

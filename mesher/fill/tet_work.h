@@ -8,7 +8,7 @@
 
 #include "pipeline/status.h"
 
-#include "mesher/fill/tet_changes.h"
+#include "mesher/fill/fill.h"
 #include "mesher/fill/tet_quality.h"
 #include "mesher/fill/tet_topology.h"
 

@@ -12,7 +12,7 @@
 #include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
-enum { CW_GROUPS_MOST = 64 }; // items
+enum { CW_GROUPS_MOST = 64 }; // items: as many domains as a model may have
 
 // An item while its results are handed over.
 typedef struct {

@@ -12,23 +12,13 @@
 
 enum { PARTS_MOST = 64 };
 
-typedef struct {
-  const char *step;
-  int32_t count;
-  double *cost, *seconds; // cost: NULL where all are alike
-  double *after;          // indices of tasks, -1: none; NULL where no task waits
-  double own;
-  int64_t bytes;
-} Entry;
-
 // What all ranks do together, or those of one item.
 typedef struct {
   double cost;          // predicted, of an item
   int part_count, part; // the present one
   const char *name[PARTS_MOST];
   double spent[PARTS_MOST];
-  int32_t entry_count, entry_capacity;
-  Entry *entry;
+  json_t *tasks; // of each schedule, as cw_profiler_json gives them; "most": of this rank until then
   json_t *taken; // from the ranks of the item: holds the names
 } Account;
 
@@ -44,14 +34,14 @@ typedef struct {
 struct CwProfiler {
   Account all, *present; // present: NULL is `all`
   double since;          // when the present part went on
-  int32_t step_count;
+  int32_t step_count, step_room;
   Sides *step;
 };
 
 CwStatus cw_profiler_make(CwProfiler **made) {
   CwStatus status = CW_OK;
   CW_NEW(*made, 1);
-  (*made)->all = (Account){.part_count = 1, .name = {"start"}};
+  (*made)->all = (Account){.part_count = 1, .name = {"start"}, .tasks = json_array()};
   (*made)->since = cw_processor_seconds();
 done:
   return status;
@@ -86,35 +76,31 @@ const char *cw_profiler_part(const CwContext *context, const char *part) {
   return before;
 }
 
-static CwStatus new_entry(Account *account, Entry **entry) {
-  CwStatus status = CW_OK;
-  CW_GROW(account->entry, account->entry_capacity, account->entry_count + 1);
-  *entry = &account->entry[account->entry_count++];
-  **entry = (Entry){0};
-done:
-  return status;
+static json_t *rounded(double seconds) {
+  return cw_json_number(round(seconds * 1e6) / 1e6);
+}
+
+static json_t *numbers(int32_t count, const double *value, int round_them) {
+  json_t *array = json_array();
+  for (int32_t i = 0; i < count; i++) {
+    json_array_append_new(array, round_them ? rounded(value[i]) : cw_json_number(value[i]));
+  }
+  return array;
 }
 
 CwStatus cw_profiler_tasks(const CwContext *context, const char *step, int32_t count, const double *cost,
                            const int32_t *after, const double *seconds, double own, int64_t bytes) {
   CwStatus status = CW_OK;
   CwProfiler *profiler = profiler_of(context);
-  Entry *entry = NULL;
   if (!profiler) goto done;
   profiler->since += own;
-  CW_TRY(new_entry(present_account(profiler), &entry));
-  *entry = (Entry){.step = step, .own = own, .bytes = bytes};
-  CW_NEW(entry->seconds, count);
-  memcpy(entry->seconds, seconds, (size_t)count * sizeof *seconds);
-  if (cost) {
-    CW_NEW(entry->cost, count);
-    memcpy(entry->cost, cost, (size_t)count * sizeof *cost);
-  }
-  if (after) {
-    CW_NEW(entry->after, count);
-    for (int32_t i = 0; i < count; i++) entry->after[i] = after[i];
-  }
-  entry->count = count;
+  json_t *before = json_array();
+  for (int32_t i = 0; after && i < count; i++) json_array_append_new(before, cw_json_number(after[i]));
+  json_t *tasks = json_pack("{s:s, s:o, s:o, s:o, s:f, s:I}", "step", step, "task_cost",
+                            numbers(cost ? count : 0, cost, 0), "task_after", before, "task_seconds",
+                            numbers(count, seconds, 1), "most", own, "bytes", (json_int_t)bytes);
+  CW_REQUIRE(json_array_append_new(present_account(profiler)->tasks, tasks) == 0, CW_ERR_MEMORY,
+             "out of memory: record of %d tasks", count);
 done:
   return status;
 }
@@ -124,14 +110,13 @@ CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t 
   CwStatus status = CW_OK;
   CwProfiler *profiler = profiler_of(context);
   if (!profiler) goto done;
-  Sides *larger = realloc(profiler->step, (size_t)(profiler->step_count + 1) * sizeof *larger);
-  CW_REQUIRE(larger, CW_ERR_MEMORY, "out of memory: %d steps side by side", profiler->step_count + 1);
-  profiler->step = larger;
+  CW_GROW(profiler->step, profiler->step_room, profiler->step_count + 1);
   Sides *made = &profiler->step[profiler->step_count++];
   *made = (Sides){.step = step, .own = own, .least_ranks = least_ranks};
   CW_NEW(made->item, count);
   made->count = count;
-  for (int32_t s = 0; s < count; s++) made->item[s] = (Account){.cost = cost[s], .part_count = 1, .name = {step}};
+  for (int32_t s = 0; s < count; s++)
+    made->item[s] = (Account){.cost = cost[s], .part_count = 1, .name = {step}, .tasks = json_array()};
 done:
   return status;
 }
@@ -147,44 +132,20 @@ void cw_profiler_item(const CwContext *context, int32_t item) {
   profiler->present = item < 0 ? NULL : account_of(profiler, item);
 }
 
-static json_t *rounded(double seconds) {
-  return cw_json_number(round(seconds * 1e6) / 1e6);
-}
-
-static json_t *numbers(int32_t count, const double *value, int round_them) {
-  json_t *array = json_array();
-  for (int32_t i = 0; i < count; i++) {
-    json_array_append_new(array, round_them ? rounded(value[i]) : cw_json_number(value[i]));
-  }
-  return array;
-}
-
-// most: of each part and then of each list of tasks; NULL: not known.
+// most: of each part; NULL: not known.
 static CwStatus account_json(const Account *account, const double *most, json_t **made) {
   CwStatus status = CW_OK;
-  json_t *parts = json_array(), *tasks = json_array();
+  json_t *parts = json_array();
   for (int i = 0; i < account->part_count; i++) {
     CW_REQUIRE(
         json_array_append_new(parts, json_pack("{s:s, s:o, s:o}", "part", account->name[i], "seconds",
                                                rounded(account->spent[i]), "most", rounded(most ? most[i] : 0))) == 0,
         CW_ERR_MEMORY, "out of memory: record of a part");
   }
-  for (int32_t i = 0; i < account->entry_count; i++) {
-    const Entry *entry = &account->entry[i];
-    double longest = most ? most[account->part_count + i] : 0;
-    CW_REQUIRE(
-        json_array_append_new(tasks, json_pack("{s:s, s:o, s:o, s:o, s:o, s:I}", "step", entry->step, "task_cost",
-                                               numbers(entry->cost ? entry->count : 0, entry->cost, 0), "task_after",
-                                               numbers(entry->after ? entry->count : 0, entry->after, 0),
-                                               "task_seconds", numbers(entry->count, entry->seconds, 1), "most",
-                                               rounded(longest), "bytes", (json_int_t)entry->bytes)) == 0,
-        CW_ERR_MEMORY, "out of memory: record of %d tasks", entry->count);
-  }
-  *made = json_pack("{s:o, s:o}", "every_rank", json_incref(parts), "tasks", json_incref(tasks));
+  *made = json_pack("{s:O, s:O}", "every_rank", parts, "tasks", account->tasks);
   CW_REQUIRE(*made, CW_ERR_MEMORY, "out of memory: record of the profiler");
 done:
   json_decref(parts);
-  json_decref(tasks);
   return status;
 }
 
@@ -203,21 +164,11 @@ done:
   return status;
 }
 
-// The numbers of a JSON array; NULL where it has none.
-static CwStatus take_numbers(const json_t *array, double **value) {
-  CwStatus status = CW_OK;
-  if (json_array_size(array) == 0) goto done;
-  CW_NEW(*value, json_array_size(array));
-  for (size_t i = 0; i < json_array_size(array); i++) (*value)[i] = json_number_value(json_array_get(array, i));
-done:
-  return status;
-}
-
 CwStatus cw_profiler_take(const CwContext *context, int32_t item, const char *bytes, int64_t size) {
   CwStatus status = CW_OK;
   CwProfiler *profiler = profiler_of(context);
   size_t i;
-  json_t *part;
+  json_t *part, *tasks;
   if (!profiler) goto done;
   Account *account = account_of(profiler, item);
   account->taken = json_loadb(bytes, (size_t)size, 0, NULL);
@@ -226,17 +177,9 @@ CwStatus cw_profiler_take(const CwContext *context, int32_t item, const char *by
   json_array_foreach(json_object_get(account->taken, "every_rank"), i, part) {
     account->name[account->part_count++] = json_string_value(json_object_get(part, "part"));
   }
-  json_array_foreach(json_object_get(account->taken, "tasks"), i, part) {
-    const json_t *seconds = json_object_get(part, "task_seconds");
-    Entry *entry = NULL;
-    CW_TRY(new_entry(account, &entry));
-    entry->step = json_string_value(json_object_get(part, "step"));
-    entry->bytes = json_integer_value(json_object_get(part, "bytes"));
-    CW_TRY(take_numbers(json_object_get(part, "task_cost"), &entry->cost));
-    CW_TRY(take_numbers(json_object_get(part, "task_after"), &entry->after));
-    CW_TRY(take_numbers(seconds, &entry->seconds));
-    entry->count = (int32_t)json_array_size(seconds);
-  }
+  json_decref(account->tasks);
+  account->tasks = json_incref(json_object_get(account->taken, "tasks"));
+  json_array_foreach(account->tasks, i, tasks) json_object_set_new(tasks, "most", json_real(0)); // not of this rank
 done:
   return status;
 }
@@ -244,12 +187,15 @@ done:
 // With the greatest seconds of all ranks. Collective.
 static CwStatus account_of_all(const CwContext *context, const Account *account, json_t **made) {
   CwStatus status = CW_OK;
-  double *most = NULL;
-  int32_t count = account->part_count + account->entry_count;
+  double *most = NULL, *of_tasks;
+  size_t i, parts = (size_t)account->part_count, count = parts + json_array_size(account->tasks);
+  json_t *tasks;
   CW_NEW(most, count);
-  memcpy(most, account->spent, (size_t)account->part_count * sizeof *most);
-  for (int32_t i = 0; i < account->entry_count; i++) most[account->part_count + i] = account->entry[i].own;
-  cw_team_most(cw_team_of(context), count, most);
+  of_tasks = most + parts;
+  memcpy(most, account->spent, parts * sizeof *most);
+  json_array_foreach(account->tasks, i, tasks) of_tasks[i] = json_number_value(json_object_get(tasks, "most"));
+  cw_team_most(cw_team_of(context), (int64_t)count, most);
+  json_array_foreach(account->tasks, i, tasks) json_object_set_new(tasks, "most", rounded(of_tasks[i]));
   CW_TRY(account_json(account, most, made));
 done:
   free(most);
@@ -283,12 +229,7 @@ done:
 }
 
 static void free_account(Account *account) {
-  for (int32_t i = 0; i < account->entry_count; i++) {
-    free(account->entry[i].cost);
-    free(account->entry[i].after);
-    free(account->entry[i].seconds);
-  }
-  free(account->entry);
+  json_decref(account->tasks);
   json_decref(account->taken);
 }
 

@@ -38,7 +38,7 @@ const CwTeam *cw_team_of(const CwContext *context) {
   return context && context->team ? context->team : &ALONE;
 }
 
-void cw_team_sleep(double seconds) {
+static void fall_asleep(double seconds) {
   struct timespec pause = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};
   nanosleep(&pause, NULL);
 }
@@ -72,7 +72,7 @@ void cw_team_wait_on(CwTeamWait *wait) {
   if (now < wait->until && lost_core(wait, now)) crowded_until = now + CROWDED;
   wait->seen = now;
   if (wait->looks++ < LOOKS || (now < wait->until && now >= crowded_until)) return;
-  cw_team_sleep(wait->pause);
+  fall_asleep(wait->pause);
   if (wait->pause < MOST_PAUSE) wait->pause *= PAUSE_GROWTH;
   wait->seen = wait->since = cw_seconds();
   wait->used = cw_team_thread_seconds();
@@ -179,7 +179,7 @@ CwStatus cw_team_agree(const CwTeam *team, CwStatus status) {
     cw_team_wait(&request);
   }
   if (first == mine) return status;
-  cw_team_sleep(END_SECONDS);
+  fall_asleep(END_SECONDS);
   return CW_FAIL(CW_ERR_RANK, "rank %d failed", first);
 }
 
@@ -194,7 +194,7 @@ int cw_mpi_ranks(void) {
 int cw_mpi_fail(CwLog *log, CwStatus status) {
   int first = cw_stop_claim(); // the others, stopped for this, are to say nothing
   if (cw_mpi_ranks() == 1) return cw_log_error(log, status);
-  if (!first) cw_team_sleep(END_SECONDS);
+  if (!first) fall_asleep(END_SECONDS);
   int code = cw_log_error(log, status);
   MPI_Abort(MPI_COMM_WORLD, code);
   _exit(code);

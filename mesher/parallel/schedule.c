@@ -56,10 +56,7 @@ static CwStatus gather_results(const CwTeam *team, int32_t count, const TaskEnd 
   CW_NEW(pack, team->ranks);
   if (team->ranks == 1) goto done;
   for (int32_t task = 0; task < count; task++) size[(int)end[task].owner] += (int64_t)end[task].size;
-  for (int rank = 0; rank < team->ranks; rank++) {
-    pack[rank] = malloc((size_t)size[rank] + 1);
-    CW_REQUIRE(pack[rank], CW_ERR_MEMORY, "out of memory: results of %lld bytes", (long long)size[rank]);
-  }
+  for (int rank = 0; rank < team->ranks; rank++) CW_NEW_UNSET(pack[rank], size[rank]);
   CW_TRY(move_results(team->rank, count, end, 1, pack[team->rank], bytes));
   CW_TRY(cw_team_gather(team, size, pack));
   for (int rank = 0; rank < team->ranks; rank++) {
@@ -150,32 +147,31 @@ done:
 typedef struct {
   int32_t *task, *before; // by place; before: NULL where none waits
   double *left;
-  Ordered *by_cost;
 } Order;
 
 static void free_order(Order *order) {
   free(order->task);
   free(order->before);
   free(order->left);
-  free(order->by_cost);
 }
 
 // CW_ERR_INPUT where a task waits for another that comes later.
 static CwStatus put_in_order(const CwSchedule *schedule, Order *order) {
   CwStatus status = CW_OK;
   int32_t count = schedule->count, *place = NULL;
-  CW_NEW(order->by_cost, count);
+  Ordered *by_cost = NULL;
+  CW_NEW(by_cost, count);
   CW_NEW(order->task, count);
   CW_NEW(order->left, count + 1);
   CW_NEW(place, count);
   if (schedule->after) CW_NEW(order->before, count);
-  for (int32_t task = 0; task < count; task++) order->by_cost[task] = (Ordered){cost_of(schedule, task), task};
+  for (int32_t task = 0; task < count; task++) by_cost[task] = (Ordered){cost_of(schedule, task), task};
   for (int32_t task = count; order->before && task-- > 0;) { // with all that waits for it
-    if (schedule->after[task] >= 0) order->by_cost[schedule->after[task]].cost += order->by_cost[task].cost;
+    if (schedule->after[task] >= 0) by_cost[schedule->after[task]].cost += by_cost[task].cost;
   }
-  qsort(order->by_cost, (size_t)count, sizeof *order->by_cost, compare_cost);
+  qsort(by_cost, (size_t)count, sizeof *by_cost, compare_cost);
   for (int32_t i = 0; i < count; i++) {
-    order->task[i] = order->by_cost[i].task;
+    order->task[i] = by_cost[i].task;
     place[order->task[i]] = i;
   }
   for (int32_t i = count; i-- > 0;) order->left[i] = order->left[i + 1] + cost_of(schedule, order->task[i]);
@@ -187,6 +183,7 @@ static CwStatus put_in_order(const CwSchedule *schedule, Order *order) {
   }
 done:
   free(place);
+  free(by_cost);
   return status;
 }
 

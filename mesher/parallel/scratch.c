@@ -23,12 +23,10 @@ done:
 
 CwStatus cw_scratch_take(CwScratch *scratch, void **array) {
   CwStatus status = CW_OK;
-  char *made = NULL;
   pthread_mutex_lock(&scratch->lock);
   *array = scratch->count > 0 ? scratch->array[--scratch->count] : NULL;
   pthread_mutex_unlock(&scratch->lock);
-  if (!*array) CW_NEW(made, scratch->size);
-  if (made) *array = made;
+  if (!*array) CW_NEW(*array, scratch->size);
 done:
   return status;
 }

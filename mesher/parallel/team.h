@@ -4,7 +4,6 @@
 #define CUTWATER_MESHER_PARALLEL_TEAM_H
 
 #include <mpi.h>
-#include <stdint.h>
 
 #include "mesher/parallel/context.h"
 #include "mesher/parallel/threads.h"
@@ -30,7 +29,6 @@ const CwTeam *cw_team_of(const CwContext *context);
 // Waits for a message, at length asleep: MPI's own wait keeps its core busy, which another rank may need.
 void cw_team_wait(MPI_Request *request);
 void cw_team_barrier(const CwTeam *team);
-void cw_team_sleep(double seconds);
 // Processor time of this thread.
 double cw_team_thread_seconds(void);
 

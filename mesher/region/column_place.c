@@ -12,36 +12,54 @@ static int compare_places(const void *p, const void *q) {
   return (a->face > b->face) - (a->face < b->face);
 }
 
+static CwOpenEdgeSide side_of(int32_t a, int32_t b, int32_t face) {
+  return (CwOpenEdgeSide){a < b ? a : b, a < b ? b : a, face};
+}
+
+static int compare_sides(const void *p, const void *q) {
+  const CwOpenEdgeSide *a = p, *b = q;
+  if (a->low != b->low) return a->low < b->low ? -1 : 1;
+  return (a->high > b->high) - (a->high < b->high);
+}
+
 CwStatus cw_open_edge_places_make(const CwRegionInput *from, CwOpenEdgePlaces *places) {
   CwStatus status = CW_OK;
-  int32_t count = 0;
+  const CwCad *cad = from->in->cad;
+  int32_t room = 0, side_room = 0;
   memset(places, 0, sizeof *places);
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass == 1) CW_NEW(places->place, count);
-    for (int32_t i = 0; i < from->in->network->curve_count; i++) {
-      const CwCurve *curve = &from->in->network->curve[i];
-      const CwCurveNodes *nodes = &from->wall_curves->curve[i];
-      if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
-      for (int side = 0; side < 2; side++) {
-        int32_t face = curve->face[side];
-        if (cw_cad_face_is_wall(from->in->cad, face)) continue;
-        count += pass == 0 ? nodes->count : 0;
-        for (int32_t k = 0; pass == 1 && k < nodes->count; k++) {
-          CwOpenEdgePlace *made = &places->place[places->count++];
-          *made = (CwOpenEdgePlace){nodes->node[k], face, {0, 0}};
-          cw_cad_edge_uv(from->in->cad, curve->edge, face, nodes->parameter[k][0], made->uv);
-        }
-      }
+  CW_GROW(places->place, room, 1); // none is an array too
+  CW_GROW(places->side, side_room, 1);
+  for (int32_t i = 0; i < 2 * from->in->network->curve_count; i++) { // either face of each curve
+    const CwCurve *curve = &from->in->network->curve[i / 2];
+    const CwCurveNodes *nodes = &from->wall_curves->curve[i / 2];
+    int32_t face = curve->face[i % 2];
+    if (curve->kind != CW_CURVE_EDGE || !curve->wall || cw_cad_face_is_wall(cad, face)) continue;
+    CW_GROW(places->place, room, places->count + nodes->count);
+    CW_GROW(places->side, side_room, places->side_count + nodes->count);
+    for (int32_t k = 0; k < nodes->count; k++) {
+      CwOpenEdgePlace *made = &places->place[places->count++];
+      *made = (CwOpenEdgePlace){nodes->node[k], face, {0, 0}};
+      cw_cad_edge_uv(cad, curve->edge, face, nodes->parameter[k][0], made->uv);
+      if (k > 0) places->side[places->side_count++] = side_of(nodes->node[k - 1], nodes->node[k], face);
     }
   }
   qsort(places->place, (size_t)places->count, sizeof *places->place, compare_places);
+  qsort(places->side, (size_t)places->side_count, sizeof *places->side, compare_sides);
 done:
   return status;
 }
 
 void cw_open_edge_places_free(CwOpenEdgePlaces *places) {
   free(places->place);
+  free(places->side);
   memset(places, 0, sizeof *places);
+}
+
+int32_t cw_open_edge_face(const CwOpenEdgePlaces *places, int32_t a, int32_t b) {
+  const CwOpenEdgeSide key = side_of(a, b, -1);
+  const CwOpenEdgeSide *found =
+      bsearch(&key, places->side, (size_t)places->side_count, sizeof *places->side, compare_sides);
+  return found ? found->face : -1;
 }
 
 void cw_column_place(const CwRegionInput *from, const CwOpenEdgePlaces *places, int32_t vertex, double share,

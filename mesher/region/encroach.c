@@ -26,19 +26,16 @@ CwStatus cw_beside_make(const double origin[3], const double axis[3][3], double 
                         const double (*x)[3], CwBeside *beside) {
   CwStatus status = CW_OK;
   Near *near = NULL;
-  int32_t kept = 0;
+  int32_t kept = 0, room = 0;
   *beside = (CwBeside){0};
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass == 1) CW_NEW(near, kept);
-    kept = 0;
-    for (int32_t i = 0; i < count; i++) {
-      double d[3];
-      cw_sub(x[i], origin, d);
-      double height = cw_dot(d, axis[2]);
-      if (fabs(height) > reach) continue;
-      if (pass == 1) near[kept] = (Near){{cw_dot(d, axis[0]), cw_dot(d, axis[1]), height}, i};
-      kept++;
-    }
+  CW_GROW(near, room, 1); // none is an array too
+  for (int32_t i = 0; i < count; i++) {
+    double d[3];
+    cw_sub(x[i], origin, d);
+    double height = cw_dot(d, axis[2]);
+    if (fabs(height) > reach) continue;
+    CW_GROW(near, room, kept + 1);
+    near[kept++] = (Near){{cw_dot(d, axis[0]), cw_dot(d, axis[1]), height}, i};
   }
   qsort(near, (size_t)kept, sizeof *near, compare_near);
   CW_NEW(beside->at, kept);
@@ -110,22 +107,15 @@ static int compare_centres(const void *p, const void *q) {
 typedef struct {
   CwPatchInput input;
   double (*uv)[2], (*x)[3];
-  int32_t room;
+  int32_t uv_room, x_room;
 } Growing;
 
 static CwStatus add_point(Growing *growing, const double uv[2]) {
   CwStatus status = CW_OK;
-  if (growing->input.point_count == growing->room) {
-    int32_t room = 2 * growing->room + 64;
-    void *uvs = realloc(growing->uv, (size_t)room * sizeof *growing->uv);
-    if (uvs) growing->uv = uvs;
-    void *xs = realloc(growing->x, (size_t)room * sizeof *growing->x);
-    if (xs) growing->x = xs;
-    CW_REQUIRE(uvs && xs, CW_ERR_MEMORY, "%s: out of memory: %d points", growing->input.name, room);
-    growing->room = room;
-    growing->input.uv = (const double(*)[2])growing->uv;
-    growing->input.x = (const double(*)[3])growing->x;
-  }
+  CW_GROW(growing->uv, growing->uv_room, growing->input.point_count + 1);
+  CW_GROW(growing->x, growing->x_room, growing->input.point_count + 1);
+  growing->input.uv = (const double(*)[2])growing->uv;
+  growing->input.x = (const double(*)[3])growing->x;
   int32_t p = growing->input.point_count++;
   memcpy(growing->uv[p], uv, sizeof growing->uv[p]);
   growing->input.surface(growing->input.surface_context, uv, growing->x[p], NULL, NULL);
@@ -193,7 +183,7 @@ done:
 CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, CwEncroachRefined *refined) {
   CwStatus status = CW_OK;
   CwCdt cdt = {0};
-  Growing growing = {.input = *patch, .room = patch->point_count};
+  Growing growing = {.input = *patch, .uv_room = patch->point_count, .x_room = patch->point_count};
   const double scale[2] = {1, 1};
   int32_t encroached = 0, added = 0;
   CwOutcome outcome = {0};

@@ -10,10 +10,6 @@
 
 #include "mesher/surface/patch_mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Candidates of a region that stand beside a plane, ascending in u.
 typedef struct {
   int32_t count;
@@ -52,8 +48,4 @@ typedef struct {
 // Deterministic.
 CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, CwEncroachRefined *refined);
 void cw_encroach_refined_free(CwEncroachRefined *refined);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -17,9 +17,7 @@ enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 int32_t cw_interface_owner(const CwRegionInput *from, const int32_t *number, int32_t outline) {
   const CwInterfaces *interfaces = from->interfaces;
   const CwPeriodicImages *images = from->in->images;
-  const int32_t(*regions)[2] =
-      (const int32_t(*)[2])(interfaces->planned.region ? interfaces->planned.region : interfaces->refined.region);
-  const int32_t *region = regions[interfaces->outline[outline].triangle_start];
+  const int32_t *region = cw_interfaces_of(interfaces, 1)->region[interfaces->outline[outline].triangle_start];
   int32_t first[2];
   for (int k = 0; k < 2; k++) first[k] = cw_image_region_first(images, from->in->plan, region[k]);
   return number[first[1]] < number[first[0]] ? region[1] : region[0];
@@ -216,7 +214,6 @@ CwStatus cw_interface_rule_merge(const CwPeriodicImages *images, CwInterfaces *i
   const char **block = NULL;
   int32_t header[HEADER];
   CW_TRY(cw_arrays_own(interfaces, cw_interfaces_arrays, &interfaces->memory));
-  interfaces->nodes.capacity = interfaces->nodes.count;
   *counts = (CwInterfaceRuleCounts){.planned = interfaces->refined.count};
   CW_NEW(block, interfaces->outline_count);
   for (int32_t r = 0; r < regions; r++) {

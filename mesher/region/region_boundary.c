@@ -6,7 +6,6 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
-#include "mesher/fill/boundary_check.h"
 
 typedef struct {
   const CwRegionInput *from;
@@ -24,9 +23,13 @@ static int32_t local_of(Gathering *gathering, int32_t node) {
   return gathering->local[node];
 }
 
+static int32_t count_of(const CwRegionBoundary *inner) {
+  return inner->wall_count + inner->open_patch_count + inner->interface_count;
+}
+
 static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], int turned, int32_t source) {
   CwRegionBoundary *inner = gathering->inner;
-  int32_t at = inner->wall_count + inner->open_patch_count + inner->interface_count;
+  int32_t at = count_of(inner);
   for (int k = 0; k < 3; k++) inner->triangle[at][k] = local_of(gathering, corner[turned ? 2 - k : k]);
   inner->source[at] = source;
   ++*count;
@@ -35,18 +38,14 @@ static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], i
 CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int planned, CwRegionBoundary *inner) {
   CwStatus status = CW_OK;
   Gathering gathering = {from, inner, NULL};
-  planned = planned && from->interfaces->planned.triangle;
-  int32_t interfaces = planned ? from->interfaces->planned.count : from->interfaces->refined.count;
+  const CwOpenPatches *open_patch = &from->interfaces->open_patch;
+  const CwInterfaceTriangles *on_planes = cw_interfaces_of(from->interfaces, planned);
   int32_t wall_start = from->surface->region_start[region], wall_end = from->surface->region_start[region + 1];
   int32_t count = wall_end - wall_start;
-  const int32_t(*triangle)[3] =
-      (const int32_t(*)[3])(planned ? from->interfaces->planned.triangle : from->interfaces->refined.triangle);
-  const int32_t(*beside)[2] =
-      (const int32_t(*)[2])(planned ? from->interfaces->planned.region : from->interfaces->refined.region);
   *inner = (CwRegionBoundary){0};
-  for (int32_t t = 0; t < from->interfaces->open_patch.count; t++)
-    count += from->interfaces->open_patch.region[t] == region;
-  for (int32_t t = 0; t < interfaces; t++) count += beside[t][0] == region || beside[t][1] == region;
+  for (int32_t t = 0; t < open_patch->count; t++) count += open_patch->region[t] == region;
+  for (int32_t t = 0; t < on_planes->count; t++)
+    count += on_planes->region[t][0] == region || on_planes->region[t][1] == region;
   CW_NEW(inner->triangle, count);
   CW_NEW(inner->source, count);
   CW_NEW(inner->node, 3 * (size_t)count);
@@ -57,14 +56,12 @@ CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int 
     int32_t t = from->surface->region_triangle[i];
     add(&gathering, &inner->wall_count, from->layers->triangle[t], 0, t);
   }
-  for (int32_t t = 0; t < from->interfaces->open_patch.count; t++) {
-    if (from->interfaces->open_patch.region[t] == region)
-      add(&gathering, &inner->open_patch_count, from->interfaces->open_patch.triangle[t], 0, t);
-  }
-  for (int32_t t = 0; t < interfaces; t++) {
-    for (int side = 0; side < 2; side++) {
-      if (beside[t][side] == region) add(&gathering, &inner->interface_count, triangle[t], side, t);
-    }
+  for (int32_t t = 0; t < open_patch->count; t++)
+    if (open_patch->region[t] == region) add(&gathering, &inner->open_patch_count, open_patch->triangle[t], 0, t);
+  for (int32_t t = 0; t < on_planes->count; t++) {
+    for (int side = 0; side < 2; side++)
+      if (on_planes->region[t][side] == region)
+        add(&gathering, &inner->interface_count, on_planes->triangle[t], side, t);
   }
 done:
   free(gathering.local);
@@ -80,25 +77,16 @@ void cw_region_boundary_free(CwRegionBoundary *inner) {
   *inner = (CwRegionBoundary){0};
 }
 
-CwStatus cw_region_boundary_audit(const CwRegionBoundary *inner, const char *name) {
-  CwFillInput input = {.point_count = inner->node_count,
-                       .x = (const double(*)[3])inner->x,
-                       .triangle_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
-                       .triangle = (const int32_t(*)[3])inner->triangle,
-                       .name = name};
-  return cw_boundary_check(&input);
-}
-
 CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBoundary *inner, const char *name) {
   return (CwFillInput){.point_count = inner->node_count,
                        .x = (const double(*)[3])inner->x,
-                       .triangle_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
+                       .triangle_count = count_of(inner),
                        .triangle = (const int32_t(*)[3])inner->triangle,
                        .size = from->in->size_at,
                        .size_context = from->in->size,
                        .name = name,
                        .log = from->log,
-                       .offset_count = inner->wall_count + inner->open_patch_count + inner->interface_count,
+                       .offset_count = count_of(inner),
                        .interface_count = inner->interface_count,
                        .bare_first = inner->wall_count,
                        .bare_count = inner->open_patch_count};
@@ -107,7 +95,7 @@ CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBounda
 CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *crossing, const char *title,
                                 const char *path) {
   CwStatus status = CW_OK;
-  int32_t count = inner->wall_count + inner->open_patch_count + inner->interface_count, *surface = NULL;
+  int32_t count = count_of(inner), *surface = NULL;
   CW_NEW(surface, count);
   for (int32_t t = inner->wall_count; t < count; t++)
     surface[t] = 1 + (t >= inner->wall_count + inner->open_patch_count);

@@ -20,16 +20,12 @@ typedef struct {
 CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int planned, CwRegionBoundary *inner);
 void cw_region_boundary_free(CwRegionBoundary *inner);
 
-// Checks what finished boundaries hold: distinct points, triangles with an area, each edge as often in one direction as
-// in the other (boundary_check.h). CW_ERR_MESH with the first that does not hold. The fill looks at it too.
-CwStatus cw_region_boundary_audit(const CwRegionBoundary *inner, const char *name);
-
 // Writes it as VTK PolyData, for a look (cell data surface: 0 layer top, 1 open patch, 2 interface; crossing: a number
 // of each triangle, NULL: none).
 CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *crossing, const char *title,
                                 const char *path);
 
-// Views the boundary and the size field as an input of the fill.
+// Views the boundary and the size field as an input of the fill, which checks that it is closed (boundary_check.h).
 CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBoundary *inner, const char *name);
 
 #endif

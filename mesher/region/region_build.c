@@ -19,48 +19,6 @@
 #include "pipeline/hash.h"
 #include "pipeline/mesh/interface_tolerance.h"
 
-static int compare_open_edges(const void *p, const void *q) {
-  const int32_t *a = p, *b = q;
-  for (int k = 0; k < 2; k++) {
-    if (a[k] != b[k]) return a[k] < b[k] ? -1 : 1;
-  }
-  return 0;
-}
-
-// Wall edges along open patches: their columns' sides are faces of the open patches.
-static CwStatus find_open_edges(CwRegionContext *context) {
-  CwStatus status = CW_OK;
-  const CwRegionInput *from = &context->from;
-  int32_t count = 0;
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass == 1) CW_NEW(context->open_edge, count);
-    for (int32_t i = 0; i < from->in->network->curve_count; i++) {
-      const CwCurve *curve = &from->in->network->curve[i];
-      const CwCurveNodes *nodes = &from->wall_curves->curve[i];
-      if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
-      int32_t open_patch = -1;
-      for (int k = 0; k < 2; k++) {
-        if (!cw_cad_face_is_wall(from->in->cad, curve->face[k])) open_patch = curve->face[k];
-      }
-      if (open_patch < 0) continue;
-      if (pass == 0) {
-        count += nodes->count - 1;
-        continue;
-      }
-      for (int32_t k = 0; k + 1 < nodes->count; k++) {
-        int32_t a = nodes->node[k], b = nodes->node[k + 1];
-        int32_t *open_edge = context->open_edge[context->open_edge_count++];
-        open_edge[0] = a < b ? a : b;
-        open_edge[1] = a < b ? b : a;
-        open_edge[2] = open_patch;
-      }
-    }
-  }
-  qsort(context->open_edge, (size_t)context->open_edge_count, sizeof *context->open_edge, compare_open_edges);
-done:
-  return status;
-}
-
 CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwSharedNodes *shared) {
   CwStatus status = CW_OK;
   const CwNodeTable *nodes = &from->interfaces->nodes;
@@ -87,22 +45,6 @@ void cw_shared_nodes_arrays(void *product, CwArrayVisit visit, void *given) {
 void cw_shared_nodes_free(CwSharedNodes *shared) {
   cw_arrays_free(shared, cw_shared_nodes_arrays, &shared->memory);
   *shared = (CwSharedNodes){0};
-}
-
-CwStatus cw_region_context_make(CwRegionContext *context) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
-             context->layer_count, CW_LAYERS_MOST);
-  CW_TRY(find_open_edges(context));
-  CW_TRY(cw_open_edge_places_make(&context->from, &context->open_edge_places));
-done:
-  return status;
-}
-
-void cw_region_context_free(CwRegionContext *context) {
-  free(context->open_edge);
-  cw_open_edge_places_free(&context->open_edge_places);
-  context->open_edge = NULL;
 }
 
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]) {
@@ -246,13 +188,6 @@ static int32_t column_point(const Build *build, int32_t local, int level) {
   return level == build->context->layer_count ? build->place[local] : build->column[local] + level;
 }
 
-static int32_t open_edge_open_patch(const CwRegionContext *context, int32_t a, int32_t b) {
-  int32_t key[3] = {a < b ? a : b, a < b ? b : a, 0};
-  const int32_t(*found)[3] = bsearch(key, context->open_edge, (size_t)context->open_edge_count,
-                                     sizeof *context->open_edge, compare_open_edges);
-  return found ? (*found)[2] : -1;
-}
-
 // Nodes of a face of an interface lie on its exact surface: solvers couple the two sides there.
 static CwStatus check_on_open_patch(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
                                     int count) {
@@ -294,7 +229,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       int32_t first_cell = mesh->cells.tetrahedron_count + t * levels;
       for (int e = 0; e < 3; e++) {
         int32_t a = corner[e], b = corner[(e + 1) % 3],
-                open_patch = open_edge_open_patch(context, build->inner.node[a], build->inner.node[b]);
+                open_patch = cw_open_edge_face(&context->open_edge_places, build->inner.node[a], build->inner.node[b]);
         if (open_patch < 0) continue;
         sides += pass == 0;
         for (int k = 0; pass == 1 && k < levels; k++) {

@@ -31,14 +31,8 @@ typedef struct {
   const double *first_height; // of each wall vertex, by which its column is divided, m
   const double *growth;       // of each wall vertex, largest ratio of neighbouring layers
   const CwSharedNodes *shared;
-  // Filled by cw_region_context_make:
   CwOpenEdgePlaces open_edge_places;
-  int32_t open_edge_count;
-  int32_t (*open_edge)[3]; // wall edges on open patches: smaller vertex, greater vertex, open patch face; sorted
 } CwRegionContext;
-
-CwStatus cw_region_context_make(CwRegionContext *context);
-void cw_region_context_free(CwRegionContext *context);
 
 // Hex fingerprint of all that region `region` (0-based) follows from.
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]);

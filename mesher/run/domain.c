@@ -93,14 +93,6 @@ CwStatus cw_domain_start_background(CwDomain *domain, double deflection) {
   return cw_tessellation_start(domain->cad, deflection, DEFLECTION_ANGLE, &domain->tessellation);
 }
 
-double cw_domain_background_cost(const CwDomain *domain, int face) {
-  return cw_tessellation_cost(domain->tessellation, face);
-}
-
-CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count) {
-  return cw_tessellation_face(domain->tessellation, face, bytes, byte_count);
-}
-
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes) {
   CwStatus status = CW_OK;
   cw_tessellation_free(&domain->tessellation);
@@ -136,7 +128,6 @@ done:
   return status;
 }
 
-// Longer edges make prisms of small determinant.
 double cw_domain_longest_edge(const CwDomain *domain, int patch) {
   const CwLayerTarget *layers = &domain->patch_layers[patch];
   return cw_policy.prism_longest * layers->growth * layers->first_height;
@@ -264,7 +255,6 @@ CwRegionInput cw_domain_region_input(const CwDomain *domain, CwLog *log) {
 }
 
 CwStatus cw_domain_share(CwLog *log, CwDomain *domain, const CwCase *table) {
-  CwStatus status = CW_OK;
   domain->context = (CwRegionContext){.from = cw_domain_region_input(domain, log),
                                       .domain = domain->name,
                                       .layer_count = domain->layer_count,
@@ -272,13 +262,11 @@ CwStatus cw_domain_share(CwLog *log, CwDomain *domain, const CwCase *table) {
                                       .shared = &domain->shared,
                                       .fill = table->mesh.fill,
                                       .first_height = domain->layers.first_height};
-  CW_TRY(cw_region_context_make(&domain->context));
-done:
-  return status;
+  return cw_open_edge_places_make(&domain->context.from, &domain->context.open_edge_places);
 }
 
 void cw_domain_clear(CwDomain *domain) {
-  cw_region_context_free(&domain->context);
+  cw_open_edge_places_free(&domain->context.open_edge_places);
   cw_shared_nodes_free(&domain->shared);
   cw_interfaces_free(&domain->interfaces);
   cw_free_curves_free(&domain->free_curves);

@@ -83,11 +83,8 @@ CwStatus cw_domain_measure_walls(const CwContext *context, CwDomain *domain);
 // Sets the number of layers and the first heights, of this y+ where the case leaves it open, and what patches ask of so
 // many.
 void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count, double y_plus_auto);
-// The background triangulation, face by face: what one rank makes for all, packed, and how all take it up.
-// `deflection`: of its chords.
+// Starts the tessellation of the background, with this deflection of its chords, and takes its faces up.
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
-double cw_domain_background_cost(const CwDomain *domain, int face);
-CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
 // Walls on which no layers can stand become bare, with a warning.
 CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain);

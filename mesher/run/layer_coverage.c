@@ -41,13 +41,11 @@ int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
   return fabs(first / targets->first_height[vertex] - 1) <= CW_FIRST_HEIGHT_TOLERANCE;
 }
 
-void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
+void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage *coverage) {
   const CwColumnTargets *targets = &domain->targets;
   for (int32_t i = domain->surface.region_start[region]; i < domain->surface.region_start[region + 1]; i++) {
     int32_t t = domain->surface.region_triangle[i];
-    int patch = cw_cad_face_patch(domain->cad, domain->surface.face[t]);
-    if (patch >= patches) continue;
-    CwLayerCoverage *of = &coverage[patch];
+    CwLayerCoverage *of = &coverage[cw_cad_face_patch(domain->cad, domain->surface.face[t])];
     int full = 1, met = 1, worst = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = domain->layers.triangle[t][k];

@@ -23,7 +23,7 @@ const char *cw_layer_reason_name(int reason);
 // Whether the first layer at a wall vertex is as high as asked, within the tolerance.
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex);
 
-// Of the patches up to `patches`, zeroed before.
-void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
+// Of all patches, zeroed before.
+void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage *coverage);
 
 #endif

@@ -16,6 +16,7 @@
 
 static const double MOST_SHARE = 0.05; // of the faces, may exceed CW_RATIO_FAIR
 static const double LEAST_MET = 0.9;   // of the faces, have their first height
+static const double REMEDY_MOST = 100; // times the first height that anyone would ask for
 enum { WHERE_SIZE = 1500, TEXT_SIZE = 2500 };
 
 static const char *const SOURCE_NAMES[] = {"asked", "auto", "fitted", "laminar"};
@@ -247,6 +248,32 @@ static void add_patch(const json_t *patch, Jumps *jumps) {
   add(&jumps->where, "%s%.40s %.3g, greatest %.3g", jumps->where.length ? "; " : "",
       json_string_value(json_object_get(patch, "patch")), most, number(patch, "volume_ratio_greatest"));
   if (weights > 0) add(&jumps->where, ", %.0f face weights below %.2g", weights, CW_SMALL_WEIGHT);
+}
+
+void cw_warn_of_thin(CwLog *log, const char *domain, const json_t *coverage) {
+  List where = {{0}, 0};
+  double sum = 0, wanted = 0, at[3] = {0};
+  size_t k;
+  json_t *patch;
+  char remedy[96] = "fewer layers, or far more cells";
+  json_array_foreach((json_t *)coverage, k, patch) {
+    double thin = number(patch, "thin_prisms"), own = number(patch, "thin_prisms_height_wanted");
+    if (thin == 0) continue;
+    add(&where, "%s%.40s %.0f", where.length ? ", " : "", json_string_value(json_object_get(patch, "patch")), thin);
+    sum += thin;
+    if (own <= wanted) continue;
+    wanted = own;
+    const json_t *place = json_object_get(patch, "thinnest_prism_at_m");
+    for (size_t c = 0; c < 3; c++) at[c] = json_number_value(json_array_get(place, c));
+  }
+  if (sum == 0) return;
+  if (wanted < REMEDY_MOST)
+    snprintf(remedy, sizeof remedy, "%.1f times the first height, or with edges as much shorter",
+             0.1 * ceil(10 * wanted));
+  cw_log_warn(log,
+              "%s: %.0f prisms are so long for their height that checkMesh calls their determinant small (%s; the "
+              "thinnest at (%.3f, %.3f, %.3f) mm). They are sound; it would name none with %s",
+              domain, sum, where.text, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], remedy);
 }
 
 static double missed_by(const json_t *patch, int reason) {

@@ -36,7 +36,10 @@ void cw_warn_of_left_out(CwLog *log, const CwDomain *domain, double edge, double
 // Adds how many these are, and the width of the widest, to the entry of the domain.
 void cw_put_left_out(const CwDomain *domain, json_t *result);
 
-// Warns where less than 90 % of the wall faces of `coverage` (the domain's layer_coverage) have their first height.
+// Warns, once for all patches of `coverage` (the domain's layer_coverage), of prisms of small determinant.
+void cw_warn_of_thin(CwLog *log, const char *domain, const json_t *coverage);
+
+// Warns where less than 90 % of the wall faces of `coverage` have their first height.
 void cw_warn_of_missed(CwLog *log, const char *domain, const json_t *coverage, json_t *headlines);
 
 // Warns of the patches of `coverage` over which more than 5 % of the faces of the layer top exceed CW_RATIO_FAIR, any

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the mesher tells of its work: the manifest for the exporter, the record for the report.
 #include "mesher/run/manifest.h"
 
 #include <jansson.h>
@@ -9,6 +8,7 @@
 
 #include "mesher/common/model_unit.h"
 #include "mesher/fill/tet_bound.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
 #include "pipeline/log.h"
@@ -133,41 +133,6 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   return result;
 }
 
-static const double REMEDY_MOST = 100; // times the first height that anyone would ask for
-
-// One line for the user on all patches that have thin prisms.
-static void warn_of_thin(CwLog *log, const char *domain, const json_t *coverage) {
-  char where[64 * CW_PATCHES_MOST] = "";
-  int length = 0;
-  json_int_t sum = 0;
-  double wanted = 0, at[3] = {0};
-  size_t k;
-  json_t *patch;
-  json_array_foreach(coverage, k, patch) {
-    json_int_t thin = json_integer_value(json_object_get(patch, "thin_prisms"));
-    if (thin == 0) continue;
-    int left = (int)sizeof where - length;
-    int added = snprintf(where + length, (size_t)left, "%s%.40s %lld", sum ? ", " : "",
-                         json_string_value(json_object_get(patch, "patch")), (long long)thin);
-    length += added < left ? added : left - 1;
-    sum += thin;
-    double own = json_number_value(json_object_get(patch, "thin_prisms_height_wanted"));
-    if (own <= wanted) continue;
-    wanted = own;
-    const json_t *place = json_object_get(patch, "thinnest_prism_at_m");
-    for (size_t c = 0; c < 3; c++) at[c] = json_number_value(json_array_get(place, c));
-  }
-  if (sum == 0) return;
-  char remedy[96] = "fewer layers, or far more cells";
-  if (wanted < REMEDY_MOST)
-    snprintf(remedy, sizeof remedy, "%.1f times the first height, or with edges as much shorter",
-             0.1 * ceil(10 * wanted));
-  cw_log_warn(log,
-              "%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s; the "
-              "thinnest at (%.3f, %.3f, %.3f) mm). They are sound; it would name none with %s",
-              domain, (long long)sum, where, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], remedy);
-}
-
 // One region of the record's list; predicted_sum: cells of all regions of the domain.
 static json_t *region_json(const CwMeshRun *run, int d, int32_t r, double predicted_sum) {
   const CwDomain *domain = &run->domain[d];
@@ -277,7 +242,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
                                              cw_patch_kind_name(kind), "area_m2", metres_json(area, 2)));
     if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
-  warn_of_thin(run->context.log, domain->name, coverage);
+  cw_warn_of_thin(run->context.log, domain->name, coverage);
   cw_warn_of_missed(run->context.log, domain->name, coverage, run->headlines);
   cw_warn_of_layers(run->context.log, domain->name, domain->layer_count, run->table->walls.layer_count == 0, coverage,
                     run->headlines);
@@ -323,7 +288,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_record_file(run->record, path, "manifest.json"));
   for (int d = 0; d < run->model.domain_count; d++) json_array_append_new(domains, domain_json(run, d));
-  CW_TRY(cw_record_integer(run->record, "ranks", run->ranks));
+  CW_TRY(cw_record_integer(run->record, "ranks", cw_team_ranks(run->context.team)));
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
   CW_TRY(cw_record_integer(run->record, "cells", run->cells));
   CW_TRY(cw_record_integer(run->record, "passes", run->passes));

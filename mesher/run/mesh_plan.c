@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "mesher/cad/background_tessellate.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/parallel/groups.h"
 #include "mesher/parallel/profiler.h"
@@ -34,19 +35,13 @@ static const double OWN_PLAN = 0.15;            // of the work on a plan, what e
 static const double PERIODIC_PLAN =
     0.5; // of equal passages, over that of others: 0.55 to 0.6 from 3 to 21 million cells
 
-static double extent_of(const CwBox *box) {
-  double extent = 0;
-  for (int k = 0; k < 3; k++) extent = fmax(extent, box->high[k] - box->low[k]);
-  return extent;
-}
-
 // The extent of the smallest domain.
 static double least_extent(const CwMeshRun *run) {
   double least = INFINITY;
   for (int d = 0; d < run->model.domain_count; d++) {
     CwBox box = cw_box_empty();
     cw_cad_add_to_box(run->domain[d].cad, &box);
-    least = fmin(least, extent_of(&box));
+    least = fmin(least, cw_box_longest(&box));
   }
   return least;
 }
@@ -57,27 +52,46 @@ static void settle_base_size(CwMeshRun *run) {
   for (int d = 0; d < run->model.domain_count; d++) run->domain[d].base_size = BASE_SIZE * cbrt(volume);
 }
 
+typedef void PartCosts(const CwDomain *domain, double *cost);
+
+// Runs a step of so many parts of each domain.
+static CwStatus run_parts(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, const int32_t *parts,
+                          PartCosts *costs, CwResults *results) {
+  CwStatus status = CW_OK;
+  CwMeshTask *task = NULL;
+  double *cost = NULL;
+  int32_t count = 0, all = 0;
+  for (int d = 0; d < run->model.domain_count; d++) all += parts[d];
+  CW_TRY(cw_results_make(results, run->model.domain_count, parts));
+  CW_NEW(task, all);
+  for (int d = 0; d < run->model.domain_count; d++) {
+    CW_NEW(cost, parts[d]);
+    costs(&run->domain[d], cost);
+    for (int32_t i = 0; i < parts[d]; i++) task[count++] = (CwMeshTask){d, i, cost[i]};
+    free(cost);
+    cost = NULL;
+  }
+  CW_TRY(cw_run_step(run, name, unit, body, count, task, NULL, results, NULL));
+done:
+  free(cost);
+  free(task);
+  return status;
+}
+
+static void background_costs(const CwDomain *domain, double *cost) {
+  for (int f = 0; f < cw_cad_face_count(domain->cad); f++) cost[f] = cw_tessellation_cost(domain->tessellation, f);
+}
+
 // Background triangulations, face by face, and the base size that follows from their volume.
 static CwStatus triangulate_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults results = {0};
-  CwMeshTask *task = NULL;
-  int32_t faces[CW_DOMAINS_MOST], count = 0, all = 0;
+  int32_t faces[CW_DOMAINS_MOST];
   double deflection = DEFLECTION * least_extent(run);
   cw_profiler_part(&run->context, "edges of the background");
   cw_face_counts(run, faces);
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_domain_start_background(&run->domain[d], deflection));
-    all += faces[d];
-  }
-  CW_TRY(cw_results_make(&results, run->model.domain_count, faces));
-  CW_NEW(task, all);
-  for (int d = 0; d < run->model.domain_count; d++) {
-    for (int f = 0; f < faces[d]; f++) {
-      task[count++] = (CwMeshTask){d, f, cw_domain_background_cost(&run->domain[d], f)};
-    }
-  }
-  CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, &results, NULL));
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_start_background(&run->domain[d], deflection));
+  CW_TRY(run_parts(run, "background", "faces", cw_step_background, faces, background_costs, &results));
   cw_profiler_part(&run->context, "background joined");
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_TRY(cw_domain_take_background(&run->context, &run->domain[d], results.bytes[d]));
@@ -87,7 +101,6 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
   settle_base_size(run);
 done:
   cw_results_free(&results);
-  free(task);
   return status;
 }
 
@@ -107,32 +120,6 @@ static CwStatus find_symmetry(CwMeshRun *run) {
       cw_log(run->context.log, "%s: no equal passages; it is meshed whole", domain->name);
   }
 done:
-  return status;
-}
-
-typedef void PartCosts(const CwDomain *domain, double *cost);
-
-// Runs a step of so many parts of each domain.
-static CwStatus run_parts(CwMeshRun *run, const char *name, CwMeshStep body, const int32_t *parts, PartCosts *costs,
-                          CwResults *results) {
-  CwStatus status = CW_OK;
-  CwMeshTask *task = NULL;
-  double *cost = NULL;
-  int32_t count = 0, all = 0;
-  for (int d = 0; d < run->model.domain_count; d++) all += parts[d];
-  CW_TRY(cw_results_make(results, run->model.domain_count, parts));
-  CW_NEW(task, all);
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_NEW(cost, parts[d]);
-    costs(&run->domain[d], cost);
-    for (int32_t i = 0; i < parts[d]; i++) task[count++] = (CwMeshTask){d, i, cost[i]};
-    free(cost);
-    cost = NULL;
-  }
-  CW_TRY(cw_run_step(run, name, "parts", body, count, task, NULL, results, NULL));
-done:
-  free(cost);
-  free(task);
   return status;
 }
 
@@ -171,7 +158,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
       run->wall_scale = fmin(made_for, greatest) * (1 + GRADATION_TOLERANCE);
     cw_log_debug(run->context.log, "size field: scale %.4f, made again with a gradation of %.4f, walls at %.3f",
                  run->scale, run->gradation, run->wall_scale);
-    CW_TRY(run_parts(run, "size field", cw_step_size, parts, field_cost, &results));
+    CW_TRY(run_parts(run, "size field", "parts", cw_step_size, parts, field_cost, &results));
     for (int d = 0; d < run->model.domain_count; d++)
       CW_TRY(cw_domain_take_field(&run->context, &run->domain[d], made_for, results.bytes[d]));
     cw_results_free(&results);
@@ -188,14 +175,14 @@ static CwStatus make_sizes(CwMeshRun *run) {
   CwResults seeds = {0}, results = {0};
   int32_t parts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
-  CW_TRY(run_parts(run, "size seeds", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
+  CW_TRY(run_parts(run, "size seeds", "parts", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
   for (int d = 0; d < run->model.domain_count; d++) {
     run->seeds[d] = seeds.bytes[d];
     parts[d] = cw_domain_size_parts(&run->domain[d]);
   }
   run->gradation = run->table->mesh.gradation;
   run->wall_scale = 0;
-  CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
+  CW_TRY(run_parts(run, "size field", "parts", cw_step_size, parts, cw_domain_size_costs, &results));
   cw_profiler_part(&run->context, "integrals of the size");
   for (int d = 0; d < run->model.domain_count; d++)
     CW_TRY(cw_domain_take_size(&run->context, &run->domain[d], results.bytes[d]));
@@ -214,7 +201,7 @@ static CwStatus settle_unit(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwBox box = cw_box_empty();
   for (int d = 0; d < run->model.domain_count; d++) cw_cad_add_to_box(run->domain[d].cad, &box);
-  double extent = extent_of(&box);
+  double extent = cw_box_longest(&box);
   CW_REQUIRE(extent > 0 && isfinite(extent), CW_ERR_INPUT, "%s/geometry: the solids have no extent", run->run_path);
   int power = cw_model_unit_power(extent);
   cw_model_unit_set(power);
@@ -305,9 +292,10 @@ done:
   return status;
 }
 
-// Collective. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
-static CwStatus plan_domain(const CwContext *context, CwMeshRun *run, int d, CwOutcome *outcome) {
+// Collective; given: the run. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
+static CwStatus plan_domain(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  CwMeshRun *run = given;
   cw_profiler_part(context, "planes weighed");
   double prisms = run->domain[d].layer_count * cw_cell_law_at(&run->prisms, run->scale);
   CW_TRY_STAGE(cw_domain_plan(context, &run->domain[d], run->table, cw_predicted_cells(run, d), prisms, outcome),
@@ -328,7 +316,7 @@ static CwStatus plan_anew(CwMeshRun *run, int d) {
   run->prisms = run->planned_prisms;
   run->tets = run->planned_tets;
   cw_mesh_set_scale(run, run->planned_scale);
-  CW_TRY(plan_domain(&run->context, run, d, &outcome));
+  CW_TRY(plan_domain(run, &run->context, d, &outcome));
   run->prisms = prisms;
   run->tets = tets;
   cw_mesh_set_scale(run, scale);
@@ -402,21 +390,15 @@ done:
   return status;
 }
 
-static void warn_of_few_cells(const CwMeshRun *run, int d) {
-  double cells = cw_predicted_cells(run, d);
-  int asked = run->table->mesh.least_regions, least = cw_domain_least_regions(run->table, cells);
-  if (least == asked) return;
-  cw_log_warn(run->context.log,
-              "%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more",
-              run->domain[d].name, asked, least, cells);
-}
-
 void cw_warn_of_few_cells(const CwMeshRun *run) {
-  for (int d = 0; d < run->model.domain_count; d++) warn_of_few_cells(run, d);
-}
-
-static CwStatus plan_item(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
-  return plan_domain(context, given, d, outcome);
+  for (int d = 0; d < run->model.domain_count; d++) {
+    double cells = cw_predicted_cells(run, d);
+    int asked = run->table->mesh.least_regions, least = cw_domain_least_regions(run->table, cells);
+    if (least == asked) continue;
+    cw_log_warn(run->context.log,
+                "%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more",
+                run->domain[d].name, asked, least, cells);
+  }
 }
 
 static CwStatus hand_plan(void *given, const CwGroupHand *hand) {
@@ -427,10 +409,7 @@ static CwStatus hand_plan(void *given, const CwGroupHand *hand) {
   int64_t size = 0;
   if (hand->mine) CW_TRY(cw_plan_pack(plan, &bytes, &size));
   cw_group_give(hand, &size, sizeof size);
-  if (!hand->mine) {
-    bytes = malloc((size_t)size);
-    CW_REQUIRE(bytes, CW_ERR_MEMORY, "out of memory: plan of %lld bytes", (long long)size);
-  }
+  if (!hand->mine) CW_NEW_UNSET(bytes, size);
   cw_group_give(hand, bytes, size);
   if (!hand->mine) CW_TRY(cw_plan_unpack(bytes, plan));
 done:
@@ -451,7 +430,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
                       .count = run->model.domain_count,
                       .cost = cost,
                       .own = OWN_PLAN,
-                      .run = plan_item,
+                      .run = plan_domain,
                       .hand = hand_plan,
                       .given = run};
   cw_progress_start(run->context.log, "decomposition", run->model.domain_count, "domains");

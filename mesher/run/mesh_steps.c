@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The bodies of the mesher's tasks.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "mesher/cad/background_tessellate.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/tet_bound.h"
-#include "mesher/policy.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/region/region_copy.h"
 #include "mesher/run/domain_size.h"
@@ -15,7 +14,7 @@
 #include "pipeline/mesh/cell.h"
 
 CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_background_face(&run->domain[task.domain], task.index, bytes, size);
+  return cw_tessellation_face(run->domain[task.domain].tessellation, task.index, bytes, size);
 }
 
 CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
@@ -86,18 +85,17 @@ int32_t cw_region_copies(const CwDomain *domain, int32_t region) {
   return cw_image_region(images, &domain->plan, region, 1) == region ? 1 : images->symmetry->count;
 }
 
-static CwStatus region_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(snprintf(path, size, "%s/mesh/%s-%04d.h5", run->run_path, domain->name, region + 1) < (int)size,
-             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
-done:
-  return status;
-}
+enum { PATH_SIZE = 4096 };
 
-static CwStatus failure_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
+// Of a region its file and, NULL: not asked for, that of its boundary where it has failed.
+static CwStatus region_paths(const CwMeshRun *run, int d, int32_t region, char path[PATH_SIZE],
+                             char failure_path[PATH_SIZE]) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(snprintf(path, size, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name, region + 1) < (int)size,
-             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+  const char *name = run->domain[d].name;
+  int length = snprintf(path, PATH_SIZE, "%s/mesh/%s-%04d.h5", run->run_path, name, region + 1);
+  if (failure_path)
+    length = snprintf(failure_path, PATH_SIZE, "%s/mesh/failed-%s-%04d.vtk", run->run_path, name, region + 1);
+  CW_REQUIRE(length < PATH_SIZE, CW_ERR_USAGE, "%s: the path is too long", run->run_path);
 done:
   return status;
 }
@@ -130,12 +128,12 @@ static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source,
   const CwDomain *domain = &run->domain[task.domain];
   const CwPeriodicImages *images = &domain->images;
   CwRegionMesh first = {0}, mesh = {0};
-  char path[4096], fingerprint[CW_HASH_TEXT];
+  char path[PATH_SIZE], fingerprint[CW_HASH_TEXT];
   int32_t turns = 1;
   int taken;
   while (cw_image_region(images, &domain->plan, source, turns) != task.index) turns++;
   CW_TRY(cw_region_read(source_path, &first));
-  CW_TRY(region_path(run, domain, task.index, sizeof path, path));
+  CW_TRY(region_paths(run, task.domain, task.index, path, NULL));
   cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
   if (!taken) {
@@ -155,10 +153,9 @@ done:
 static CwStatus step_copy(const CwMeshRun *run, CwMeshTask task, int32_t first, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   CwRegionSummary *summary = NULL;
-  char path[4096], boundary_path[4096];
+  char path[PATH_SIZE], boundary_path[PATH_SIZE];
   CW_NEW(summary, 1);
-  CW_TRY(region_path(run, &run->domain[task.domain], first, sizeof path, path));
-  CW_TRY(failure_path(run, &run->domain[task.domain], first, sizeof boundary_path, boundary_path));
+  CW_TRY(region_paths(run, task.domain, first, path, boundary_path));
   summary->failure.failed = access(boundary_path, F_OK) == 0;
   if (!summary->failure.failed) CW_TRY(make_copy(run, task, first, path, summary));
   *bytes = summary;
@@ -182,20 +179,17 @@ done:
   return status;
 }
 
-// Makes the region, or takes it up from its file where an earlier run left it whole. A periodic image is made of its
-// first.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
   CwAtomicFile file = {0};
-  char path[4096], boundary_path[4096], fingerprint[CW_HASH_TEXT];
+  char path[PATH_SIZE], boundary_path[PATH_SIZE], fingerprint[CW_HASH_TEXT];
   int taken;
   int32_t first = cw_image_region_first(&domain->images, &domain->plan, task.index);
   if (first != task.index) return step_copy(run, task, first, bytes, size);
-  CW_TRY(region_path(run, domain, task.index, sizeof path, path));
-  CW_TRY(failure_path(run, domain, task.index, sizeof boundary_path, boundary_path));
+  CW_TRY(region_paths(run, task.domain, task.index, path, boundary_path));
   CW_NEW(summary, 1);
   cw_region_fingerprint(&domain->context, task.index, fingerprint);
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
@@ -213,7 +207,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
     remove(boundary_path); // of an earlier attempt
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
-    cw_domain_coverage(domain, task.index, CW_PATCHES_MOST, summary->coverage);
+    cw_domain_coverage(domain, task.index, summary->coverage);
     CW_TRY(cw_layer_ratio(&mesh, domain->layer_count, CW_PATCHES_MOST, summary->ratio));
     if (!taken) CW_TRY(cw_atomic_file_commit(&file));
   }

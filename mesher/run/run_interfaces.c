@@ -2,7 +2,6 @@
 #include "mesher/run/run_interfaces.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "mesher/parallel/profiler.h"
 #include "mesher/run/mesh_steps.h"
@@ -11,7 +10,7 @@
 
 static CwStatus make_curves(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwDomain *domain = &((CwMeshRun *)given)->domain[d];
+  CwDomain *domain = &((const CwMerging *)given)->run->domain[d];
   cw_profiler_part(context, "free curves");
   CW_TRY(cw_free_curves_make(&domain->input, &domain->wall_curves, &domain->surface, &domain->layers,
                              &domain->free_curves, outcome));
@@ -21,17 +20,17 @@ done:
 }
 
 static CwStatus hand_curves(void *given, const CwGroupHand *hand) {
-  CwFreeCurves *curves = &((CwMeshRun *)given)->domain[hand->item].free_curves;
+  CwFreeCurves *curves = &((const CwMerging *)given)->run->domain[hand->item].free_curves;
   return cw_group_hold(hand, curves, sizeof *curves, cw_free_curves_arrays, &curves->memory);
 }
 
 // Outcome: CW_OUTCOME_ASYMMETRIC before CW_OUTCOME_THIN, with the places of all domains.
 static CwStatus run_curves(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  static const CwDomainWork work = {
+      .step = "free curves", .own = 1, .copied = 1, .work = make_curves, .hand = hand_curves};
   CwOutcome of_domain[CW_DOMAINS_MOST];
-  const CwDomainWork work = {
-      .step = "free curves", .own = 1, .copied = 1, .work = make_curves, .hand = hand_curves, .given = run};
-  CW_TRY(cw_run_domains(run, &work, of_domain));
+  CW_TRY(cw_run_domains(run, &work, NULL, of_domain));
   for (int d = 0; d < run->model.domain_count; d++) {
     of_domain[d].domain = d;
     if (of_domain[d].kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain[d], places));
@@ -65,44 +64,34 @@ static CwStatus hand_inner(void *given, const CwGroupHand *hand) {
 
 CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  static const CwDomainWork work = {
+      .step = "inner surfaces merged", .own = 1, .copied = 1, .work = merge_inner, .hand = hand_inner};
+  CwOutcome of_domain[CW_DOMAINS_MOST];
   CwResults results = {.shared = 1}; // of each domain first those of its faces
-  CwMeshTask *open_patch = NULL, *task = NULL;
-  int32_t open_patches, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
+  CwMeshTask *task = NULL;
+  int32_t count, space, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   CW_TRY_STAGE(run_curves(run, places, outcome), outcome);
   cw_face_counts(run, faces);
-  CW_TRY(cw_face_tasks(run, 0, &open_patches, &open_patch));
-  count = open_patches;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    parts[d] = faces[d] + run->domain[d].free_curves.outline_count;
-    count += run->domain[d].free_curves.outline_count;
-  }
-  CW_TRY(cw_results_make(&results, run->model.domain_count, parts));
-  CW_NEW(task, count);
-  memcpy(task, open_patch, (size_t)open_patches * sizeof *task);
-  count = open_patches;
+  CW_TRY(cw_face_tasks(run, 0, &count, &task));
+  space = count;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
+    parts[d] = faces[d] + domain->free_curves.outline_count;
+    CW_GROW(task, space, count + domain->free_curves.outline_count);
     for (int32_t i = 0; i < domain->free_curves.outline_count; i++) {
       if (cw_image_turns(&domain->images, &domain->free_curves.outline_images, i) > 0) continue;
       // Takes about as long as an open patch of as many triangles.
       task[count++] = (CwMeshTask){d, faces[d] + i, domain->free_curves.outline[i].corner_count};
     }
   }
+  CW_TRY(cw_results_make(&results, run->model.domain_count, parts));
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, &results, NULL));
-  CwOutcome of_domain[CW_DOMAINS_MOST];
-  const CwDomainWork work = {.step = "inner surfaces merged",
-                             .own = 1,
-                             .copied = 1,
-                             .work = merge_inner,
-                             .hand = hand_inner,
-                             .given = &(CwMerging){run, &results}};
-  CW_TRY(cw_run_domains(run, &work, of_domain));
+  CW_TRY(cw_run_domains(run, &work, &results, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   for (int d = 0; outcome->kind == CW_OUTCOME_DONE && d < run->model.domain_count; d++)
     CW_TRY(cw_domain_number(&run->domain[d]));
 done:
   cw_results_free(&results);
-  free(open_patch);
   free(task);
   return status;
 }
@@ -145,6 +134,9 @@ static void log_rule(CwLog *log, const CwDomain *domain) {
 
 CwStatus cw_run_region_rule(CwMeshRun *run) {
   CwStatus status = CW_OK;
+  static const CwDomainWork work = {
+      .step = "interfaces merged", .own = 1, .copied = 1, .work = merge_rule, .hand = hand_rule};
+  CwOutcome of_domain[CW_DOMAINS_MOST]; // all done
   CwResults results = {.shared = 1};
   CwMeshTask *task = NULL;
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
@@ -165,14 +157,7 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, regions));
   CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, &results, NULL));
-  CwOutcome of_domain[CW_DOMAINS_MOST]; // all done
-  const CwDomainWork work = {.step = "interfaces merged",
-                             .own = 1,
-                             .copied = 1,
-                             .work = merge_rule,
-                             .hand = hand_rule,
-                             .given = &(CwMerging){run, &results}};
-  CW_TRY(cw_run_domains(run, &work, of_domain));
+  CW_TRY(cw_run_domains(run, &work, &results, of_domain));
   for (int d = 0; d < run->model.domain_count; d++) log_rule(run->context.log, &run->domain[d]);
 done:
   cw_results_free(&results);

@@ -40,11 +40,10 @@ done:
 
 CwStatus cw_run_merge_walls(CwMeshRun *run, const CwResults *results, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  static const CwDomainWork work = {
+      .step = "walls merged", .own = 0.4, .copied = 0.75, .work = merge, .hand = hand_walls};
   CwOutcome of_domain[CW_DOMAINS_MOST];
-  CwMerging walls = {run, results};
-  const CwDomainWork work = {
-      .step = "walls merged", .own = 0.4, .copied = 0.75, .work = merge, .hand = hand_walls, .given = &walls};
-  CW_TRY(cw_run_domains(run, &work, of_domain));
+  CW_TRY(cw_run_domains(run, &work, results, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
 done:
   return status;
@@ -60,8 +59,7 @@ static double last_layer(const void *context, int32_t vertex, double thickness) 
 
 static CwStatus grow(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwMeshRun *run = given;
-  CwDomain *domain = &run->domain[d];
+  CwDomain *domain = &((const CwMerging *)given)->run->domain[d];
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->targets};
   CW_TRY_STAGE(cw_boundary_grow(context, &domain->input, &domain->surface, &domain->background, domain->targets.target,
                                 domain->targets.least, &division, &domain->layers, outcome),
@@ -74,20 +72,19 @@ done:
 }
 
 static CwStatus hand_layers(void *given, const CwGroupHand *hand) {
-  CwLayers *layers = &((CwMeshRun *)given)->domain[hand->item].layers;
+  CwLayers *layers = &((const CwMerging *)given)->run->domain[hand->item].layers;
   return cw_group_hold(hand, layers, sizeof *layers, cw_layers_arrays, &layers->memory);
 }
 
 CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  static const CwDomainWork work = {.step = "layers", .own = 0.1, .copied = 0.5, .work = grow, .hand = hand_layers};
   CwOutcome of_domain[CW_DOMAINS_MOST];
   double started = cw_seconds();
   int64_t faces = 0;
-  const CwDomainWork work = {
-      .step = "layers", .own = 0.1, .copied = 0.5, .work = grow, .hand = hand_layers, .given = run};
   for (int d = 0; d < run->model.domain_count; d++) faces += run->domain[d].surface.triangle_count;
   cw_progress_start(run->context.log, "layers", faces, "wall faces");
-  CW_TRY(cw_run_domains(run, &work, of_domain));
+  CW_TRY(cw_run_domains(run, &work, NULL, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   if (outcome->kind == CW_OUTCOME_DONE) cw_progress(run->context.log, faces);
   cw_progress_end(run->context.log);

@@ -54,7 +54,7 @@ typedef struct {
   CwContext context;
   const CwCase *table;
   const char *run_path;
-  int rank, ranks;
+  int rank;
   CwRecord *record;
   CwStage stop_after; // CW_STAGE_NONE: the run goes to its end
   int vtk;            // 1: what the stage made is written

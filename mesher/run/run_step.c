@@ -67,7 +67,8 @@ static void tell_of_copies(CwMeshRun *run) {
   run->copies_told = 1;
 }
 
-CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcome[CW_DOMAINS_MOST]) {
+CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, const CwResults *results,
+                        CwOutcome outcome[CW_DOMAINS_MOST]) {
   CwStatus status = CW_OK;
   double cost[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++) {
@@ -82,7 +83,7 @@ CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, CwOutcome outcom
                       .by_threads = 1,
                       .run = of->work,
                       .hand = of->hand,
-                      .given = of->given};
+                      .given = &(CwMerging){run, results}};
   CW_TRY(cw_groups_run(&run->context, &work, outcome));
   tell_of_copies(run);
 done:

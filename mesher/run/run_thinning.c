@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/periodic_boundary.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/policy.h"
 #include "pipeline/log.h"
@@ -18,14 +19,9 @@ static void thin_alike(const CwDomain *domain, double *most_thickness) {
   const CwNodeImages *nodes = &domain->surface.images;
   for (int32_t v = 0; images->symmetry && v < domain->surface.vertex_count; v++) {
     if (cw_image_node_turns(nodes, v) > 0) continue;
-    double least = most_thickness[v];
-    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
-      least = fmin(least, most_thickness[at]);
-    }
-    most_thickness[v] = least;
-    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
-      most_thickness[at] = least;
-    }
+    double least = INFINITY;
+    for (int32_t at = v; at >= 0; at = cw_image_after(nodes, at, v)) least = fmin(least, most_thickness[at]);
+    for (int32_t at = v; at >= 0; at = cw_image_after(nodes, at, v)) most_thickness[at] = least;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/periodic_boundary.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/thickness_gradation.h"
@@ -54,10 +55,7 @@ static double size_at(const CwBoundaryInput *in, const double x[3]) {
 
 // Unit normal of a triangle, out of the domain.
 static void find_normal(const CwSurfaceMesh *surface, const int32_t corner[3], double normal[3]) {
-  double u[3], v[3];
-  cw_sub(surface->x[corner[1]], surface->x[corner[0]], u);
-  cw_sub(surface->x[corner[2]], surface->x[corner[0]], v);
-  cw_cross(u, v, normal);
+  cw_normal(surface->x[corner[0]], surface->x[corner[1]], surface->x[corner[2]], normal);
   cw_unit(normal);
 }
 
@@ -181,7 +179,7 @@ done:
 static void turn_copies(const CwNodeImages *nodes, int32_t count, CwColumnTargets *targets) {
   for (int32_t v = 0; v < count; v++) {
     if (cw_image_node_turns(nodes, v) > 0) continue;
-    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1)) {
+    for (int32_t at = cw_image_after(nodes, v, v); at >= 0; at = cw_image_after(nodes, at, v)) {
       targets->target[at] = targets->target[v];
       targets->first_height[at] = targets->first_height[v];
       targets->growth[at] = targets->growth[v];

@@ -55,7 +55,8 @@ static int same_edge(const Pair *pair, double near) {
   return 1;
 }
 
-static double size_at(const Pair *pair, double s) {
+static double size_at(const void *context, double s) {
+  const Pair *pair = context;
   double x[3], size = INFINITY;
   point_at(pair, 0, s, x);
   for (int side = 0; side < 2; side++) {
@@ -106,40 +107,37 @@ done:
   return status;
 }
 
-static double size_along(const void *context, double s) {
-  return size_at(context, s);
-}
+typedef struct {
+  int32_t count, room;
+  double *s;
+} Places;
 
 // Divides between two breaks; appends the places within.
-static CwStatus divide(const Pair *pair, double length, double from, double to, int *count, double **places) {
+static CwStatus divide(const Pair *pair, double length, double from, double to, Places *places) {
   CwStatus status = CW_OK;
   double *place = NULL;
   int32_t made;
-  CW_TRY(cw_divide_by_size(size_along, pair, from, to, (to - from) * length, 1, &made, &place));
-  double *grown = realloc(*places, (size_t)(*count + made) * sizeof **places);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places on an open edge", *count + made);
-  *places = grown;
-  for (int32_t k = 1; k + 1 < made; k++) grown[(*count)++] = place[k];
+  CW_TRY(cw_divide_by_size(size_at, pair, from, to, (to - from) * length, 1, &made, &place));
+  CW_GROW(places->s, places->room, places->count + made);
+  for (int32_t k = 1; k + 1 < made; k++) places->s[places->count++] = place[k];
 done:
   free(place);
   return status;
 }
 
-static CwStatus add_open_edge(const Pair *pair, int side, int place_count, const double *places, int break_count,
-                              const Break *breaks) {
+static CwStatus add_open_edge(const Pair *pair, int side, const Places *places, int break_count, const Break *breaks) {
   CwStatus status = CW_OK;
   CwOpenEdges *edges = pair->edges[side];
-  CwDividedEdge *grown = realloc(edges->edge, (size_t)(edges->count + 1) * sizeof *grown);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d open edges", edges->count + 1);
-  edges->edge = grown;
-  CwDividedEdge *open_edge = &grown[edges->count++];
+  CW_GROW(edges->edge, edges->room, edges->count + 1);
+  CwDividedEdge *open_edge = &edges->edge[edges->count++];
   *open_edge = (CwDividedEdge){.edge = pair->edge[side]};
-  CW_NEW(open_edge->t, place_count + break_count);
-  for (int i = 0; i < place_count; i++) open_edge->t[open_edge->count++] = parameter_at(pair, side, places[i]);
+  CW_NEW(open_edge->t, places->count + break_count);
+  for (int i = 0; i < places->count; i++) open_edge->t[open_edge->count++] = parameter_at(pair, side, places->s[i]);
   for (int i = 1; i + 1 < break_count; i++) {
     // The side's own breaks are corners of its network, which its curves begin and end at.
     if (!breaks[i].own[side]) open_edge->t[open_edge->count++] = parameter_at(pair, side, breaks[i].s[side]);
   }
+  qsort(open_edge->t, (size_t)open_edge->count, sizeof *open_edge->t, cw_order_doubles);
 done:
   return status;
 }
@@ -147,25 +145,20 @@ done:
 static CwStatus couple_edge(const Pair *pair) {
   CwStatus status = CW_OK;
   Break *breaks = NULL;
-  double *places = NULL, length = 0, x[2][3];
-  int break_count = 0, place_count = 0;
+  Places places = {0};
+  double length = 0, x[2][3];
+  int break_count = 0;
   point_at(pair, 0, 0, x[0]);
   for (int i = 1; i <= LENGTH_STEPS; i++) {
     point_at(pair, 0, (double)i / LENGTH_STEPS, x[i % 2]);
     length += cw_distance(x[0], x[1]);
   }
   CW_TRY(find_breaks(pair, length, &break_count, &breaks));
-  for (int i = 0; i + 1 < break_count; i++) {
-    CW_TRY(divide(pair, length, breaks[i].s[0], breaks[i + 1].s[0], &place_count, &places));
-  }
-  for (int side = 0; side < 2; side++) {
-    CW_TRY(add_open_edge(pair, side, place_count, places, break_count, breaks));
-    CwDividedEdge *open_edge = &pair->edges[side]->edge[pair->edges[side]->count - 1];
-    qsort(open_edge->t, (size_t)open_edge->count, sizeof *open_edge->t, cw_order_doubles);
-  }
+  for (int i = 0; i + 1 < break_count; i++) CW_TRY(divide(pair, length, breaks[i].s[0], breaks[i + 1].s[0], &places));
+  for (int side = 0; side < 2; side++) CW_TRY(add_open_edge(pair, side, &places, break_count, breaks));
 done:
   free(breaks);
-  free(places);
+  free(places.s);
   return status;
 }
 

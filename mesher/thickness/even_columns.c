@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary/periodic_boundary.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/parallel_for.h"
@@ -110,16 +111,13 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
   int32_t changed = 0;
   for (int32_t v = 0; v < columns->surface->vertex_count; v++) {
     if (cw_image_node_turns(nodes, v) > 0) continue;
-    int marked = mark[v];
-    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1))
-      marked |= mark[at];
+    int marked = 0;
+    for (int32_t at = v; at >= 0; at = cw_image_after(nodes, at, v)) marked |= mark[at];
     if (!marked) continue;
     double even = even_first(columns, v), made = divide(columns->targets, columns->layers, v, first_made[v], fraction);
     double next = even < made ? fmax((1 - STEP) * made, even) : fmin((1 + STEP) * made, even);
     changed += next != first_made[v];
-    first_made[v] = next;
-    for (int32_t at = cw_image_node(nodes, v, 1); at >= 0 && at != v; at = cw_image_node(nodes, at, 1))
-      first_made[at] = next;
+    for (int32_t at = v; at >= 0; at = cw_image_after(nodes, at, v)) first_made[at] = next;
   }
   return changed;
 }

@@ -12,14 +12,11 @@ double cw_column_room(const CwWallFlow *flow) {
   return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
 }
 
-static double even_layers(double room, int layer_count) {
-  return room / (layer_count > 0 ? layer_count : CW_LAYERS_LEAST);
-}
-
-double cw_first_height_fitting(const CwWallFlow *flow, int layer_count) {
-  double across = even_layers(cw_policy.fit_share * flow->width, layer_count);
+// The greatest first height that fits: of so many even layers in fit_share of the passage, and before an open patch,
+// where one end of a wall is short of room, of layers that fall by cw_layer_growth_least().
+static double greatest_fitting(const CwWallFlow *flow, int count) {
+  double across = cw_policy.fit_share * flow->width / count;
   if (flow->before == 0) return across;
-  int count = layer_count > 0 ? layer_count : CW_LAYERS_LEAST;
   return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_layer_growth_least(count)));
 }
 
@@ -29,7 +26,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
   double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
-  double fitting = cw_first_height_fitting(flow, walls->layer_count);
+  double fitting = greatest_fitting(flow, walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
   CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
   if (cw_case_given(group->first_height)) {
     first.asked = group->first_height;
@@ -38,14 +35,14 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   } else {
     double roomy = cw_policy.gap_share * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, 1 + cw_policy.slope);
     first.asked = fmin(unit * y_plus_auto, roomy);
-    if (flow->before > 0) first.asked = fmin(first.asked, even_layers(cw_column_room(flow), layer_count));
+    if (flow->before > 0) first.asked = fmin(first.asked, cw_column_room(flow) / layer_count);
     first.source = CW_FIRST_AUTO;
   }
   int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;
   first.height = first.asked;
   if (laminar && !cw_case_given(group->first_height)) {
     first.height = CW_LAMINAR_SHARE * flow->width;
-    if (flow->before > 0) first.height = fmin(first.height, even_layers(cw_column_room(flow), layer_count));
+    if (flow->before > 0) first.height = fmin(first.height, cw_column_room(flow) / layer_count);
     first.source = CW_FIRST_LAMINAR;
   }
   if (first.height > fitting) {

@@ -42,11 +42,6 @@ typedef struct {
 // How tall columns may become, m: their share of the passage, or of the way to an open patch.
 double cw_column_room(const CwWallFlow *flow);
 
-// The greatest first height that fits: of `layer_count` even layers in fit_share of the passage, and before an open
-// patch, where one end of a wall is short of room, of layers that fall by cw_layer_growth_least(). 0 layers:
-// CW_LAYERS_LEAST.
-double cw_first_height_fitting(const CwWallFlow *flow, int layer_count);
-
 // y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as
 // CW_LAYER_COUNT_USUAL layers that grow by 1 + slope fit the passage, and `layer_count` even
 // ones before an open patch, in laminar flow too.

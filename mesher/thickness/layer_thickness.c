@@ -2,7 +2,6 @@
 #include "mesher/thickness/layer_thickness.h"
 
 #include <math.h>
-#include <stddef.h>
 
 #include "mesher/policy.h"
 

@@ -181,8 +181,7 @@ static void region_surface(const char *path, Mesh *mesh) {
   check(cw_region_read(path, &region));
   int32_t(*neighbour)[4] = take((size_t)region.cells.tetrahedron_count, sizeof *neighbour);
   int32_t *number = take((size_t)region.cells.point_count, sizeof *number);
-  check(cw_tet_neighbours(region.cells.point_count, region.cells.tetrahedron_count,
-                          (const int32_t(*)[4])region.cells.tetrahedra, neighbour));
+  check(cw_tet_neighbours(region.cells.tetrahedron_count, (const int32_t(*)[4])region.cells.tetrahedra, neighbour));
   memset(mesh, 0, sizeof *mesh);
   mesh->x = take((size_t)region.cells.point_count, sizeof *mesh->x);
   mesh->triangle = take(4 * (size_t)region.cells.tetrahedron_count, sizeof *mesh->triangle);

@@ -111,7 +111,6 @@ int main(int argc, char **argv) {
   H5dont_atexit();
   CW_TRY(cw_mpi_start(&argc, &argv, &team));
   run.rank = cw_team_rank(team);
-  run.ranks = cw_team_ranks(team);
   run.context.team = team;
   CW_TRY(cw_profiler_make(&run.context.profiler));
   CW_TRY(cw_team_agree(team, cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table)));

@@ -32,8 +32,7 @@ const char *fill_fault(const Surface *s, const CwFill *fill) {
   long double six = 0.0, size = 0.0;
   if (fill->point_count < s->point_count || memcmp(fill->x, s->x, (size_t)s->point_count * sizeof *s->x))
     fault = "points of the boundary were changed";
-  else if (cw_tet_neighbours(fill->point_count, fill->tetrahedron_count, (const int32_t(*)[4])fill->tetrahedron,
-                             neighbour) != CW_OK)
+  else if (cw_tet_neighbours(fill->tetrahedron_count, (const int32_t(*)[4])fill->tetrahedron, neighbour) != CW_OK)
     fault = "a face has more than two cells";
   for (int32_t t = 0; t < fill->tetrahedron_count && !fault; t++) {
     const int32_t *p = fill->tetrahedron[t];

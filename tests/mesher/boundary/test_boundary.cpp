@@ -230,7 +230,7 @@ static void fill_the_box(int rule) {
   CwSharedNodes shared_nodes;
   Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
   context.shared = &shared_nodes;
-  Box::check(cw_region_context_make(&context));
+  Box::check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
   double volume = 0;
   uint64_t open_faces = 0;
   SharedPoints shared;
@@ -252,7 +252,7 @@ static void fill_the_box(int rule) {
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
   assert_int_equal(open_faces, 0);
   shared.check(shared_nodes.count);
-  cw_region_context_free(&context);
+  cw_open_edge_places_free(&context.open_edge_places);
   cw_shared_nodes_free(&shared_nodes);
   free(pair);
 }
@@ -353,7 +353,7 @@ static void a_crossing_boundary_is_examined(void **) {
   CwSharedNodes shared_nodes;
   Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
   context.shared = &shared_nodes;
-  Box::check(cw_region_context_make(&context));
+  Box::check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
   CwRegionMesh mesh;
   assert_int_equal(cw_region_build(&context, 0, 1, &mesh), CW_ERR_MESH);
   const CwRegionInput regions = boundary.regions();
@@ -375,7 +375,7 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
   Box::check(cw_region_failure_examine(&regions, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
-  cw_region_context_free(&context);
+  cw_open_edge_places_free(&context.open_edge_places);
   cw_shared_nodes_free(&shared_nodes);
   std::remove(path.c_str());
 }

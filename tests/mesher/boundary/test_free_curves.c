@@ -74,7 +74,7 @@ static void spoiled_ones_are_told(void **state) {
 }
 
 static void nodes_are_appended(void **state) {
-  CwFreeCurves free_curves = {.nodes = {.capacity = 1, .x = malloc(sizeof(double[3])), .on_plane = malloc(1)}};
+  CwFreeCurves free_curves = {0};
   for (int32_t i = 0; i < 100; i++) {
     const double x[3] = {i, 2 * i, 3 * i};
     int32_t node = -1;

@@ -51,8 +51,8 @@ static void carved_mesh_and_core_fit(void **unused) {
   make_ball(&ball, 0);
   assert_int_equal(
       cw_kernel_core_make(&ball.input, ball.count, (const double(*)[3])ball.x, ball.site, &core, &count, &x), CW_OK);
-  assert_true(core.deep_count > ball.count / 8);
-  assert_int_equal(count + core.deep_count, ball.surface.point_count + ball.count);
+  assert_true(core.lattice.deep_count > ball.count / 8);
+  assert_int_equal(count + core.lattice.deep_count, ball.surface.point_count + ball.count);
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++)
     whole += mesh.tet[t].corner[0] < 0 ? 0.0 : volume6(&mesh, mesh.tet[t].corner);
@@ -66,15 +66,15 @@ static void carved_mesh_and_core_fit(void **unused) {
       assert_true(tet->neighbour[i] < 0 || mesh.tet[tet->neighbour[i] / 4].corner[0] >= 0);
     }
   }
-  for (int32_t t = 0; t < core.tet_count; t++) {
+  for (int32_t t = 0; t < core.lattice.tet_count; t++) {
     const double *c[4];
     for (int i = 0; i < 4; i++) {
-      int32_t p = core.tet[t][i];
+      int32_t p = core.lattice.tet[t][i];
       c[i] = p < core.fixed_count ? x[p] : core.deep[p - core.fixed_count];
     }
     of_core += cw_tet_volume6(c[0], c[1], c[2], c[3]);
   }
-  assert_int_equal(open, core.face_count + 4);
+  assert_int_equal(open, core.lattice.face_count + 4);
   assert_true(fabs((left + of_core) / whole - 1.0) < 1e-13);
   cw_tet_mesh_free(&mesh);
   cw_kernel_core_free(&core);

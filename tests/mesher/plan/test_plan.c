@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/background_tessellate.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
 #include "mesher/plan/plan_model.h"
@@ -47,7 +48,7 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
   assert_non_null(part);
   check(cw_domain_start_background(made, 4e-5));
   made->base_size = 2e-3;
-  for (int f = 0; f < faces; f++) check(cw_domain_background_face(made, f, &part[f], &size));
+  for (int f = 0; f < faces; f++) check(cw_tessellation_face(made->tessellation, f, &part[f], &size));
   check(cw_domain_take_background(NULL, made, part));
   for (int f = 0; f < faces; f++) free(part[f]);
   free(part);

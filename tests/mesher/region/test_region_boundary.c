@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesher/fill/boundary_check.h"
 #include "mesher/region/region_boundary.h"
 #include "tests/unit_test.h"
 
@@ -26,7 +27,13 @@ static const CwInterfaces interfaces = {.nodes = {.count = NODES, .x = x},
                                         .open_patch = {OPEN, open_patch, open_face, open_region},
                                         .refined = {3, refined, refined_region},
                                         .planned = {1, planned, planned_region}};
-static const CwRegionInput from = {.surface = &surface, .layers = &layers, .interfaces = &interfaces};
+static const CwBoundaryInput in; // without a size field
+static const CwRegionInput from = {.in = &in, .surface = &surface, .layers = &layers, .interfaces = &interfaces};
+
+static CwStatus audit(const CwRegionBoundary *inner, const char *name) {
+  const CwFillInput input = cw_region_fill_input(&from, inner, name);
+  return cw_boundary_check(&input);
+}
 
 static double six_volumes(const CwRegionBoundary *inner) {
   double sum = 0;
@@ -48,7 +55,7 @@ static void regions_are_closed(void **state) {
       assert_int_equal(inner.interface_count, as_planned ? 1 : 3);
       assert_int_equal(inner.node_count, as_planned ? 4 : 5);
       assert_true(fabs(six_volumes(&inner) - 1) < 1e-15); // of both tetrahedra, normals out
-      assert_int_equal(cw_region_boundary_audit(&inner, "tetrahedron"), CW_OK);
+      assert_int_equal(audit(&inner, "tetrahedron"), CW_OK);
       for (int32_t i = 0; i < inner.node_count; i++) assert_memory_equal(inner.x[i], x[inner.node[i]], sizeof *x);
       for (int t = 0; t < 2; t++) assert_int_equal(inner.source[t], region_triangle[region_start[region] + t]);
       assert_int_equal(open_region[inner.source[2]], region);
@@ -63,12 +70,12 @@ static void faults_are_told(void **state) {
   int32_t *corner = inner.triangle[3], first = corner[0];
   corner[0] = corner[1];
   corner[1] = first;
-  assert_int_equal(cw_region_boundary_audit(&inner, "turned"), CW_ERR_MESH);
+  assert_int_equal(audit(&inner, "turned"), CW_ERR_MESH);
   corner[1] = corner[0];
   corner[0] = first;
-  assert_int_equal(cw_region_boundary_audit(&inner, "as made"), CW_OK);
+  assert_int_equal(audit(&inner, "as made"), CW_OK);
   inner.interface_count = 0;
-  assert_int_equal(cw_region_boundary_audit(&inner, "open"), CW_ERR_MESH);
+  assert_int_equal(audit(&inner, "open"), CW_ERR_MESH);
   cw_region_boundary_free(&inner);
 }
 

@@ -132,7 +132,7 @@ static void fill_the_tank(bool divided, bool rule) {
   CwSharedNodes shared_nodes;
   check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
   context.shared = &shared_nodes;
-  check(cw_region_context_make(&context));
+  check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
   double volume = 0;
   SharedPoints shared;
   CwRegionMesh mesh;
@@ -162,7 +162,7 @@ static void fill_the_tank(bool divided, bool rule) {
   assert_near(volume / solid_volume(tank.cad), 1, 1e-12);
   shared.check(shared_nodes.count);
 
-  cw_region_context_free(&context);
+  cw_open_edge_places_free(&context.open_edge_places);
   cw_shared_nodes_free(&shared_nodes);
   free(pair);
 }
