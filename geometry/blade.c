@@ -59,12 +59,6 @@ double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[
   return sampled_wrap(&samples, beta);
 }
 
-// Fifth-degree step from 0 to 1, flat to the second order at both ends.
-static double smooth_step(double x) {
-  x = x < 0 ? 0 : x > 1 ? 1 : x;
-  return x * x * x * (10 - 15 * x + 6 * x * x);
-}
-
 // Point of the meridian at p of the blade, with its derivative by p.
 static void at(const CwBladeSection *section, double p, double x[2], double dx[2]) {
   const double length = 1 - section->start;
@@ -137,10 +131,7 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
   double low = 1 * degree, high = 89 * degree;
   for (int i = 0; i < 60; i++) {
     beta[1] = 0.5 * (low + high);
-    if (sampled_wrap(&samples, beta) > wrap)
-      low = beta[1];
-    else
-      high = beta[1];
+    *(sampled_wrap(&samples, beta) > wrap ? &low : &high) = beta[1];
   }
   range[0] = range[1] = beta[0];
   for (int i = 1; i <= 100; i++) {
@@ -149,6 +140,13 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
     range[1] = fmax(range[1], b);
   }
   return range[0] >= least_beta && range[1] <= largest_beta && fabs(beta[1] - 45 * degree) < 43.9 * degree;
+}
+
+// Where the ellipse of the leading edge ends.
+static double nose_of(const CwDesign *design, const CwBladeSection *section) {
+  double x[2], dx[2];
+  at(section, 0, x, dx);
+  return design->leading_edge_ratio * section->half_leading * sin(cw_blade_beta(section, 0)) / hypot(dx[0], dx[1]);
 }
 
 CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span, CwBladeSection *section) {
@@ -178,9 +176,7 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
   section->half_trailing = design->trailing_edge_thickness / 2;
   section->thickest_at = design->thickest_at;
   section->end = 1;
-  at(section, 0, x, dx);
-  section->nose =
-      design->leading_edge_ratio * section->half_leading * sin(cw_blade_beta(section, 0)) / hypot(dx[0], dx[1]);
+  section->nose = nose_of(design, section);
   if (design->trailing_edge == CW_EDGE_ROUNDED) {
     // A half circle whose foremost point lies on D2.
     const double end_angle = cw_blade_beta(section, 1);
@@ -199,12 +195,9 @@ double cw_blade_longest_nose(const CwBladeSection *section) {
 
 CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *blade) {
   CwBladeSection section = *blade;
-  double x[2], dx[2];
   section.start = design->splitter_start;
   section.shift += design->splitter_position * 2 * M_PI / design->blade_count;
-  at(&section, 0, x, dx);
-  section.nose =
-      design->leading_edge_ratio * section.half_leading * sin(cw_blade_beta(&section, 0)) / hypot(dx[0], dx[1]);
+  section.nose = nose_of(design, &section);
   section.end = 1 - (1 - blade->end) / (1 - section.start);
   section.trailing_nose = blade->trailing_nose / (1 - section.start);
   return section;
@@ -285,10 +278,10 @@ done:
 double cw_blade_half_thickness(const CwBladeSection *section, double p) {
   const double top = section->thickest_at;
   if (p < top)
-    return section->half_leading +
-           (section->half_largest - section->half_leading) * smooth_step((p - section->nose) / (top - section->nose));
+    return section->half_leading + (section->half_largest - section->half_leading) *
+                                       cw_smooth_step((p - section->nose) / (top - section->nose));
   return section->half_largest +
-         (section->half_trailing - section->half_largest) * smooth_step((p - top) / (section->end - top));
+         (section->half_trailing - section->half_largest) * cw_smooth_step((p - top) / (section->end - top));
 }
 
 // Offset by y (positive: towards greater theta). lambda = 1 at the leading edge is the true normal offset,
@@ -296,7 +289,7 @@ double cw_blade_half_thickness(const CwBladeSection *section, double p) {
 // edge on D2. A blade with a rounded trailing edge has the normal offset all along: between the two offsets a thick
 // blade's sides would bend to and fro.
 static CwBladePoint offset(const CwBladeSection *section, double p, double y) {
-  const double lambda = section->end < 1 ? 1 : 1 - smooth_step(p / offset_fades_at);
+  const double lambda = section->end < 1 ? 1 : 1 - cw_smooth_step(p / offset_fades_at);
   const double beta = cw_blade_beta(section, p), c = cos(beta), s = sin(beta);
   double x[2], dx[2];
   at(section, p, x, dx);

@@ -42,6 +42,12 @@ typedef struct {
   double q, theta;
 } CwBladePoint;
 
+// Fifth-degree step from 0 to 1, flat to the second order at both ends.
+static inline double cw_smooth_step(double x) {
+  x = x < 0 ? 0 : x > 1 ? 1 : x;
+  return x * x * x * (10 - 15 * x + 6 * x * x);
+}
+
 // Wrap of a blade angle law on a section of the meridian: integral of dm / (r tan beta) from q = 0 to 1, rad.
 double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[3]);
 

@@ -14,11 +14,6 @@ namespace {
 const double level = 1e-12; // rad: two corners of an edge without lean
 const int fillet_points = 7;
 
-double smooth_step(double x) {
-  x = x < 0 ? 0 : x > 1 ? 1 : x;
-  return x * x * x * (10 - 15 * x + 6 * x * x);
-}
-
 class Maker {
 public:
   Maker(const CwDesign *from, const CwMeridian *section, double unit, CwBladeShape &of)
@@ -313,7 +308,7 @@ void Maker::guide_line(int wall, double room) {
   const double off = shape.seam ? 0 : tip.theta - line.theta(end);
   const auto theta_at = [&](double at_length) {
     if (shape.seam) return line.theta_of_seam(at_length);
-    return line.theta(at_length) + off * smooth_step((at_length / end - 0.8) / 0.2);
+    return line.theta(at_length) + off * cw_smooth_step((at_length / end - 0.8) / 0.2);
   };
   const auto point_at = [&](double at_length, double theta, double *t) {
     double x[2];

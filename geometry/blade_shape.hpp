@@ -39,7 +39,7 @@ struct CwBladeShape {
   std::vector<CwBladeSection> section;
   bool has_bevel, has_trailing;
   CwBladePatch pressure, suction, leading, bevel, trailing;
-  double u_bevel;                       // last parameter of the suction side: where bevel or cut begins
+  double u_bevel;                      // last parameter of the suction side: where bevel or cut begins
   double theta_corner[2], t_corner[2]; // of the pressure side's end: angle, and place along hub and shroud
   // The line on the wall from the eye to the nose. It arrives along the mean line, square to the nose: a meridian would
   // meet it at the blade angle, and would cross the blades before a splitter. theta_up is where it begins.
@@ -52,7 +52,12 @@ struct CwBladeShape {
   double begin = 0; // angle at which the parameter planes of the passage behind it begin, less the margin
 
   // The patches that this shape has.
-  std::vector<CwBladePatch *> patches();
+  std::vector<CwBladePatch *> patches() {
+    std::vector<CwBladePatch *> all = {&pressure, &suction, &leading};
+    if (has_bevel) all.push_back(&bevel);
+    if (has_trailing) all.push_back(&trailing);
+    return all;
+  }
 };
 
 // Arc lengths of the blade's ends on a wall, m, and the wall's curve.
@@ -60,6 +65,9 @@ struct CwBladeOnWall {
   const CwMeridianCurve *curve;
   double begin, length;
 };
-CwBladeOnWall cw_blade_on_wall(const CwMeridian *meridian, int wall);
+inline CwBladeOnWall cw_blade_on_wall(const CwMeridian *meridian, int wall) {
+  if (wall == CW_HUB) return {&meridian->hub, meridian->hub_leading, meridian->hub_trailing - meridian->hub_leading};
+  return {&meridian->shroud, meridian->shroud_leading, meridian->shroud_trailing - meridian->shroud_leading};
+}
 
 #endif

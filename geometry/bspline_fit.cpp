@@ -80,62 +80,73 @@ void solve_poles(const std::vector<double> &parameters, int width, std::vector<d
 }
 
 // Distinct knots and multiplicities as OpenCASCADE wants them.
-void open_cascade_knots(const std::vector<double> &parameters, std::vector<double> &knots, std::vector<int> &times) {
-  const std::vector<double> all = averaged_knots(parameters);
-  knots = {all.front()};
-  times = {degree + 1};
-  for (size_t i = degree + 1; i + degree + 1 < all.size(); i++) {
-    knots.push_back(all[i]);
-    times.push_back(1);
+struct Knots {
+  TColStd_Array1OfReal at;
+  TColStd_Array1OfInteger times;
+  explicit Knots(const std::vector<double> &parameters)
+      : at(1, (int)parameters.size() - degree + 1), times(1, at.Length()) {
+    const std::vector<double> all = averaged_knots(parameters);
+    for (int i = 1; i <= at.Length(); i++) at(i) = all[degree + i - 1];
+    times.Init(1);
+    times.ChangeFirst() = times.ChangeLast() = degree + 1;
   }
-  knots.push_back(all.back());
-  times.push_back(degree + 1);
-}
-
-template <class Array, class Value> Array to_array(const std::vector<Value> &values) {
-  Array array(1, (int)values.size());
-  for (size_t i = 0; i < values.size(); i++) array.SetValue((int)i + 1, values[i]);
-  return array;
-}
+};
 
 void check(const std::vector<double> &parameters) {
   if (parameters.size() < degree + 1) throw Standard_Failure("a cubic needs four points");
+}
+
+template <class Curve, class Poles, class Point>
+Handle(Curve) curve_through(int dimension, const std::vector<double> &parameters, const std::vector<Point> &points) {
+  check(parameters);
+  const int n = (int)parameters.size();
+  std::vector<double> values;
+  for (const Point &point : points)
+    for (int k = 1; k <= dimension; k++) values.push_back(point.Coord(k));
+  solve_poles(parameters, dimension, values);
+  Poles poles(1, n);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < dimension; k++) poles(i + 1).SetCoord(k + 1, values[dimension * i + k]);
+  const Knots knots(parameters);
+  return new Curve(poles, knots.at, knots.times, degree);
+}
+
+std::vector<double> even_parameters(int count, double a, double b) {
+  std::vector<double> t(count, b);
+  for (int i = 0; i < count - 1; i++) t[i] = a + i * (b - a) / (count - 1);
+  return t;
 }
 
 } // namespace
 
 Handle(Geom2d_BSplineCurve)
     cw_bspline_curve_2d(const std::vector<double> &parameters, const std::vector<gp_Pnt2d> &points) {
-  check(parameters);
-  const int n = (int)parameters.size();
-  std::vector<double> values((size_t)n * 2), knots;
-  std::vector<int> times;
-  for (int i = 0; i < n; i++) {
-    values[2 * i] = points[i].X();
-    values[2 * i + 1] = points[i].Y();
-  }
-  solve_poles(parameters, 2, values);
-  TColgp_Array1OfPnt2d poles(1, n);
-  for (int i = 0; i < n; i++) poles.SetValue(i + 1, gp_Pnt2d(values[2 * i], values[2 * i + 1]));
-  open_cascade_knots(parameters, knots, times);
-  return new Geom2d_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots), to_array<TColStd_Array1OfInteger>(times),
-                                 degree);
+  return curve_through<Geom2d_BSplineCurve, TColgp_Array1OfPnt2d>(2, parameters, points);
 }
 
 Handle(Geom_BSplineCurve)
     cw_bspline_curve_3d(const std::vector<double> &parameters, const std::vector<gp_Pnt> &points) {
-  check(parameters);
-  const int n = (int)parameters.size();
-  std::vector<double> values((size_t)n * 3), knots;
-  std::vector<int> times;
-  for (int i = 0; i < n; i++)
-    for (int k = 0; k < 3; k++) values[3 * i + k] = points[i].Coord(k + 1);
-  solve_poles(parameters, 3, values);
-  TColgp_Array1OfPnt poles(1, n);
-  for (int i = 0; i < n; i++) poles.SetValue(i + 1, gp_Pnt(values[3 * i], values[3 * i + 1], values[3 * i + 2]));
-  open_cascade_knots(parameters, knots, times);
-  return new Geom_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots), to_array<TColStd_Array1OfInteger>(times),
-                               degree);
+  return curve_through<Geom_BSplineCurve, TColgp_Array1OfPnt>(3, parameters, points);
+}
+
+Handle(Geom2d_BSplineCurve)
+    cw_bspline_curve_2d(int count, double a, double b, const std::function<gp_Pnt2d(double)> &f) {
+  const std::vector<double> parameters = even_parameters(count, a, b);
+  std::vector<gp_Pnt2d> points;
+  for (double t : parameters) points.push_back(f(t));
+  return cw_bspline_curve_2d(parameters, points);
+}
+
+Handle(Geom2d_BSplineCurve) cw_bspline_line_2d(double a, double b, const gp_Pnt2d &p, const gp_Pnt2d &q) {
+  TColgp_Array1OfPnt2d poles(1, 2);
+  poles(1) = p;
+  poles(2) = q;
+  TColStd_Array1OfReal knots(1, 2);
+  knots(1) = a;
+  knots(2) = b;
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  multiplicities.Init(2);
+  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
 }
 
 Handle(Geom_BSplineSurface)
@@ -159,11 +170,18 @@ Handle(Geom_BSplineSurface)
       const double *p = &by_u[((size_t)i * nv + j) * 3];
       poles.SetValue(i + 1, j + 1, gp_Pnt(p[0], p[1], p[2]));
     }
-  std::vector<double> uk, vk;
-  std::vector<int> ut, vt;
-  open_cascade_knots(u, uk, ut);
-  open_cascade_knots(v, vk, vt);
-  return new Geom_BSplineSurface(poles, to_array<TColStd_Array1OfReal>(uk), to_array<TColStd_Array1OfReal>(vk),
-                                 to_array<TColStd_Array1OfInteger>(ut), to_array<TColStd_Array1OfInteger>(vt), degree,
-                                 degree);
+  const Knots u_knots(u), v_knots(v);
+  return new Geom_BSplineSurface(poles, u_knots.at, v_knots.at, u_knots.times, v_knots.times, degree, degree);
+}
+
+Handle(Geom_BSplineSurface) cw_bspline_surface(int u_count, const std::vector<double> &v, const CwPointOfTwo &f) {
+  const std::vector<double> u = even_parameters(u_count, 0, 1);
+  std::vector<gp_Pnt> points;
+  for (double at_u : u)
+    for (double at_v : v) points.push_back(f(at_u, at_v));
+  return cw_bspline_surface(u, v, points);
+}
+
+Handle(Geom_BSplineSurface) cw_bspline_surface(int u_count, int v_count, const CwPointOfTwo &f) {
+  return cw_bspline_surface(u_count, even_parameters(v_count, 0, 1), f);
 }

@@ -134,39 +134,34 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
                                       [CW_EDGE_BLUNT] = "blunt",
                                       [CW_EDGE_ROUNDED] = "rounded",
                                       [CW_EDGE_SHARP] = "sharp"};
-  json_t *root = json_object(), *sources = json_object(), *names = json_object();
-  int failed = !root || !sources || !names;
-  failed |= json_object_set_new(root, "blade_count", json_integer(design->blade_count)) != 0;
-  failed |= json_object_set_new(sources, "blade_count", json_string(design->blade_count_source)) != 0;
-  failed |= json_object_set_new(root, "splitter_count",
-                                json_integer(design->splitter_start > 0 ? design->blade_count : 0)) != 0;
-  failed |= json_object_set_new(root, "priority", json_string(priorities[design->priority])) != 0;
-  failed |=
-      json_object_set_new(root, "correlation_family", json_string(cw_correlations_name(design->correlations))) != 0;
-  failed |= json_object_set_new(root, "slip_model",
-                                json_string(design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner")) != 0;
-  failed |= json_object_set_new(
-                root, "rotation",
-                json_string(design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise")) != 0;
-  failed |=
-      json_object_set_new(root, "blade_form",
-                          json_string(design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted")) != 0;
-  failed |= json_object_set_new(root, "trailing_edge", json_string(edges[design->trailing_edge])) != 0;
+  json_t *sources = json_pack("{s:s}", "blade_count", design->blade_count_source), *names = json_object();
+  json_t *root = json_pack("{s:i, s:i, s:s, s:s, s:s, s:s, s:s, s:s}",                                                //
+                           "blade_count", design->blade_count,                                                        //
+                           "splitter_count", design->splitter_start > 0 ? design->blade_count : 0,                    //
+                           "priority", priorities[design->priority],                                                  //
+                           "correlation_family", cw_correlations_name(design->correlations),                          //
+                           "slip_model", design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner",               //
+                           "rotation", design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise", //
+                           "blade_form", design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted",      //
+                           "trailing_edge", edges[design->trailing_edge]);
+  int failed = 0;
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     const CwDesignValue value = cw_hydraulic_design_value(design, i);
     failed |= json_object_set_new(root, value.key, cw_json_number(value.stored)) != 0;
     failed |= json_object_set_new(sources, value.key, json_string(design->source[i])) != 0;
     failed |= json_object_set_new(names, value.key, json_string(value.text)) != 0;
   }
-  failed |= json_object_set_new(root, "rotor_volume_m3", cw_json_number(measured->solid[CW_PUMP_ROTOR].volume)) != 0;
-  failed |= json_object_set_new(root, "stator_volume_m3", cw_json_number(measured->solid[CW_PUMP_STATOR].volume)) != 0;
-  failed |= json_object_set_new(root, "measured", cw_measured_json(measured)) != 0;
-  failed |= json_object_set_new(root, "velocity_triangles", triangles_json(design)) != 0;
-  failed |= json_object_set_new(root, "correlations", correlations_json(design)) != 0;
-  failed |= json_object_set_new(root, "remarks", remarks_json(design)) != 0;
-  failed |= json_object_set_new(root, "volute_sections", sections_json(&design->volute)) != 0;
-  failed |= json_object_set(root, "sources", sources) != 0;
-  failed |= json_object_set(root, "names", names) != 0;
+  failed |= json_object_update_new(
+                root, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O, s:O}",                            //
+                                "rotor_volume_m3", cw_json_number(measured->solid[CW_PUMP_ROTOR].volume),   //
+                                "stator_volume_m3", cw_json_number(measured->solid[CW_PUMP_STATOR].volume), //
+                                "measured", cw_measured_json(measured),                                     //
+                                "velocity_triangles", triangles_json(design),                               //
+                                "correlations", correlations_json(design),                                  //
+                                "remarks", remarks_json(design),                                            //
+                                "volute_sections", sections_json(&design->volute),                          //
+                                "sources", sources,                                                         //
+                                "names", names)) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "%s: out of memory", path);
   CW_TRY(cw_json_write(root, path));
 done:

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// How the files of the hydraulic design set a quantity of `design` together with where it comes from.
+// How the files of the hydraulic design set a quantity of `design` together with where it comes from, and the constants
+// that they share.
 #ifndef CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 #define CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 
 #include <math.h>
 
 #include "geometry/design.h"
+
+static const double gravity = 9.80665; // m/s2
+static const double degree = M_PI / 180;
+
+// The family's value of a quantity with the design so far; its formula goes to `source`.
+#define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
+
+#define SET(member, value, text)                                                                                       \
+  do {                                                                                                                 \
+    design->member = (value);                                                                                          \
+    design->source[CW_DESIGN_##member] = (text);                                                                       \
+    design->asked[CW_DESIGN_##member] = NAN;                                                                           \
+  } while (0)
 
 // A given value that cannot be had gives way to `value`. The text begins with the key.
 #define GIVE_WAY(member, value, given, text)                                                                           \
@@ -19,15 +33,7 @@
 #define TAKE(member, given, computed, text)                                                                            \
   do {                                                                                                                 \
     const double take_given = (given);                                                                                 \
-    design->member = cw_case_given(take_given) ? take_given : (computed);                                              \
-    design->source[CW_DESIGN_##member] = cw_case_given(take_given) ? "case" : (text);                                  \
-    design->asked[CW_DESIGN_##member] = NAN;                                                                           \
-  } while (0)
-#define SET(member, value, text)                                                                                       \
-  do {                                                                                                                 \
-    design->member = (value);                                                                                          \
-    design->source[CW_DESIGN_##member] = (text);                                                                       \
-    design->asked[CW_DESIGN_##member] = NAN;                                                                           \
+    SET(member, cw_case_given(take_given) ? take_given : (computed), cw_case_given(take_given) ? "case" : (text));     \
   } while (0)
 
 #endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The quantities of a design as they are shown and stored; declared in hydraulic_design.h.
+#include "geometry/design_value.h"
+
 #include <math.h>
 #include <stdio.h>
-
-#include "geometry/design_value.h"
 
 // How each kind of quantity is shown, and stored in design.json.
 enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY, POWER, PRESSURE };

@@ -9,9 +9,6 @@
 #include "geometry/volute_design.h"
 #include "geometry/volute_section.h"
 
-static const double gravity = 9.80665;
-static const double degree = M_PI / 180;
-
 // Least radius of the tongue's tip over r2: Guelich's 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m), within the
 // usual 1.05 to 1.2.
 static const double LEAST_CUTWATER = 1.05, LARGEST_CUTWATER = 1.2;

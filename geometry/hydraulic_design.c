@@ -15,12 +15,6 @@
 #include "geometry/viscous_correction.h"
 #include "pipeline/water.h"
 
-static const double gravity = 9.80665;
-static const double degree = M_PI / 180;
-
-// The family's value of a quantity with the design so far.
-#define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
-
 // The duty point with water to which that of the fluid corresponds.
 static void water_duty(const CwCase *table, CwDesign *design) {
   SET(viscosity, table->fluid.kinematic_viscosity, "case or its default");

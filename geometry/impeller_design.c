@@ -10,12 +10,6 @@
 #include "geometry/meridian_shape.h"
 #include "geometry/velocity_triangles.h"
 
-static const double gravity = 9.80665;
-static const double degree = M_PI / 180;
-
-// The family's value of a quantity with the design so far.
-#define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
-
 // D3 over D2 at least, where D3 is given and D2 is not; usual are 1.03 to 1.08.
 static const double LEAST_BASE = 1.02;
 
@@ -223,10 +217,7 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
     for (int i = 0; i < 60; i++) {
       design->outlet_blade_angle = 0.5 * (low + high);
       cw_outlet_triangle(meridian, design);
-      if (design->predicted_head < design->head)
-        low = design->outlet_blade_angle;
-      else
-        high = design->outlet_blade_angle;
+      *(design->predicted_head < design->head ? &low : &high) = design->outlet_blade_angle;
     }
     SET(outlet_blade_angle, cw_case_given(fixed) ? fixed : 0.5 * (low + high),
         cw_case_given(fixed)                          ? "limit of the usual 18 to 32 deg; D2 meets the head"
@@ -236,10 +227,7 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
   } else {
     for (int i = 0; i < 60; i++) {
       const double middle = 0.5 * (low + high);
-      if (straight_wrap(meridian, beta1, middle) > design->wrap_angle)
-        low = middle;
-      else
-        high = middle;
+      *(straight_wrap(meridian, beta1, middle) > design->wrap_angle ? &low : &high) = middle;
     }
     const double solved = 0.5 * (low + high);
     TAKE(outlet_blade_angle, given, solved, "straight law beta1 to beta2 closes the wrap");

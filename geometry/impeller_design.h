@@ -2,9 +2,10 @@
 // The main dimensions, the meridian and the mid-span blade angles of the wheel for its head. What the case leaves open
 // yields to what it gives:
 //
-//   D2 open              meets the head, with an outlet blade angle of 18 to 32 deg; within a given D3, with a greater
-//   one D2 given, b2 open    beta2 meets the head; where 12 to 60 deg do not, b2 does cylindrical blades   begin as far
-//   out as they stand on hub and shroud, where the leading edge is open
+//   D2 open              meets the head, with an outlet blade angle of 18 to 32 deg; within a given D3, with a
+//                        greater one
+//   D2 given, b2 open    beta2 meets the head; where 12 to 60 deg do not, b2 does
+//   cylindrical blades   begin as far out as they stand on hub and shroud, where the leading edge is open
 #ifndef CUTWATER_GEOMETRY_IMPELLER_DESIGN_H
 #define CUTWATER_GEOMETRY_IMPELLER_DESIGN_H
 

@@ -26,14 +26,10 @@
 namespace {
 
 CwStatus guarded(const CwSolid *solid, const std::function<void()> &work) {
-  try {
+  return cw_solid_guard(CW_ERR_GEOMETRY, solid->domain + " cannot be measured", "", [&] {
     work();
     return CW_OK;
-  } catch (const Standard_Failure &failure) {
-    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.GetMessageString());
-  } catch (const std::exception &failure) {
-    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.what());
-  }
+  });
 }
 
 const CwSolidFace &face_named(const CwSolid *solid, const std::string &name) {
@@ -48,9 +44,8 @@ bool has_patch(const CwSolid *solid, const std::string &patch) {
 }
 
 bool has_face(const CwSolid *solid, const std::string &name) {
-  for (const CwSolidFace &face : solid->faces)
-    if (face.name == name) return true;
-  return false;
+  return std::any_of(solid->faces.begin(), solid->faces.end(),
+                     [&](const CwSolidFace &face) { return face.name == name; });
 }
 
 bool named(const CwSolidFace &face, const char *part) {

@@ -47,10 +47,7 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
   int low = 0, high = CW_MERIDIAN_STEPS;
   while (high - low > 1) {
     const int middle = (low + high) / 2;
-    if (curve->length[middle] <= length)
-      low = middle;
-    else
-      high = middle;
+    *(curve->length[middle] <= length ? &low : &high) = middle;
   }
   double t = (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
   for (int i = 0; i < 4; i++)
@@ -68,10 +65,7 @@ static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, con
   for (int i = 0; i < 60; i++) {
     const double middle = 0.5 * (low + high);
     cw_meridian_point(curve, middle, x, NULL);
-    if (x[0] < radius)
-      low = middle;
-    else
-      high = middle;
+    *(x[0] < radius ? &low : &high) = middle;
   }
   *length = cw_meridian_length(curve, 0.5 * (low + high));
 done:

@@ -66,60 +66,59 @@ static double cost(const Problem *problem, const double at[SHARES]) {
   return 0.5 * (design->inlet_diameter - design->hub_diameter) * bent + 1e4 * back + 30 * tight + 100 * outside;
 }
 
+typedef struct {
+  double at[SHARES], value;
+} Corner;
+
 // Nelder and Mead, A simplex method for function minimization, Computer Journal 7 (1965), from `best` on.
 static double descend(const Problem *problem, double best[SHARES]) {
   static const double step[SHARES] = {0.3, 0.1, 0.1};
-  double corner[SHARES + 1][SHARES], value[SHARES + 1];
+  Corner corner[SHARES + 1], *const worst = &corner[SHARES];
   for (int i = 0; i <= SHARES; i++) {
-    memcpy(corner[i], best, sizeof corner[i]);
-    if (i > 0) corner[i][i - 1] += step[i - 1];
-    value[i] = cost(problem, corner[i]);
+    memcpy(corner[i].at, best, sizeof corner[i].at);
+    if (i > 0) corner[i].at[i - 1] += step[i - 1];
+    corner[i].value = cost(problem, corner[i].at);
   }
   for (int round = 0; round < ROUNDS; round++) {
     for (int i = 1; i <= SHARES; i++) // sorted, the best first
-      for (int j = i; j > 0 && value[j] < value[j - 1]; j--)
-        for (int k = -1; k < SHARES; k++) {
-          double *a = k < 0 ? &value[j] : &corner[j][k], *b = k < 0 ? &value[j - 1] : &corner[j - 1][k];
-          const double kept = *a;
-          *a = *b;
-          *b = kept;
-        }
-    double size = 0, centre[SHARES] = {0}, mirrored[SHARES], further[SHARES];
+      for (int j = i; j > 0 && corner[j].value < corner[j - 1].value; j--) {
+        const Corner kept = corner[j];
+        corner[j] = corner[j - 1];
+        corner[j - 1] = kept;
+      }
+    double size = 0, centre[SHARES] = {0};
     for (int i = 0; i < SHARES; i++)
       for (int k = 0; k < SHARES; k++) {
-        centre[k] += corner[i][k] / SHARES;
-        size = fmax(size, fabs(corner[i + 1][k] - corner[0][k]));
+        centre[k] += corner[i].at[k] / SHARES;
+        size = fmax(size, fabs(corner[i + 1].at[k] - corner[0].at[k]));
       }
     if (size < 2e-4) break;
-    double *worst = corner[SHARES];
-    for (int k = 0; k < SHARES; k++) mirrored[k] = 2 * centre[k] - worst[k];
-    const double mirrored_value = cost(problem, mirrored);
+    Corner mirrored, further = {.value = HUGE_VAL};
+    for (int k = 0; k < SHARES; k++) mirrored.at[k] = 2 * centre[k] - worst->at[k];
+    mirrored.value = cost(problem, mirrored.at);
     // Further out where the mirrored corner is the best, else back towards the centre where it is no better than
     // others.
-    const double reach = mirrored_value < value[0] ? 2 : mirrored_value < value[SHARES] ? 0.5 : -0.5;
-    double further_value = HUGE_VAL;
-    if (mirrored_value < value[0] || mirrored_value >= value[SHARES - 1]) {
-      for (int k = 0; k < SHARES; k++) further[k] = centre[k] + reach * (centre[k] - worst[k]);
-      further_value = cost(problem, further);
+    const double reach = mirrored.value < corner[0].value ? 2 : mirrored.value < worst->value ? 0.5 : -0.5;
+    if (mirrored.value < corner[0].value || mirrored.value >= corner[SHARES - 1].value) {
+      for (int k = 0; k < SHARES; k++) further.at[k] = centre[k] + reach * (centre[k] - worst->at[k]);
+      further.value = cost(problem, further.at);
     }
-    if (further_value < fmin(mirrored_value, value[SHARES])) {
-      memcpy(worst, further, sizeof further);
-      value[SHARES] = further_value;
-    } else if (mirrored_value < value[SHARES]) {
-      memcpy(worst, mirrored, sizeof mirrored);
-      value[SHARES] = mirrored_value;
+    if (further.value < fmin(mirrored.value, worst->value)) {
+      *worst = further;
+    } else if (mirrored.value < worst->value) {
+      *worst = mirrored;
     } else {
       for (int i = 1; i <= SHARES; i++) {
-        for (int k = 0; k < SHARES; k++) corner[i][k] = 0.5 * (corner[i][k] + corner[0][k]);
-        value[i] = cost(problem, corner[i]);
+        for (int k = 0; k < SHARES; k++) corner[i].at[k] = 0.5 * (corner[i].at[k] + corner[0].at[k]);
+        corner[i].value = cost(problem, corner[i].at);
       }
     }
   }
-  int least = 0;
+  const Corner *least = corner;
   for (int i = 1; i <= SHARES; i++)
-    if (value[i] < value[least]) least = i;
-  memcpy(best, corner[least], sizeof corner[least]);
-  return value[least];
+    if (corner[i].value < least->value) least = &corner[i];
+  memcpy(best, least->at, sizeof least->at);
+  return least->value;
 }
 
 void cw_meridian_shape(const CwImpellerTable *table, CwDesign *design) {

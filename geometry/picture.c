@@ -5,17 +5,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-static const char *const stroke_style[] = {
-    [CW_STROKE_WALL] = "stroke=\"#1f2933\" stroke-width=\"2\"",
-    [CW_STROKE_BLADE] = "stroke=\"#0b5c8a\" stroke-width=\"1.6\"",
-    [CW_STROKE_THIN] = "stroke=\"#7b8794\" stroke-width=\"0.8\"",
-    [CW_STROKE_AXIS] = "stroke=\"#7b8794\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"",
-    [CW_STROKE_FLOW] = "stroke=\"#b8450c\" stroke-width=\"1.6\"",
-};
-
-static const char *const stroke_colour[] = {
-    [CW_STROKE_WALL] = "#1f2933", [CW_STROKE_BLADE] = "#0b5c8a", [CW_STROKE_THIN] = "#7b8794",
-    [CW_STROKE_AXIS] = "#7b8794", [CW_STROKE_FLOW] = "#b8450c",
+static const struct {
+  const char *colour, *style;
+} strokes[] = {
+    [CW_STROKE_WALL] = {"#1f2933", "stroke-width=\"2\""},
+    [CW_STROKE_BLADE] = {"#0b5c8a", "stroke-width=\"1.6\""},
+    [CW_STROKE_THIN] = {"#7b8794", "stroke-width=\"0.8\""},
+    [CW_STROKE_AXIS] = {"#7b8794", "stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\""},
+    [CW_STROKE_FLOW] = {"#b8450c", "stroke-width=\"1.6\""},
 };
 
 CwStatus cw_picture_begin(CwPicture *picture, const char *path, double width, double height) {
@@ -41,8 +38,8 @@ void cw_picture_abandon(CwPicture *picture) {
 
 void cw_picture_line(CwPicture *picture, CwStroke stroke, const double (*x)[2], int count, int closed) {
   FILE *stream = picture->file.stream;
-  fprintf(stream, "<%s fill=\"%s\" %s points=\"", closed ? "polygon" : "polyline", closed ? "#d6e8f2" : "none",
-          stroke_style[stroke]);
+  fprintf(stream, "<%s fill=\"%s\" stroke=\"%s\" %s points=\"", closed ? "polygon" : "polyline",
+          closed ? "#d6e8f2" : "none", strokes[stroke].colour, strokes[stroke].style);
   for (int i = 0; i < count; i++) fprintf(stream, "%s%.2f,%.2f", i ? " " : "", x[i][0], x[i][1]);
   fprintf(stream, "\"/>\n");
 }
@@ -57,13 +54,13 @@ void cw_picture_arrow(CwPicture *picture, CwStroke stroke, double x0, double y0,
   const double head = fmin(10, 0.5 * length), half = 0.35 * head;
   cw_picture_segment(picture, stroke, x0, y0, x1 - 0.8 * head * c, y1 - 0.8 * head * s);
   fprintf(picture->file.stream, "<polygon fill=\"%s\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\"/>\n",
-          stroke_colour[stroke], x1, y1, x1 - head * c + half * s, y1 - head * s - half * c, x1 - head * c - half * s,
+          strokes[stroke].colour, x1, y1, x1 - head * c + half * s, y1 - head * s - half * c, x1 - head * c - half * s,
           y1 - head * s + half * c);
 }
 
 void cw_picture_circle(CwPicture *picture, CwStroke stroke, double x, double y, double radius) {
-  fprintf(picture->file.stream, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"none\" %s/>\n", x, y, radius,
-          stroke_style[stroke]);
+  fprintf(picture->file.stream, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"none\" stroke=\"%s\" %s/>\n", x, y,
+          radius, strokes[stroke].colour, strokes[stroke].style);
 }
 
 void cw_picture_text(CwPicture *picture, CwTextAlign align, double x, double y, const char *format, ...) {

@@ -11,37 +11,35 @@ typedef struct {
   double scale, left, bottom, z0;
 } Frame;
 
-static void to_pixels(const Frame *frame, const double x[2], double pixel[2]) {
-  pixel[0] = frame->left + frame->scale * (x[1] - frame->z0);
-  pixel[1] = frame->bottom - frame->scale * x[0];
+static void to_pixels(const Frame *frame, double r, double z, double pixel[2]) {
+  pixel[0] = frame->left + frame->scale * (z - frame->z0);
+  pixel[1] = frame->bottom - frame->scale * r;
 }
 
 static void draw_curve(CwPicture *picture, const Frame *frame, const CwMeridianCurve *curve) {
   double line[POINTS + 1][2], x[2];
   for (int i = 0; i <= POINTS; i++) {
     cw_meridian_point(curve, (double)i / POINTS, x, NULL);
-    to_pixels(frame, x, line[i]);
+    to_pixels(frame, x[0], x[1], line[i]);
   }
   cw_picture_line(picture, CW_STROKE_WALL, (const double(*)[2])line, POINTS + 1, 0);
 }
 
 static void draw_segment(CwPicture *picture, const Frame *frame, CwStroke stroke, double r0, double z0, double r1,
                          double z1) {
-  const double a[2] = {r0, z0}, b[2] = {r1, z1};
   double p[2], q[2];
-  to_pixels(frame, a, p);
-  to_pixels(frame, b, q);
+  to_pixels(frame, r0, z0, p);
+  to_pixels(frame, r1, z1, q);
   cw_picture_segment(picture, stroke, p[0], p[1], q[0], q[1]);
 }
 
 static void draw_nut(CwPicture *picture, const Frame *frame, const CwMeridian *m) {
   const double rn = m->hub.pole[0][0], z0 = m->hub.pole[0][1], rd = m->nut_disk_radius, ze = m->nut_end_z;
   double line[POINTS + 2][2];
-  const double axis[2] = {m->shaft_radius, m->shaft_radius > 0 ? m->inlet_z : ze};
-  to_pixels(frame, axis, line[0]);
+  to_pixels(frame, m->shaft_radius, m->shaft_radius > 0 ? m->inlet_z : ze, line[0]);
   for (int i = 0; i <= POINTS; i++) {
-    const double turn = M_PI / 2 * i / POINTS, x[2] = {rd + (rn - rd) * sin(turn), z0 + (ze - z0) * cos(turn)};
-    to_pixels(frame, x, line[i + 1]);
+    const double turn = M_PI / 2 * i / POINTS;
+    to_pixels(frame, rd + (rn - rd) * sin(turn), z0 + (ze - z0) * cos(turn), line[i + 1]);
   }
   cw_picture_line(picture, CW_STROKE_WALL, (const double(*)[2])line, POINTS + 2, 0);
 }
@@ -51,18 +49,17 @@ static void draw_blade(CwPicture *picture, const Frame *frame, const CwMeridian 
   double line[2 * POINTS + 2][2], x[2];
   for (int i = 0; i <= POINTS; i++) {
     cw_meridian_blade_point(m, 0, (double)i / POINTS, x, NULL);
-    to_pixels(frame, x, line[i]);
+    to_pixels(frame, x[0], x[1], line[i]);
     cw_meridian_blade_point(m, 1, 1 - (double)i / POINTS, x, NULL);
-    to_pixels(frame, x, line[POINTS + 1 + i]);
+    to_pixels(frame, x[0], x[1], line[POINTS + 1 + i]);
   }
   cw_picture_line(picture, CW_STROKE_BLADE, (const double(*)[2])line, 2 * POINTS + 2, 1);
 }
 
 static void label(CwPicture *picture, const Frame *frame, CwTextAlign align, double r, double z, double dx, double dy,
                   const char *name, double mm) {
-  const double x[2] = {r, z};
   double p[2];
-  to_pixels(frame, x, p);
+  to_pixels(frame, r, z, p);
   cw_picture_text(picture, align, p[0] + dx, p[1] + dy, "%s = %.1f mm", name, mm * 1e3);
 }
 
@@ -107,14 +104,12 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
           design->root_fillet_radius);
   label(&picture, &frame, CW_TEXT_LEFT, design->leading_edge_radius_hub, half, 12, 4, "leading edge: hub r",
         design->leading_edge_radius_hub);
-  double x[2], p[2];
+  double x[2], p[2], a[2], b[2];
   cw_meridian_blade_point(&m, 1, 0, x, NULL);
-  to_pixels(&frame, x, p);
+  to_pixels(&frame, x[0], x[1], p);
   cw_picture_text(&picture, CW_TEXT_RIGHT, p[0] - 8, p[1] - 4, "leading edge: shroud r = %.1f mm", x[0] * 1e3);
-  const double flow[2][2] = {{0.6 * r1, m.inlet_z}, {0.6 * r1, m.inlet_z + 0.12 * ri}};
-  double a[2], b[2];
-  to_pixels(&frame, flow[0], a);
-  to_pixels(&frame, flow[1], b);
+  to_pixels(&frame, 0.6 * r1, m.inlet_z, a);
+  to_pixels(&frame, 0.6 * r1, m.inlet_z + 0.12 * ri, b);
   cw_picture_arrow(&picture, CW_STROKE_FLOW, a[0], a[1], b[0], b[1]);
   cw_picture_scale(&picture, width - 220, scale * ri + 110, scale * 1e-3);
   CW_TRY(cw_picture_end(&picture));

@@ -2,7 +2,6 @@
 #include "geometry/pipe_zone.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,7 +11,6 @@
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Precision.hxx>
-#include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <gp_Ax3.hxx>
@@ -26,27 +24,12 @@ const int PLANE_CURVE = 49;  // points of a curve in a plane's or cylinder's par
 const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders off u = 0, where u jumps
 const double SAME_POINT = Precision::Confusion();
 
-struct Piece { // of an outline: an arc or, between the sectors of a ring, a line from rim to rim
-  Handle(Geom_Curve) curve;
-  double first, last;
-};
-
 std::vector<CwSolidFace *> faces_of(CwSolid &solid, const std::string &patch) {
   std::vector<CwSolidFace *> found;
   for (CwSolidFace &face : solid.faces)
     if (face.patch == patch) found.push_back(&face);
   if (found.empty()) throw std::runtime_error("no patch " + patch);
   return found;
-}
-
-std::vector<Piece> outline_of(const CwSolidFace &face) {
-  std::vector<Piece> outline;
-  for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next()) {
-    Piece piece;
-    piece.curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), piece.first, piece.last);
-    outline.push_back(piece);
-  }
-  return outline;
 }
 
 // The plane's normal, out of the solid.
@@ -66,7 +49,8 @@ public:
     along = gp_Vec(out) * (length / unit);
     for (const CwSolidFace *end : ends) {
       std::vector<int> loop;
-      for (const Piece &piece : outline_of(*end)) loop.push_back(rod(piece));
+      for (TopExp_Explorer at(end->face, TopAbs_EDGE); at.More(); at.Next())
+        loop.push_back(rod(TopoDS::Edge(at.Current())));
       loops.push_back(loop);
     }
   }
@@ -76,17 +60,18 @@ public:
     double largest = 0;
     for (const Rod &rod : rods)
       if (!rod.circle.IsNull()) largest = std::max(largest, rod.circle->Radius());
-    face(gp_Ax3(near_point(), out.Reversed()), 0, names.side, "interface");
+    face(gp_Ax3(near_point(), out.Reversed()), 0, names.side, CW_PATCH_INTERFACE);
     for (const Rod &rod : rods)
       if (!rod.circle.IsNull()) wall(rod, rod.circle->Radius() < largest - SAME_POINT ? names.core : names.wall);
-    face(gp_Ax3(near_point().Translated(along), out), 1, end.patch.c_str(), end.kind.c_str());
+    face(gp_Ax3(near_point().Translated(along), out), 1, end.patch.c_str(), end.kind);
     return builder.build(names.domain, gp_Trsf(), true);
   }
 
 private:
-  // A piece of the outline with its copy at the far end.
+  // A piece of the outline with its copy at the far end: an arc or, between the sectors of a ring, a line from rim to
+  // rim.
   struct Rod {
-    Handle(Geom_Circle) circle; // null: a line from rim to rim
+    Handle(Geom_Circle) circle; // null of a line
     double first;
     int edge[2], start, end; // edges near and far; places of their ends in `line`
   };
@@ -110,26 +95,25 @@ private:
     return int(line.size()) - 1;
   }
 
-  int rod(const Piece &piece) {
-    Rod made = {Handle(Geom_Circle)::DownCast(piece.curve),
-                piece.first,
-                {},
-                place_of(piece.curve->Value(piece.first)),
-                place_of(piece.curve->Value(piece.last))};
+  int rod(const TopoDS_Edge &piece) {
+    double first, last;
+    const Handle(Geom_Curve) near = BRep_Tool::Curve(piece, first, last);
+    Rod made = {
+        Handle(Geom_Circle)::DownCast(near), first, {}, place_of(near->Value(first)), place_of(near->Value(last))};
     for (size_t i = 0; i < rods.size(); i++) // a line between two sectors
       if (made.circle.IsNull() && rods[i].circle.IsNull() &&
           std::minmax(made.start, made.end) == std::minmax(rods[i].start, rods[i].end))
         return int(i);
     for (int far = 0; far < 2; far++) {
-      const Handle(Geom_Curve) curve = Handle(Geom_Curve)::DownCast(piece.curve->Copy());
+      const Handle(Geom_Curve) curve = Handle(Geom_Curve)::DownCast(near->Copy());
       curve->Translate(far ? along : gp_Vec(0, 0, 0));
-      made.edge[far] = builder.edge(curve, piece.first, piece.last, vertex[far][made.start], vertex[far][made.end]);
+      made.edge[far] = builder.edge(curve, first, last, vertex[far][made.start], vertex[far][made.end]);
     }
     rods.push_back(made);
     return int(rods.size()) - 1;
   }
 
-  void face(const gp_Ax3 &axes, int far, const char *patch, const char *kind) {
+  void face(const gp_Ax3 &axes, int far, const char *patch, CwPatchKind kind) {
     for (const std::vector<int> &loop : loops) {
       std::vector<LoopEdge> edges;
       for (int i : loop) edges.push_back(rods[i].edge[far]);
@@ -153,20 +137,15 @@ private:
 
 CwStatus cw_pipe_zone_make(CwSolid *neighbour, const char *end, double length, const CwPipeZoneNames *names,
                            CwSolid **pipe) {
-  CwStatus status = CW_OK;
   *pipe = nullptr;
-  try {
+  return cw_solid_guard(CW_ERR_GEOMETRY, names->domain, "", [&] {
     const std::vector<CwSolidFace *> ends = faces_of(*neighbour, end);
     *pipe = Prism(ends, neighbour->unit, length).build(*ends[0], *names);
     for (size_t i = 0; i < ends.size(); i++) {
       ends[i]->patch = names->neighbour_side;
       ends[i]->name = ends[i]->patch + (ends.size() > 1 ? "_" + std::to_string(i + 1) : "");
-      ends[i]->kind = "interface";
+      ends[i]->kind = CW_PATCH_INTERFACE;
     }
-  } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "%s: %s", names->domain, failure.GetMessageString());
-  } catch (const std::exception &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "%s: %s", names->domain, failure.what());
-  }
-  return status;
+    return CW_OK;
+  });
 }

@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 // What the pipe's domain and the patches are called. The far end takes over name and kind of the end that the
-// neighbour had, "inlet" or "outlet".
+// neighbour had, inlet or outlet.
 typedef struct {
   const char *domain;
   const char *wall;

@@ -55,10 +55,7 @@ done:
 static CwStatus add_pipe(CwPump *pump, int neighbour, const char *end, double length, const CwPipeZoneNames *names) {
   CwStatus status = CW_OK;
   CW_TRY(cw_pipe_zone_make(pump->solid[neighbour], end, length, names, &pump->solid[pump->count]));
-  pump->interface[pump->interface_count++] =
-      (CwPumpInterface){{cw_solid_domain(pump->solid[neighbour]), names->domain},
-                        {names->neighbour_side, names->side},
-                        CW_SURFACE_PLANE};
+  pump->interface[pump->interface_count++] = (CwPumpInterface){{names->neighbour_side, names->side}, CW_SURFACE_PLANE};
   pump->count++;
 done:
   return status;
@@ -79,7 +76,7 @@ CwStatus cw_pump_build(const CwCase *table, const CwDesign *design, const CwPipe
   CW_TRY(cw_stator_build(&cut.volute, cw_solid_unit(pump->solid[CW_PUMP_ROTOR]), &pump->solid[CW_PUMP_STATOR]));
   pump->count = 2;
   pump->interface[pump->interface_count++] =
-      (CwPumpInterface){{"rotor", "stator"}, {"rotor_interface", "stator_interface"}, CW_SURFACE_CYLINDER};
+      (CwPumpInterface){{"rotor_interface", "stator_interface"}, CW_SURFACE_CYLINDER};
   if (table->impeller.suction_pipe_zone == CW_PIPE_OWN_ZONE)
     CW_TRY(add_pipe(pump, CW_PUMP_ROTOR, "inlet", design->suction_pipe_length - stubs->suction, &suction));
   if (table->volute.discharge_pipe_zone == CW_PIPE_OWN_ZONE)

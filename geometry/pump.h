@@ -27,7 +27,7 @@ enum { CW_PUMP_ROTOR, CW_PUMP_STATOR, CW_PUMP_DOMAINS_MOST = 4 };
 
 // One surface that two domains have in common, as a patch of either.
 typedef struct {
-  const char *domain[2], *patch[2];
+  const char *patch[2];
   CwInterfaceSurface surface; // a cylinder is the one of the design's interface radius
 } CwPumpInterface;
 

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "geometry/faces_table.h"
 #include "geometry/step_file.h"
+#include "pipeline/atomic_file.h"
 
 enum { NAME_SIZE = CW_NAME_SIZE + 32 };
 enum { FACES, MODEL, STEP, OF_ALL };
@@ -16,6 +16,22 @@ CwStatus cw_geometry_path(const CwStageArgs *args, const char *name, char **path
   char inside[NAME_SIZE + 16];
   snprintf(inside, sizeof inside, "geometry/%s", name);
   return cw_stage_path(args, inside, path);
+}
+
+CwStatus cw_faces_table_write(const CwSolid *const *solids, int count, const char *path) {
+  CwStatus status = CW_OK;
+  CwAtomicFile file = {0};
+  CW_TRY(cw_atomic_file_open(path, &file));
+  fprintf(file.stream, "domain,face,patch,kind,name\n");
+  for (int i = 0; i < count; i++)
+    for (int face = 0; face < cw_solid_face_count(solids[i]); face++)
+      fprintf(file.stream, "%s,%d,%s,%s,%s\n", cw_solid_domain(solids[i]), face + 1,
+              cw_solid_face_patch(solids[i], face), cw_patch_kind_name(cw_solid_face_kind(solids[i], face)),
+              cw_solid_face_name(solids[i], face));
+  CW_TRY(cw_atomic_file_commit(&file));
+done:
+  cw_atomic_file_abandon(&file);
+  return status;
 }
 
 // File k: the solids', those of all pumps, the others, and the one that is made beside them.

@@ -23,6 +23,10 @@ typedef struct {
 // "RUN/geometry/NAME" in a new string to be freed.
 CwStatus cw_geometry_path(const CwStageArgs *args, const char *name, char **path);
 
+// faces.csv, the patch, kind and name of every CAD face of `count` solids, whole or not at all. The format is in
+// docs/file-formats.md.
+CwStatus cw_faces_table_write(const CwSolid *const *solids, int count, const char *path);
+
 // Writes DOMAIN.brep of each solid, faces.csv, model.json, pump.step, the others, and pump_faces.step, which is made
 // beside them (beside.h). The record gets their digests and the step "files".
 CwStatus cw_pump_files_write(const CwStageArgs *args, const CwPumpFiles *files, CwRecord *record);

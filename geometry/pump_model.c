@@ -39,12 +39,6 @@ static void set_wall(const CwWallFlow flow[CW_ALONG_COUNT], CwModelPatch *patch)
   patch->monitored = of->monitored;
 }
 
-static CwPatchKind kind_of(const char *name) {
-  int kind = 0;
-  while (strcmp(name, cw_patch_kind_name((CwPatchKind)kind)) != 0) kind++;
-  return (CwPatchKind)kind;
-}
-
 // Patches in the order of their first faces.
 static CwStatus add_domain(const CwSolid *solid, const CwWallFlow *flow, CwModel *model) {
   CwStatus status = CW_OK;
@@ -53,7 +47,7 @@ static CwStatus add_domain(const CwSolid *solid, const CwWallFlow *flow, CwModel
     const char *name = cw_solid_face_patch(solid, face);
     CwModelPatch *patch;
     if (cw_model_patch_find(model, name) >= 0) continue;
-    CW_TRY(cw_model_add_patch(model, name, kind_of(cw_solid_face_kind(solid, face)), &patch));
+    CW_TRY(cw_model_add_patch(model, name, cw_solid_face_kind(solid, face), &patch));
     if (patch->kind == CW_PATCH_WALL) set_wall(flow, patch);
   }
 done:

@@ -23,11 +23,6 @@ double dot(const Vector &a, const Vector &b) {
   return a.m * b.m + a.t * b.t;
 }
 
-double smooth_step(double x) {
-  x = x < 0 ? 0 : x > 1 ? 1 : x;
-  return x * x * x * (10 - 15 * x + 6 * x * x);
-}
-
 class Fillets {
 public:
   Fillets(const CwDesign *from, const CwMeridian *section, const CwBladeShape *of, int on)
@@ -82,7 +77,7 @@ void Fillets::normals(const CwBladePatch &patch, bool left, bool round) {
   const double sense = normal[0].m * middle.t - normal[0].t * middle.m > 0 ? 1 : -1;
   const double whole = turn * sense > 0 ? turn : turn + sense * 2 * M_PI;
   for (size_t i = 0; i < count; i++) {
-    const double f = round ? whole * smooth_step((patch.u[i] - patch.u[0]) / (patch.u[count - 1] - patch.u[0])) : 0;
+    const double f = round ? whole * cw_smooth_step((patch.u[i] - patch.u[0]) / (patch.u[count - 1] - patch.u[0])) : 0;
     const Vector &from = normal[round ? 0 : i];
     angle.push_back(cw_root_fillet_angle(&place[i], from.m * std::cos(f) - from.t * std::sin(f),
                                          from.m * std::sin(f) + from.t * std::cos(f)));
@@ -96,8 +91,8 @@ void Fillets::rest_at_ends(const CwBladePatch &side) {
     for (size_t i = 0; i < side.u.size(); i++) {
       const double f = (side.u[i] - side.u.front()) / (side.u.back() - side.u.front());
       double &own = (*value)[i];
-      own = first + smooth_step(f / settles) * (own - first);
-      own = last + smooth_step((1 - f) / settles) * (own - last);
+      own = first + cw_smooth_step(f / settles) * (own - first);
+      own = last + cw_smooth_step((1 - f) / settles) * (own - last);
     }
   }
 }
@@ -121,8 +116,8 @@ void Fillets::feet(CwBladePatch &patch, bool straight, const Fillets *before, bo
   const double first_u = patch.u.front(), range = patch.u.back() - first_u;
   for (size_t i = 0; i < count; i++) {
     const double f = (patch.u[i] - first_u) / range;
-    const double wb = straight ? 1 - f : 1 - smooth_step(f / settles),
-                 we = straight ? f : 1 - smooth_step((1 - f) / settles);
+    const double wb = straight ? 1 - f : 1 - cw_smooth_step(f / settles),
+                 we = straight ? f : 1 - cw_smooth_step((1 - f) / settles);
     const auto ends = [&](double own, double at_begin, double own_begin, double at_end, double own_end) {
       return straight ? at_begin * wb + at_end * we : own + wb * (at_begin - own_begin) + we * (at_end - own_end);
     };

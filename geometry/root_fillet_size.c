@@ -6,11 +6,6 @@
 static const double room_share = 0.4;    // of the room between D2 and the interface that the foot may take
 static const double narrows_from = 0.85; // share of the blade's length
 
-static double smooth_step(double x) {
-  x = x < 0 ? 0 : x > 1 ? 1 : x;
-  return x * x * x * (10 - 15 * x + 6 * x * x);
-}
-
 static double place_on_blade(const CwBladeSection *section, double q) {
   return fmin(1, fmax(0, (q - section->start) / (1 - section->start)));
 }
@@ -40,6 +35,6 @@ double cw_root_fillet_angle(const CwFilletPlace *place, double normal_m, double 
 double cw_root_fillet_length(const CwDesign *design, const CwBladeSection *on, double q, double alpha) {
   const double full = design->root_fillet_radius / tan(alpha / 2);
   const double room = room_share * (design->interface_radius - design->outlet_diameter / 2);
-  const double narrow = smooth_step((place_on_blade(on, q) - narrows_from) / (1 - narrows_from));
+  const double narrow = cw_smooth_step((place_on_blade(on, q) - narrows_from) / (1 - narrows_from));
   return full + narrow * (fmin(full, room) - full);
 }

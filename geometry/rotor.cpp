@@ -5,11 +5,9 @@
 #include <string>
 
 #include <BRepCheck_Analyzer.hxx>
-#include <Standard_Failure.hxx>
 
 #include "geometry/blade.h"
 #include "geometry/blade_patches.hpp"
-#include "geometry/model_unit.h"
 #include "geometry/rotor_maker.hpp"
 
 // Parameter planes of the surfaces of revolution begin a margin before a blade's trailing edge, so that a whole passage
@@ -102,8 +100,8 @@ CwSolid *RotorMaker::build() {
     if (!blade[i].shape->seam) blade_faces(i);
   }
   if (!has_shaft) {
-    disk(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", "wall", "hub_nut_end");
-    disk(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", "inlet", "inlet");
+    disk(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", CW_PATCH_WALL, "hub_nut_end");
+    disk(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", CW_PATCH_INLET, "inlet");
   }
   return shell.finish("rotor", unit);
 }
@@ -118,27 +116,21 @@ static std::string faulty_face(const CwSolid *solid) {
 }
 
 CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
-  CwStatus status = CW_OK;
   *rotor = nullptr;
-  try {
-    RotorMaker maker(design, cw_model_unit(design->outlet_diameter));
-    CW_TRY(maker.sections());
+  return cw_solid_guard(CW_ERR_GEOMETRY, "rotor", "", [&]() -> CwStatus {
+    RotorMaker maker(design, cw_solid_unit_of_pump(design->outlet_diameter));
+    const CwStatus status = maker.sections();
+    if (status != CW_OK) return status;
     *rotor = maker.build();
     const std::string faulty = faulty_face(*rotor);
     if (!faulty.empty()) {
       cw_solid_free(rotor);
-      status =
-          CW_FAIL(CW_ERR_GEOMETRY,
-                  "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
-                  "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
-                  faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
-                  design->wrap_angle * 180 / M_PI);
+      return CW_FAIL(CW_ERR_GEOMETRY,
+                     "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
+                     "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
+                     faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
+                     design->wrap_angle * 180 / M_PI);
     }
-  } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "rotor: %s", failure.GetMessageString());
-  } catch (const std::exception &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "rotor: %s", failure.what());
-  }
-done:
-  return status;
+    return CW_OK;
+  });
 }

@@ -43,13 +43,7 @@ Handle(Geom2d_Curve) slanted_line_in_plane(double scale, double r, double theta,
     return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
   };
   if (theta == to_theta) return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
-  std::vector<double> u;
-  std::vector<gp_Pnt2d> x;
-  for (int i = 0; i < slanted_points; i++) {
-    u.push_back((double)i / (slanted_points - 1));
-    x.push_back(in_plane(u.back()));
-  }
-  return cw_bspline_curve_2d(u, x);
+  return cw_bspline_curve_2d(slanted_points, 0, 1, in_plane);
 }
 
 Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
@@ -70,10 +64,7 @@ void RotorMaker::wall_face(int i, int w) {
   const double near = near_of(i), far = far_of(i);
   const int level = w == CW_HUB ? 0 : bands;
   const char *patch = w == CW_HUB ? "hub" : "shroud";
-  const auto up_on_wall = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-    return moved(shape.guide_on_wall[w], offset);
-  };
-  std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)}};
+  std::vector<CwEdgeUse> loop = {{b.e_up[w], true, moved(s.guide_on_wall[w], near)}};
   if (!s.seam) {
     loop.push_back({b.e_nose_p[level], true, moved(s.leading.on_wall[w], near)});
     loop.push_back({b.e_p[level], true, moved(s.pressure.on_wall[w], near)});
@@ -87,9 +78,9 @@ void RotorMaker::wall_face(int i, int w) {
     loop.push_back({next.e_s[level], false, moved(f.suction.on_wall[w], far)});
     loop.push_back({next.e_nose_s[level], true, moved(f.leading.on_wall[w], far)});
   }
-  loop.push_back({next.e_up[w], false, up_on_wall(f, far)});
+  loop.push_back({next.e_up[w], false, moved(f.guide_on_wall[w], far)});
   loop.push_back({b.a_up[w], false, along_u(0)});
-  shell.face(revolved(meridian_curve(*curve[w], zero_of(i))), loop, w == CW_SHROUD, patch, "wall",
+  shell.face(revolved(meridian_curve(*curve[w], zero_of(i))), loop, w == CW_SHROUD, patch, CW_PATCH_WALL,
              patch + ("_" + std::to_string(i + 1)));
 }
 
@@ -106,7 +97,7 @@ void RotorMaker::tube_faces(int i) {
                 {high, true, along_u(v_high)},
                 {next_line, false, along_v(f.theta_up[w] + far)},
                 {low, false, along_u(v_low)}},
-               outward, patch, "wall", patch + ("_" + std::to_string(i + 1)));
+               outward, patch, CW_PATCH_WALL, patch + ("_" + std::to_string(i + 1)));
   };
   if (has_nut)
     tube(revolved(nut_curve(zero_of(i))), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB], b.a_end[CW_HUB], 0,
@@ -133,7 +124,7 @@ void RotorMaker::inlet_ring_face(int i) {
               {b.a_end[CW_SHROUD], true, circle(design->inlet_diameter / 2)},
               {next.e_inlet, false, spoke(*next.shape, far_of(i))},
               {b.a_shaft, false, circle(meridian.shaft_radius)}},
-             false, "inlet", "inlet", "inlet_" + std::to_string(i + 1));
+             false, "inlet", CW_PATCH_INLET, "inlet_" + std::to_string(i + 1));
 }
 
 void RotorMaker::interface_face(int i) {
@@ -153,7 +144,7 @@ void RotorMaker::interface_face(int i) {
               {b.a_out[CW_HUB], true, along_u(half)},
               {next.x_out, false, across(*next.shape, far_of(i))},
               {b.a_out[CW_SHROUD], false, along_u(-half)}},
-             true, "rotor_interface", "interface", "rotor_interface_" + std::to_string(i + 1));
+             true, "rotor_interface", CW_PATCH_INTERFACE, "rotor_interface_" + std::to_string(i + 1));
 }
 
 // All patches of a blade, band by band.
@@ -177,7 +168,7 @@ void RotorMaker::blade_faces(int i) {
       loop.push_back({row[band + 1], false, along_u(1)});
       if (row_before && row_before[band + 1] >= 0) loop.push_back({row_before[band + 1], false, along_u(1)});
       loop.push_back({begin[band], false, along_v(patch.u.front())});
-      shell.face(surface, loop, outward, patch_name, "wall", s.name + part + (fillet ? root : more) + number);
+      shell.face(surface, loop, outward, patch_name, CW_PATCH_WALL, s.name + part + (fillet ? root : more) + number);
     };
     face(s.leading, b.e_nose_p, b.e_nose_s, b.x_s, b.x_p, false, "_leading", "_edge", "blade_leading_edge");
     face(s.pressure, b.e_p, nullptr, b.x_p, b.x_corner, false, "_pressure", "", "blade_pressure");
@@ -192,7 +183,7 @@ void RotorMaker::blade_faces(int i) {
 
 // A flat end: one disk, bounded by the arcs of the passages. The plane's axes are those of passage 0, the
 // arcs' those of their own passage.
-void RotorMaker::disk(double height, double r, int w, bool outward, const char *patch, const char *kind,
+void RotorMaker::disk(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind,
                       const char *name) {
   std::vector<CwEdgeUse> loop;
   for (size_t i = 0; i < blade.size(); i++) {

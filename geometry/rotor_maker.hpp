@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <gp_Ax3.hxx>
@@ -78,7 +77,7 @@ private:
   void inlet_ring_face(int i);
   void interface_face(int i);
   void blade_faces(int i);
-  void disk(double height, double r, int w, bool outward, const char *patch, const char *kind, const char *name);
+  void disk(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind, const char *name);
   CwStatus seams(double last);
   // The parameter planes of the passage behind blade i: the angle where they begin, and what is added in them to the
   // angles of blade i and of the next blade, which may be the first of its pitch.

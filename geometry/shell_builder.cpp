@@ -2,7 +2,7 @@
 #include "geometry/shell_builder.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
 #include <BRep_Builder.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -30,12 +30,7 @@ int CwShellBuilder::vertex(const gp_Pnt &point) {
 
 int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double last, int begin, int end) {
   BRep_Builder builder;
-  Edge edge;
-  edge.curve = curve;
-  edge.first = first;
-  edge.last = last;
-  edge.begin = begin;
-  edge.end = end;
+  Edge edge = {{}, curve, first, last, begin, end};
   builder.MakeEdge(edge.edge, curve, least_tolerance);
   builder.Add(edge.edge, vertices[begin].Oriented(TopAbs_FORWARD));
   builder.Add(edge.edge, vertices[end].Oriented(TopAbs_REVERSED));
@@ -47,10 +42,7 @@ int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double 
 
 int CwShellBuilder::pole(double first, double last, int vertex) {
   BRep_Builder builder;
-  Edge edge;
-  edge.first = first;
-  edge.last = last;
-  edge.begin = edge.end = vertex;
+  Edge edge = {{}, {}, first, last, vertex, vertex};
   builder.MakeEdge(edge.edge);
   builder.Degenerated(edge.edge, Standard_True);
   builder.Add(edge.edge, vertices[vertex].Oriented(TopAbs_FORWARD));
@@ -80,7 +72,7 @@ static std::vector<double> samples_of(const Handle(Geom_Curve) & curve, const Ha
 }
 
 void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<std::vector<CwEdgeUse>> loops, bool outward,
-                          const char *patch, const char *kind, const std::string &name) {
+                          const char *patch, CwPatchKind kind, const std::string &name) {
   BRep_Builder builder;
   CwSolidFace made;
   double twice_area = 0;
@@ -150,23 +142,18 @@ CwSolid *CwShellBuilder::finish(const char *domain, double unit) {
   builder.MakeShell(shell);
   for (const CwSolidFace &face : faces) builder.Add(shell, face.face);
   shell.Closed(Standard_True);
-  CwSolid *result = new CwSolid;
-  try {
-    result->domain = domain;
-    result->unit = unit;
-    builder.MakeSolid(result->solid);
-    builder.Add(result->solid, shell);
-    TopTools_IndexedMapOfShape map;
-    TopExp::MapShapes(result->solid, TopAbs_FACE, map);
-    for (int i = 1; i <= map.Extent(); i++) {
-      const auto found =
-          std::find_if(faces.begin(), faces.end(), [&](const CwSolidFace &face) { return face.face.IsSame(map(i)); });
-      result->faces.push_back(*found);
-      result->faces.back().face = TopoDS::Face(map(i));
-    }
-  } catch (...) {
-    delete result;
-    throw;
+  std::unique_ptr<CwSolid> result(new CwSolid);
+  result->domain = domain;
+  result->unit = unit;
+  builder.MakeSolid(result->solid);
+  builder.Add(result->solid, shell);
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(result->solid, TopAbs_FACE, map);
+  for (int i = 1; i <= map.Extent(); i++) {
+    const auto found =
+        std::find_if(faces.begin(), faces.end(), [&](const CwSolidFace &face) { return face.face.IsSame(map(i)); });
+    result->faces.push_back(*found);
+    result->faces.back().face = TopoDS::Face(map(i));
   }
-  return result;
+  return result.release();
 }

@@ -34,12 +34,12 @@ public:
   // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv)
   // points out of the solid. Each face needs a surface of its own.
   void face(const Handle(Geom_Surface) & surface, const std::vector<CwEdgeUse> &loop, bool outward, const char *patch,
-            const char *kind, const std::string &name) {
+            CwPatchKind kind, const std::string &name) {
     face(surface, std::vector<std::vector<CwEdgeUse>>{loop}, outward, patch, kind, name);
   }
   // The same with holes: all loops have the fluid on the same side.
   void face(const Handle(Geom_Surface) & surface, std::vector<std::vector<CwEdgeUse>> loops, bool outward,
-            const char *patch, const char *kind, const std::string &name);
+            const char *patch, CwPatchKind kind, const std::string &name);
   // Makes the solid of all that was given in the model unit (m), or throws Standard_Failure with the reason.
   CwSolid *finish(const char *domain, double unit);
 

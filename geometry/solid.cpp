@@ -2,6 +2,7 @@
 #include "geometry/solid.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -16,6 +17,26 @@
 
 #include "geometry/solid.hpp"
 #include "pipeline/atomic_file.h"
+
+CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *library,
+                        const std::function<CwStatus()> &run) {
+  try {
+    return run();
+  } catch (const Standard_Failure &failure) {
+    const char *text = failure.GetMessageString();
+    return CW_FAIL(code, "%s: %s%s", what.c_str(), library, text && *text ? text : "failed without a word");
+  } catch (const std::exception &failure) {
+    return CW_FAIL(code, "%s: %s", what.c_str(), failure.what());
+  }
+}
+
+double cw_solid_unit_of_pump(double outlet_diameter) {
+  const double millimetre = 1e-3; // m
+  const int size_exponent = 8;    // D2 is less than 2^8 units
+  int exponent;
+  std::frexp(outlet_diameter / millimetre, &exponent);
+  return std::ldexp(millimetre, exponent - size_exponent);
+}
 
 void cw_solid_free(CwSolid **solid) {
   delete *solid;
@@ -38,8 +59,8 @@ const char *cw_solid_face_patch(const CwSolid *solid, int face) {
   return solid->faces[face].patch.c_str();
 }
 
-const char *cw_solid_face_kind(const CwSolid *solid, int face) {
-  return solid->faces[face].kind.c_str();
+CwPatchKind cw_solid_face_kind(const CwSolid *solid, int face) {
+  return solid->faces[face].kind;
 }
 
 const char *cw_solid_face_name(const CwSolid *solid, int face) {
@@ -47,8 +68,7 @@ const char *cw_solid_face_name(const CwSolid *solid, int face) {
 }
 
 CwStatus cw_solid_mirror(CwSolid *solid) {
-  CwStatus status = CW_OK;
-  try {
+  return cw_solid_guard(CW_ERR_GEOMETRY, solid->domain + " cannot be mirrored", "", [&]() -> CwStatus {
     gp_Trsf mirror;
     mirror.SetMirror(gp_Ax2(gp::Origin(), gp::DZ()));
     BRepBuilderAPI_Transform transform(solid->solid, mirror, Standard_True);
@@ -57,20 +77,17 @@ CwStatus cw_solid_mirror(CwSolid *solid) {
     const TopoDS_Solid mirrored = TopoDS::Solid(transform.Shape());
     TopTools_IndexedMapOfShape map;
     TopExp::MapShapes(mirrored, TopAbs_FACE, map);
-    CW_REQUIRE(map.Extent() == (int)faces.size(), CW_ERR_LIBRARY, "%s: the mirror image has other faces",
-               solid->domain.c_str());
+    if (map.Extent() != (int)faces.size())
+      return CW_FAIL(CW_ERR_LIBRARY, "%s: the mirror image has other faces", solid->domain.c_str());
     for (size_t i = 0; i < faces.size(); i++) {
-      CW_REQUIRE(map((int)i + 1).IsSame(faces[i].face), CW_ERR_LIBRARY,
-                 "%s: the mirror image has faces in another order", solid->domain.c_str());
+      if (!map((int)i + 1).IsSame(faces[i].face))
+        return CW_FAIL(CW_ERR_LIBRARY, "%s: the mirror image has faces in another order", solid->domain.c_str());
       faces[i].face = TopoDS::Face(map((int)i + 1));
     }
     solid->solid = mirrored;
     solid->faces = faces;
-  } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be mirrored: %s", solid->domain.c_str(), failure.GetMessageString());
-  }
-done:
-  return status;
+    return CW_OK;
+  });
 }
 
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {

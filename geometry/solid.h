@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// One closed solid in a model unit (model_unit.h) with a patch for each face. Faces are counted from 0 in the order of
+// One closed solid in a model unit with a patch for each face. Faces are counted from 0 in the order of
 // TopExp::MapShapes(solid, TopAbs_FACE).
+//
+// The unit is 2^k mm, with the k for which D2 is 128 to 256 of them. OpenCASCADE's absolute tolerances (1e-7) then mean
+// the same share of every pump, and similar pumps whose sizes are powers of two apart have the same solids, bit by bit:
+// a product with a power of two is exact.
 #ifndef CUTWATER_GEOMETRY_SOLID_H
 #define CUTWATER_GEOMETRY_SOLID_H
 
+#include "pipeline/model.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -12,12 +17,15 @@ extern "C" {
 
 typedef struct CwSolid CwSolid; // solid.hpp shows its members to the C++ bridges
 
+// The model unit of a pump with the impeller outlet D2 > 0, m: its length in m.
+double cw_solid_unit_of_pump(double outlet_diameter);
+
 void cw_solid_free(CwSolid **solid);
 const char *cw_solid_domain(const CwSolid *solid); // "rotor", "stator", "suction" or "discharge"
 double cw_solid_unit(const CwSolid *solid);        // the model unit, m
 int cw_solid_face_count(const CwSolid *solid);
 const char *cw_solid_face_patch(const CwSolid *solid, int face);
-const char *cw_solid_face_kind(const CwSolid *solid, int face); // "wall", "inlet", "outlet" or "interface"
+CwPatchKind cw_solid_face_kind(const CwSolid *solid, int face);
 const char *cw_solid_face_name(const CwSolid *solid, int face);
 
 // Turns the solid into its mirror image in the plane z = 0, with the same faces in the same order: a pump of

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What is behind CwSolid, for the C++ files of this room only.
+// What is behind CwSolid, and how OpenCASCADE fails, for the C++ files of this room only.
 #ifndef CUTWATER_GEOMETRY_SOLID_HPP
 #define CUTWATER_GEOMETRY_SOLID_HPP
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@
 
 struct CwSolidFace {
   TopoDS_Face face;
-  std::string patch, kind, name;
+  std::string patch;
+  CwPatchKind kind;
+  std::string name;
 };
 
 struct CwSolid {
@@ -22,5 +25,10 @@ struct CwSolid {
   TopoDS_Solid solid;
   std::vector<CwSolidFace> faces; // in the order of TopExp::MapShapes
 };
+
+// Runs what uses OpenCASCADE. Exceptions become `code`, with `what` before their text; before that of OpenCASCADE's own
+// stands `library` too.
+CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *library,
+                        const std::function<CwStatus()> &run);
 
 #endif

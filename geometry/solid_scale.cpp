@@ -14,7 +14,6 @@
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
 #include <TColStd_Array1OfReal.hxx>
-#include <TopExp.hxx>
 #include <TopTools_DataMapOfShapeShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>

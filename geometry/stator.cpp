@@ -19,9 +19,9 @@
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
+#include "geometry/bspline_fit.hpp"
 #include "geometry/stator_builder.hpp"
 #include "geometry/stator_check.hpp"
-#include "geometry/stator_spline.hpp"
 #include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 #include "geometry/volute_tongue.h"
@@ -38,6 +38,8 @@ const double TONGUE_SIDE = 1.01;  // least radius of the tongue's end at the sid
 const double LEAST_WALL = 0.0025; // between diffuser and spiral, of D3
 const double U_MARGIN = 0.1;      // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
+
+using PointOfOne = std::function<gp_Pnt(double)>;
 
 // The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the
 // start of the kink line at the tongue. Names of the points as in volute.h. The fields are vertices and edges that
@@ -132,7 +134,7 @@ private:
     for (int j = 0; j < SECTORS; j++) {
       gp_Ax3 upright = frame(angle_[j], angle_[j + 1], 0, TOP);
       b_.face(new Geom_CylindricalSurface(upright, r), between(interface[BOTTOM], interface[TOP], interface_joint, j),
-              "stator_interface", "interface");
+              "stator_interface", CW_PATCH_INTERFACE);
       for (int side : {BOTTOM, TOP}) {
         b_.face(new Geom_Plane(frame(angle_[j], angle_[j + 1], b2, side)),
                 between(interface[side], neck[side], neck_joint[side], j), "neck");
@@ -147,7 +149,7 @@ private:
   void make_outer_wall() {
     std::array<Handle(Geom_BSplineSurface), SECTORS> surface;
     for (int j = 0; j < SECTORS; j++)
-      surface[j] = spline_surface(ALONG, across_, [&](double u, double v) {
+      surface[j] = cw_bspline_surface(ALONG, across_, [&](double u, double v) {
         double from = j == 0 ? cw_volute_contact_angle(&v_, psi(v)) : angle_[j];
         double to = j == SECTORS - 1 ? cw_volute_throat_angle(&v_, psi(v)) : angle_[j + 1];
         return wall(from + u * (to - from), psi(v));
@@ -177,12 +179,13 @@ private:
       return std::atan2(-normal[1], -normal[0]);
     };
     double side_direction = direction(k);
-    Handle(Geom_BSplineSurface) surface = spline_surface(SIDE, across_, [&](double u, double v) {
+    Handle(Geom_BSplineSurface) surface = cw_bspline_surface(SIDE, across_, [&](double u, double v) {
       double height = cw_volute_nose_height(&v_, side_direction * (1 - u));
       if (std::isnan(height)) throw std::runtime_error("the nose of the tongue does not reach the side walls");
       double contact[3];
       cw_volute_wall_point(&v_, cw_volute_contact_angle(&v_, psi(v)), psi(v), contact, nullptr, nullptr);
-      double z = contact[2] * (1 + u_share(u) * (height / v_.side_level - 1));
+      // u = 0 lies on the outer wall's border exactly.
+      double z = contact[2] * (1 + (u > 0 ? height / v_.side_level - 1 : 0));
       double beta = direction(psi(v)) * (1 - u);
       return gp_Pnt(scale_ * (v_.inner_wall_x - radius + radius * std::cos(beta)),
                     scale_ * (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), scale_ * z);
@@ -200,9 +203,6 @@ private:
              LoopEdge(nose_flank_, 1, 0, 1, 1), LoopEdge(nose_side_[BOTTOM], 0, 0, 1, 0)},
             "tongue");
   }
-  static double u_share(double u) {
-    return u > 0 ? 1 : 0;
-  } // u = 0 lies on the outer wall's border exactly
 
   // The plane x = x_i from the nose to the throat.
   void make_flank() {
@@ -211,7 +211,7 @@ private:
     for (int side : {BOTTOM, TOP}) {
       double from = b_.point(flank_vertex_[side]).Y();
       throat_vertex_[side] = b_.vertex(gp_Pnt(x, y, sign(side) * half_width(std::hypot(x, y))));
-      Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(SIDE, 0, 1, [&](double t) {
+      Handle(Geom2d_BSplineCurve) curve = cw_bspline_curve_2d(SIDE, 0, 1, [&](double t) {
         double at = from + t * (y - from);
         return gp_Pnt2d(at, sign(side) * half_width(std::hypot(x, at)));
       });
@@ -233,7 +233,7 @@ private:
       std::array<int, SECTORS> ray;
       for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
       gp_Pln throat(gp_Ax3(gp_Pnt(0, scale_ * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
-      Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(
+      Handle(Geom2d_BSplineCurve) curve = cw_bspline_curve_2d(
           SIDE, 0, 1, [&](double t) { return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z()); });
       throat_side_[side] =
           b_.edge(GeomAPI::To3d(curve, throat), 0, 1, throat_vertex_[side], kink_vertex_[SECTORS][side]);
@@ -301,10 +301,9 @@ private:
     double a = M_PI * outer_length / whole, b = M_PI * (1 - inner_length / whole);
     // Corners counter-clockwise about minus the flow from the outer wall's lower one; the fourth arc ends
     // where the first begins.
-    double corner[5] = {-a, a, b, 2 * M_PI - b, 2 * M_PI - a};
+    corner_ = {-a, a, b, 2 * M_PI - b, 2 * M_PI - a};
 
     double radius = 0.5 * scale_ * v_.input.outlet_diameter;
-    for (int i = 0; i < 5; i++) corner_[i] = corner[i];
     circle_end_ = make_circle(outlet_centre(0));
     auto on_circle = [&](double angle) {
       return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
@@ -312,7 +311,7 @@ private:
     const CwDiffuserLines lines = cw_diffuser_lines(&v_, scale_);
     const std::vector<double> along = along_diffuser(lines.turning);
     auto leaf = [&](int count, const PointOfOne &start, const PointOfOne &direction, const PointOfOne &finish) {
-      return spline_surface(count, along, [&](double u, double v) {
+      return cw_bspline_surface(count, along, [&](double u, double v) {
         double from[3], leaving[3], to[3], x[3];
         coordinates(start(u), from);
         coordinates(direction(u), leaving);
@@ -322,13 +321,13 @@ private:
       });
     };
     auto turn = [&](double from, double to) { return [=](double t) { return on_circle(from + t * (to - from)); }; };
-    Handle(Geom_BSplineSurface) outer = leaf(across_, outer_start, outer_direction, turn(corner[0], corner[1]));
-    Handle(Geom_BSplineSurface) inner_surface = leaf(SIDE, inner_start, inner_direction, turn(corner[3], corner[2]));
+    Handle(Geom_BSplineSurface) outer = leaf(across_, outer_start, outer_direction, turn(corner_[0], corner_[1]));
+    Handle(Geom_BSplineSurface) inner_surface = leaf(SIDE, inner_start, inner_direction, turn(corner_[3], corner_[2]));
     std::array<Handle(Geom_BSplineSurface), 2> sides;
     for (int side : {BOTTOM, TOP})
       sides[side] = leaf(
           SIDE, [&](double t) { return throat_side(t, side); }, [&](double t) { return side_direction(t, side); },
-          side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]));
+          side == TOP ? turn(corner_[2], corner_[1]) : turn(corner_[3], corner_[4]));
 
     for (const Handle(Geom_BSplineSurface) & surface : {inner_surface, sides[BOTTOM], sides[TOP]})
       keep_off_spiral(surface);
@@ -415,7 +414,7 @@ private:
               {circle_end_.arc[i], line[(i + 1) % 4], outlet.arc[i], line[i]}, "discharge");
     }
     b_.face(new Geom_Plane(gp_Ax3(centre, downstream())), {outlet.arc[0], outlet.arc[1], outlet.arc[2], outlet.arc[3]},
-            "outlet", "outlet");
+            "outlet", CW_PATCH_OUTLET);
   }
 
   const CwVolute &v_;
@@ -426,7 +425,7 @@ private:
   Ring step_[2];
   int kink_vertex_[SECTORS + 1][2], kink_[SECTORS][2], section_[SECTORS + 1];
   int flank_vertex_[2], nose_side_[2], nose_flank_, throat_vertex_[2], flank_side_[2], throat_inner_, throat_side_[2];
-  double corner_[5];
+  std::array<double, 5> corner_;
   Circle circle_end_;
 };
 

@@ -12,8 +12,8 @@
 #include <Geom_Line.hxx>
 #include <gp_Ax2.hxx>
 
+#include "geometry/bspline_fit.hpp"
 #include "geometry/shell_builder.hpp"
-#include "geometry/stator_spline.hpp"
 
 namespace {
 
@@ -60,7 +60,7 @@ int LoopBuilder::arc(int start, int end, double sweep) {
 }
 
 void LoopBuilder::face(const Handle(Geom_Surface) & surface, const std::vector<LoopEdge> &loop, const char *patch,
-                       const char *kind) {
+                       CwPatchKind kind) {
   Face face = {surface, loop, std::vector<bool>(loop.size()), patch, kind};
   // The direction of each edge follows from the vertex that it shares with the next one.
   const Edge &first = edges_[loop[0].edge], &second = edges_[loop[1].edge];
@@ -130,10 +130,10 @@ CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool firs
       const Edge &edge = edges_[use.edge];
       Handle(Geom2d_BSplineCurve) curve;
       if (use.border)
-        curve = straight_plane_curve(edge.a, edge.b, use.border->first, use.border->second);
+        curve = cw_bspline_line_2d(edge.a, edge.b, use.border->first, use.border->second);
       else
-        curve = spline_plane_curve(curve_points_, edge.a, edge.b,
-                                   [&](double t) { return parameters(adaptor, edge.curve->Value(t)); });
+        curve = cw_bspline_curve_2d(curve_points_, edge.a, edge.b,
+                                    [&](double t) { return parameters(adaptor, edge.curve->Value(t)); });
       gp_Pnt2d before = curve->Value(edge.a);
       for (int k = 1; k <= 32; k++) {
         gp_Pnt2d here = curve->Value(edge.a + k * (edge.b - edge.a) / 32);
@@ -148,7 +148,7 @@ CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool firs
     if (faces_of_patch[face.patch] > 1) name += "_" + std::to_string(++named[face.patch]);
     // A motion leaves the curves in the parameter plane as they are.
     shell.face(Handle(Geom_Surface)::DownCast(face.surface->Transformed(motion)), loop, outward != flip,
-               face.patch.c_str(), face.kind.c_str(), name);
+               face.patch.c_str(), face.kind, name);
   }
   return shell.finish(domain, unit_);
 }

@@ -41,7 +41,7 @@ public:
   // Each face needs a surface of its own. The loop may begin at any edge and run either way round. Faces of a
   // patch are named by their order: "volute_1"; or "outlet" where a patch has a single face.
   void face(const Handle(Geom_Surface) & surface, const std::vector<LoopEdge> &loop, const char *patch,
-            const char *kind = "wall");
+            CwPatchKind kind = CW_PATCH_WALL);
 
   gp_Pnt point(int vertex) const {
     return vertices_[vertex];
@@ -61,7 +61,8 @@ private:
     Handle(Geom_Surface) surface;
     std::vector<LoopEdge> loop;
     std::vector<bool> forward; // per edge of the loop
-    std::string patch, kind;
+    std::string patch;
+    CwPatchKind kind;
   };
   std::vector<bool> turned_loops() const;
 

@@ -66,15 +66,9 @@ CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const C
 CwStatus write_whole(const CwSolid *const *solids, int count, bool with_faces, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {};
-  try {
-    CW_TRY(cw_atomic_file_name(path, &file));
-    CW_TRY(write(solids, count, with_faces, file));
-    CW_TRY(cw_atomic_file_commit(&file));
-  } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
-  } catch (const std::exception &failure) {
-    status = CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
-  }
+  CW_TRY(cw_atomic_file_name(path, &file));
+  CW_TRY(cw_solid_guard(CW_ERR_LIBRARY, path, "OpenCASCADE: ", [&] { return write(solids, count, with_faces, file); }));
+  CW_TRY(cw_atomic_file_commit(&file));
 done:
   cw_atomic_file_abandon(&file);
   return status;

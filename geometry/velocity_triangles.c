@@ -6,9 +6,6 @@
 #include "geometry/blade.h"
 #include "geometry/design_source.h"
 
-static const double gravity = 9.80665;
-static const double degree = M_PI / 180;
-
 double cw_blockage(double count, double thickness, double radius, double angle) {
   return 1 / (1 - count * thickness / (2 * M_PI * radius * sin(angle)));
 }

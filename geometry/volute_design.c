@@ -44,7 +44,6 @@ static double base_radius(const CwVolute *volute) {
 typedef struct {
   const CwVolute *volute;
   double value; // what the function is to reach
-  double psi;
 } Context;
 
 // Speed through the cut at y = y_t over the constant of the law: the tongue turns the flow square to the cut.
@@ -130,10 +129,11 @@ static double angle_excess(double wedge, const void *context) {
   return trial.tip_angle - c->value;
 }
 
-// The nearest of two ends of a range to the root of a function that has none between them.
-static double nearest_end(double (*excess)(double, const void *), const Context *context, double low, double high) {
-  const double at_low = excess(low, context), at_high = excess(high, context);
-  return !(fabs(at_low) > fabs(at_high)) ? low : high;
+// The root of a function in a range; where it has none there, the end that is nearest to it.
+static double nearest_root(CwRootFunction excess, const Context *context, double low, double high) {
+  const double root = cw_root_find(excess, context, low, high);
+  if (!isnan(root)) return root;
+  return !(fabs(excess(low, context)) > fabs(excess(high, context))) ? low : high;
 }
 
 // The tongue that the input asks for, or the nearest.
@@ -142,9 +142,7 @@ static void choose_tongue(CwVolute *volute) {
   const double least = LEAST_START * base_radius(volute), largest = LARGEST_START * base_radius(volute);
   if (!isnan(in->tongue_angle)) {
     const Context context = {.volute = volute, .value = in->tongue_angle};
-    double wedge = cw_root_find(angle_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
-    if (isnan(wedge)) wedge = nearest_end(angle_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
-    place_tongue_by_wedge(volute, wedge);
+    place_tongue_by_wedge(volute, nearest_root(angle_excess, &context, LEAST_WEDGE, LARGEST_WEDGE));
     return;
   }
   place_tongue_by_wedge(volute, DEFAULT_WEDGE);
@@ -158,9 +156,7 @@ static void choose_tongue(CwVolute *volute) {
     wanted = in->tongue_gap_range[1];
   if (wanted == gap_of(volute)) return;
   const Context context = {.volute = volute, .value = wanted};
-  double kink = cw_root_find(gap_excess, &context, least, largest);
-  if (isnan(kink)) kink = nearest_end(gap_excess, &context, least, largest);
-  place_tongue_at(volute, kink);
+  place_tongue_at(volute, nearest_root(gap_excess, &context, least, largest));
 }
 
 // Makes the spiral of a law that grows by `growth` in one turn, with its tongue and throat.

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
-#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <gp_Ax1.hxx>
 
@@ -32,13 +30,12 @@ std::vector<gp_XY> meridian(const CwCadCut &cut, const CwCadFrame &frame, const 
   std::vector<gp_XY> points;
   for (int i = 0; i < cut.count; i++) points.emplace_back(cut.meridian[i][0], cut.meridian[i][1]);
   if (!points.empty()) return points;
-  Bnd_Box box;
-  double low[3], high[3], middle[3];
-  BRepBndLib::Add(body, box, Standard_False);
-  box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
-  double extent = 0;
-  for (int i = 0; i < 3; i++)
-    middle[i] = (low[i] + high[i]) / 2 * millimetre, extent += (high[i] - low[i]) * millimetre;
+  const std::array<double, 6> box = cw_cad_box(body);
+  double middle[3], extent = 0;
+  for (int i = 0; i < 3; i++) {
+    middle[i] = (box[i] + box[i + 3]) / 2 * millimetre;
+    extent += (box[i + 3] - box[i]) * millimetre;
+  }
   cw_cad_frame_from_file(&frame, middle, middle);
   return {{cut.radius, middle[2] - BEYOND * extent}, {cut.radius, middle[2] + BEYOND * extent}};
 }

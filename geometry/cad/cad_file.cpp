@@ -21,7 +21,6 @@
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
-#include <TopExp_Explorer.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <gp_Trsf.hxx>
@@ -68,59 +67,51 @@ CwCadFaceOrigin label_origin(const Document &document, const TDF_Label &label) {
   return {label_name(label), label_layer(document, label), label_colour(document, label)};
 }
 
-// The solids of one product that is no assembly, as often as it is placed.
-class Product {
-public:
-  Product(const Document &document, const TDF_Label &label) : name(label_name(label)) {
-    shape = document.shapes->GetShape(label);
-    whole = label_origin(document, label);
-    TDF_LabelSequence parts;
-    document.shapes->GetSubShapes(label, parts);
-    for (int i = 1; i <= parts.Length(); i++) {
-      const TopoDS_Shape part = document.shapes->GetShape(parts(i));
-      const CwCadFaceOrigin origin = label_origin(document, parts(i));
-      if (part.ShapeType() == TopAbs_FACE) {
-        faces.emplace_back(part, origin);
-      } else {
-        for (TopExp_Explorer at(part, TopAbs_FACE); at.More(); at.Next())
-          inherited.emplace_back(at.Current(), CwCadFaceOrigin{"", origin.layer, origin.colour});
-        if (part.ShapeType() == TopAbs_SOLID && !origin.name.empty()) solids.emplace_back(part, origin.name);
-      }
-    }
-  }
-  void add(const std::string &file, const std::string &instance, const TopLoc_Location &place, CwCadBodies &bodies) {
-    for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) {
-      if (cw_cad_faces(at.Current()).IsEmpty()) continue;
-      CwCadBody body = {file, name, instance, at.Current().Moved(place), {}};
-      for (const auto &[solid, its_name] : solids)
-        if (solid.IsSame(at.Current())) body.name = its_name;
-      const TopTools_IndexedMapOfShape map = cw_cad_faces(at.Current());
-      body.origin.resize(map.Extent(), {"", whole.layer, whole.colour});
-      take(map, inherited, body);
-      take(map, faces, body);
-      bodies.body.push_back(body);
-    }
-  }
+using Origins = std::vector<std::pair<TopoDS_Shape, CwCadFaceOrigin>>;
 
-private:
-  using Of = std::vector<std::pair<TopoDS_Shape, CwCadFaceOrigin>>;
-  std::string name;
-  TopoDS_Shape shape;
-  CwCadFaceOrigin whole;
-  Of faces, inherited;
+// What is said of a face goes before what the body has.
+void take(const TopTools_IndexedMapOfShape &map, const Origins &of, CwCadBody &body) {
+  for (const auto &[face, origin] : of) {
+    const int index = map.FindIndex(face);
+    if (!index) continue;
+    CwCadFaceOrigin &its = body.origin[index - 1];
+    if (!origin.name.empty()) its.name = origin.name;
+    if (!origin.layer.empty()) its.layer = origin.layer;
+    if (origin.colour >= 0) its.colour = origin.colour;
+  }
+}
+
+// The solids of one product that is no assembly, at one of its places.
+void add_product(const Document &document, const TDF_Label &label, const TopLoc_Location &place,
+                 const std::string &instance, const std::string &file, CwCadBodies &bodies) {
+  const CwCadFaceOrigin whole = label_origin(document, label);
+  Origins faces, inherited;
   std::vector<std::pair<TopoDS_Shape, std::string>> solids;
-
-  static void take(const TopTools_IndexedMapOfShape &map, const Of &of, CwCadBody &body) {
-    for (const auto &[face, origin] : of) {
-      const int index = map.FindIndex(face);
-      if (!index) continue;
-      CwCadFaceOrigin &its = body.origin[index - 1];
-      if (!origin.name.empty()) its.name = origin.name;
-      if (!origin.layer.empty()) its.layer = origin.layer;
-      if (origin.colour >= 0) its.colour = origin.colour;
+  TDF_LabelSequence parts;
+  document.shapes->GetSubShapes(label, parts);
+  for (int i = 1; i <= parts.Length(); i++) {
+    const TopoDS_Shape part = document.shapes->GetShape(parts(i));
+    const CwCadFaceOrigin origin = label_origin(document, parts(i));
+    if (part.ShapeType() == TopAbs_FACE) {
+      faces.emplace_back(part, origin);
+    } else {
+      for (TopExp_Explorer at(part, TopAbs_FACE); at.More(); at.Next())
+        inherited.emplace_back(at.Current(), CwCadFaceOrigin{"", origin.layer, origin.colour});
+      if (part.ShapeType() == TopAbs_SOLID && !origin.name.empty()) solids.emplace_back(part, origin.name);
     }
   }
-};
+  for (TopExp_Explorer at(document.shapes->GetShape(label), TopAbs_SOLID); at.More(); at.Next()) {
+    const TopTools_IndexedMapOfShape map = cw_cad_faces(at.Current());
+    if (map.IsEmpty()) continue;
+    CwCadBody body = {file, whole.name, instance, at.Current().Moved(place), {}};
+    for (const auto &[solid, its_name] : solids)
+      if (solid.IsSame(at.Current())) body.name = its_name;
+    body.origin.resize(map.Extent(), {"", whole.layer, whole.colour});
+    take(map, inherited, body);
+    take(map, faces, body);
+    bodies.body.push_back(body);
+  }
+}
 
 void add_label(const Document &document, const TDF_Label &label, const TopLoc_Location &place,
                const std::string &instance, const std::string &file, CwCadBodies &bodies) {
@@ -131,7 +122,7 @@ void add_label(const Document &document, const TDF_Label &label, const TopLoc_Lo
   } else if (XCAFDoc_ShapeTool::GetComponents(label, components)) {
     for (int i = 1; i <= components.Length(); i++) add_label(document, components(i), place, instance, file, bodies);
   } else {
-    Product(document, label).add(file, instance, place, bodies);
+    add_product(document, label, place, instance, file, bodies);
   }
 }
 
@@ -261,18 +252,6 @@ bool is_step(const char *path) {
 }
 
 } // namespace
-
-CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &run) {
-  try {
-    return run();
-  } catch (const Standard_Failure &failure) {
-    const char *text = failure.GetMessageString();
-    return CW_FAIL(CW_ERR_GEOMETRY, "%s: OpenCASCADE: %s", what.c_str(),
-                   text && *text ? text : "failed without a word");
-  } catch (const std::exception &failure) {
-    return CW_FAIL(CW_ERR_GEOMETRY, "%s: %s", what.c_str(), failure.what());
-  }
-}
 
 CwStatus cw_cad_file_read(const char *path, double unit, double tolerance, CwCadBodies **bodies) {
   if (!std::ifstream(path).good())

@@ -7,7 +7,6 @@
 #include "pipeline/vec.h"
 
 void cw_cad_frame_make(const CwCaseCad *cad, CwCadFrame *frame) {
-  memset(frame, 0, sizeof *frame);
   memcpy(frame->origin, cad->point, sizeof frame->origin);
   double *x = frame->axis[0], *y = frame->axis[1], *z = frame->axis[2];
   memcpy(z, cad->axis, sizeof cad->axis);

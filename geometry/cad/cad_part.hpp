@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What is behind CwCadBodies and CwCadParts, for the C++ files of this room only. Lengths in here are millimetres in
-// bodies and model units in parts.
+// What is behind CwCadBodies and CwCadParts, and what all steps do with their solids: for the C++ files of this room
+// only. Lengths in here are millimetres in bodies and model units in parts.
 #ifndef CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
 #define CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
 
+#include <array>
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
-#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -23,8 +22,8 @@
 #include <TopoDS_Vertex.hxx>
 #include <gp_Pnt.hxx>
 
-#include "geometry/cad/cad_file.h"
-#include "geometry/cad/cad_parts.h"
+#include "geometry/cad/cad_frame.h"
+#include "pipeline/status.h"
 
 // What the file says of a face.
 struct CwCadFaceOrigin {
@@ -74,19 +73,17 @@ std::vector<gp_Pnt> cw_cad_edge_points(const TopoDS_Edge &edge, int steps);
 // Points of a lattice in the face's parameters, `along` intervals each way, that lie inside of it; `most` at the most.
 std::vector<gp_Pnt> cw_cad_inner_points(const TopoDS_Face &face, int along, size_t most);
 
+// Least and greatest x, y, z of a shape as it is, by no triangulation of it: x, y, z, x, y, z.
+std::array<double, 6> cw_cad_box(const TopoDS_Shape &shape);
+
+// "at (X, Y, Z) mm" of the file, for messages; `unit`: of the point, m.
+std::string cw_cad_place(const gp_Pnt &at, double unit, const CwCadFrame &frame);
+
 // The faces of a shape, in the order that counts.
 inline TopTools_IndexedMapOfShape cw_cad_faces(const TopoDS_Shape &shape) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   return faces;
-}
-
-// The numbers, from 0, that the parts of a shape, of one kind, have in a map.
-inline std::set<int> cw_cad_numbers(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind,
-                                    const TopTools_IndexedMapOfShape &all) {
-  std::set<int> found;
-  for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) found.insert(all.FindIndex(at.Current()) - 1);
-  return found;
 }
 
 #endif

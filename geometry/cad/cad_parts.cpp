@@ -2,41 +2,21 @@
 #include "geometry/cad/cad_parts.h"
 
 #include <cmath>
-#include <deque>
 #include <memory>
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepClass_FaceClassifier.hxx>
-#include <BRepTools.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <Geom_Surface.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Trsf.hxx>
 
 #include "geometry/cad/cad_part.hpp"
-#include "geometry/cad/face_distance.hpp"
-#include "geometry/model_unit.h"
 #include "geometry/solid.hpp"
 
 namespace {
 
 const double millimetre = 1e-3; // m
-
-// A point inside the face; false where the face has none that can be found.
-bool inner_point(const TopoDS_Face &face, gp_Pnt &point) {
-  for (int n = 2; n <= 32; n *= 2) {
-    const std::vector<gp_Pnt> points = cw_cad_inner_points(face, n, 1);
-    if (points.empty()) continue;
-    point = points[0];
-    return true;
-  }
-  return false;
-}
 
 gp_Trsf to_pump(const CwCadFrame &frame) {
   const auto point = [](const double *x, double by) { return gp_Pnt(by * x[0], by * x[1], by * x[2]); };
@@ -99,74 +79,6 @@ CwStatus check_size(const CwCaseCad &cad, double radius) {
 
 } // namespace
 
-std::vector<gp_Pnt> cw_cad_inner_points(const TopoDS_Face &face, int along, size_t most) {
-  double u0, u1, v0, v1;
-  std::vector<gp_Pnt> points;
-  BRepTools::UVBounds(face, u0, u1, v0, v1);
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  for (int i = 1; i < along; i++) {
-    for (int j = 1; j < along && points.size() < most; j++) {
-      const gp_Pnt2d uv(u0 + (u1 - u0) * i / along, v0 + (v1 - v0) * j / along);
-      BRepClass_FaceClassifier classifier(face, uv, 1e-7);
-      if (classifier.State() == TopAbs_IN) points.push_back(surface->Value(uv.X(), uv.Y()));
-    }
-  }
-  return points;
-}
-
-void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double within) {
-  const TopTools_IndexedMapOfShape map = cw_cad_faces(part.solid);
-  std::vector<TopTools_IndexedMapOfShape> olds;
-  std::deque<CwFaceDistance> distance;
-  for (const CwCadPart &of : from) olds.push_back(cw_cad_faces(of.solid)), distance.emplace_back(of.solid);
-  part.origin.assign(map.Extent(), {});
-  for (int i = 1; i <= map.Extent(); i++) {
-    const CwCadFaceOrigin *best = nullptr;
-    for (size_t k = 0; k < from.size(); k++)
-      if (olds[k].Contains(map(i))) best = &from[k].origin[olds[k].FindIndex(map(i)) - 1];
-    gp_Pnt at;
-    double nearest = INFINITY;
-    if (!best && inner_point(TopoDS::Face(map(i)), at)) {
-      for (size_t k = 0; k < from.size(); k++)
-        for (int f = 0; f < olds[k].Extent(); f++) {
-          const double far = distance[k].at(f, at, nearest);
-          if (far < nearest) nearest = far, best = &from[k].origin[f];
-        }
-      if (nearest > within) best = nullptr;
-    }
-    if (best) part.origin[i - 1] = *best;
-  }
-}
-
-void cw_cad_replace(const TopoDS_Shape &solid, CwCadPart &part) {
-  const CwCadPart before = part;
-  part.solid = solid;
-  cw_cad_carry({before}, part);
-}
-
-std::vector<TopoDS_Shape> cw_cad_split(const TopoDS_Shape &solid, const TopTools_ListOfShape &tools, double fuzzy) {
-  TopTools_ListOfShape arguments;
-  arguments.Append(solid);
-  BRepAlgoAPI_Splitter splitter;
-  splitter.SetArguments(arguments);
-  splitter.SetTools(tools);
-  splitter.SetFuzzyValue(fuzzy);
-  splitter.SetNonDestructive(Standard_True);
-  splitter.Build();
-  std::vector<TopoDS_Shape> solids;
-  if (!splitter.HasErrors())
-    for (TopExp_Explorer at(splitter.Shape(), TopAbs_SOLID); at.More(); at.Next()) solids.push_back(at.Current());
-  return solids;
-}
-
-std::vector<gp_Pnt> cw_cad_edge_points(const TopoDS_Edge &edge, int steps) {
-  const BRepAdaptor_Curve curve(edge);
-  const double first = curve.FirstParameter(), last = curve.LastParameter();
-  std::vector<gp_Pnt> points;
-  for (int i = 0; i <= steps; i++) points.push_back(curve.Value(first + (last - first) * i / steps));
-  return points;
-}
-
 CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadBodies *bodies, const int *domain,
                            CwCadParts **parts) {
   *parts = new CwCadParts{millimetre, {}};
@@ -191,7 +103,7 @@ CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const 
     }
     status = check_size(*cad, radius);
     if (status != CW_OK) return status;
-    (*parts)->unit = cw_model_unit(2 * radius * millimetre);
+    (*parts)->unit = cw_solid_unit_of_pump(2 * radius * millimetre);
     const double factor = millimetre / (*parts)->unit;
     gp_Trsf scale;
     scale.SetScale(gp_Pnt(0, 0, 0), factor);
@@ -218,23 +130,12 @@ int cw_cad_part_face_count(const CwCadParts *parts, int part) {
   return (int)parts->part[part].origin.size();
 }
 
-const char *cw_cad_part_face_name(const CwCadParts *parts, int part, int face) {
-  return parts->part[part].origin[face].name.c_str();
+CwCadFaceInfo cw_cad_part_face(const CwCadParts *parts, int part, int face) {
+  const CwCadFaceOrigin &of = parts->part[part].origin[face];
+  return {of.name.c_str(), of.layer.c_str(), of.colour, of.number};
 }
 
-const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face) {
-  return parts->part[part].origin[face].layer.c_str();
-}
-
-int cw_cad_part_face_colour(const CwCadParts *parts, int part, int face) {
-  return parts->part[part].origin[face].colour;
-}
-
-int cw_cad_part_face_number(const CwCadParts *parts, int part, int face) {
-  return parts->part[part].origin[face].number;
-}
-
-CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const char *const *kind,
+CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const CwPatchKind *kind,
                            CwSolid **solid) {
   const CwCadPart &of = parts->part[part];
   return cw_cad_guard("cad.domains." + of.domain, [&] {

@@ -17,7 +17,7 @@ extern "C" {
 typedef struct CwCadParts CwCadParts;
 
 // One part for each domain of the case; domain[i] is that of body i, or -1. Several bodies of a domain are fused. The
-// unit follows from the size of those that rotate (model_unit.h). CW_ERR_INPUT where no domain rotates, or one that
+// unit follows from the size of those that rotate (solid.h). CW_ERR_INPUT where no domain rotates, or one that
 // does has no size that a wheel has. *parts is the caller's to free, also after a failure.
 CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadBodies *bodies, const int *domain,
                            CwCadParts **parts);
@@ -26,16 +26,19 @@ void cw_cad_parts_free(CwCadParts **parts);
 int cw_cad_part_count(const CwCadParts *parts);
 double cw_cad_parts_unit(const CwCadParts *parts); // m
 
-// Name, layer ("" without) and colour (0xRRGGBB, -1 without) that the file gives the face of a part, faces from 0.
+// What the file says of a face; the texts are the part's.
+typedef struct {
+  const char *name, *layer; // "" without
+  int colour;               // 0xRRGGBB, -1 without
+  int number; // of the face in the file that it is all or a piece of; pieces have the same number, others another
+} CwCadFaceInfo;
+
+// Faces count from 0.
 int cw_cad_part_face_count(const CwCadParts *parts, int part);
-const char *cw_cad_part_face_name(const CwCadParts *parts, int part, int face);
-const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face);
-int cw_cad_part_face_colour(const CwCadParts *parts, int part, int face);
-// Of the face in the file that it is all or a piece of; pieces have the same number, others another.
-int cw_cad_part_face_number(const CwCadParts *parts, int part, int face);
+CwCadFaceInfo cw_cad_part_face(const CwCadParts *parts, int part, int face);
 
 // A part as a solid of the stage. Patch, kind and name of its faces, in their order, are copied.
-CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const char *const *kind,
+CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const CwPatchKind *kind,
                            CwSolid **solid);
 
 #ifdef __cplusplus

@@ -59,7 +59,7 @@ done:
 
 static int number_of(const CwCadPump *pump, int face) {
   const CwSurveyFace *of = &pump->survey.face[face];
-  return cw_cad_part_face_number(pump->parts, of->part, of->face);
+  return cw_cad_part_face(pump->parts, of->part, of->face).number;
 }
 
 // What the faces of the file are, by their numbers, as long as none is divided: a piece does not show it. `role` holds
@@ -134,7 +134,8 @@ done:
 
 CwStatus cw_cad_pump_solids(const CwCadPump *pump, CwSolid **solids) {
   CwStatus status = CW_OK;
-  const char **patch = NULL, **kind = NULL;
+  const char **patch = NULL;
+  CwPatchKind *kind = NULL;
   CW_NEW(patch, pump->survey.face_count);
   CW_NEW(kind, pump->survey.face_count);
   for (int p = 0, f = 0; p < cw_cad_part_count(pump->parts); p++) {
@@ -142,7 +143,7 @@ CwStatus cw_cad_pump_solids(const CwCadPump *pump, CwSolid **solids) {
     for (; f < pump->survey.face_count && pump->survey.face[f].part == p; f++, count++) {
       const CwFacePatch *of = &pump->patches.patch[pump->patches.of_face[f]];
       patch[count] = of->name;
-      kind[count] = cw_patch_kind_name(of->kind);
+      kind[count] = of->kind;
     }
     CW_TRY(cw_cad_part_solid(pump->parts, p, patch, kind, &solids[p]));
   }

@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "geometry/cad/cad_pump.h"
 #include "geometry/cad/faces_picture.h"

@@ -11,6 +11,7 @@
 
 #include "geometry/cad/cad_part.hpp"
 #include "pipeline/log.h"
+#include "pipeline/vec.h"
 
 namespace {
 
@@ -18,24 +19,18 @@ const double NEAR = 1e-3;   // of the size: a gap up to it is meant to be none
 const double MOST = 0.5;    // of a face's points: it can be one part alone that so many touch
 const double FACING = -0.7; // cosine of the normals of faces that face one another, by their triangles
 
-double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double off(const double a[3], const double b[3]) {
-  const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return dot(d, d);
+double squared_distance(const double a[3], const double b[3]) {
+  double d[3];
+  cw_sub(a, b, d);
+  return cw_dot(d, d);
 }
 
 void normal_of(const CwSurvey &survey, int triangle, double n[3]) {
-  const double *a = survey.point[survey.triangle[triangle][0]], *b = survey.point[survey.triangle[triangle][1]],
-               *c = survey.point[survey.triangle[triangle][2]];
-  for (int i = 0; i < 3; i++) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    n[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
-  }
-  const double length = std::sqrt(dot(n, n));
-  for (int i = 0; i < 3 && length > 0; i++) n[i] /= length;
+  const double *a = survey.point[survey.triangle[triangle][0]];
+  double side[2][3];
+  for (int k = 0; k < 2; k++) cw_sub(survey.point[survey.triangle[triangle][k + 1]], a, side[k]);
+  cw_cross(side[0], side[1], n);
+  cw_unit(n);
 }
 
 // Whether a triangle has the other face before it: faces that only share an edge come as near as those that coincide.
@@ -45,12 +40,12 @@ bool faces(const CwSurvey &survey, int triangle, int other, const double at[3]) 
   double best = INFINITY, n[3], m[3];
   for (int t = face.first_triangle; t < face.first_triangle + face.triangle_count; t++) {
     double least = INFINITY;
-    for (int k = 0; k < 3; k++) least = std::min(least, off(survey.point[survey.triangle[t][k]], at));
+    for (int k = 0; k < 3; k++) least = std::min(least, squared_distance(survey.point[survey.triangle[t][k]], at));
     if (least < best) best = least, nearest = t;
   }
   normal_of(survey, triangle, n);
   normal_of(survey, nearest, m);
-  return dot(n, m) < FACING;
+  return cw_dot(n, m) < FACING;
 }
 
 struct Seen {
@@ -146,15 +141,12 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
       Seen seen;
       const CwStatus status = look(*survey, f, p, tolerance, seen);
       if (status != CW_OK) return status;
-      if (!seen.touching && seen.near == seen.looked && seen.at) {
-        double x[3];
-        cw_cad_frame_to_file(frame, seen.at, x);
+      if (!seen.touching && seen.near == seen.looked && seen.at)
         return CW_FAIL(CW_ERR_GEOMETRY,
-                       "cad.domains: between %s and %s is a gap or an overlap of %.4g mm, at (%.3f, %.3f, %.3f) mm; "
+                       "cad.domains: between %s and %s is a gap or an overlap of %.4g mm, %s; "
                        "allowed: at the most cad.tolerance_mm, %.3g; draw the interface once and use it for both",
-                       cad->domain[own].name, cad->domain[p].name, 1e3 * seen.gap, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
-                       1e3 * tolerance);
-      }
+                       cad->domain[own].name, cad->domain[p].name, 1e3 * seen.gap,
+                       cw_cad_place(gp_Pnt(seen.at[0], seen.at[1], seen.at[2]), 1, *frame).c_str(), 1e3 * tolerance);
       if (!seen.touching) continue;
       const double share = (double)seen.touching / seen.looked;
       if (std::min(contact[f].share, share) > MOST)

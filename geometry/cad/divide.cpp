@@ -17,7 +17,6 @@
 #include <ShapeUpgrade_ShapeDivideClosed.hxx>
 #include <ShapeUpgrade_SplitSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>
-#include <TopExp_Explorer.hxx>
 #include <gp.hxx>
 #include <gp_Vec.hxx>
 #include <gp_Vec2d.hxx>
@@ -155,13 +154,9 @@ CwStatus fail_at(const CwCadPart &part, const CwCadFrame &frame, double unit, co
                  const char *what) {
   const TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
   const gp_Pnt at = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
-  double x[3] = {at.X() * unit, at.Y() * unit, at.Z() * unit};
-  cw_cad_frame_to_file(&frame, x, x);
-  return CW_FAIL(CW_ERR_GEOMETRY,
-                 "cad.domains.%s: face %d '%s' %s at (%.3f, %.3f, %.3f) mm; allowed: faces with edges "
-                 "all around; split it in CAD",
-                 part.domain.c_str(), face, part.origin[face - 1].name.c_str(), what, 1e3 * x[0], 1e3 * x[1],
-                 1e3 * x[2]);
+  return CW_FAIL(
+      CW_ERR_GEOMETRY, "cad.domains.%s: face %d '%s' %s %s; allowed: faces with edges all around; split it in CAD",
+      part.domain.c_str(), face, part.origin[face - 1].name.c_str(), what, cw_cad_place(at, unit, frame).c_str());
 }
 
 void replace(CwCadPart &part, const TopoDS_Shape &shape) {

@@ -10,10 +10,17 @@
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 
-#include "geometry/cad/cad_part.hpp"
+std::set<int> cw_cad_numbers(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind, const TopTools_IndexedMapOfShape &all) {
+  std::set<int> found;
+  for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) found.insert(all.FindIndex(at.Current()) - 1);
+  return found;
+}
 
 CwFaceDistance::Face::Face(const TopoDS_Face &of)
     : surface(of, Standard_False), outline(of, std::max(BRep_Tool::Tolerance(of), Precision::PConfusion())) {

@@ -16,6 +16,9 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <gp_Pnt.hxx>
 
+// The numbers, from 0, that the parts of a shape, of one kind, have in a map.
+std::set<int> cw_cad_numbers(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind, const TopTools_IndexedMapOfShape &all);
+
 class CwFaceDistance {
 public:
   explicit CwFaceDistance(const TopoDS_Shape &solid);

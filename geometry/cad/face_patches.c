@@ -32,9 +32,9 @@ const char *cw_patch_source_name(CwPatchSource source) {
   return names[source];
 }
 
-static const char *file_name(const Work *work, int face) {
+static CwCadFaceInfo info_of(const Work *work, int face) {
   const CwSurveyFace *of = &work->survey->face[face];
-  return cw_cad_part_face_name(work->parts, of->part, of->face);
+  return cw_cad_part_face(work->parts, of->part, of->face);
 }
 
 static int in_domain(const Work *work, const CwCadPatch *rule, int face) {
@@ -46,18 +46,12 @@ static int word_takes(const Work *work, const char *word, int face) {
   char *end;
   const long number = strtol(word, &end, 10);
   if (!*end) return number == face + 1;
-  return !fnmatch(word, file_name(work, face), 0);
+  return !fnmatch(word, info_of(work, face).name, 0);
 }
 
 static void take(const Work *work, int rule, int face, int *found) {
   ++*found;
   if (work->rule[face] < 0) work->rule[face] = rule;
-}
-
-// The pieces of a face of the file have one number.
-static int number_of(const Work *work, int face) {
-  const CwSurveyFace *of = &work->survey->face[face];
-  return cw_cad_part_face_number(work->parts, of->part, of->face);
 }
 
 static CwStatus take_points(const Work *work, int r, int *found) {
@@ -82,7 +76,7 @@ static CwStatus take_points(const Work *work, int r, int *found) {
         "on the face, off its edges",
         rule->name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], face + 1);
     for (int f = 0; f < work->survey->face_count; f++)
-      if (f == face || (number_of(work, f) == number_of(work, face) &&
+      if (f == face || (info_of(work, f).number == info_of(work, face).number &&
                         (work->contact[f].part < 0) == (work->contact[face].part < 0)))
         take(work, r, f, found);
   }
@@ -91,10 +85,9 @@ done:
 }
 
 static int attribute_takes(const Work *work, const CwCadPatch *rule, int face) {
-  const CwSurveyFace *of = &work->survey->face[face];
-  const char *layer = cw_cad_part_face_layer(work->parts, of->part, of->face);
-  int takes = rule->colour >= 0 && rule->colour == cw_cad_part_face_colour(work->parts, of->part, of->face);
-  for (int i = 0; i < rule->layers.count; i++) takes |= !fnmatch(rule->layers.text[i], layer, 0);
+  const CwCadFaceInfo info = info_of(work, face);
+  int takes = rule->colour >= 0 && rule->colour == info.colour;
+  for (int i = 0; i < rule->layers.count; i++) takes |= !fnmatch(rule->layers.text[i], info.layer, 0);
   return takes;
 }
 
@@ -122,13 +115,6 @@ done:
   return status;
 }
 
-static CwPatchKind role_kind(CwFaceRole role) {
-  return role == CW_ROLE_INLET     ? CW_PATCH_INLET
-         : role == CW_ROLE_OUTLET  ? CW_PATCH_OUTLET
-         : role == CW_ROLE_CONTACT ? CW_PATCH_INTERFACE
-                                   : CW_PATCH_WALL;
-}
-
 // A face that touches another domain is an interface and nothing else, and only such a one.
 static CwStatus check_kind(const Work *work, int face) {
   CwStatus status = CW_OK;
@@ -151,12 +137,13 @@ done:
 static CwPatchKind kind_of(const Work *work, int face, const char *name) {
   static const CwPatchKind of_rule[] = {CW_PATCH_WALL,   CW_PATCH_WALL,     CW_PATCH_INLET,
                                         CW_PATCH_OUTLET, CW_PATCH_SYMMETRY, CW_PATCH_INTERFACE};
+  static const CwPatchKind of_role[ROLES] = {[CW_ROLE_INLET] = CW_PATCH_INLET, [CW_ROLE_OUTLET] = CW_PATCH_OUTLET};
   const int rule = work->rule[face];
   if (work->role[face] == CW_ROLE_CONTACT) return CW_PATCH_INTERFACE;
   if (rule >= 0 && work->cad->patch[rule].kind != CW_CAD_KIND_OPEN) return of_rule[work->cad->patch[rule].kind];
   for (int kind = 0; kind < CW_PATCH_KINDS; kind++)
     if (kind != CW_PATCH_INTERFACE && !strcmp(name, cw_patch_kind_name((CwPatchKind)kind))) return (CwPatchKind)kind;
-  return role_kind(work->role[face]);
+  return of_role[work->role[face]]; // others are walls
 }
 
 // A name that solvers take, of one that may have any characters.
@@ -200,7 +187,8 @@ static CwPatchSource name_of(const Work *work, int face, char name[CW_NAME_SIZE]
     strcpy(name, work->cad->patch[rule].name);
     return CW_FROM_RULE;
   }
-  clean_name(work->cad->names_are_patches && !says_nothing(file_name(work, face)) ? file_name(work, face) : "", name);
+  const char *given = info_of(work, face).name;
+  clean_name(work->cad->names_are_patches && !says_nothing(given) ? given : "", name);
   if (name[0]) return CW_FROM_FILE;
   proposed_name(work, face, name);
   return CW_FROM_PROPOSAL;

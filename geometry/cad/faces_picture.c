@@ -3,10 +3,10 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "geometry/picture.h"
 #include "pipeline/report/camera.h"
+#include "pipeline/report/html.h"
 #include "pipeline/report/render.h"
 
 enum { SIDE = 560, HEAD = 34, FOOT = 60, COLUMNS = 4, VIEWS = 8, MARGIN = 18, ROOM = 18 * 12, LINE_MOST = 180 };
@@ -27,8 +27,8 @@ typedef struct {
   Seen *seen; // VIEWS of each face
 } Work;
 
-static void corner_of(const CwSurvey *survey, int triangle, int k, double x[3]) {
-  memcpy(x, survey->point[survey->triangle[triangle][k]], sizeof(double[3]));
+static const double *corner_of(const CwSurvey *survey, int triangle, int k) {
+  return survey->point[survey->triangle[triangle][k]];
 }
 
 static void set_camera(const Work *work, int view, CwCamera *camera) {
@@ -38,11 +38,8 @@ static void set_camera(const Work *work, int view, CwCamera *camera) {
   cw_camera_turn(camera, towards[view % COLUMNS], up);
   for (int f = 0; f < work->survey->face_count; f++) {
     const CwSurveyFace *face = &work->survey->face[f];
-    for (int t = 0; face->part == work->part && t < 3 * face->triangle_count; t++) {
-      double x[3];
-      corner_of(work->survey, face->first_triangle + t / 3, t % 3, x);
-      cw_camera_reach(camera, x, &reach);
-    }
+    for (int t = 0; face->part == work->part && t < 3 * face->triangle_count; t++)
+      cw_camera_reach(camera, corner_of(work->survey, face->first_triangle + t / 3, t % 3), &reach);
   }
   cw_camera_fit(camera, &reach, MARGIN);
 }
@@ -58,11 +55,8 @@ static uint32_t colour_of(int face) {
 static void draw_face(const Work *work, int f, const CwCamera *camera, int inside, CwCanvas *canvas) {
   const CwSurveyFace *face = &work->survey->face[f];
   for (int t = face->first_triangle; t < face->first_triangle + face->triangle_count; t++) {
-    double p[3][3], x[3];
-    for (int k = 0; k < 3; k++) {
-      corner_of(work->survey, t, k, x);
-      cw_camera_project(camera, x, p[k]);
-    }
+    double p[3][3];
+    for (int k = 0; k < 3; k++) cw_camera_project(camera, corner_of(work->survey, t, k), p[k]);
     // y runs down, so that what faces the viewer is clockwise.
     const double area = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
     if (inside ? area <= 0 : area >= 0) continue;
@@ -100,16 +94,6 @@ static void look(Work *work, int view, const CwCanvas *canvas) {
   }
 }
 
-static void write_bytes(FILE *stream, const CwPng *png) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (size_t i = 0; i < png->size; i += 3) {
-    uint32_t bits = 0;
-    const size_t left = png->size - i < 3 ? png->size - i : 3;
-    for (size_t k = 0; k < 3; k++) bits = bits << 8 | (k < left ? png->bytes[i + k] : 0);
-    for (size_t k = 0; k < 4; k++) fputc(k <= left ? digits[bits >> (18 - 6 * k) & 63] : '=', stream);
-  }
-}
-
 static void mark(Work *work, const CwCamera *camera, const double *place, double x, double y) {
   double p[3];
   cw_camera_project(camera, place, p);
@@ -136,7 +120,7 @@ static CwStatus draw_view(Work *work, int view, const double *place) {
   FILE *stream = work->picture.file.stream;
   fprintf(stream, "<image x=\"%.0f\" y=\"%.0f\" width=\"%d\" height=\"%d\" href=\"data:image/png;base64,", x, y, SIDE,
           SIDE);
-  write_bytes(stream, &png);
+  cw_html_base64(stream, png.bytes, png.size);
   fputs("\"/>\n", stream);
   cw_picture_text(&work->picture, CW_TEXT_LEFT, x + 8, y + 16, "%s, from (%g, %g, %g)",
                   inside ? "near faces taken away" : "from outside", towards[view % COLUMNS][0],

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/cad/faces_sheet.h"
 
-#include <string.h>
-
 #include "pipeline/atomic_file.h"
 
 static void write_text(FILE *stream, const char *text) {
@@ -49,14 +47,14 @@ CwStatus cw_faces_sheet_write(const CwCaseCad *cad, const CwCadFrame *frame, con
     for (int i = 0; i < 3; i++) ahead[i] = face->at[i] + face->normal[i];
     cw_cad_frame_to_file(frame, ahead, foot);
     for (int i = 0; i < 3; i++) normal[i] = foot[i] - at[i];
-    const int colour = cw_cad_part_face_colour(parts, face->part, face->face);
+    const CwCadFaceInfo info = cw_cad_part_face(parts, face->part, face->face);
     fprintf(stream, "%d,%s,", f + 1, cad->domain[face->part].name);
-    write_text(stream, cw_cad_part_face_name(parts, face->part, face->face));
-    if (colour >= 0)
-      fprintf(stream, ",#%06x,", colour);
+    write_text(stream, info.name);
+    if (info.colour >= 0)
+      fprintf(stream, ",#%06x,", info.colour);
     else
       fprintf(stream, ",,");
-    write_text(stream, cw_cad_part_face_layer(parts, face->part, face->face));
+    write_text(stream, info.layer);
     fprintf(stream, ",%s,%.6g,%.4f,%.4f,%.4f,%.6g,%.6g,%.4f,%.4f,%.4f,", forms[face->form], 1e6 * face->area, normal[0],
             normal[1], normal[2], 1e3 * face->radius[0], 1e3 * face->radius[1], 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
     write_neighbours(stream, survey, f);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/cad/heal.h"
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -17,7 +17,6 @@
 #include <ShapeFix_Shape.hxx>
 #include <ShapeFix_ShapeTolerance.hxx>
 #include <ShapeFix_Wireframe.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 
 #include "geometry/cad/cad_part.hpp"
@@ -28,24 +27,10 @@ namespace {
 // Greatest tolerance of a sound part, over the gap that is closed.
 const double LARGEST_TOLERANCE = 10;
 
-struct Place {
-  gp_Pnt at;
-  bool found = false;
-};
-
-Place place_of(const TopoDS_Shape &shape) {
+std::optional<gp_Pnt> place_of(const TopoDS_Shape &shape) {
   for (TopExp_Explorer at(shape, TopAbs_VERTEX); at.More(); at.Next())
-    return {BRep_Tool::Pnt(TopoDS::Vertex(at.Current())), true};
+    return BRep_Tool::Pnt(TopoDS::Vertex(at.Current()));
   return {};
-}
-
-std::string words(const Place &place, double unit, const CwCadFrame &frame) {
-  if (!place.found) return "";
-  double x[3] = {place.at.X() * unit, place.at.Y() * unit, place.at.Z() * unit};
-  char text[80];
-  cw_cad_frame_to_file(&frame, x, x);
-  snprintf(text, sizeof text, " at (%.3f, %.3f, %.3f) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
-  return text;
 }
 
 double volume_of(const TopoDS_Shape &shape) {
@@ -57,7 +42,7 @@ double volume_of(const TopoDS_Shape &shape) {
 // What is unsound in a shape: "" where nothing is.
 struct Fault {
   std::string what;
-  Place place;
+  std::optional<gp_Pnt> place;
 };
 
 Fault open_edge(const TopoDS_Shape &shape) {
@@ -99,7 +84,7 @@ Fault fault_of(const TopoDS_Shape &shape, double tolerance) {
   if (largest > LARGEST_TOLERANCE * tolerance) {
     const Handle(TopTools_HSequenceOfShape) where = measure.OverTolerance(shape, LARGEST_TOLERANCE * tolerance);
     return {"edges and faces fit one another within no less than " + std::to_string(largest) + " units",
-            where.IsNull() || where->IsEmpty() ? Place() : place_of(where->Value(1))};
+            where.IsNull() || where->IsEmpty() ? std::nullopt : place_of(where->Value(1))};
   }
   if (!(std::fabs(volume_of(shape)) > 0)) return {"it has no volume", {}};
   return {};
@@ -165,35 +150,35 @@ CwStatus heal_part(double tolerance, const CwCadFrame &frame, CwLog *log, double
   const TopoDS_Shape given = part.solid;
   const Fault first = fault_of(given, tolerance);
   Fault fault = first;
-  if (!fault.what.empty()) part.solid = limited(given, tolerance), fault = fault_of(part.solid, tolerance);
-  if (!fault.what.empty()) part.solid = fixed(given, tolerance), fault = fault_of(part.solid, tolerance);
-  if (!fault.what.empty())
-    part.solid = fixed(sewn(given, tolerance), tolerance), fault = fault_of(part.solid, tolerance);
+  TopoDS_Shape solid = given;
+  if (!fault.what.empty()) solid = limited(given, tolerance), fault = fault_of(solid, tolerance);
+  if (!fault.what.empty()) solid = fixed(given, tolerance), fault = fault_of(solid, tolerance);
+  if (!fault.what.empty()) solid = fixed(sewn(given, tolerance), tolerance), fault = fault_of(solid, tolerance);
   if (!fault.what.empty()) {
-    part.solid = given;
-    const gp_Pnt &at = first.place.at;
-    of_all = {first.place.found, of_all.part, {at.X() * unit, at.Y() * unit, at.Z() * unit}};
+    const gp_Pnt at = first.place.value_or(gp_Pnt());
+    of_all = {first.place.has_value(), of_all.part, {at.X() * unit, at.Y() * unit, at.Z() * unit}};
     return CW_FAIL(CW_ERR_GEOMETRY,
                    "cad.domains.%s: the solid cannot be healed within %.3g mm: %s%s; allowed: a closed, "
                    "valid solid; mend it in CAD, or try a greater cad.tolerance_mm",
                    part.domain.c_str(), tolerance * unit * 1e3, first.what.c_str(),
-                   words(first.place, unit, frame).c_str());
+                   first.place ? (" " + cw_cad_place(at, unit, frame)).c_str() : "");
   }
-  if (has_small_edge(part.solid, tolerance)) {
-    const TopoDS_Shape whole = part.solid;
-    part.solid = without_small(part.solid, tolerance);
-    if (!fault_of(part.solid, tolerance).what.empty()) part.solid = fixed(part.solid, tolerance);
-    if (!fault_of(part.solid, tolerance).what.empty()) part.solid = whole;
+  if (has_small_edge(solid, tolerance)) {
+    const TopoDS_Shape whole = solid;
+    solid = without_small(solid, tolerance);
+    if (!fault_of(solid, tolerance).what.empty()) solid = fixed(solid, tolerance);
+    if (!fault_of(solid, tolerance).what.empty()) solid = whole;
   }
-  if (volume_of(part.solid) < 0) {
-    TopoDS_Solid turned = TopoDS::Solid(part.solid);
+  if (volume_of(solid) < 0) {
+    TopoDS_Solid turned = TopoDS::Solid(solid);
     BRepLib::OrientClosedSolid(turned);
-    part.solid = turned;
+    solid = turned;
   }
-  if (part.solid.IsSame(given)) return CW_OK;
-  CwCadPart before = part;
-  before.solid = given;
-  cw_cad_carry({before}, part);
+  if (solid.IsSame(given)) { // but perhaps turned inside out
+    part.solid = solid;
+    return CW_OK;
+  }
+  cw_cad_replace(solid, part);
   cw_log(log, "%s: healed%s%s", part.domain.c_str(), first.what.empty() ? "" : ": ", first.what.c_str());
   return CW_OK;
 }

@@ -8,7 +8,6 @@
 
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
-#include <gp_Pnt.hxx>
 #include <gp_Trsf.hxx>
 
 // Of one kind of item, by their numbers from 0.

@@ -7,19 +7,16 @@
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Section.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepClass_FaceClassifier.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Precision.hxx>
 #include <ShapeConstruct_ProjectCurveOnSurface.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <gp_Circ.hxx>
 
@@ -93,11 +90,8 @@ double free_angle(const std::vector<TopoDS_Face> &faces, int count) {
 
 // A meridian from a radius on.
 TopoDS_Face half_plane(const TopoDS_Shape &solid, double angle, double radius) {
-  Bnd_Box box;
-  double low[3], high[3], most = 0;
-  BRepBndLib::Add(solid, box, Standard_False);
-  box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
-  for (int i = 0; i < 3; i++) most = std::max(most, std::max(std::fabs(low[i]), std::fabs(high[i])));
+  double most = 0;
+  for (const double x : cw_cad_box(solid)) most = std::max(most, std::fabs(x));
   most *= BEYOND;
   const gp_Ax3 axes(gp::Origin(), gp_Dir(-std::sin(angle), std::cos(angle), 0),
                     gp_Dir(std::cos(angle), std::sin(angle), 0));
@@ -308,7 +302,7 @@ void Copies::add_face(int f) {
     for (std::vector<CwEdgeUse> &loop : turned)
       for (CwEdgeUse &use : loop) use.edge = copy_of(edge, images.edge, use.edge, k);
     builder.face(Handle(Geom_Surface)::DownCast(surface->Transformed(images.turn(k))), turned,
-                 images.faces(f + 1).Orientation() == TopAbs_FORWARD, "", "", std::to_string(f + 1));
+                 images.faces(f + 1).Orientation() == TopAbs_FORWARD, "", CW_PATCH_WALL, std::to_string(f + 1));
   }
 }
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <deque>
 
 #include <BRepAdaptor_Curve.hxx>
@@ -20,16 +18,21 @@
 #include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <gp_Vec.hxx>
 
 #include "geometry/cad/cad_part.hpp"
 #include "geometry/cad/face_distance.hpp"
 
-struct CwSurveyExact {
+struct CwSurveyData {
   double unit; // m
   std::deque<CwFaceDistance> part;
+  std::vector<CwSurveyFace> face;
+  std::vector<CwSurveyEdge> edge;
+  std::vector<std::array<int, 3>> triangle;
+  std::vector<std::array<double, 3>> point;
+  std::vector<CwSurveySample> sample;
+  std::vector<std::array<double, 6>> box;
 };
 
 namespace {
@@ -41,17 +44,6 @@ const double CORNER = 0.95;      // of the way from the middle of a triangle to 
 const int TRIANGLES = 24;        // that are sampled on a face, about
 const double SAME_NORMAL = 1e-5; // sine of the angle within which normals are alike
 
-using Points = std::vector<std::array<double, 3>>;
-
-struct Lists {
-  std::vector<CwSurveyFace> face;
-  std::vector<CwSurveyEdge> edge;
-  std::vector<std::array<int, 3>> triangle;
-  Points point;
-  std::vector<CwSurveySample> sample;
-  std::vector<std::array<double, 6>> box;
-};
-
 std::array<double, 3> metres(const gp_Pnt &p, double unit) {
   return {p.X() * unit, p.Y() * unit, p.Z() * unit};
 }
@@ -59,15 +51,6 @@ std::array<double, 3> metres(const gp_Pnt &p, double unit) {
 void put(const gp_Pnt &p, double unit, double x[3]) {
   const std::array<double, 3> at = metres(p, unit);
   std::copy(at.begin(), at.end(), x);
-}
-
-std::array<double, 6> box_of(const TopoDS_Shape &face, double unit) {
-  Bnd_Box bounds;
-  std::array<double, 6> box;
-  BRepBndLib::Add(face, bounds, Standard_False);
-  bounds.Get(box[0], box[1], box[2], box[3], box[4], box[5]);
-  for (double &x : box) x *= unit;
-  return box;
 }
 
 // Unit normal out of the part; false where the face has none.
@@ -109,7 +92,7 @@ const gp_XY *first_of(std::vector<std::pair<double, gp_XY>> &by_distance, const 
   return nullptr;
 }
 
-void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &lists) {
+void add_face(const TopoDS_Face &face, int part, int index, double unit, CwSurveyData &lists) {
   CwSurveyFace made = {};
   made.part = part;
   made.face = index;
@@ -175,15 +158,14 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, Lists &
   made.turned = normals.most_twist < SAME_NORMAL;
   made.form = normals.most_off < SAME_NORMAL ? CW_FORM_PLANE : made.turned ? CW_FORM_REVOLVED : CW_FORM_OTHER;
   lists.face.push_back(made);
-  lists.box.push_back(box_of(face, unit));
+  lists.box.push_back(cw_cad_box(face));
+  for (double &x : lists.box.back()) x *= unit;
 }
 
 // Angle between two faces through the water, at the middle of their edge.
 double angle_at(const TopoDS_Edge &edge, const TopoDS_Face &a, const TopoDS_Face &b) {
-  double first, last;
   const BRepAdaptor_Curve curve(edge);
-  first = curve.FirstParameter(), last = curve.LastParameter();
-  const double t = (first + last) / 2;
+  const double t = (curve.FirstParameter() + curve.LastParameter()) / 2;
   gp_Vec normal[2];
   const TopoDS_Face *faces[] = {&a, &b};
   for (int s = 0; s < 2; s++) {
@@ -207,7 +189,7 @@ double angle_at(const TopoDS_Edge &edge, const TopoDS_Face &a, const TopoDS_Face
   return into_a.Dot(normal[1]) < 0 ? M_PI - turn : M_PI + turn;
 }
 
-void add_edges(const TopoDS_Shape &shape, int first_face, double unit, Lists &lists) {
+void add_edges(const TopoDS_Shape &shape, int first_face, double unit, CwSurveyData &lists) {
   const TopTools_IndexedMapOfShape map = cw_cad_faces(shape);
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
@@ -258,21 +240,18 @@ bool may_reach(const CwSurvey &survey, const CwSurveyFace &face, const double x[
   return false;
 }
 
-template <class To, class From> CwStatus copy(const std::vector<From> &from, To *&to, int &count) {
-  static_assert(sizeof(To) == sizeof(From), "copied as bytes");
-  to = (To *)std::malloc(std::max<size_t>(from.size(), 1) * sizeof(From));
-  if (!to) return CW_FAIL(CW_ERR_MEMORY, "out of memory: the survey of the faces");
-  std::memcpy((void *)to, from.data(), from.size() * sizeof(From));
-  count = (int)from.size();
-  return CW_OK;
+template <class To, class From> void show(std::vector<From> &list, To *&array, int &count) {
+  static_assert(sizeof(To) == sizeof(From), "the same numbers");
+  array = reinterpret_cast<To *>(list.data());
+  count = (int)list.size();
 }
 
 } // namespace
 
 CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
-  return cw_cad_guard("cad", [&]() -> CwStatus {
-    CwStatus status = CW_OK;
-    Lists lists;
+  return cw_cad_guard("cad", [&] {
+    survey->data = new CwSurveyData;
+    CwSurveyData &lists = *survey->data;
     const double size = extent(*parts);
     survey->size = size * parts->unit;
     for (size_t p = 0; p < parts->part.size(); p++) {
@@ -286,35 +265,27 @@ CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
       add_edges(solid, first, parts->unit, lists);
     }
     int boxes;
-    CW_TRY(copy(lists.face, survey->face, survey->face_count));
-    CW_TRY(copy(lists.edge, survey->edge, survey->edge_count));
-    CW_TRY(copy(lists.triangle, survey->triangle, survey->triangle_count));
-    CW_TRY(copy(lists.point, survey->point, survey->point_count));
-    CW_TRY(copy(lists.sample, survey->sample, survey->sample_count));
-    CW_TRY(copy(lists.box, survey->box, boxes));
-    survey->exact = new CwSurveyExact;
-    survey->exact->unit = parts->unit;
-    for (const CwCadPart &part : parts->part) survey->exact->part.emplace_back(part.solid);
-  done:
-    return status;
+    show(lists.face, survey->face, survey->face_count);
+    show(lists.edge, survey->edge, survey->edge_count);
+    show(lists.triangle, survey->triangle, survey->triangle_count);
+    show(lists.point, survey->point, survey->point_count);
+    show(lists.sample, survey->sample, survey->sample_count);
+    show(lists.box, survey->box, boxes);
+    lists.unit = parts->unit;
+    for (const CwCadPart &part : parts->part) lists.part.emplace_back(part.solid);
+    return CW_OK;
   });
 }
 
 void cw_survey_free(CwSurvey *survey) {
-  std::free(survey->face);
-  std::free(survey->edge);
-  std::free(survey->triangle);
-  std::free(survey->point);
-  std::free(survey->sample);
-  std::free(survey->box);
-  delete survey->exact;
+  delete survey->data;
   *survey = CwSurvey();
 }
 
 CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[3], double reach, int *face,
                            double *distance, double *second) {
   return cw_cad_guard("cad", [&] {
-    const double unit = survey->exact->unit;
+    const double unit = survey->data->unit;
     const gp_Pnt at(point[0] / unit, point[1] / unit, point[2] / unit);
     double best = reach, next = reach;
     *face = -1;
@@ -322,7 +293,7 @@ CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[
       const CwSurveyFace &of = survey->face[i];
       if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= next) continue;
       if (std::isfinite(next) && !may_reach(*survey, of, point, next)) continue;
-      const double d = unit * survey->exact->part[of.part].at(of.face, at, next / unit);
+      const double d = unit * survey->data->part[of.part].at(of.face, at, next / unit);
       if (d < best) {
         next = best;
         best = d;

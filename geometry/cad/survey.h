@@ -42,7 +42,7 @@ typedef struct {
   double angle; // through the water, rad: pi where smooth, less where the edge is concave as seen from the water
 } CwSurveyEdge;
 
-typedef struct CwSurveyExact CwSurveyExact; // the exact faces, for distances
+typedef struct CwSurveyData CwSurveyData; // what holds the arrays, and the exact faces, for distances
 
 typedef struct {
   int face_count, edge_count, triangle_count, point_count, sample_count;
@@ -53,7 +53,7 @@ typedef struct {
   CwSurveySample *sample; // on the exact faces: about as many on each
   double (*box)[2][3];    // of each face
   double size;            // greatest extent of all
-  CwSurveyExact *exact;
+  CwSurveyData *data;
 } CwSurvey;
 
 // Free also after a failure; zeroed `survey` on entry.

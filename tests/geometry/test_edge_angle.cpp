@@ -26,7 +26,8 @@ static CwSolid prism(const std::vector<gp_Pnt> &corners) {
   CwSolid solid = {"prism", 1, TopoDS::Solid(shape), {}};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid.solid, TopAbs_FACE, faces);
-  for (int i = 1; i <= faces.Extent(); i++) solid.faces.push_back({TopoDS::Face(faces(i)), "wall", "wall", "face"});
+  for (int i = 1; i <= faces.Extent(); i++)
+    solid.faces.push_back({TopoDS::Face(faces(i)), "wall", CW_PATCH_WALL, "face"});
   return solid;
 }
 

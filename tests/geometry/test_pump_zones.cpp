@@ -47,7 +47,7 @@ static std::vector<gp_Pnt> outline(const CwSolid *solid, const char *patch, cons
   std::vector<gp_Pnt> points;
   for (const CwSolidFace &face : solid->faces) {
     if (face.patch != patch) continue;
-    assert_string_equal(face.kind.c_str(), kind);
+    assert_string_equal(cw_patch_kind_name(face.kind), kind);
     for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next()) {
       double first, last;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last);
@@ -99,7 +99,8 @@ static void check_zones(CwCase table) {
     int found[2] = {-1, -1};
     for (int d = 0; d < zones.count; d++)
       for (int s = 0; s < 2; s++)
-        if (!std::strcmp(cw_solid_domain(zones.solid[d]), between->domain[s])) found[s] = d;
+        for (const CwSolidFace &face : zones.solid[d]->faces)
+          if (face.patch == between->patch[s]) found[s] = d;
     assert_true(found[0] >= 0 && found[1] >= 0);
     if (i > 0) same_outline(zones.solid[found[0]], between->patch[0], zones.solid[found[1]], between->patch[1]);
   }
@@ -154,7 +155,8 @@ static void a_shaft_makes_a_ring(void **) {
     CwPump pump = build(table, &design);
     if (cw_pump_measure(&design, &pump, &measured) != CW_OK) fail_msg("%s", cw_fail_message());
     int core = 0;
-    for (const CwSolidFace &face : pump.solid[2]->faces) core += face.patch == "hub_shaft_pipe" && face.kind == "wall";
+    for (const CwSolidFace &face : pump.solid[2]->faces)
+      core += face.patch == "hub_shaft_pipe" && face.kind == CW_PATCH_WALL;
     assert_int_equal(core, design.blade_count);
     const double length = design.suction_pipe_length - pump.stubs.suction;
     const double ring = M_PI / 4 * (std::pow(design.inlet_diameter, 2) - std::pow(design.through_shaft_diameter, 2));

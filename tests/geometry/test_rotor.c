@@ -68,7 +68,7 @@ static void every_face_has_a_patch(void **state) {
     assert_int_equal(found, counts[i]);
   }
   for (int face = 0; face < cw_solid_face_count(rotor); face++) {
-    const char *patch = cw_solid_face_patch(rotor, face), *kind = cw_solid_face_kind(rotor, face);
+    const char *patch = cw_solid_face_patch(rotor, face), *kind = cw_patch_kind_name(cw_solid_face_kind(rotor, face));
     assert_string_equal(kind, strcmp(patch, "inlet") == 0             ? "inlet"
                               : strcmp(patch, "rotor_interface") == 0 ? "interface"
                                                                       : "wall");

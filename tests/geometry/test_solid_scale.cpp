@@ -85,7 +85,7 @@ static void solids_of_cad(void **) {
     solid.unit = 1e-3;
     solid.solid = TopoDS::Solid(TopExp_Explorer(of.shape, TopAbs_SOLID).Current());
     for (TopExp_Explorer at(solid.solid, TopAbs_FACE); at.More(); at.Next())
-      solid.faces.push_back({TopoDS::Face(at.Current()), "wall", "wall", "face"});
+      solid.faces.push_back({TopoDS::Face(at.Current()), "wall", CW_PATCH_WALL, "face"});
     for (const double factor : {0.3, 3.0}) {
       const CwSolid scaled = cw_solid_scaled(solid, factor);
       GProp_GProps properties;

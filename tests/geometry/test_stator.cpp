@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: stator_builder, stator_check, stator_spline.
+// Modules without a test of their own that it runs: bspline_fit, stator_builder, stator_check.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -102,7 +102,8 @@ static void patches(void **) {
   for (int i = 0; i < cw_solid_face_count(stator); i++) {
     count[cw_solid_face_patch(stator, i)]++;
     names.insert(cw_solid_face_name(stator, i));
-    assert_string_equal(cw_solid_face_kind(stator, i), expected.at(cw_solid_face_patch(stator, i)).second.c_str());
+    assert_string_equal(cw_patch_kind_name(cw_solid_face_kind(stator, i)),
+                        expected.at(cw_solid_face_patch(stator, i)).second.c_str());
   }
   for (const auto &patch : expected) assert_int_equal(count[patch.first], patch.second.first);
   assert_int_equal(names.size(), 51);

@@ -14,7 +14,6 @@
 #include <TopoDS.hxx>
 
 #include "geometry/measure.h"
-#include "geometry/model_unit.h"
 #include "geometry/solid.hpp"
 #include "geometry/volute_design.h"
 #include "geometry/stator.h"
@@ -96,7 +95,7 @@ static void random_volutes(void **) {
     CwVolute volute;
     CwSolid *solid = NULL;
     CwStatus status = cw_volute_design(&in, &volute);
-    if (status == CW_OK) status = cw_stator_build(&volute, cw_model_unit(in.base_diameter), &solid);
+    if (status == CW_OK) status = cw_stator_build(&volute, cw_solid_unit_of_pump(in.base_diameter), &solid);
     std::string kind = std::string(section[in.section]) + (std::isnan(in.corner_radius) ? "" : " with corners");
     kinds[kind].second++;
     if (status == CW_OK) {

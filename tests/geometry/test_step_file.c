@@ -6,8 +6,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
+#include "geometry/pump_files.h"
 #include "geometry/rotor.h"
 #include "geometry/step_file.h"
 #include "pipeline/case_read.h"

@@ -5,6 +5,7 @@
 
 #include <TopoDS.hxx>
 
+#include "geometry/cad/cad_file.h"
 #include "geometry/cad/cad_part.hpp"
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
@@ -36,7 +37,7 @@ static void names_and_volumes_survive(void **) {
     assert_int_equal(faces.Extent(), solids[i]->faces.size());
     for (const CwSolidFace &face : solids[i]->faces) left[face.patch]++;
     for (int f = 0; f < faces.Extent(); f++) {
-      again.faces.push_back({TopoDS::Face(faces(f + 1)), body.origin[f].name, "wall", ""});
+      again.faces.push_back({TopoDS::Face(faces(f + 1)), body.origin[f].name, CW_PATCH_WALL, ""});
       left[body.origin[f].name]--;
     }
     for (const auto &[patch, count] : left) assert_int_equal(count, 0);

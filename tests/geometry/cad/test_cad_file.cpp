@@ -20,6 +20,7 @@
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 
+#include "geometry/cad/cad_file.h"
 #include "geometry/cad/cad_part.hpp"
 #include "cad/small_pump.hpp"
 

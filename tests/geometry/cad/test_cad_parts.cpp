@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Bodies as parts: turned to the axis, fused, in the unit of the model, with what the file says of their faces.
+// Bodies as parts: turned to the axis, fused, in the unit of the model, with what the file says of their faces, which
+// goes with them by cad_part.
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <Bnd_Box.hxx>
@@ -51,8 +52,8 @@ static void parts_stand_about_the_axis(void **) {
   small_near(high[2] * to_mm, 23, 1e-3);
   assert_int_equal(cw_cad_part_face_count(parts, 0), 3);
   for (int f = 0; f < 3; f++) {
-    assert_string_equal(cw_cad_part_face_name(parts, 0, f), "wheel");
-    assert_int_equal(cw_cad_part_face_number(parts, 0, f), f);
+    assert_string_equal(cw_cad_part_face(parts, 0, f).name, "wheel");
+    assert_int_equal(cw_cad_part_face(parts, 0, f).number, f);
   }
   cw_cad_parts_free(&parts);
 }
