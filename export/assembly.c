@@ -30,9 +30,7 @@ typedef struct {
   int64_t open_count, open_room;
   CwInterfaceFace *interface[CW_INTERFACES_MOST][2];
   int64_t interface_count[CW_INTERFACES_MOST][2], interface_room[CW_INTERFACES_MOST][2];
-  double *least[CW_DOMAINS_MOST],
-      *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
-  int64_t *open_counts;       // by region
+  double *least[CW_DOMAINS_MOST], *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
 } Collected;
 
 static void collected_free(Collected *c) {
@@ -45,7 +43,6 @@ static void collected_free(Collected *c) {
     free(c->least[d]);
     free(c->most[d]);
   }
-  free(c->open_counts);
 }
 
 void cw_assembly_free(CwAssembly *assembly) {
@@ -110,7 +107,7 @@ static void collect_points(const CwRegionData *data, Collected *c) {
 static void add_patch_face(CwPatchPart *part, const CwRegionData *data, const int32_t *nodes, int count) {
   double vector[3];
   cw_face_area((const double(*)[3])data->points, nodes, count, vector);
-  ++*(count == 3 ? &part->triangles : &part->quads);
+  ++*(count == 3 ? &part->faces.triangles : &part->faces.quads);
   for (int k = 0; k < 3; ++k) part->vector[k] += vector[k];
   part->area += cw_norm(vector);
 }
@@ -128,9 +125,9 @@ static CwStatus collect_interface(const CwMesh *mesh, int region, const CwRegion
                                   int side, Collected *c) {
   CwStatus status = CW_OK;
   int patch = mesh->interfaces[i].patch[side], local = patch - mesh->domains[data->domain].first_patch;
-  const CwPatchPart *part = &a->parts[(size_t)region * (size_t)mesh->patch_count + (size_t)patch];
   int64_t *count = &c->interface_count[i][side], place = (int64_t)region << 32;
-  CW_GROW(c->interface[i][side], c->interface_room[i][side], *count + part->triangles + part->quads);
+  CW_GROW(c->interface[i][side], c->interface_room[i][side],
+          *count + cw_face_count(cw_patch_part(a, region, patch)->faces));
   for (int32_t f = 0; f < data->triangle_count; ++f)
     if (data->triangle_patch[f] == local)
       add_interface_face(&c->interface[i][side][(*count)++], place++, data, data->triangles[f], 3);
@@ -145,11 +142,10 @@ done:
 static CwStatus collect_patches(const CwMesh *mesh, int region, const CwRegionData *data, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
   const CwMeshDomain *domain = &mesh->domains[data->domain];
-  CwPatchPart *parts = a->parts + (size_t)region * (size_t)mesh->patch_count;
+  CwPatchPart *parts = cw_patch_part(a, region, domain->first_patch);
   for (int32_t i = 0; i < data->triangle_count; ++i)
-    add_patch_face(&parts[domain->first_patch + data->triangle_patch[i]], data, data->triangles[i], 3);
-  for (int32_t i = 0; i < data->quad_count; ++i)
-    add_patch_face(&parts[domain->first_patch + data->quad_patch[i]], data, data->quads[i], 4);
+    add_patch_face(&parts[data->triangle_patch[i]], data, data->triangles[i], 3);
+  for (int32_t i = 0; i < data->quad_count; ++i) add_patch_face(&parts[data->quad_patch[i]], data, data->quads[i], 4);
   for (int i = 0; i < mesh->interface_count; ++i)
     for (int side = 0; side < 2; ++side)
       if (mesh->patches[mesh->interfaces[i].patch[side]].domain == data->domain)
@@ -195,52 +191,52 @@ static CwStatus collect_region(void *context, int region, CwRegionData *data) {
   CwAssembly *a = c->assembly;
   const CwMesh *mesh = a->mesh;
   int32_t *open = NULL, count = 0;
-  int64_t triangles, quads;
+  CwFaceCount inner; // twice
   CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, data, 1, &open, &count));
   collect_points(data, c);
   CW_TRY(collect_patches(mesh, region, data, a, c));
   // Each face of a cell is one of two at an inner face, or lies on a patch or a partition plane.
-  triangles = 4 * (int64_t)(data->tetrahedron_count + data->pyramid_count) + 2 * (int64_t)data->prism_count;
-  triangles -= data->triangle_count;
-  quads = data->pyramid_count + 3 * (int64_t)data->prism_count - data->quad_count;
+  inner.triangles = 4 * (int64_t)(data->tetrahedron_count + data->pyramid_count) + 2 * (int64_t)data->prism_count;
+  inner.triangles -= data->triangle_count;
+  inner.quads = data->pyramid_count + 3 * (int64_t)data->prism_count - data->quad_count;
   CW_GROW(c->open, c->open_room, c->open_count + count);
   for (int32_t i = 0; i < count; ++i) {
     OpenFace *face = &c->open[c->open_count++];
     *face = open_face(region, data, i, open[i]);
-    --*(face->loop[3] < 0 ? &triangles : &quads);
+    --*(face->loop[3] < 0 ? &inner.triangles : &inner.quads);
   }
-  a->places[region].inner_triangles = triangles / 2;
-  a->places[region].inner_quads = quads / 2;
-  c->open_counts[region] = count;
+  a->places[region].inner = (CwFaceCount){inner.triangles / 2, inner.quads / 2};
+  a->places[region].open = count; // until spread() knows where they begin
 done:
   free(open);
   return status;
 }
 
-// Gives all ranks what each found of its regions: sums over ranks, of which one holds the value and the
-// others 0.
-static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
+// Gives all ranks what each found of its regions, and room for the open faces of all.
+static CwStatus spread(const CwRanks *ranks, CwAssembly *a) {
+  CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   for (int r = 0; r < mesh->region_count; ++r) {
     int root = a->share.owner[r];
-    CwPatchPart *parts = a->parts + (size_t)r * (size_t)mesh->patch_count;
     MPI_Bcast(&a->places[r], sizeof a->places[r], MPI_BYTE, root, ranks->comm);
-    MPI_Bcast(parts, (int)sizeof *parts * mesh->patch_count, MPI_BYTE, root, ranks->comm);
-    MPI_Bcast(&c->open_counts[r], 1, MPI_INT64_T, root, ranks->comm);
+    MPI_Bcast(cw_patch_part(a, r, 0), (int)sizeof *a->parts * mesh->patch_count, MPI_BYTE, root, ranks->comm);
   }
   for (int r = 0; r < mesh->region_count; ++r) {
+    const int64_t open = a->places[r].open;
     a->places[r].open = a->open_count;
-    a->open_count += c->open_counts[r];
+    a->open_count += open;
     for (int p = 0; p < mesh->patch_count; ++p) {
-      CwPatchPart *part = &a->parts[(size_t)r * (size_t)mesh->patch_count + (size_t)p], *sum = &a->patches[p];
-      part->triangle = sum->triangles;
-      part->quad = sum->quads;
-      sum->triangles += part->triangles;
-      sum->quads += part->quads;
+      CwPatchPart *part = cw_patch_part(a, r, p), *sum = &a->patches[p];
+      part->before = sum->faces;
+      cw_face_count_add(&sum->faces, part->faces);
       sum->area += part->area;
       for (int k = 0; k < 3; ++k) sum->vector[k] += part->vector[k];
     }
   }
+  CW_NEW(a->across, a->open_count);
+  CW_NEW(a->partner, a->open_count);
+done:
+  return status;
 }
 
 static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c) {
@@ -315,7 +311,7 @@ static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
       int64_t mine = place->cell + here->cell, other = a->places[there->region].cell + there->cell;
       a->across[place->open + here->slot] = other;
       a->partner[place->open + here->slot] = a->places[there->region].open + there->slot;
-      if (mine < other) ++*(here->loop[3] < 0 ? &place->outer_triangles : &place->outer_quads);
+      if (mine < other) ++*(here->loop[3] < 0 ? &place->outer.triangles : &place->outer.quads);
     }
   }
 done:
@@ -326,8 +322,6 @@ static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected
   CwStatus status = CW_OK;
   OpenFace *all = NULL;
   int64_t total = 0;
-  CW_NEW(a->across, a->open_count);
-  CW_NEW(a->partner, a->open_count);
   CW_TRY(cw_ranks_gather(ranks, c->open, c->open_count, sizeof *all, (void **)&all, &total));
   // A stable split by domain, as each numbers its shared points from 0.
   if (ranks->rank == 0) {
@@ -361,9 +355,9 @@ static CwStatus settle_interface(const CwRanks *ranks, int interface, int side, 
   CW_TRY(cw_ranks_agree(ranks, placed ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
   for (int64_t i = 0; i < total; ++i) {
     int region = (int)(all[i].place >> 32);
-    const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
+    const CwFaceCount before = cw_patch_part(a, region, patch)->before;
     int64_t place = all[i].place & 0xffffffff;
-    place += all[i].count == 3 ? part->triangle : a->patches[patch].triangles + part->quad;
+    place += all[i].count == 3 ? before.triangles : a->patches[patch].faces.triangles + before.quads;
     placed[place] = all[i];
     placed[place].place = place;
   }
@@ -380,7 +374,7 @@ static CwStatus check_surface(const CwAssembly *a) {
     const CwMeshDomain *domain = &mesh->domains[d];
     for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p) {
       const CwPatchPart *sum = &a->patches[p];
-      CW_REQUIRE(sum->triangles + sum->quads > 0 || mesh->patches[p].kind == CW_PATCH_WALL, CW_ERR_INPUT,
+      CW_REQUIRE(cw_face_count(sum->faces) > 0 || mesh->patches[p].kind == CW_PATCH_WALL, CW_ERR_INPUT,
                  "domain %s: patch '%s' has no face", domain->name, mesh->patches[p].name);
       area += sum->area;
       for (int k = 0; k < 3; ++k) vector[k] += sum->vector[k];
@@ -401,7 +395,6 @@ static CwStatus prepare(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *a,
   CW_TRY(number_regions(mesh, a));
   CW_NEW(a->parts, (size_t)mesh->region_count * (size_t)mesh->patch_count);
   CW_NEW(a->patches, mesh->patch_count);
-  CW_NEW(c->open_counts, mesh->region_count);
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     CW_NEW(c->least[d], 3 * mesh->domains[d].shared_points);
     CW_NEW(c->most[d], 3 * mesh->domains[d].shared_points);
@@ -420,7 +413,7 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, ranks, a, &c)));
   status = cw_each_region(a, ranks, "number the mesh", CW_FORWARDS, collect_region, &c);
   CW_TRY(cw_ranks_agree(ranks, status));
-  spread(ranks, a, &c);
+  CW_TRY(cw_ranks_agree(ranks, spread(ranks, a)));
   CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));
   CW_TRY(settle_open_faces(ranks, a, &c));
   CW_TRY(check_surface(a));

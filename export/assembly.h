@@ -11,21 +11,37 @@
 #include "pipeline/mesh/region_faces.h"
 #include "pipeline/mesh/region_read.h"
 
+typedef struct {
+  int64_t triangles, quads;
+} CwFaceCount;
+
+static inline int64_t cw_face_count(CwFaceCount count) {
+  return count.triangles + count.quads;
+}
+
+static inline int64_t cw_corner_count(CwFaceCount count) {
+  return 3 * count.triangles + 4 * count.quads;
+}
+
+static inline void cw_face_count_add(CwFaceCount *sum, CwFaceCount more) {
+  sum->triangles += more.triangles;
+  sum->quads += more.quads;
+}
+
 // Where a region begins in the numbering of its domain, all 0-based, and what it adds.
 typedef struct {
-  int64_t own_point;                    // its first own point
-  int64_t tetrahedron, pyramid, prism;  // its first cell of each type among those of the domain
-  int64_t cell;                         // its first cell, cells counted region by region over all domains
-  int64_t open;                         // its first open face in CwAssembly.across
-  int64_t inner_triangles, inner_quads; // faces between its own cells
-  int64_t outer_triangles, outer_quads; // open faces whose other cell has the larger number
+  int64_t own_point;                   // its first own point
+  int64_t tetrahedron, pyramid, prism; // its first cell of each type among those of the domain
+  int64_t cell;                        // its first cell, cells counted region by region over all domains
+  int64_t open;                        // its first open face in CwAssembly.across
+  CwFaceCount inner;                   // faces between its own cells
+  CwFaceCount outer;                   // open faces whose other cell has the larger number
 } CwRegionPlace;
 
 // Counts and sums of the faces of one patch in one region.
 typedef struct {
-  int64_t triangles, quads;
-  int64_t triangle, quad; // those of the regions before
-  double area, vector[3]; // m2
+  CwFaceCount faces, before; // before: those of the regions before
+  double area, vector[3];    // m2
 } CwPatchPart;
 
 // A face of an interface: nodes in m, 3 or 4, and its place in its patch, triangles first.
@@ -74,6 +90,17 @@ typedef enum { CW_FORWARDS, CW_BACKWARDS } CwDirection;
 // after another; tells `title` as progress. Returns the first failure of this rank, after which it goes no further.
 CwStatus cw_each_region(const CwAssembly *assembly, const CwRanks *ranks, const char *title, CwDirection direction,
                         CwRegionWork work, void *context);
+
+// The faces of a patch in a region.
+static inline CwPatchPart *cw_patch_part(const CwAssembly *assembly, int region, int patch) {
+  return &assembly->parts[(size_t)region * (size_t)assembly->mesh->patch_count + (size_t)patch];
+}
+
+static inline int64_t cw_assembly_cells(const CwAssembly *assembly) {
+  int64_t cells = 0;
+  for (int d = 0; d < assembly->mesh->domain_count; ++d) cells += assembly->totals[d].cells;
+  return cells;
+}
 
 // Number of a point of a region in its domain, 0-based.
 static inline int64_t cw_point_number(const CwAssembly *assembly, int region, const CwRegionData *data, int32_t point) {

@@ -4,20 +4,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "export/blocks.h"
+#include "export/folder.h"
 #include "export/patch_role.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
-
-static int turns(const CwMesh *mesh, int interface) {
-  int turning = 0;
-  for (int side = 0; side < 2; ++side)
-    turning |= mesh->domains[mesh->patches[mesh->interfaces[interface].patch[side]].domain].rotating;
-  return turning;
-}
 
 // What names the two sides of an interface: its name, "ROTOR STATOR", zones and patches.
 static CwStatus set_interface(const CwMesh *mesh, int interface, CwValues *values) {
@@ -40,18 +32,16 @@ static CwStatus set_boundaries(const CwMesh *mesh, int domain, double mass_flow,
   static const char *const parts[] = {[CW_PATCH_INLET] = "cfx_parts/inlet.ccl",
                                       [CW_PATCH_OUTLET] = "cfx_parts/outlet.ccl",
                                       [CW_PATCH_SYMMETRY] = "cfx_parts/symmetry.ccl"};
-  CwBlocks blocks = {0};
-  CW_TRY(cw_blocks_open(&blocks));
+  CW_TRY(cw_values_start(values, "zone_ends"));
+  CW_TRY(cw_values_start(values, "zone_sides"));
   for (int kind = 0; kind < CW_PATCH_KINDS; ++kind)
     for (int p = 0; p < mesh->patch_count; ++p) {
       const CwModelPatch *patch = &mesh->patches[p];
       if (patch->domain != domain || (int)patch->kind != kind || !parts[kind]) continue;
       CW_TRY(cw_values_set(values, "end", "%s", patch->name));
       CW_TRY(cw_values_set(values, "end_mass_flow", "%.9g", mass_flow * patch->flow_share));
-      CW_TRY(cw_blocks_add(&blocks, parts[kind], values));
+      CW_TRY(cw_values_append_file(values, "zone_ends", parts[kind]));
     }
-  CW_TRY(cw_blocks_close(&blocks, "zone_ends", values));
-  CW_TRY(cw_blocks_open(&blocks));
   for (int i = 0; i < mesh->interface_count; ++i)
     for (int side = 0; side < 2; ++side) {
       const CwModelPatch *patch = &mesh->patches[mesh->interfaces[i].patch[side]];
@@ -59,19 +49,21 @@ static CwStatus set_boundaries(const CwMesh *mesh, int domain, double mass_flow,
       CW_TRY(set_interface(mesh, i, values));
       CW_TRY(cw_values_set(values, "side", "%d", side + 1));
       CW_TRY(cw_values_set(values, "side_patch", "%s", patch->name));
-      CW_TRY(cw_blocks_add(&blocks, "cfx_parts/interface_side.ccl", values));
+      CW_TRY(cw_values_append_file(values, "zone_sides", "cfx_parts/interface_side.ccl"));
     }
-  CW_TRY(cw_blocks_close(&blocks, "zone_sides", values));
 done:
-  cw_blocks_close(&blocks, NULL, values);
   return status;
+}
+
+static CwPatchChoice walls_that(int turn) {
+  return turn ? cw_patch_turns : cw_patch_stands;
 }
 
 // Whether no domain before this one, rotating or not as it is, has walls that turn, or do not.
 static int is_first(const CwMesh *mesh, int domain, int turning) {
   for (int p = 0; p < mesh->patch_count; ++p) {
     const CwModelPatch *patch = &mesh->patches[p];
-    if (patch->domain < domain && patch->kind == CW_PATCH_WALL && cw_patch_turns(mesh, patch) == turning &&
+    if (patch->domain < domain && walls_that(turning)(mesh, patch) &&
         !mesh->domains[patch->domain].rotating == !mesh->domains[domain].rotating)
       return 0;
   }
@@ -94,58 +86,44 @@ static void wall_name(const CwMesh *mesh, int domain, int turning, char name[WAL
     snprintf(name, WALL_NAME_SIZE, first ? "shaft" : "%s shaft", of->name);
 }
 
-// The walls of a domain that turn, or do not, as one boundary; none where it has none.
-static CwStatus add_walls(const CwAssembly *a, int domain, int turning, CwBlocks *blocks, CwValues *values) {
+// Adds the walls of a domain that turn, or do not, as one boundary; none where it has none.
+static CwStatus add_walls(const CwAssembly *a, int domain, int turning, CwValues *values) {
   CwStatus status = CW_OK;
-  const CwMesh *mesh = a->mesh;
-  CwBlocks names = {0};
+  const int rotating = a->mesh->domains[domain].rotating != 0;
   char name[WALL_NAME_SIZE];
-  int count = 0;
-  CW_TRY(cw_blocks_open(&names));
-  for (int p = 0; p < mesh->patch_count; ++p) {
-    const CwModelPatch *patch = &mesh->patches[p];
-    if (patch->domain != domain || patch->kind != CW_PATCH_WALL || !cw_patch_is_there(a, p)) continue;
-    if (cw_patch_turns(mesh, patch) != turning) continue;
-    fprintf(names.out, "%s%s", count++ ? "," : "", patch->name);
-  }
-  CW_TRY(cw_blocks_close(&names, "wall_patches", values));
-  if (!count) goto done;
-  const int rotating = mesh->domains[domain].rotating;
-  wall_name(mesh, domain, turning, name);
+  if (!cw_patch_count(a, domain, walls_that(turning))) return CW_OK;
+  CW_TRY(cw_patch_names_set(a, domain, walls_that(turning), ",", "wall_patches", values));
+  wall_name(a->mesh, domain, turning, name);
   CW_TRY(cw_values_set(values, "wall_name", "%s", name));
-  CW_TRY(cw_blocks_add(blocks,
-                       rotating  ? turning ? "cfx_parts/wall_turning.ccl" : "cfx_parts/wall_counter.ccl"
-                       : turning ? "cfx_parts/shaft.ccl"
-                                 : "cfx_parts/wall.ccl",
-                       values));
+  CW_TRY(cw_values_set(values, "frame_type", "%s", rotating ? "      Frame Type = Rotating\n" : ""));
+  CW_TRY(cw_values_start(values, "wall_velocity"));
+  if (rotating != turning)
+    CW_TRY(cw_values_append_file(values, "wall_velocity",
+                                 rotating ? "cfx_parts/velocity_counter.ccl" : "cfx_parts/velocity_shaft.ccl"));
+  CW_TRY(cw_values_append_file(values, "zone_wall_boundaries", "cfx_parts/wall.ccl"));
 done:
-  cw_blocks_close(&names, NULL, values);
   return status;
 }
 
 static CwStatus set_domains(const CwAssembly *a, double mass_flow, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
-  CwBlocks domains = {0}, les = {0}, walls = {0};
-  CW_TRY(cw_blocks_open(&domains));
-  CW_TRY(cw_blocks_open(&les));
+  CW_TRY(cw_values_start(values, "domains"));
+  CW_TRY(cw_values_start(values, "domains_les"));
   for (int d = 0; d < mesh->domain_count; ++d) {
     const int rotating = mesh->domains[d].rotating != 0;
-    CW_TRY(cw_blocks_open(&walls));
-    CW_TRY(add_walls(a, d, rotating, &walls, values));
-    CW_TRY(add_walls(a, d, !rotating, &walls, values));
-    CW_TRY(cw_blocks_close(&walls, "zone_wall_boundaries", values));
+    CW_TRY(cw_values_start(values, "zone_wall_boundaries"));
+    CW_TRY(add_walls(a, d, rotating, values));
+    CW_TRY(add_walls(a, d, !rotating, values));
     CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
     CW_TRY(set_boundaries(mesh, d, mass_flow, values));
-    CW_TRY(cw_blocks_add(&domains, rotating ? "cfx_parts/domain_rotating.ccl" : "cfx_parts/domain.ccl", values));
-    CW_TRY(cw_blocks_add(&les, "cfx_parts/transient_domain.ccl", values));
+    CW_TRY(cw_values_start(values, "domain_motion"));
+    CW_TRY(cw_values_append_file(values, "domain_motion",
+                                 rotating ? "cfx_parts/motion_rotating.ccl" : "cfx_parts/motion_stationary.ccl"));
+    CW_TRY(cw_values_append_file(values, "domains", "cfx_parts/domain.ccl"));
+    CW_TRY(cw_values_append_file(values, "domains_les", "cfx_parts/transient_domain.ccl"));
   }
-  CW_TRY(cw_blocks_close(&domains, "domains", values));
-  CW_TRY(cw_blocks_close(&les, "domains_les", values));
 done:
-  cw_blocks_close(&domains, NULL, values);
-  cw_blocks_close(&les, NULL, values);
-  cw_blocks_close(&walls, NULL, values);
   return status;
 }
 
@@ -153,103 +131,84 @@ done:
 static CwStatus set_ends(const CwMesh *mesh, CwPatchKind kind, const char *pressure_key, const char *flow_key,
                          CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks sum = {0}, flow = {0};
   const char *mean = "massFlowAve(Total Pressure in Stn Frame)";
-  int count = 0, written = 0;
-  for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == kind;
-  CW_TRY(cw_blocks_open(&sum));
-  CW_TRY(cw_blocks_open(&flow));
-  if (count > 1) fprintf(sum.out, "(");
-  if (count > 1) fprintf(flow.out, "(");
+  const int count = cw_patch_kind_count(mesh, kind);
+  int written = 0;
+  CW_TRY(cw_values_set(values, pressure_key, "%s", count > 1 ? "(" : ""));
+  CW_TRY(cw_values_set(values, flow_key, "%s", count > 1 ? "(" : ""));
   for (int p = 0; p < mesh->patch_count; ++p) {
     if (mesh->patches[p].kind != kind) continue;
     const char *name = mesh->patches[p].name, *between = written++ ? " + " : "";
-    fprintf(sum.out, "%s%s@%s", between, mean, name);
-    if (count > 1) fprintf(sum.out, " * massFlow()@%s", name);
-    fprintf(flow.out, "%smassFlow()@%s", between, name);
+    CW_TRY(cw_values_append(values, pressure_key, "%s%s@%s", between, mean, name));
+    if (count > 1) CW_TRY(cw_values_append(values, pressure_key, " * massFlow()@%s", name));
+    CW_TRY(cw_values_append(values, flow_key, "%smassFlow()@%s", between, name));
   }
-  if (count > 1) fprintf(flow.out, ")");
-  CW_TRY(cw_blocks_close(&flow, flow_key, values));
-  if (count > 1) fprintf(sum.out, ") / %s", values->list[values->count - 1].value);
-  CW_TRY(cw_blocks_close(&sum, pressure_key, values));
+  if (count > 1) {
+    CW_TRY(cw_values_append(values, flow_key, ")"));
+    CW_TRY(cw_values_append(values, pressure_key, ") / %s", cw_values_get(values, flow_key)));
+  }
 done:
-  cw_blocks_close(&sum, NULL, values);
-  cw_blocks_close(&flow, NULL, values);
   return status;
 }
 
 // Of the water on all boundaries that turn.
 static CwStatus set_torque(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks sum = {0};
   char name[WALL_NAME_SIZE];
-  CW_TRY(cw_blocks_open(&sum));
+  int count = 0;
+  CW_TRY(cw_values_start(values, "torque"));
   for (int d = 0; d < a->mesh->domain_count; ++d) {
-    int turning = 0;
-    for (int p = 0; p < a->mesh->patch_count; ++p)
-      turning |= a->mesh->patches[p].domain == d && cw_patch_is_there(a, p) &&
-                 cw_patch_turns(a->mesh, &a->mesh->patches[p]);
-    if (!turning) continue;
+    if (!cw_patch_count(a, d, cw_patch_turns)) continue;
     wall_name(a->mesh, d, 1, name);
-    fprintf(sum.out, "%s-torque_z()@%s", ftell(sum.out) > 0 ? " " : "", name);
+    CW_TRY(cw_values_append(values, "torque", "%s-torque_z()@%s", count++ ? " " : "", name));
   }
-  if (ftell(sum.out) == 0) fprintf(sum.out, "0 [N m]");
-  CW_TRY(cw_blocks_close(&sum, "torque", values));
+  if (!count) CW_TRY(cw_values_set(values, "torque", "0 [N m]"));
 done:
-  cw_blocks_close(&sum, NULL, values);
   return status;
 }
 
 // Mean and greatest y+ of each boundary of walls, as expressions and as monitors of these.
 static CwStatus set_y_plus(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  static const struct {
-    const char *what, *function;
-  } kinds[] = {{"mean", "areaAve"}, {"greatest", "maxVal"}};
-  CwBlocks expressions = {0}, monitors = {0};
+  static const struct { const char *what, *function; } kinds[] = {{"mean", "areaAve"}, {"greatest", "maxVal"}};
   char name[WALL_NAME_SIZE];
-  CW_TRY(cw_blocks_open(&expressions));
-  CW_TRY(cw_blocks_open(&monitors));
+  CW_TRY(cw_values_start(values, "y_plus_expressions"));
+  CW_TRY(cw_values_start(values, "y_plus_monitors"));
   for (int wall = 0; wall < 2 * a->mesh->domain_count; ++wall) {
-    int count = 0;
-    for (int p = 0; p < a->mesh->patch_count; ++p) {
-      const CwModelPatch *patch = &a->mesh->patches[p];
-      count += patch->domain == wall / 2 && patch->kind == CW_PATCH_WALL && cw_patch_is_there(a, p) &&
-               !cw_patch_turns(a->mesh, patch) == !(wall % 2);
-    }
+    if (!cw_patch_count(a, wall / 2, walls_that(wall % 2))) continue;
     wall_name(a->mesh, wall / 2, wall % 2, name);
-    for (size_t k = 0; count && k < sizeof kinds / sizeof *kinds; ++k) {
-      fprintf(expressions.out, "      %s y plus of %s = %s(Yplus)@%s\n", kinds[k].what, name, kinds[k].function, name);
-      fprintf(monitors.out,
-              "      MONITOR POINT: %s y plus of %s\n        Expression Value = %s y plus of %s\n"
-              "        Option = Expression\n      END\n",
-              kinds[k].what, name, kinds[k].what, name);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k) {
+      CW_TRY(cw_values_append(values, "y_plus_expressions", "      %s y plus of %s = %s(Yplus)@%s\n", kinds[k].what,
+                              name, kinds[k].function, name));
+      CW_TRY(cw_values_append(values, "y_plus_monitors",
+                              "      MONITOR POINT: %s y plus of %s\n        Expression Value = %s y plus of %s\n"
+                              "        Option = Expression\n      END\n",
+                              kinds[k].what, name, kinds[k].what, name));
     }
   }
-  CW_TRY(cw_blocks_close(&expressions, "y_plus_expressions", values));
-  CW_TRY(cw_blocks_close(&monitors, "y_plus_monitors", values));
 done:
-  cw_blocks_close(&expressions, NULL, values);
-  cw_blocks_close(&monitors, NULL, values);
   return status;
 }
 
 static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks steady = {0}, transient = {0};
-  CW_TRY(cw_blocks_open(&steady));
-  CW_TRY(cw_blocks_open(&transient));
+  CW_TRY(cw_values_start(values, "interfaces"));
+  CW_TRY(cw_values_start(values, "transient_interfaces"));
   for (int i = 0; i < mesh->interface_count; ++i) {
+    int turning = 0;
+    for (int side = 0; side < 2; ++side)
+      turning |= mesh->domains[mesh->patches[mesh->interfaces[i].patch[side]].domain].rotating;
     CW_TRY(set_interface(mesh, i, values));
-    CW_TRY(cw_blocks_add(&steady, turns(mesh, i) ? "cfx_parts/interface_turning.ccl" : "cfx_parts/interface_fixed.ccl",
-                      values));
-    if (turns(mesh, i)) CW_TRY(cw_blocks_add(&transient, "cfx_parts/transient_interface_turning.ccl", values));
+    CW_TRY(cw_values_set(values, "frame_change", "%s", turning ? "Frozen Rotor" : "None"));
+    CW_TRY(cw_values_set(values, "pitch_change", "%s",
+                         turning ? "Specified Pitch Angles\n        Pitch Angle Side1 = 360 [degree]\n"
+                                   "        Pitch Angle Side2 = 360 [degree]"
+                                 : "None"));
+    CW_TRY(cw_values_append_file(values, "interfaces", "cfx_parts/interface.ccl"));
+    if (turning)
+      CW_TRY(cw_values_append_file(values, "transient_interfaces", "cfx_parts/transient_interface_turning.ccl"));
   }
-  CW_TRY(cw_blocks_close(&steady, "interfaces", values));
-  CW_TRY(cw_blocks_close(&transient, "transient_interfaces", values));
 done:
-  cw_blocks_close(&steady, NULL, values);
-  cw_blocks_close(&transient, NULL, values);
   return status;
 }
 
@@ -296,7 +255,7 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwAs
   CwCasePoint points[CW_LIST_MOST];
   const int count = cw_case_points(table, points);
   const char *const kinds[] = {"pre", "ccl"};
-  CW_REQUIRE(asprintf(&path, "%s/points", folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_path_set(&path, "%s/points", folder));
   CW_TRY(cw_make_directory(path));
   for (int k = 0; k < count; ++k) {
     snprintf(setup, sizeof setup, "points/%.*s", CW_POINT_NAME_SIZE - 1, points[k].name);
@@ -304,8 +263,7 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwAs
     for (size_t kind = 0; kind < 2; ++kind) {
       char built_in[32];
       snprintf(built_in, sizeof built_in, "cfx/steady.%s", kinds[kind]);
-      free(path);
-      CW_REQUIRE(asprintf(&path, "%s/%s.%s", folder, setup, kinds[kind]) >= 0, CW_ERR_MEMORY, "out of memory");
+      CW_TRY(cw_path_set(&path, "%s/%s.%s", folder, setup, kinds[kind]));
       CW_TRY(cw_template_write(cw_template_find(built_in), path, &values));
     }
     cw_values_free(&values);
@@ -320,7 +278,7 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAsse
   CwStatus status = CW_OK;
   CwValues values = {0};
   CW_TRY(set_values(table, a, table->operating_point.flow_rate, "steady", &values));
-  CW_TRY(cw_templates_write("cfx/", folder, &values));
+  CW_TRY(cw_templates_write("cfx/", folder, NULL, &values));
   CW_TRY(write_points(folder, table, a));
 done:
   cw_values_free(&values);

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_EXPORT_CGNS_FILE_H
 #define CUTWATER_EXPORT_CGNS_FILE_H
 
-#include "export/assembly.h"
+#include "export/cgns_sections.h"
 #include "export/interface.h"
 #include "export/place_file.h"
 #include "pipeline/case.h"
@@ -16,6 +16,8 @@ typedef struct {
   CwFileSum sum;   // of what this rank has written; on rank 0 also of the nodes
   int64_t size;    // of the file, bytes
   int64_t *starts; // bytes of the arrays, domain by domain: three of coordinates, then those of its sections
+  CwSection *sections[CW_DOMAINS_MOST];
+  int section_count[CW_DOMAINS_MOST];
   int first_array[CW_DOMAINS_MOST + 1]; // of each domain
 } CwCgnsFile;
 

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "export/cgns_file.h"
-#include "export/cgns_sections.h"
 
 enum { COORDINATES = 3, NODE_SIZE = 100, PATH_SIZE = 2 * NODE_SIZE };
 
@@ -25,45 +24,25 @@ done:
   return status;
 }
 
-static CwStatus find_starts(const char *path, const CwAssembly *a, int64_t *starts) {
+static CwStatus find_starts(const CwCgnsFile *f) {
   CwStatus status = CW_OK;
-  CwSection *sections = NULL;
   char node[NODE_SIZE];
-  int count = 0;
-  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be opened", path);
-  for (int d = 0; d < a->mesh->domain_count; ++d) {
-    const char *zone = a->mesh->domains[d].zone;
+  int64_t *starts = f->starts;
+  hid_t file = H5Fopen(f->file.path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be opened", f->file.path);
+  for (int d = 0; d < f->assembly->mesh->domain_count; ++d) {
+    const char *zone = f->assembly->mesh->domains[d].zone;
     for (int k = 0; k < COORDINATES; ++k) {
       snprintf(node, sizeof node, "GridCoordinates/Coordinate%c", "XYZ"[k]);
       CW_TRY(find_start(file, zone, node, starts++));
     }
-    CW_TRY(cw_cgns_sections(a, d, &sections, &count));
-    for (int s = 0; s < count; ++s) {
-      snprintf(node, sizeof node, "%s/ElementConnectivity", sections[s].name);
+    for (int s = 0; s < f->section_count[d]; ++s) {
+      snprintf(node, sizeof node, "%s/ElementConnectivity", f->sections[d][s].name);
       CW_TRY(find_start(file, zone, node, starts++));
     }
-    free(sections);
-    sections = NULL;
   }
 done:
-  free(sections);
   if (file >= 0) H5Fclose(file);
-  return status;
-}
-
-// Numbers the arrays.
-static CwStatus count_arrays(CwCgnsFile *f) {
-  CwStatus status = CW_OK;
-  CwSection *sections = NULL;
-  for (int d = 0, count; d < f->assembly->mesh->domain_count; ++d) {
-    CW_TRY(cw_cgns_sections(f->assembly, d, &sections, &count));
-    f->first_array[d + 1] = f->first_array[d] + COORDINATES + count;
-    free(sections);
-    sections = NULL;
-  }
-done:
-  free(sections);
   return status;
 }
 
@@ -71,12 +50,15 @@ CwStatus cw_cgns_open(const char *folder, const CwAssembly *a, const CwRanks *ra
   CwStatus status = CW_OK;
   const int *count = &file->first_array[a->mesh->domain_count];
   file->assembly = a;
-  CW_TRY(count_arrays(file));
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
+    CW_TRY(cw_cgns_sections(a, d, &file->sections[d], &file->section_count[d]));
+    file->first_array[d + 1] = file->first_array[d] + COORDINATES + file->section_count[d];
+  }
   CW_NEW(file->starts, *count);
   CW_TRY(cw_place_file_open(folder, "pump.cgns", 0, &file->file));
   CW_TRY(cw_file_size(file->file.path, &file->size));
   if (ranks->rank == 0) {
-    CW_TRY(find_starts(file->file.path, a, file->starts));
+    CW_TRY(find_starts(file));
     CW_TRY(cw_file_sum_blocks(file->file.path, file->size, 0, 1, &file->sum)); // all that is there yet
   }
 done:
@@ -88,6 +70,10 @@ done:
 CwStatus cw_cgns_close(CwCgnsFile *file) {
   free(file->starts);
   file->starts = NULL;
+  for (int d = 0; d < CW_DOMAINS_MOST; ++d) {
+    free(file->sections[d]);
+    file->sections[d] = NULL;
+  }
   return cw_place_file_close(&file->file);
 }
 
@@ -137,16 +123,14 @@ CwStatus cw_cgns_write_shared(CwCgnsFile *f) {
   CwStatus status = CW_OK;
   const CwAssembly *a = f->assembly;
   for (int d = 0; d < a->mesh->domain_count; ++d)
-    CW_TRY(write_points(f, f->first_array[d], 0, a->mesh->domains[d].shared_points,
-                        (const double(*)[3])a->shared[d]));
+    CW_TRY(write_points(f, f->first_array[d], 0, a->mesh->domains[d].shared_points, (const double(*)[3])a->shared[d]));
 done:
   return status;
 }
 
 // Writes the elements of a section whose patch is its (patch_of NULL: all), `first` elements into it.
-static CwStatus write_elements(CwCgnsFile *f, int array, int region, const CwRegionData *data,
-                               const CwSection *section, int64_t first, const int32_t *elements, int64_t count,
-                               const int32_t *patch_of) {
+static CwStatus write_elements(CwCgnsFile *f, int array, int region, const CwRegionData *data, const CwSection *section,
+                               int64_t first, const int32_t *elements, int64_t count, const int32_t *patch_of) {
   CwStatus status = CW_OK;
   const CwAssembly *a = f->assembly;
   const int local_patch = section->patch - a->mesh->domains[data->domain].first_patch, nodes = section->nodes;
@@ -171,17 +155,13 @@ done:
 CwStatus cw_cgns_write_region(CwCgnsFile *f, int region, const CwRegionData *data) {
   CwStatus status = CW_OK;
   const CwAssembly *a = f->assembly;
-  CwSection *sections = NULL;
-  int count = 0;
+  const CwSection *sections = f->sections[data->domain];
   const int array = f->first_array[data->domain];
   const CwRegionPlace *place = &a->places[region];
   CW_TRY(write_points(f, array, place->own_point, data->point_count - data->shared_count,
                       (const double(*)[3])data->points + data->shared_count));
-  CW_TRY(cw_cgns_sections(a, data->domain, &sections, &count));
-  for (int s = 0; s < count; ++s) {
-    const CwPatchPart *part =
-        sections[s].patch < 0 ? NULL
-                              : &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)sections[s].patch];
+  for (int s = 0; s < f->section_count[data->domain]; ++s) {
+    const CwPatchPart *part = sections[s].patch < 0 ? NULL : cw_patch_part(a, region, sections[s].patch);
     const int32_t *elements = NULL, *patch_of = NULL;
     int64_t first = 0, elements_count = 0;
     switch (sections[s].type) {
@@ -195,17 +175,16 @@ CwStatus cw_cgns_write_region(CwCgnsFile *f, int region, const CwRegionData *dat
       elements = *data->prisms, elements_count = data->prism_count, first = place->prism;
       break;
     case CW_CGNS_TRI_3:
-      elements = *data->triangles, elements_count = part->triangles ? data->triangle_count : 0;
-      patch_of = data->triangle_patch, first = part->triangle;
+      elements = *data->triangles, elements_count = part->faces.triangles ? data->triangle_count : 0;
+      patch_of = data->triangle_patch, first = part->before.triangles;
       break;
     default:
-      elements = *data->quads, elements_count = part->quads ? data->quad_count : 0;
-      patch_of = data->quad_patch, first = part->quad;
+      elements = *data->quads, elements_count = part->faces.quads ? data->quad_count : 0;
+      patch_of = data->quad_patch, first = part->before.quads;
     }
     CW_TRY(write_elements(f, array + COORDINATES + s, region, data, &sections[s], first, elements, elements_count,
                           patch_of));
   }
 done:
-  free(sections);
   return status;
 }

@@ -134,6 +134,13 @@ done:
   return status;
 }
 
-CwStatus cw_cgns_exponents(hid_t parent, const float exponents[5]) {
-  return cw_cgns_list(parent, "DimensionalExponents", "DimensionalExponents_t", "R4", 5, exponents, NULL);
+CwStatus cw_cgns_quantity(hid_t parent, const char *name, const char *type, hsize_t count, const void *data,
+                          const float exponents[5]) {
+  CwStatus status = CW_OK;
+  hid_t array = -1;
+  CW_TRY(cw_cgns_list(parent, name, "DataArray_t", type, count, data, &array));
+  CW_TRY(cw_cgns_list(array, "DimensionalExponents", "DimensionalExponents_t", "R4", 5, exponents, NULL));
+done:
+  if (array >= 0) H5Gclose(array);
+  return status;
 }

@@ -30,7 +30,8 @@ CwStatus cw_cgns_list(hid_t parent, const char *name, const char *label, const c
 CwStatus cw_cgns_integers(hid_t parent, const char *name, const char *label, int wide, hsize_t count, hsize_t columns,
                           const int64_t *data, hid_t *node);
 
-// DimensionalExponents of mass, length, time, temperature, angle for the data of `parent`.
-CwStatus cw_cgns_exponents(hid_t parent, const float exponents[5]);
+// A DataArray_t of `count` values with the exponents of mass, length, time, temperature and angle in its unit.
+CwStatus cw_cgns_quantity(hid_t parent, const char *name, const char *type, hsize_t count, const void *data,
+                          const float exponents[5]);
 
 #endif

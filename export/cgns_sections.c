@@ -7,8 +7,7 @@
 int64_t cw_cgns_patch_first(const CwAssembly *a, int patch) {
   int domain = a->mesh->patches[patch].domain;
   int64_t first = a->totals[domain].cells + 1;
-  for (int p = a->mesh->domains[domain].first_patch; p < patch; ++p)
-    first += a->patches[p].triangles + a->patches[p].quads;
+  for (int p = a->mesh->domains[domain].first_patch; p < patch; ++p) first += cw_face_count(a->patches[p].faces);
   return first;
 }
 
@@ -37,8 +36,8 @@ CwStatus cw_cgns_sections(const CwAssembly *a, int domain, CwSection **sections,
   add(*sections, count, "", "prisms", CW_CGNS_PENTA_6, 6, -1, &next, total->prisms);
   for (int p = d->first_patch; p < d->first_patch + d->patch_count; ++p) {
     const char *name = a->mesh->patches[p].name;
-    add(*sections, count, name, "_triangles", CW_CGNS_TRI_3, 3, p, &next, a->patches[p].triangles);
-    add(*sections, count, name, "_quads", CW_CGNS_QUAD_4, 4, p, &next, a->patches[p].quads);
+    add(*sections, count, name, "_triangles", CW_CGNS_TRI_3, 3, p, &next, a->patches[p].faces.triangles);
+    add(*sections, count, name, "_quads", CW_CGNS_QUAD_4, 4, p, &next, a->patches[p].faces.quads);
   }
 done:
   return status;

@@ -3,7 +3,6 @@
 // quadrilaterals of each patch next to each other, so that one range covers a patch.
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "export/cgns_file.h"
 #include "export/cgns_node.h"
@@ -11,7 +10,7 @@
 
 static CwStatus put_reference_state(hid_t base, const CwCase *table, double reference_length) {
   CwStatus status = CW_OK;
-  hid_t state = -1, array = -1;
+  hid_t state = -1;
   const struct {
     const char *name;
     double value;
@@ -23,14 +22,9 @@ static CwStatus put_reference_state(hid_t base, const CwCase *table, double refe
       {"LengthReference", reference_length, {0, 1, 0, 0, 0}},
   };
   CW_TRY(cw_cgns_node(base, "ReferenceState", "ReferenceState_t", "MT", 0, NULL, NULL, &state));
-  for (size_t i = 0; i < sizeof values / sizeof *values; ++i) {
-    CW_TRY(cw_cgns_list(state, values[i].name, "DataArray_t", "R8", 1, &values[i].value, &array));
-    CW_TRY(cw_cgns_exponents(array, values[i].exponents));
-    H5Gclose(array);
-    array = -1;
-  }
+  for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
+    CW_TRY(cw_cgns_quantity(state, values[i].name, "R8", 1, &values[i].value, values[i].exponents));
 done:
-  if (array >= 0) H5Gclose(array);
   if (state >= 0) H5Gclose(state);
   return status;
 }
@@ -71,16 +65,11 @@ done:
 static CwStatus put_coordinates(hid_t zone, int64_t points) {
   CwStatus status = CW_OK;
   static const char *const names[] = {"CoordinateX", "CoordinateY", "CoordinateZ"};
-  hid_t grid = -1, array = -1;
+  hid_t grid = -1;
   CW_TRY(cw_cgns_node(zone, "GridCoordinates", "GridCoordinates_t", "MT", 0, NULL, NULL, &grid));
-  for (int k = 0; k < 3; ++k) {
-    CW_TRY(cw_cgns_list(grid, names[k], "DataArray_t", "R8", (hsize_t)points, NULL, &array));
-    CW_TRY(cw_cgns_exponents(array, (float[]){0, 1, 0, 0, 0}));
-    H5Gclose(array);
-    array = -1;
-  }
+  for (int k = 0; k < 3; ++k)
+    CW_TRY(cw_cgns_quantity(grid, names[k], "R8", (hsize_t)points, NULL, (float[]){0, 1, 0, 0, 0}));
 done:
-  if (array >= 0) H5Gclose(array);
   if (grid >= 0) H5Gclose(grid);
   return status;
 }
@@ -111,10 +100,10 @@ static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain, int 
   hid_t all = -1, one = -1;
   CW_TRY(cw_cgns_node(zone, "ZoneBC", "ZoneBC_t", "MT", 0, NULL, NULL, &all));
   for (int p = 0; p < mesh->patch_count; ++p) {
-    const CwPatchPart *sum = &a->patches[p];
-    if (mesh->patches[p].domain != domain || sum->triangles + sum->quads == 0) continue;
+    const int64_t faces = cw_face_count(a->patches[p].faces);
+    if (mesh->patches[p].domain != domain || faces == 0) continue;
     CW_TRY(cw_cgns_text(all, mesh->patches[p].name, "BC_t", "FamilySpecified", &one));
-    CW_TRY(put_point_range(one, cw_cgns_patch_first(a, p), sum->triangles + sum->quads, wide));
+    CW_TRY(put_point_range(one, cw_cgns_patch_first(a, p), faces, wide));
     CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
     CW_TRY(cw_cgns_text(one, "FamilyName", "FamilyName_t", mesh->patches[p].name, NULL));
     H5Gclose(one);
@@ -182,16 +171,12 @@ done:
 
 static CwStatus put_rotation(hid_t zone, double speed) {
   CwStatus status = CW_OK;
-  hid_t rotating = -1, array = -1;
+  hid_t rotating = -1;
   CW_TRY(cw_cgns_node(zone, "RotatingCoordinates", "RotatingCoordinates_t", "MT", 0, NULL, NULL, &rotating));
-  CW_TRY(cw_cgns_list(rotating, "RotationCenter", "DataArray_t", "R4", 3, (float[]){0, 0, 0}, &array));
-  CW_TRY(cw_cgns_exponents(array, (float[]){0, 1, 0, 0, 0}));
-  H5Gclose(array);
-  array = -1;
-  CW_TRY(cw_cgns_list(rotating, "RotationRateVector", "DataArray_t", "R4", 3, (float[]){0, 0, (float)speed}, &array));
-  CW_TRY(cw_cgns_exponents(array, (float[]){0, 0, -1, 0, 1}));
+  CW_TRY(cw_cgns_quantity(rotating, "RotationCenter", "R4", 3, (float[]){0, 0, 0}, (float[]){0, 1, 0, 0, 0}));
+  CW_TRY(cw_cgns_quantity(rotating, "RotationRateVector", "R4", 3, (float[]){0, 0, (float)speed},
+                          (float[]){0, 0, -1, 0, 1}));
 done:
-  if (array >= 0) H5Gclose(array);
   if (rotating >= 0) H5Gclose(rotating);
   return status;
 }
@@ -227,7 +212,7 @@ CwStatus cw_cgns_plan(const CwAssembly *a, CwIntegers integers, int *wide) {
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     int64_t elements = a->totals[d].cells;
     for (int p = 0; p < a->mesh->patch_count; ++p)
-      if (a->mesh->patches[p].domain == d) elements += a->patches[p].triangles + a->patches[p].quads;
+      if (a->mesh->patches[p].domain == d) elements += cw_face_count(a->patches[p].faces);
     if (a->totals[d].points <= INT32_MAX && elements <= INT32_MAX) continue;
     CW_REQUIRE(integers != CW_INTEGERS_32, CW_ERR_EXPORT,
                "domain %s: %lld points and %lld elements; CGNS with 32-bit integers allows %d (cgns.integers: 64 holds "
@@ -241,14 +226,6 @@ done:
 
 static int stuck; // a file could not be closed
 
-static CwStatus close_tree(hid_t file) {
-  CwStatus status = CW_OK;
-  stuck |= H5Fclose(file) < 0;
-  CW_REQUIRE(!stuck, CW_ERR_IO, "the CGNS file cannot be written to its end (is the disk full?)");
-done:
-  return status;
-}
-
 int cw_cgns_stuck(void) {
   return stuck;
 }
@@ -258,16 +235,16 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CwStatus status = CW_OK;
   hid_t file = -1, base = -1;
   const int dimensions[] = {3, 3};
-  static const char units[5][33] = {"Kilogram                        ", "Meter                           ",
-                                    "Second                          ", "Kelvin                          ",
-                                    "Radian                          "};
-  char packed[5 * 32];
-  for (int i = 0; i < 5; ++i) memcpy(packed + 32 * i, units[i], 32);
+  static const char units[] = "Kilogram                        "
+                              "Meter                           "
+                              "Second                          "
+                              "Kelvin                          "
+                              "Radian                          ";
   CW_TRY(cw_cgns_create(path, &file));
   CW_TRY(cw_cgns_list(file, "pump", "CGNSBase_t", "I4", 2, dimensions, &base));
   CW_TRY(cw_cgns_text(base, "SimulationType", "SimulationType_t", "NonTimeAccurate", NULL));
   CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
-  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed, NULL));
+  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, units, NULL));
   CW_TRY(put_equations(base));
   CW_TRY(put_reference_state(base, table, a->mesh->flow.reference_length));
   CW_TRY(put_families(base, a->mesh));
@@ -275,8 +252,9 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
 done:
   if (base >= 0) H5Gclose(base);
   if (status == CW_ERR_IO) status = CW_FAIL(status, "%s: %s (is the disk full?)", path, cw_fail_message());
-  if (file >= 0) {
-    CwStatus closed = close_tree(file);
+  if (file >= 0) stuck |= H5Fclose(file) < 0;
+  if (file >= 0 && stuck) {
+    const CwStatus closed = CW_FAIL(CW_ERR_IO, "the CGNS file cannot be written to its end (is the disk full?)");
     if (status == CW_OK) status = closed;
   }
   return status;

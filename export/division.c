@@ -7,12 +7,6 @@
 #include "export/bisection.h"
 #include "pipeline/mesh/cell.h"
 
-static int64_t all_cells(const CwAssembly *a) {
-  int64_t cells = 0;
-  for (int d = 0; d < a->mesh->domain_count; ++d) cells += a->totals[d].cells;
-  return cells;
-}
-
 // The first cell of a part among `cells`, and the part of a cell.
 static int64_t part_begin(int64_t part, int64_t parts, int64_t cells) {
   return part * cells / parts;
@@ -57,7 +51,7 @@ done:
 
 CwStatus cw_division_plan(const CwAssembly *a, int parts, CwDivision *v) {
   CwStatus status = CW_OK;
-  const int64_t cells = all_cells(a);
+  const int64_t cells = cw_assembly_cells(a);
   *v = (CwDivision){.assembly = a, .part_count = parts};
   CW_REQUIRE(parts <= cells, CW_ERR_EXPORT, "%d parts of %lld cells; allowed: openfoam.processors from 1 to %lld",
              parts, (long long)cells, (long long)cells);
@@ -154,16 +148,6 @@ static int compare_links(const void *left, const void *right) {
   return (x->region > y->region) - (x->region < y->region);
 }
 
-const CwLink *cw_division_link(const CwDivision *v, int part, int other, int region) {
-  const CwLink key = {.part = part, .other = other, .region = region};
-  return v->links ? bsearch(&key, v->links, (size_t)v->link_count, sizeof key, compare_links) : NULL;
-}
-
-static void add(CwFaceCount *sum, CwFaceCount count) {
-  sum->triangles += count.triangles;
-  sum->quads += count.quads;
-}
-
 // What one rank finds in its regions.
 typedef struct {
   CwDivision *division;
@@ -186,13 +170,13 @@ done:
   return status;
 }
 
-// Sums up what stands more than once.
-static void merge_links(CwLink *links, int64_t *count) {
-  int64_t kept = 0;
-  if (*count) qsort(links, (size_t)*count, sizeof *links, compare_links);
-  for (int64_t i = 0; i < *count; ++i)
-    if (kept && compare_links(&links[kept - 1], &links[i]) == 0)
-      add(&links[kept - 1].count, links[i].count);
+// Sums up what stands more than once from `first` on.
+static void merge_links(CwLink *links, int64_t first, int64_t *count) {
+  int64_t kept = first;
+  if (*count > first) qsort(links + first, (size_t)(*count - first), sizeof *links, compare_links);
+  for (int64_t i = first; i < *count; ++i)
+    if (kept > first && compare_links(&links[kept - 1], &links[i]) == 0)
+      cw_face_count_add(&links[kept - 1].count, links[i].count);
     else
       links[kept++] = links[i];
   *count = kept;
@@ -255,14 +239,12 @@ static CwStatus count_inner(const CwDivision *v, int region, const CwRegionData 
       if (s.open[f] >= 0) continue;
       const int32_t here = piece_of[s.cell[f]], there = piece_of[s.across[f] - v->assembly->places[region].cell];
       if (here == there)
-        add(&pieces[here].inner, (CwFaceCount){s.sides[f] == 3, s.sides[f] == 4});
+        cw_face_count_add(&pieces[here].inner, (CwFaceCount){s.sides[f] == 3, s.sides[f] == 4});
       else
         CW_TRY(add_link(&found->links, &found->link_count, &found->link_room, pieces[here].part, pieces[there].part,
                         region, s.sides[f]));
     }
-  int64_t own = found->link_count - before;
-  merge_links(found->links + before, &own);
-  found->link_count = before + own;
+  merge_links(found->links, before, &found->link_count);
 done:
   cw_face_stretch_free(&s);
   return status;
@@ -290,9 +272,8 @@ done:
   return status;
 }
 
-// All ranks get the counts of all pieces: sums over ranks, of which one holds the value and the others 0.
-static CwStatus spread_pieces(CwDivision *v, const CwRanks *ranks) {
-  CwStatus status = CW_OK;
+// All ranks get the counts of all pieces.
+static void spread_pieces(CwDivision *v, const CwRanks *ranks) {
   const CwMesh *mesh = v->assembly->mesh;
   for (int r = 0; r < mesh->region_count; ++r)
     for (int p = v->first_piece[r]; p < v->first_piece[r + 1]; ++p) {
@@ -302,7 +283,6 @@ static CwStatus spread_pieces(CwDivision *v, const CwRanks *ranks) {
       MPI_Bcast(piece->patch, 2 * mesh->domains[mesh->regions[r].domain].patch_count, MPI_INT64_T,
                 v->assembly->share.owner[r], ranks->comm);
     }
-  return status;
 }
 
 static int compare_shared(const void *left, const void *right) {
@@ -354,16 +334,14 @@ static CwStatus spread_links(CwDivision *v, const CwRanks *ranks, Found *found) 
       const int here = v->open_part[i], there = v->open_part[a->partner[i]];
       if (a->across[a->partner[i]] > a->across[i]) continue; // the other region's
       if (here == there)
-        add(&v->pieces[v->first_piece[r] + here - v->pieces[v->first_piece[r]].part].inner,
-            (CwFaceCount){found->open_sides[i] == 3, found->open_sides[i] == 4});
+        cw_face_count_add(&v->pieces[v->first_piece[r] + here - v->pieces[v->first_piece[r]].part].inner,
+                          (CwFaceCount){found->open_sides[i] == 3, found->open_sides[i] == 4});
       else
         CW_TRY(add_link(&all, &count, &room, here, there, r, found->open_sides[i]));
     }
-    int64_t own = count - before;
-    merge_links(all + before, &own);
-    count = before + own;
+    merge_links(all, before, &count);
   }
-  merge_links(all, &count);
+  merge_links(all, 0, &count);
   v->links = all;
   v->link_count = (int)count;
   all = NULL;
@@ -380,12 +358,9 @@ static void take_whole(CwDivision *v) {
     const CwRegionPlace *place = &a->places[r];
     const CwMeshDomain *domain = &a->mesh->domains[a->mesh->regions[r].domain];
     piece->own_points = a->mesh->regions[r].own_points;
-    piece->inner.triangles = place->inner_triangles + place->outer_triangles;
-    piece->inner.quads = place->inner_quads + place->outer_quads;
-    for (int p = 0; p < domain->patch_count; ++p) {
-      const CwPatchPart *part = &a->parts[(size_t)r * (size_t)a->mesh->patch_count + (size_t)(domain->first_patch + p)];
-      piece->patch[p] = (CwFaceCount){part->triangles, part->quads};
-    }
+    piece->inner = place->inner;
+    cw_face_count_add(&piece->inner, place->outer);
+    for (int p = 0; p < domain->patch_count; ++p) piece->patch[p] = cw_patch_part(a, r, domain->first_patch + p)->faces;
   }
 }
 
@@ -406,10 +381,10 @@ static void number_pieces(CwDivision *v) {
         part->points += piece->own_points;
         part->domain_cells[d] += piece->cells;
         piece->first_inner = part->inner;
-        add(&part->inner, piece->inner);
+        cw_face_count_add(&part->inner, piece->inner);
         for (int p = 0; p < domain->patch_count; ++p) {
           piece->first_patch[p] = part->patch[domain->first_patch + p];
-          add(&part->patch[domain->first_patch + p], piece->patch[p]);
+          cw_face_count_add(&part->patch[domain->first_patch + p], piece->patch[p]);
         }
       }
   }
@@ -417,16 +392,10 @@ static void number_pieces(CwDivision *v) {
     CwLink *link = &v->links[i], *last = i ? link - 1 : NULL;
     if (last && last->part == link->part && last->other == link->other) {
       link->first = last->first;
-      add(&link->first, last->count);
+      cw_face_count_add(&link->first, last->count);
     }
     if (!v->parts[link->part].link_count++) v->parts[link->part].first_link = i;
   }
-}
-
-static void found_free(Found *found) {
-  free(found->links);
-  free(found->shared);
-  free(found->open_sides);
 }
 
 CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
@@ -448,11 +417,13 @@ CwStatus cw_division_count(CwDivision *v, const CwRanks *ranks) {
   cw_ranks_reduce(ranks, v->open_cell, a->open_count, MPI_INT64_T, MPI_SUM);
   cw_ranks_reduce(ranks, v->open_part, a->open_count, MPI_INT32_T, MPI_SUM);
   cw_ranks_reduce(ranks, found.open_sides, a->open_count, MPI_INT8_T, MPI_SUM);
-  CW_TRY(spread_pieces(v, ranks));
+  spread_pieces(v, ranks);
   CW_TRY(spread_shared(v, ranks, &found));
   CW_TRY(spread_links(v, ranks, &found));
   number_pieces(v);
 done:
-  found_free(&found);
+  free(found.links);
+  free(found.shared);
+  free(found.open_sides);
   return status;
 }

@@ -48,7 +48,7 @@ typedef struct {
 CwStatus cw_division_plan(const CwAssembly *assembly, int parts, CwDivision *division);
 
 // Counts what each region gives to each part, for which every region is read again where there are several parts.
-// Collective.
+// Collective, though it may fail on a rank alone.
 CwStatus cw_division_count(CwDivision *division, const CwRanks *ranks);
 void cw_division_free(CwDivision *division);
 
@@ -62,8 +62,5 @@ void cw_division_points(const CwDivision *division, int region, int piece, const
 
 // The number in a part of a shared point of a domain that its cells have.
 int64_t cw_division_shared(const CwDivision *division, int part, int domain, int64_t shared_id);
-
-// The link of a region, or NULL.
-const CwLink *cw_division_link(const CwDivision *division, int part, int other, int region);
 
 #endif

@@ -6,11 +6,6 @@
 
 #include "pipeline/mesh/cell.h"
 
-static void add_count(CwFaceCount *sum, int64_t triangles, int64_t quads) {
-  sum->triangles += triangles;
-  sum->quads += quads;
-}
-
 CwStatus cw_face_layout_make(const CwAssembly *a, CwFaceLayout *layout) {
   CwStatus status = CW_OK;
   *layout = (CwFaceLayout){0};
@@ -21,14 +16,14 @@ CwStatus cw_face_layout_make(const CwAssembly *a, CwFaceLayout *layout) {
     layout->cells += a->totals[d].cells;
   }
   for (int r = 0; r < a->mesh->region_count; ++r) {
-    const CwRegionPlace *place = &a->places[r];
     layout->region[r] = layout->inner;
-    add_count(&layout->inner, place->inner_triangles + place->outer_triangles, place->inner_quads + place->outer_quads);
+    cw_face_count_add(&layout->inner, a->places[r].inner);
+    cw_face_count_add(&layout->inner, a->places[r].outer);
   }
   layout->all = layout->inner;
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     layout->patch[p] = layout->all;
-    add_count(&layout->all, a->patches[p].triangles, a->patches[p].quads);
+    cw_face_count_add(&layout->all, a->patches[p].faces);
   }
 done:
   return status;
@@ -41,9 +36,8 @@ void cw_face_layout_free(CwFaceLayout *layout) {
 }
 
 CwFaceCount cw_face_layout_patch(const CwFaceLayout *layout, const CwAssembly *a, int region, int patch) {
-  const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
   CwFaceCount before = layout->patch[patch];
-  add_count(&before, part->triangle, part->quad);
+  cw_face_count_add(&before, cw_patch_part(a, region, patch)->before);
   return before;
 }
 

@@ -7,18 +7,6 @@
 
 #include "export/assembly.h"
 
-typedef struct {
-  int64_t triangles, quads;
-} CwFaceCount;
-
-static inline int64_t cw_face_count(CwFaceCount count) {
-  return count.triangles + count.quads;
-}
-
-static inline int64_t cw_corner_count(CwFaceCount count) {
-  return 3 * count.triangles + 4 * count.quads;
-}
-
 // Where the faces of the whole mesh stand; points and cells of all domains together.
 typedef struct {
   int64_t points, cells;

@@ -1,58 +1,52 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/fluent_case.h"
 
-#include "export/blocks.h"
 #include "export/patch_role.h"
 
-static void put_patch(FILE *out, const CwCase *table, const CwMesh *mesh, const CwModelPatch *patch) {
+static CwStatus add_patch(const CwCase *table, const CwMesh *mesh, const CwModelPatch *patch, CwValues *values) {
   const CwOperatingPoint *point = &table->operating_point;
-  fprintf(out, "| %s | ", patch->name);
+  const char *name = patch->name;
   switch (patch->kind) {
   case CW_PATCH_INLET:
-    fprintf(out, "pressure-inlet | total pressure %.9g Pa, absolute frame |\n", point->inlet_pressure);
-    break;
+    return cw_values_append(values, "zones", "| %s | pressure-inlet | total pressure %.9g Pa, absolute frame |\n", name,
+                            point->inlet_pressure);
   case CW_PATCH_OUTLET:
-    fprintf(out, "pressure-outlet | target mass flow rate %.9g kg/s |\n",
-            patch->flow_share * point->flow_rate * table->fluid.density);
-    break;
+    return cw_values_append(values, "zones", "| %s | pressure-outlet | target mass flow rate %.9g kg/s |\n", name,
+                            patch->flow_share * point->flow_rate * table->fluid.density);
   case CW_PATCH_INTERFACE:
-    fprintf(out, "interface | see below |\n");
-    break;
+    return cw_values_append(values, "zones", "| %s | interface | see below |\n", name);
   case CW_PATCH_SYMMETRY:
-    fprintf(out, "symmetry | |\n");
-    break;
+    return cw_values_append(values, "zones", "| %s | symmetry | |\n", name);
   default:
     if (cw_patch_turns(mesh, patch) == (mesh->domains[patch->domain].rotating != 0))
-      fprintf(out, "wall | at rest relative to its cell zone |\n");
-    else if (cw_patch_turns(mesh, patch))
-      fprintf(out, "wall | turns at %.9g rad/s about +z, absolute |\n", point->speed);
-    else
-      fprintf(out, "wall | speed 0, absolute |\n");
+      return cw_values_append(values, "zones", "| %s | wall | at rest relative to its cell zone |\n", name);
+    if (cw_patch_turns(mesh, patch))
+      return cw_values_append(values, "zones", "| %s | wall | turns at %.9g rad/s about +z, absolute |\n", name,
+                              point->speed);
+    return cw_values_append(values, "zones", "| %s | wall | speed 0, absolute |\n", name);
   }
 }
 
 static CwStatus set_zones(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
-  CwBlocks zones = {0};
-  CW_TRY(cw_blocks_open(&zones));
+  CW_TRY(cw_values_start(values, "zones"));
   for (int d = 0; d < mesh->domain_count; ++d) {
-    fprintf(zones.out, "| %s | fluid | ", mesh->domains[d].name);
+    CW_TRY(cw_values_append(values, "zones", "| %s | fluid | ", mesh->domains[d].name));
     if (mesh->domains[d].rotating)
-      fprintf(zones.out, "frame motion, %.9g rad/s about +z through the origin |\n", table->operating_point.speed);
+      CW_TRY(cw_values_append(values, "zones", "frame motion, %.9g rad/s about +z through the origin |\n",
+                              table->operating_point.speed));
     else
-      fprintf(zones.out, "at rest |\n");
+      CW_TRY(cw_values_append(values, "zones", "at rest |\n"));
   }
   for (int p = 0; p < mesh->patch_count; ++p)
-    if (cw_patch_is_there(a, p)) put_patch(zones.out, table, mesh, &mesh->patches[p]);
-  CW_TRY(cw_blocks_close(&zones, "zones", values));
-  CW_TRY(cw_blocks_open(&zones));
+    if (cw_patch_is_there(a, p)) CW_TRY(add_patch(table, mesh, &mesh->patches[p], values));
+  CW_TRY(cw_values_start(values, "interfaces"));
   for (int i = 0; i < mesh->interface_count; ++i)
-    fprintf(zones.out, "    /define/mesh-interfaces/create interface_%d %s () %s ()\n", i + 1,
-            mesh->patches[mesh->interfaces[i].patch[0]].name, mesh->patches[mesh->interfaces[i].patch[1]].name);
-  CW_TRY(cw_blocks_close(&zones, "interfaces", values));
+    CW_TRY(cw_values_append(values, "interfaces", "    /define/mesh-interfaces/create interface_%d %s () %s ()\n",
+                            i + 1, mesh->patches[mesh->interfaces[i].patch[0]].name,
+                            mesh->patches[mesh->interfaces[i].patch[1]].name));
 done:
-  cw_blocks_close(&zones, NULL, values);
   return status;
 }
 
@@ -68,7 +62,7 @@ CwStatus cw_fluent_case_write(const char *folder, const CwCase *table, const CwA
   CW_TRY(cw_values_set(&values, "time_step", "%.9g",
                        table->operating_point.time_step_angle / table->operating_point.speed));
   CW_TRY(set_zones(table, a, &values));
-  CW_TRY(cw_templates_write("fluent/", folder, &values));
+  CW_TRY(cw_templates_write("fluent/", folder, NULL, &values));
 done:
   cw_values_free(&values);
   return status;

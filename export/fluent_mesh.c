@@ -46,11 +46,15 @@ static CwFaceCount before_domain(const CwFluentMesh *mesh, int domain) {
   return domain < input->domain_count ? mesh->layout.region[input->domains[domain].first_region] : mesh->layout.inner;
 }
 
-static int head_text(const CwFluentMesh *mesh, const char *name, char text[TEXT_SIZE]) {
+static CwFaceCount inner_faces(const CwFluentMesh *mesh, int domain) {
+  return less(before_domain(mesh, domain + 1), before_domain(mesh, domain));
+}
+
+static int head_text(const CwFluentMesh *mesh, char text[TEXT_SIZE]) {
   return snprintf(text, TEXT_SIZE,
-                  "(0 \"%s: metres, rotation about +z\")\n(2 3)\n(10 (0 1 %llx 0 3))\n(12 (0 1 %llx 0 0))\n"
+                  "(0 \"pump: metres, rotation about +z\")\n(2 3)\n(10 (0 1 %llx 0 3))\n(12 (0 1 %llx 0 0))\n"
                   "(13 (0 1 %llx 0 0))\n(10 (1 1 %llx 1 3)(\n",
-                  name, (unsigned long long)mesh->layout.points, (unsigned long long)mesh->layout.cells,
+                  (unsigned long long)mesh->layout.points, (unsigned long long)mesh->layout.cells,
                   (unsigned long long)cw_face_count(mesh->layout.all), (unsigned long long)mesh->layout.points);
 }
 
@@ -72,16 +76,14 @@ static int cells_text(const CwFluentMesh *mesh, int domain, char text[TEXT_SIZE]
 }
 
 static int faces_text(const CwFluentMesh *mesh, int domain, char text[TEXT_SIZE]) {
-  const CwFaceCount before = before_domain(mesh, domain);
-  return section_text(13, zone_of_faces(mesh->assembly->mesh, domain), cw_face_count(before),
-                      cw_face_count(less(before_domain(mesh, domain + 1), before)), INTERIOR, FACES_MIXED, text);
+  return section_text(13, zone_of_faces(mesh->assembly->mesh, domain), cw_face_count(before_domain(mesh, domain)),
+                      cw_face_count(inner_faces(mesh, domain)), INTERIOR, FACES_MIXED, text);
 }
 
 static int patch_text(const CwFluentMesh *mesh, int patch, char text[TEXT_SIZE]) {
-  const CwPatchPart *sum = &mesh->assembly->patches[patch];
   return section_text(13, zone_of_patch(mesh->assembly->mesh, patch), cw_face_count(mesh->layout.patch[patch]),
-                      sum->triangles + sum->quads, zone_types[mesh->assembly->mesh->patches[patch].kind].code,
-                      FACES_MIXED, text);
+                      cw_face_count(mesh->assembly->patches[patch].faces),
+                      zone_types[mesh->assembly->mesh->patches[patch].kind].code, FACES_MIXED, text);
 }
 
 CwStatus cw_fluent_mesh_plan(const CwAssembly *a, CwFluentMesh *mesh) {
@@ -93,7 +95,7 @@ CwStatus cw_fluent_mesh_plan(const CwAssembly *a, CwFluentMesh *mesh) {
   CW_REQUIRE(cw_face_count(mesh->layout.all) <= INT32_MAX && mesh->layout.points <= INT32_MAX, CW_ERR_EXPORT,
              "%lld faces and %lld points; Fluent's mesh file allows %d of each",
              (long long)cw_face_count(mesh->layout.all), (long long)mesh->layout.points, INT32_MAX);
-  int64_t at = mesh->point_start = head_text(mesh, "pump", text);
+  int64_t at = mesh->point_start = head_text(mesh, text);
   at += POINT_SIZE * mesh->layout.points + END_SIZE;
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     mesh->cell_start[d] = at + cells_text(mesh, d, text);
@@ -101,20 +103,17 @@ CwStatus cw_fluent_mesh_plan(const CwAssembly *a, CwFluentMesh *mesh) {
   }
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     mesh->face_start[d] = at + faces_text(mesh, d, text);
-    at = mesh->face_start[d] + face_bytes(less(before_domain(mesh, d + 1), before_domain(mesh, d))) + END_SIZE;
+    at = mesh->face_start[d] + face_bytes(inner_faces(mesh, d)) + END_SIZE;
   }
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     mesh->patch_start[p] = at;
     if (!cw_patch_is_there(a, p)) continue;
     mesh->patch_start[p] = at + patch_text(mesh, p, text);
-    at = mesh->patch_start[p] + face_bytes((CwFaceCount){a->patches[p].triangles, a->patches[p].quads}) + END_SIZE;
+    at = mesh->patch_start[p] + face_bytes(a->patches[p].faces) + END_SIZE;
   }
+  mesh->end = at;
 done:
   return status;
-}
-
-static CwStatus put_text(const CwFluentMesh *mesh, const char *text, int length, int64_t at) {
-  return cw_place_file_put(&mesh->file, text, length, at);
 }
 
 static CwStatus put_points(const CwFluentMesh *mesh, const double (*points)[3], int64_t count, int64_t first) {
@@ -130,43 +129,41 @@ done:
   return status;
 }
 
+// The line before the values of a section and what ends them.
+static CwStatus put_section(const CwFluentMesh *mesh, const char *text, int length, int64_t start, int64_t bytes) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_place_file_put(&mesh->file, text, length, start - length));
+  CW_TRY(cw_place_file_put(&mesh->file, section_end, END_SIZE, start + bytes));
+done:
+  return status;
+}
+
 // What stands around the values of each section, and at the end the names of the zones.
 static CwStatus put_frame(const CwFluentMesh *mesh) {
   CwStatus status = CW_OK;
   const CwAssembly *a = mesh->assembly;
   char text[TEXT_SIZE];
-  int64_t end = mesh->point_start + POINT_SIZE * mesh->layout.points;
-  int length = head_text(mesh, "pump", text);
-  CW_TRY(put_text(mesh, text, length, 0));
-  CW_TRY(put_text(mesh, section_end, END_SIZE, end));
+  int64_t end = mesh->end;
+  int length;
+  CW_TRY(put_section(mesh, text, head_text(mesh, text), mesh->point_start, POINT_SIZE * mesh->layout.points));
   for (int d = 0; d < a->mesh->domain_count; ++d) {
-    length = cells_text(mesh, d, text);
-    CW_TRY(put_text(mesh, text, length, mesh->cell_start[d] - length));
-    CW_TRY(put_text(mesh, section_end, END_SIZE, mesh->cell_start[d] + TYPE_SIZE * a->totals[d].cells));
-    length = faces_text(mesh, d, text);
-    CW_TRY(put_text(mesh, text, length, mesh->face_start[d] - length));
-    end = mesh->face_start[d] + face_bytes(less(before_domain(mesh, d + 1), before_domain(mesh, d)));
-    CW_TRY(put_text(mesh, section_end, END_SIZE, end));
+    CW_TRY(put_section(mesh, text, cells_text(mesh, d, text), mesh->cell_start[d], TYPE_SIZE * a->totals[d].cells));
+    CW_TRY(put_section(mesh, text, faces_text(mesh, d, text), mesh->face_start[d], face_bytes(inner_faces(mesh, d))));
   }
-  for (int p = 0; p < a->mesh->patch_count; ++p) {
-    if (!cw_patch_is_there(a, p)) continue;
-    length = patch_text(mesh, p, text);
-    CW_TRY(put_text(mesh, text, length, mesh->patch_start[p] - length));
-    end = mesh->patch_start[p] + face_bytes((CwFaceCount){a->patches[p].triangles, a->patches[p].quads});
-    CW_TRY(put_text(mesh, section_end, END_SIZE, end));
-  }
-  end += END_SIZE;
+  for (int p = 0; p < a->mesh->patch_count; ++p)
+    if (cw_patch_is_there(a, p))
+      CW_TRY(put_section(mesh, text, patch_text(mesh, p, text), mesh->patch_start[p], face_bytes(a->patches[p].faces)));
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     length = snprintf(text, sizeof text, "(45 (%d fluid %s)())\n(45 (%d interior %s_inside)())\n", zone_of_cells(d),
                       a->mesh->domains[d].name, zone_of_faces(a->mesh, d), a->mesh->domains[d].name);
-    CW_TRY(put_text(mesh, text, length, end));
+    CW_TRY(cw_place_file_put(&mesh->file, text, length, end));
     end += length;
   }
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     if (!cw_patch_is_there(a, p)) continue;
     length = snprintf(text, sizeof text, "(45 (%d %s %s)())\n", zone_of_patch(a->mesh, p),
                       zone_types[a->mesh->patches[p].kind].name, a->mesh->patches[p].name);
-    CW_TRY(put_text(mesh, text, length, end));
+    CW_TRY(cw_place_file_put(&mesh->file, text, length, end));
     end += length;
   }
 done:

@@ -16,6 +16,7 @@ typedef struct {
   int64_t cell_start[CW_DOMAINS_MOST]; // of the types of each domain's cells
   int64_t face_start[CW_DOMAINS_MOST]; // of each domain's inner faces
   int64_t *patch_start;                // of each patch's faces
+  int64_t end;                         // of the sections
 } CwFluentMesh;
 
 // Computes the layout. CW_ERR_EXPORT where a number passes 2^31 - 1. Zeroed `mesh` on entry.

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "export/foam_zones.h"
+#include "export/folder.h"
 #include "export/patch_role.h"
 #include "export/template.h"
 
@@ -58,9 +59,7 @@ static int put_processors(FILE *out, const CwFoamMesh *mesh, int part) {
 
 static void put_boundary(FILE *out, const CwFoamMesh *mesh, int part) {
   const CwAssembly *a = mesh->assembly;
-  int present = put_processors(NULL, mesh, part);
-  for (int p = 0; p < a->mesh->patch_count; ++p) present += cw_patch_is_there(a, p);
-  fprintf(out, head, "polyBoundaryMesh", "boundary", present);
+  fprintf(out, head, "polyBoundaryMesh", "boundary", cw_patch_count(a, -1, NULL) + put_processors(NULL, mesh, part));
   for (int p = 0; p < a->mesh->patch_count; ++p)
     if (cw_patch_is_there(a, p)) put_patch(out, mesh, part, p);
   put_processors(out, mesh, part);
@@ -69,37 +68,29 @@ static void put_boundary(FILE *out, const CwFoamMesh *mesh, int part) {
 
 // The numbers that the patches have in the whole mesh; those to other parts have none.
 static void put_boundary_numbers(FILE *out, const CwFoamMesh *mesh, int part) {
-  const CwAssembly *a = mesh->assembly;
-  int present = 0;
-  const int others = put_processors(NULL, mesh, part);
-  for (int p = 0; p < a->mesh->patch_count; ++p) present += cw_patch_is_there(a, p);
+  const int present = cw_patch_count(mesh->assembly, -1, NULL), others = put_processors(NULL, mesh, part);
   fprintf(out, head, "labelList", "boundaryProcAddressing", present + others);
   for (int i = 0; i < present; ++i) fprintf(out, "%d\n", i);
   for (int i = 0; i < others; ++i) fprintf(out, "-1\n");
   fprintf(out, ")\n");
 }
 
-static int count_kind(const CwMesh *mesh, int kind) {
-  int count = 0;
-  for (int p = 0; p < mesh->patch_count; ++p) count += (int)mesh->patches[p].kind == kind;
-  return count;
-}
-
 // Several inlets or outlets are a zone of faces too, over which solvers can report a mean.
 static void put_end_zones(FILE *out, const CwFoamMesh *mesh, int part) {
   const CwMesh *input = mesh->assembly->mesh;
-  const int zones = (count_kind(input, CW_PATCH_INLET) > 1) + (count_kind(input, CW_PATCH_OUTLET) > 1);
+  const int zones =
+      (cw_patch_kind_count(input, CW_PATCH_INLET) > 1) + (cw_patch_kind_count(input, CW_PATCH_OUTLET) > 1);
   const CwFaceCount *counts = mesh->division.parts[part].patch;
   fprintf(out, head, "regIOobject", "faceZones", zones);
-  for (int kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind) {
+  for (CwPatchKind kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind) {
     int64_t faces = 0;
-    if (count_kind(input, kind) <= 1) continue;
+    if (cw_patch_kind_count(input, kind) <= 1) continue;
     for (int p = 0; p < input->patch_count; ++p)
-      if ((int)input->patches[p].kind == kind) faces += cw_face_count(counts[p]);
+      if (input->patches[p].kind == kind) faces += cw_face_count(counts[p]);
     fprintf(out, "%s\n{\n    type            faceZone;\n    faceLabels      List<label>\n%lld\n(\n",
-            cw_foam_end_zone((CwPatchKind)kind), (long long)faces);
+            cw_foam_end_zone(kind), (long long)faces);
     for (int p = 0; p < input->patch_count; ++p)
-      for (int64_t f = 0; f < cw_face_count(counts[p]) && (int)input->patches[p].kind == kind; ++f)
+      for (int64_t f = 0; f < cw_face_count(counts[p]) && input->patches[p].kind == kind; ++f)
         fprintf(out, "%lld\n", (long long)(cw_face_count(mesh->parts[part].patch[p]) + f));
     fprintf(out, ")\n;\n    flipMap         List<bool> %lld{0};\n}\n", (long long)faces);
   }
@@ -117,7 +108,7 @@ static CwStatus write_file(const CwFoamMesh *mesh, int part, const char *folder,
   put(out, mesh, part);
   int failed = fclose(out) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "out of memory");
-  CW_REQUIRE(asprintf(&path, "%s/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_path_set(&path, "%s/%s", folder, name));
   CW_TRY(cw_text_write(path, text, 0));
 done:
   free(path);
@@ -129,7 +120,7 @@ CwStatus cw_foam_boundary_write(const CwFoamMesh *mesh, int part, const char *fo
   CwStatus status = CW_OK;
   const CwMesh *input = mesh->assembly->mesh;
   CW_TRY(write_file(mesh, part, folder, "boundary", put_boundary));
-  if (count_kind(input, CW_PATCH_INLET) > 1 || count_kind(input, CW_PATCH_OUTLET) > 1)
+  if (cw_patch_kind_count(input, CW_PATCH_INLET) > 1 || cw_patch_kind_count(input, CW_PATCH_OUTLET) > 1)
     CW_TRY(write_file(mesh, part, folder, "faceZones", put_end_zones));
   if (mesh->division.part_count > 1)
     CW_TRY(write_file(mesh, part, folder, "boundaryProcAddressing", put_boundary_numbers));

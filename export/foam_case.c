@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/foam_case.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "export/blocks.h"
-#include "export/foam_processors.h"
 #include "export/foam_zones.h"
+#include "export/folder.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
@@ -37,14 +34,21 @@ static const struct {
     [FIELD_NUT] = {"nut", "volScalarField", "[0 2 -1 0 0 0 0]", NULL},
 };
 
+static const char foam_head[] = "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       %s;\n"
+                                "    object      %s;\n}\n";
+
+static CwStatus set_head(const char *name, CwValues *values) {
+  return cw_values_set(values, "foam_head", foam_head, "dictionary", name);
+}
+
 // What the fields need to know.
 typedef struct {
   const CwCase *table;
   const CwAssembly *assembly;
   CwTurbulence inlet, inside;
   double flow_rate; // m3/s
-  int moving;                           // the mesh turns in time
-  int eddies;                           // large eddy simulation: near walls the wall function of all y+
+  int moving;       // the mesh turns in time
+  int eddies;       // large eddy simulation: near walls the wall function of all y+
 } Start;
 
 static void put_wall_velocity(FILE *out, const CwModelPatch *patch, const Start *start) {
@@ -135,11 +139,9 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
   if (field == FIELD_K) inlet = start->inlet.k, inside = start->inside.k;
   if (field == FIELD_EPSILON) inlet = start->inlet.epsilon, inside = start->inside.epsilon;
   if (field == FIELD_OMEGA) inlet = start->inlet.omega, inside = start->inside.omega;
-  fprintf(out,
-          "// SPDX-License-Identifier: AGPL-3.0-or-later\nFoamFile\n{\n    version     2.0;\n    format      "
-          "ascii;\n"
-          "    class       %s;\n    object      %s;\n}\n\ndimensions      %s;\ninternalField   uniform ",
-          fields[field].class, fields[field].name, fields[field].dimensions);
+  fprintf(out, "// SPDX-License-Identifier: AGPL-3.0-or-later\n");
+  fprintf(out, foam_head, fields[field].class, fields[field].name);
+  fprintf(out, "\ndimensions      %s;\ninternalField   uniform ", fields[field].dimensions);
   char uniform[32] = "(0 0 0)";
   if (field != FIELD_U) snprintf(uniform, sizeof uniform, "%.9g", inside);
   fprintf(out, "%s;\nboundaryField\n{\n", uniform);
@@ -157,11 +159,10 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
       put_scalar(out, field, patch, inlet, inside);
     fprintf(out, "    }\n");
   }
-  if (start->table->output.foam_processors > 1)
-    fprintf(out, processor_patches, uniform);
+  if (start->table->output.foam_processors > 1) fprintf(out, processor_patches, uniform);
   fprintf(out, "}\n");
   CW_REQUIRE(fflush(out) == 0, CW_ERR_MEMORY, "out of memory");
-  CW_REQUIRE(asprintf(&path, "%s/%s", folder, fields[field].name) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_path_set(&path, "%s/%s", folder, fields[field].name));
   CW_TRY(cw_text_write(path, text, 0));
 done:
   if (out) fclose(out);
@@ -186,8 +187,8 @@ static CwStatus set_release(const CwCase *table, CwValues *values) {
   CW_TRY(cw_values_set(values, "environment", "%s",
                        is_old ? "export WM_PROJECT_DIR=/usr/share/openfoam   # where the package keeps its etc/ folder"
                               : ". /usr/lib/openfoam/openfoam2406/etc/bashrc"));
-  CW_TRY(cw_values_set(values, "project_folder", "%s",
-                       is_old ? "/usr/share/openfoam" : "/usr/lib/openfoam/openfoam2406"));
+  CW_TRY(
+      cw_values_set(values, "project_folder", "%s", is_old ? "/usr/share/openfoam" : "/usr/lib/openfoam/openfoam2406"));
   CW_TRY(cw_values_set(values, "processors", "%d", processors));
   if (is_old)
     CW_TRY(cw_values_set(values, "decomposition",
@@ -204,10 +205,8 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   CwStatus status = CW_OK;
   const CwOperatingPoint *point = &table->operating_point;
   int resolved = cw_walls_resolved(a->mesh);
-  int64_t cells = 0;
-  for (int d = 0; d < a->mesh->domain_count; ++d) cells += a->totals[d].cells;
-  CW_TRY(cw_values_set(values, "usual_ranks", "%s", cw_foam_usual_ranks(cells)));
-  CW_TRY(cw_patch_names_set(a, cw_patch_turns, " ", "rotating_walls", values));
+  CW_TRY(cw_values_set(values, "usual_ranks", "%s", cw_foam_usual_ranks(cw_assembly_cells(a))));
+  CW_TRY(cw_patch_names_set(a, -1, cw_patch_turns, " ", "rotating_walls", values));
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
   CW_TRY(cw_values_set(values, "speed", "%.9g", point->speed));
   CW_TRY(cw_values_set(values, "flow_rate", "%.9g", point->flow_rate));
@@ -234,16 +233,14 @@ static int is_blade(const CwMesh *mesh, const CwModelPatch *patch) {
 // The mean pressure of walls that are monitored.
 static CwStatus set_monitored(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks pressures = {0};
-  CW_TRY(cw_blocks_open(&pressures));
+  CW_TRY(cw_values_start(values, "monitored_pressures"));
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     const char *name = a->mesh->patches[p].name;
     if (a->mesh->patches[p].monitored && cw_patch_is_there(a, p))
-      fprintf(pressures.out, "pressure_%s\n{\n    $pressure_outlet;\n    name            %s;\n}\n", name, name);
+      CW_TRY(cw_values_append(values, "monitored_pressures",
+                              "pressure_%s\n{\n    $pressure_outlet;\n    name            %s;\n}\n", name, name));
   }
-  CW_TRY(cw_blocks_close(&pressures, "monitored_pressures", values));
 done:
-  cw_blocks_close(&pressures, NULL, values);
   return status;
 }
 
@@ -262,7 +259,7 @@ static CwStatus set_eddy_values(const CwCase *table, const CwAssembly *a, CwValu
   CW_TRY(cw_values_set(values, "phase_steps", "%.0f", pitch == floor(pitch) ? pitch : steps));
   CW_TRY(cw_values_set(values, "les_model", "Smagorinsky"));
   CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh) ? "vanDriest" : "cubeRootVol"));
-  CW_TRY(cw_patch_names_set(a, is_blade, " ", "blades", values));
+  CW_TRY(cw_patch_names_set(a, -1, is_blade, " ", "blades", values));
   CW_TRY(set_monitored(a, values));
 done:
   return status;
@@ -272,7 +269,7 @@ done:
 static CwStatus write_fields(const char *folder, const char *part, const Start *start) {
   CwStatus status = CW_OK;
   char *path = NULL;
-  CW_REQUIRE(asprintf(&path, "%s/%s/0", folder, part) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_path_set(&path, "%s/%s/0", folder, part));
   CW_TRY(cw_make_directory(path));
   for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) {
     int transported = f == FIELD_K || f == FIELD_EPSILON || f == FIELD_OMEGA;
@@ -296,6 +293,29 @@ static Start start_at(double flow, const CwCase *table, const CwAssembly *a) {
   return start;
 }
 
+// Gives the folder of a case whose mesh is divided the folders of its parts, processorN, each with a link to the start
+// fields of the case, which are uniform and so those of every part. `above`: the way from there to the case that has
+// the mesh, for a link to its constant; NULL: this is that case.
+static CwStatus link_parts(const char *folder, int count, const char *above) {
+  CwStatus status = CW_OK;
+  char *part = NULL, *link = NULL, *target = NULL;
+  for (int p = 0; p < count; ++p) {
+    CW_TRY(cw_path_set(&part, "%s/processor%d", folder, p));
+    CW_TRY(cw_make_directory(part));
+    CW_TRY(cw_path_set(&link, "%s/0", part));
+    CW_TRY(cw_link_make(link, "../0"));
+    if (!above) continue;
+    CW_TRY(cw_path_set(&link, "%s/constant", part));
+    CW_TRY(cw_path_set(&target, "%s/processor%d/constant", above, p));
+    CW_TRY(cw_link_make(link, target));
+  }
+done:
+  free(part);
+  free(link);
+  free(target);
+  return status;
+}
+
 // A steady case for each point of the curve, points/NAME: fields of its own, all else is that of the operating point.
 static CwStatus write_points(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
@@ -304,20 +324,17 @@ static CwStatus write_points(const char *folder, const CwCase *table, const CwAs
   CwCasePoint points[CW_LIST_MOST];
   const int count = cw_case_points(table, points);
   for (int k = 0; k < count; ++k) {
-    free(point);
-    CW_REQUIRE(asprintf(&point, "%s/points/%s", folder, points[k].name) >= 0, CW_ERR_MEMORY, "out of memory");
+    CW_TRY(cw_path_set(&point, "%s/points/%s", folder, points[k].name));
     CW_TRY(cw_make_directory(point));
     const Start start = start_at(points[k].flow, table, a);
     CW_TRY(write_fields(point, ".", &start));
     for (size_t i = 0; i < sizeof shared / sizeof *shared; ++i) {
       char target[32];
       snprintf(target, sizeof target, "../../%s", shared[i]);
-      free(link);
-      CW_REQUIRE(asprintf(&link, "%s/%s", point, shared[i]) >= 0, CW_ERR_MEMORY, "out of memory");
-      CW_REQUIRE(symlink(target, link) == 0, CW_ERR_IO, "%s: cannot be made: %s", link, strerror(errno));
+      CW_TRY(cw_path_set(&link, "%s/%s", point, shared[i]));
+      CW_TRY(cw_link_make(link, target));
     }
-    if (table->output.foam_processors > 1)
-      CW_TRY(cw_foam_processors_link(point, table->output.foam_processors, "../../.."));
+    if (table->output.foam_processors > 1) CW_TRY(link_parts(point, table->output.foam_processors, "../../.."));
   }
 done:
   free(point);
@@ -330,11 +347,10 @@ static CwStatus link_processors(const char *folder, int count) {
   CwStatus status = CW_OK;
   static const char *const parts[] = {"transient", "les"};
   char *path = NULL;
-  CW_TRY(cw_foam_processors_link(folder, count, NULL));
+  CW_TRY(link_parts(folder, count, NULL));
   for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
-    free(path);
-    CW_REQUIRE(asprintf(&path, "%s/%s", folder, parts[i]) >= 0, CW_ERR_MEMORY, "out of memory");
-    CW_TRY(cw_foam_processors_link(path, count, "../.."));
+    CW_TRY(cw_path_set(&path, "%s/%s", folder, parts[i]));
+    CW_TRY(link_parts(path, count, "../.."));
   }
 done:
   free(path);
@@ -347,7 +363,7 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAss
   Start start = start_at(table->operating_point.flow_rate, table, a);
   CW_TRY(set_values(table, a, &values));
   CW_TRY(set_eddy_values(table, a, &values));
-  CW_TRY(cw_templates_write("openfoam/", folder, &values));
+  CW_TRY(cw_templates_write("openfoam/", folder, set_head, &values));
   CW_TRY(write_fields(folder, ".", &start));
   start.moving = 1;
   CW_TRY(write_fields(folder, "transient", &start));

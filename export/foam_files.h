@@ -21,8 +21,11 @@ CwStatus cw_foam_files_open(const CwFoamMesh *mesh, int part, int is_new, CwFoam
 // Closes them; gives `status` or, where that is CW_OK, what the closing gives.
 CwStatus cw_foam_files_close(CwFoamFiles *files, CwStatus status);
 
-// Writes labels behind `before` others that begin at byte `start`. CW_ERR_IO.
-CwStatus cw_foam_put_labels(const CwFoamFiles *files, CwFoamFile f, const int64_t *values, int64_t count, int64_t start,
+// Writes values of a file behind `before` others; the numbers that things of a part have in the whole mesh
+// (pointProcAddressing and so on) only where there are several. CW_ERR_IO.
+CwStatus cw_foam_put_labels(const CwFoamFiles *files, CwFoamFile f, const int64_t *values, int64_t count,
+                            int64_t before);
+CwStatus cw_foam_put_points(const CwFoamFiles *files, const double (*points)[3], const int64_t *numbers, int64_t count,
                             int64_t before);
 
 #endif

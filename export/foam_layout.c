@@ -57,51 +57,54 @@ int cw_foam_header(const CwFoamMesh *mesh, int part, CwFoamFile f, char text[CW_
                   (long long)cw_foam_value_count(mesh, part, f), f == CW_FOAM_ZONES ? "\n" : "");
 }
 
-// Faces before those of each patch and link, and where the values stand in the files.
-static CwStatus plan_part(const CwFoamMesh *mesh, int p, CwFoamPart *part) {
+// Faces before those of each patch and link.
+static CwStatus count_part(const CwFoamMesh *mesh, int p, CwFoamPart *part) {
   CwStatus status = CW_OK;
   const CwPart *of = &mesh->division.parts[p];
   const int patches = mesh->assembly->mesh->patch_count;
-  char text[CW_FOAM_HEADER_SIZE];
   CW_NEW(part->patch, patches + 1);
   CW_NEW(part->link, of->link_count);
   part->all = of->inner;
   for (int i = 0; i <= patches; ++i) {
     part->patch[i] = part->all;
-    if (i < patches) part->all.triangles += of->patch[i].triangles, part->all.quads += of->patch[i].quads;
+    if (i < patches) cw_face_count_add(&part->all, of->patch[i]);
   }
   for (int i = 0; i < of->link_count; ++i) {
-    const CwLink *link = &mesh->division.links[of->first_link + i];
     part->link[i] = part->all;
-    part->all.triangles += link->count.triangles;
-    part->all.quads += link->count.quads;
+    cw_face_count_add(&part->all, mesh->division.links[of->first_link + i].count);
   }
+done:
+  return status;
+}
+
+// Where the values stand in the files.
+static void place_values(const CwFoamMesh *mesh, int p, CwFoamPart *part) {
+  char text[CW_FOAM_HEADER_SIZE];
   for (int f = 0; f < CW_FOAM_FILES; ++f) part->start[f] = cw_foam_header(mesh, p, (CwFoamFile)f, text);
   // ")\n\nCOUNT\n(" stands between the offsets and the labels.
   part->label_start = part->start[CW_FOAM_FACES] + mesh->label_size * (face_total(mesh, p) + 1) +
                       snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)cw_corner_count(part->all));
-done:
-  return status;
 }
 
 CwStatus cw_foam_layout_plan(const CwAssembly *a, const char *folder, const CwExportTable *table, CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
   const int processors = table->foam_processors;
-  const CwIntegers labels = table->foam_labels;
+  mesh->labels = table->foam_labels;
   mesh->release = table->foam_release;
   mesh->assembly = a;
   CW_REQUIRE((mesh->folder = strdup(folder)), CW_ERR_MEMORY, "out of memory");
   CW_TRY(cw_face_layout_make(a, &mesh->layout));
   CW_TRY(cw_division_plan(a, processors, &mesh->division));
   CW_NEW(mesh->parts, processors);
-  // The numbers of the parts in the whole mesh have to fit too; its face corners only where it is written whole.
+  // The numbers of the parts in the whole mesh have to fit too; its face corners only where it is written whole: those
+  // of parts are counted later.
   const int64_t most = processors > 1 ? cw_face_count(mesh->layout.all) : cw_corner_count(mesh->layout.all);
   const int fits = most <= INT32_MAX && mesh->layout.points <= INT32_MAX;
-  CW_REQUIRE(fits || labels != CW_INTEGERS_32, CW_ERR_EXPORT,
+  CW_REQUIRE(fits || mesh->labels != CW_INTEGERS_32, CW_ERR_EXPORT,
              "%lld faces or face corners and %lld points; OpenFOAM with 32-bit labels allows %d (openfoam.labels: 64 "
              "holds them)",
              (long long)most, (long long)mesh->layout.points, INT32_MAX);
-  mesh->label_size = labels == CW_INTEGERS_64 || !fits ? 8 : 4;
+  mesh->label_size = mesh->labels == CW_INTEGERS_64 || !fits ? 8 : 4;
 done:
   return status;
 }
@@ -120,7 +123,17 @@ void cw_foam_layout_free(CwFoamMesh *mesh) {
 
 CwStatus cw_foam_layout_parts(CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
-  for (int p = 0; p < mesh->division.part_count; ++p) CW_TRY(plan_part(mesh, p, &mesh->parts[p]));
+  int64_t most = 0;
+  for (int p = 0; p < mesh->division.part_count; ++p) {
+    CW_TRY(count_part(mesh, p, &mesh->parts[p]));
+    const int64_t corners = cw_corner_count(mesh->parts[p].all);
+    most = corners > most ? corners : most;
+  }
+  CW_REQUIRE(most <= INT32_MAX || mesh->labels != CW_INTEGERS_32, CW_ERR_EXPORT,
+             "%lld face corners in one part; OpenFOAM with 32-bit labels allows %d (openfoam.labels: 64 holds them)",
+             (long long)most, INT32_MAX);
+  if (most > INT32_MAX) mesh->label_size = 8;
+  for (int p = 0; p < mesh->division.part_count; ++p) place_values(mesh, p, &mesh->parts[p]);
 done:
   return status;
 }

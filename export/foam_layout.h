@@ -22,6 +22,8 @@ typedef enum {
   CW_FOAM_FILES
 } CwFoamFile;
 
+enum { CW_FOAM_POINT_SIZE = 24 }; // bytes of a point in its file
+
 // Numbers of faces of one polyMesh and where things stand in its files.
 typedef struct {
   CwFaceCount all;              // with the patches to other parts
@@ -33,8 +35,9 @@ typedef struct {
 
 typedef struct {
   const CwAssembly *assembly;
-  char *folder;   // the case's
-  int label_size; // 4 or 8 bytes
+  char *folder;      // the case's
+  CwIntegers labels; // as the case asks
+  int label_size;    // 4 or 8 bytes, in the end by cw_foam_layout_parts()
   CwFoamRelease release;
   CwFaceLayout layout;
   CwDivision division;
@@ -48,7 +51,8 @@ CwStatus cw_foam_layout_plan(const CwAssembly *assembly, const char *folder, con
 
 void cw_foam_layout_free(CwFoamMesh *mesh);
 
-// Lays out each part once the division has been counted. CW_ERR_MEMORY.
+// Lays out each part once the division has been counted. CW_ERR_MEMORY; CW_ERR_EXPORT where a part has more face
+// corners than the labels that the case asks can hold.
 CwStatus cw_foam_layout_parts(CwFoamMesh *mesh);
 
 // Whether the mesh has several parts; the files of a whole one are the first CW_FOAM_WHOLE_FILES.

@@ -8,8 +8,6 @@
 #include "export/foam_boundary.h"
 #include "export/foam_files.h"
 
-enum { POINT_SIZE = 24 };
-
 static CwStatus put_text(const CwFoamFiles *files, CwFoamFile f, const char *text, int64_t at) {
   return cw_place_file_put(&files->file[f], text, (int64_t)strlen(text), at);
 }
@@ -28,7 +26,7 @@ static CwStatus put_zones(const CwFoamFiles *files) {
     for (int64_t left = of->domain_cells[d], now; left > 0; left -= now) {
       now = left < 4096 ? left : 4096;
       for (int64_t i = 0; i < now; ++i) run[i] = cell++;
-      CW_TRY(cw_foam_put_labels(files, CW_FOAM_ZONES, run, now, at, 0));
+      CW_TRY(cw_place_file_put_labels(&files->file[CW_FOAM_ZONES], run, now, mesh->label_size, at));
       at += mesh->label_size * now;
     }
     CW_TRY(put_text(files, CW_FOAM_ZONES, ");\n}\n", at));
@@ -50,7 +48,6 @@ static CwStatus put_shared(const CwFoamFiles *files) {
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     const int64_t *first = v->shared ? &v->first_shared[(int64_t)files->part * a->mesh->domain_count + d] : NULL;
     const int64_t count = first ? first[1] - first[0] : a->mesh->domains[d].shared_points;
-    const int64_t before = v->parts[files->part].first_point[d];
     CW_NEW(points, count);
     CW_NEW(numbers, count);
     for (int64_t i = 0; i < count; ++i) {
@@ -58,11 +55,7 @@ static CwStatus put_shared(const CwFoamFiles *files) {
       memcpy(points[i], a->shared[d][id], sizeof *points);
       numbers[i] = a->totals[d].first_point + id;
     }
-    CW_TRY(cw_place_file_put(&files->file[CW_FOAM_POINTS], points, POINT_SIZE * count,
-                             mesh->parts[files->part].start[CW_FOAM_POINTS] + POINT_SIZE * before));
-    if (cw_foam_is_divided(mesh))
-      CW_TRY(cw_foam_put_labels(files, CW_FOAM_OF_POINTS, numbers, count,
-                                mesh->parts[files->part].start[CW_FOAM_OF_POINTS], before));
+    CW_TRY(cw_foam_put_points(files, (const double(*)[3])points, numbers, count, v->parts[files->part].first_point[d]));
     free(points);
     free(numbers);
     points = NULL;
@@ -84,12 +77,12 @@ static CwStatus create_part(const CwFoamMesh *mesh, int part) {
   for (int f = 0; f < (cw_foam_is_divided(mesh) ? CW_FOAM_FILES : CW_FOAM_WHOLE_FILES); ++f) {
     cw_foam_header(mesh, part, (CwFoamFile)f, text);
     CW_TRY(put_text(&files, (CwFoamFile)f, text, 0));
-    const int64_t size = f == CW_FOAM_POINTS ? POINT_SIZE : mesh->label_size;
+    const int64_t size = f == CW_FOAM_POINTS ? CW_FOAM_POINT_SIZE : mesh->label_size;
     if (f != CW_FOAM_ZONES && f != CW_FOAM_FACES)
       CW_TRY(
           put_text(&files, (CwFoamFile)f, ")\n", of->start[f] + size * cw_foam_value_count(mesh, part, (CwFoamFile)f)));
   }
-  CW_TRY(cw_foam_put_labels(&files, CW_FOAM_FACES, &corners, 1, of->start[CW_FOAM_FACES], faces));
+  CW_TRY(cw_foam_put_labels(&files, CW_FOAM_FACES, &corners, 1, faces));
   snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)corners);
   CW_TRY(put_text(&files, CW_FOAM_FACES, text, of->label_start - (int64_t)strlen(text)));
   CW_TRY(put_text(&files, CW_FOAM_FACES, ")\n", of->label_start + mesh->label_size * corners));
@@ -103,12 +96,9 @@ done:
 }
 
 CwStatus cw_foam_mesh_create(CwFoamMesh *mesh, const CwRanks *ranks) {
-  CwStatus status = CW_OK;
-  CW_TRY(cw_division_count(&mesh->division, ranks));
-  status = cw_foam_layout_parts(mesh);
+  CwStatus status = cw_division_count(&mesh->division, ranks);
+  if (status == CW_OK) status = cw_foam_layout_parts(mesh);
   for (int p = ranks->rank; p < mesh->division.part_count && status == CW_OK; p += ranks->size)
     status = create_part(mesh, p);
-  CW_TRY(cw_ranks_agree(ranks, status));
-done:
-  return status;
+  return cw_ranks_agree(ranks, status);
 }

@@ -5,7 +5,7 @@
 
 #include "export/foam_layout.h"
 
-// Makes the files with everything but the values of the regions. Collective.
+// Makes the files with everything but the values of the regions. Fails on all ranks alike. Collective.
 CwStatus cw_foam_mesh_create(CwFoamMesh *mesh, const CwRanks *ranks);
 
 #endif

@@ -7,8 +7,6 @@
 #include "export/foam_files.h"
 #include "pipeline/mesh/cell.h"
 
-enum { POINT_SIZE = 24 };
-
 // A region on its way into the files of a part.
 typedef struct {
   const CwFoamMesh *mesh;
@@ -48,16 +46,13 @@ done:
 static CwStatus stretch_write(Stretch *s, int is_inner) {
   CwStatus status = CW_OK;
   const Writer *w = s->writer;
-  const CwFoamPart *part = &w->mesh->parts[w->files->part];
-  const int64_t first = s->first_face;
-  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->offsets, s->faces, part->start[CW_FOAM_FACES], first));
-  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->labels, s->label_count, part->label_start, s->first_label));
-  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OWNER, s->owners, s->faces, part->start[CW_FOAM_OWNER], first));
-  if (is_inner)
-    CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_NEIGHBOUR, s->neighbours, s->faces, part->start[CW_FOAM_NEIGHBOUR],
-                              first));
-  if (cw_foam_is_divided(w->mesh))
-    CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_FACES, s->numbers, s->faces, part->start[CW_FOAM_OF_FACES], first));
+  const int size = w->mesh->label_size;
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_FACES, s->offsets, s->faces, s->first_face));
+  CW_TRY(cw_place_file_put_labels(&w->files->file[CW_FOAM_FACES], s->labels, s->label_count, size,
+                                  w->mesh->parts[w->files->part].label_start + size * s->first_label));
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OWNER, s->owners, s->faces, s->first_face));
+  if (is_inner) CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_NEIGHBOUR, s->neighbours, s->faces, s->first_face));
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_FACES, s->numbers, s->faces, s->first_face));
   s->first_face += s->faces;
   s->first_label += s->label_count;
   s->faces = s->label_count = 0;
@@ -137,10 +132,6 @@ done:
   return status;
 }
 
-static CwFaceCount plus(CwFaceCount a, CwFaceCount b) {
-  return (CwFaceCount){a.triangles + b.triangles, a.quads + b.quads};
-}
-
 // The faces of the region to other parts. A part that has no cell of the region may lie beyond a partition plane.
 static CwStatus write_links(const Writer *w) {
   CwStatus status = CW_OK;
@@ -160,9 +151,10 @@ static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch) {
   CwFaceStretch faces = {0};
   const CwAssembly *a = w->mesh->assembly;
   const int local = patch - a->mesh->domains[w->data->domain].first_patch;
-  const CwFaceCount before = plus(w->mesh->parts[piece->part].patch[patch], piece->first_patch[local]);
+  CwFaceCount before = w->mesh->parts[piece->part].patch[patch];
   int64_t number = cw_face_count(cw_face_layout_patch(&w->mesh->layout, a, w->region, patch)) + 1;
   if (cw_face_count(piece->patch[local]) == 0) goto done;
+  cw_face_count_add(&before, piece->first_patch[local]);
   CW_TRY(stretch_new(w, before, &s));
   CW_TRY(cw_face_stretch_new(CW_FACES_AT_ONCE, &faces));
   for (; cw_face_stretch_patch(a, patch, w->data, w->of, &faces); number += faces.faces) {
@@ -181,7 +173,6 @@ done:
 static CwStatus write_points(const Writer *w, const CwPiece *piece) {
   CwStatus status = CW_OK;
   const CwAssembly *a = w->mesh->assembly;
-  const CwFoamPart *part = &w->mesh->parts[piece->part];
   const int64_t number = a->totals[w->data->domain].first_point + a->places[w->region].own_point;
   double(*points)[3] = NULL;
   int64_t *numbers = NULL, count = 0;
@@ -192,11 +183,7 @@ static CwStatus write_points(const Writer *w, const CwPiece *piece) {
     memcpy(points[count], w->data->points[p], sizeof *points);
     numbers[count++] = number + p - w->data->shared_count;
   }
-  CW_TRY(cw_place_file_put(&w->files->file[CW_FOAM_POINTS], points, POINT_SIZE * count,
-                           part->start[CW_FOAM_POINTS] + POINT_SIZE * piece->first_own_point));
-  if (cw_foam_is_divided(w->mesh))
-    CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_POINTS, numbers, count, part->start[CW_FOAM_OF_POINTS],
-                              piece->first_own_point));
+  CW_TRY(cw_foam_put_points(w->files, (const double(*)[3])points, numbers, count, piece->first_own_point));
 done:
   free(points);
   free(numbers);
@@ -212,8 +199,7 @@ static CwStatus write_cells(const Writer *w, const CwPiece *piece) {
   CW_NEW(numbers, piece->cells);
   for (int32_t i = 0; i < cw_region_cell_count(w->data); ++i)
     if (w->piece_of[i] == own) numbers[count++] = w->mesh->assembly->places[w->region].cell + i;
-  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_CELLS, numbers, count,
-                            w->mesh->parts[piece->part].start[CW_FOAM_OF_CELLS], piece->first_cell));
+  CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_CELLS, numbers, count, piece->first_cell));
 done:
   free(numbers);
   return status;
@@ -256,7 +242,7 @@ CwStatus cw_foam_region_write(const CwFoamMesh *mesh, int region, const CwRegion
   const CwPiece *pieces = &v->pieces[v->first_piece[region]];
   const int count = v->first_piece[region + 1] - v->first_piece[region];
   const CwRegionPlace *place = &mesh->assembly->places[region];
-  const int64_t all = place->inner_triangles + place->outer_triangles + place->inner_quads + place->outer_quads;
+  const int64_t all = cw_face_count(place->inner) + cw_face_count(place->outer);
   CwFaceStretch inner = {0};
   int32_t *piece_of = NULL;
   int64_t *cell = NULL, *point = NULL;

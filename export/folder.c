@@ -3,11 +3,34 @@
 
 #include <errno.h>
 #include <ftw.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "pipeline/atomic_file.h"
+
+CwStatus cw_path_set(char **path, const char *format, ...) {
+  CwStatus status = CW_OK;
+  char *made = NULL;
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = vasprintf(&made, format, arguments);
+  va_end(arguments);
+  CW_REQUIRE(length >= 0, CW_ERR_MEMORY, "out of memory");
+  free(*path);
+  *path = made;
+done:
+  return status;
+}
+
+CwStatus cw_link_make(const char *path, const char *target) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(symlink(target, path) == 0, CW_ERR_IO, "%s: cannot be made: %s", path, strerror(errno));
+done:
+  return status;
+}
 
 static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
   return remove(path);
@@ -44,7 +67,7 @@ void cw_folder_sync_begin(const char *path) {
 CwStatus cw_folder_replace(const char *from, const char *to) {
   CwStatus status = CW_OK;
   char *old = NULL;
-  CW_REQUIRE(asprintf(&old, "%s.old", to) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_path_set(&old, "%s.old", to));
   CW_TRY(cw_folder_remove(old));
   CW_REQUIRE(rename(to, old) == 0 || errno == ENOENT, CW_ERR_IO, "%s: cannot be moved aside: %s", to, strerror(errno));
   CW_REQUIRE(rename(from, to) == 0, CW_ERR_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Folders that appear whole or not at all.
+// Folders that appear whole or not at all, and paths.
 #ifndef CUTWATER_EXPORT_FOLDER_H
 #define CUTWATER_EXPORT_FOLDER_H
 
 #include "pipeline/status.h"
+
+// Sets *path to a new string (printf style) and frees what was there. CW_ERR_MEMORY.
+CwStatus cw_path_set(char **path, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Makes `path` a symbolic link to `target`. CW_ERR_IO.
+CwStatus cw_link_make(const char *path, const char *target);
 
 // Removes a folder and what it holds; fine where there is none. CW_ERR_IO.
 CwStatus cw_folder_remove(const char *path);

@@ -7,6 +7,7 @@
 
 #include "export/interface_near.h"
 #include "pipeline/mesh/interface_tolerance.h"
+#include "pipeline/vec.h"
 
 static const double ROUNDING = 1e-9; // of the size of the interface
 // Of the longest edge there. A chord of an arc of a radius as short as itself is 0.13 of its length off.
@@ -39,9 +40,9 @@ static void unroll(const CwInterface *in, const CwInterfaceFace *face, double fl
   for (int i = 0; i < face->count; ++i) {
     const double *x = face->nodes[i];
     if (in->is_flat) {
-      for (int k = 0; k < 2; ++k)
-        flat[i][k] = (x[0] - in->centre[0]) * in->axis[k][0] + (x[1] - in->centre[1]) * in->axis[k][1] +
-                     (x[2] - in->centre[2]) * in->axis[k][2];
+      double off[3];
+      cw_sub(x, in->centre, off);
+      for (int k = 0; k < 2; ++k) flat[i][k] = cw_dot(off, in->axis[k]);
       continue;
     }
     double angle = atan2(x[1], x[0]);
@@ -84,7 +85,7 @@ static void bin_face(const CwInterface *in, const Bins *bins, const CwInterfaceF
   if (high[0] >= low[0] + bins->number[0]) high[0] = low[0] + bins->number[0] - 1;
   for (int a = low[0]; a <= high[0]; ++a)
     for (int h = low[1]; h <= high[1]; ++h) {
-      int bin = around(bins, a) * bins->number[1] + h;
+      const int64_t bin = (int64_t)around(bins, a) * bins->number[1] + h;
       if (faces)
         faces[start[bin]++] = place;
       else
@@ -106,10 +107,10 @@ static CwStatus make_bins(const CwInterface *in, const CwInterfaceFace *faces, i
   bins->first[1] = side->least[1];
   bins->step[0] = (in->is_flat ? width * (1 + 1e-12) : 2 * M_PI) / bins->number[0];
   bins->step[1] = height / bins->number[1] * (1 + 1e-12);
-  int bin_count = bins->number[0] * bins->number[1];
+  const int64_t bin_count = (int64_t)bins->number[0] * bins->number[1];
   CW_NEW(bins->start, bin_count + 1);
   for (int64_t i = 0; i < count; ++i) bin_face(in, bins, &faces[i], i, bins->start, NULL);
-  for (int b = 0; b < bin_count; ++b) bins->start[b + 1] += bins->start[b];
+  for (int64_t b = 0; b < bin_count; ++b) bins->start[b + 1] += bins->start[b];
   CW_NEW(bins->faces, bins->start[bin_count]);
   for (int64_t i = 0; i < count; ++i) bin_face(in, bins, &faces[i], i, bins->start, bins->faces);
   // Each start has moved to the end of its bin: shift back.
@@ -165,7 +166,7 @@ static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInter
         int rim = abs(a - a0) == ring || abs(h - h0) == ring;
         int off = !bins->round && (a < 0 || a >= bins->number[0]);
         if (!rim || off || h < 0 || h >= bins->number[1]) continue;
-        int bin = around(bins, a) * bins->number[1] + h;
+        const int64_t bin = (int64_t)around(bins, a) * bins->number[1] + h;
         for (int64_t i = bins->start[bin]; i < bins->start[bin + 1]; ++i) {
           double here[2] = {0};
           double inside = locate(in, &donors[bins->faces[i]], point, here);
@@ -185,31 +186,29 @@ static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInter
 // The plane of a flat interface: through the mean of the nodes of side 0, normal to its area vector.
 static void make_plane(const CwAssembly *a, int number, CwInterface *in) {
   const CwPatchPart *part = &a->patches[a->mesh->interfaces[number].patch[0]];
-  double nodes = 0, length = 0;
+  const double length = cw_norm(part->vector);
+  double nodes = 0;
   int least = 0;
   for (int64_t i = 0; i < in->count[0]; ++i)
     for (int n = 0; n < a->interface[number][0][i].count; ++n, ++nodes)
       for (int k = 0; k < 3; ++k) in->centre[k] += a->interface[number][0][i].nodes[n][k];
+  double *n = in->axis[2], *u = in->axis[0];
   for (int k = 0; k < 3; ++k) {
     in->centre[k] /= nodes;
-    length += part->vector[k] * part->vector[k];
-  }
-  double *n = in->axis[2], *u = in->axis[0], *v = in->axis[1];
-  for (int k = 0; k < 3; ++k) {
-    n[k] = part->vector[k] / sqrt(length);
+    n[k] = part->vector[k] / length;
     if (fabs(n[k]) < fabs(n[least])) least = k;
   }
   double across = sqrt(1 - n[least] * n[least]);
   for (int k = 0; k < 3; ++k) u[k] = ((k == least) - n[least] * n[k]) / across;
-  for (int k = 0; k < 3; ++k) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+  cw_cross(n, u, in->axis[1]);
 }
 
 // How far a node is off the surface, m.
 static double off_surface(const CwInterface *in, const double x[3]) {
   if (!in->is_flat) return fabs(hypot(x[0], x[1]) - in->radius);
-  double off = 0;
-  for (int k = 0; k < 3; ++k) off += in->axis[2][k] * (x[k] - in->centre[k]);
-  return fabs(off);
+  double off[3];
+  cw_sub(x, in->centre, off);
+  return fabs(cw_dot(in->axis[2], off));
 }
 
 // *longest: edge of a face.
@@ -217,7 +216,7 @@ static CwStatus measure_side(const CwAssembly *a, int number, int s, CwInterface
   CwStatus status = CW_OK;
   int patch = a->mesh->interfaces[number].patch[s];
   CwInterfaceSide *side = &in->sides[s];
-  *side = (CwInterfaceSide){a->patches[patch].area, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  *side = (CwInterfaceSide){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
   for (int64_t i = 0; i < in->count[s]; ++i) {
     const CwInterfaceFace *face = &a->interface[number][s][i];
     const double *nodes[4];
@@ -292,7 +291,6 @@ static CwStatus find_nearest(const CwAssembly *a, int number, CwInterface *in) {
     const CwInterfaceFace *mine = a->interface[number][s];
     double gap;
     int64_t worst;
-    in->sides[s].area = a->patches[patch].area;
     CW_NEW(in->donor[s], in->count[s]);
     CW_NEW(in->place[s], in->count[s]);
     CW_TRY(cw_interface_near(mine, in->count[s], a->interface[number][1 - s], in->count[1 - s], in->donor[s],
@@ -314,10 +312,7 @@ CwStatus cw_interface_make(const CwAssembly *a, int number, CwInterface *in) {
   const double radius = a->mesh->interfaces[number].radius;
   in->is_flat = surface == CW_SURFACE_PLANE;
   in->radius = radius;
-  for (int s = 0; s < 2; ++s) {
-    const CwPatchPart *sum = &a->patches[a->mesh->interfaces[number].patch[s]];
-    in->count[s] = sum->triangles + sum->quads;
-  }
+  for (int s = 0; s < 2; ++s) in->count[s] = cw_face_count(a->patches[a->mesh->interfaces[number].patch[s]].faces);
   if (surface == CW_SURFACE_OTHER) return find_nearest(a, number, in);
   if (in->is_flat) make_plane(a, number, in);
   double size = in->is_flat ? sqrt(a->patches[a->mesh->interfaces[number].patch[0]].area / M_PI) : radius, longest = 0;

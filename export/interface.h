@@ -7,7 +7,6 @@
 #include "export/assembly.h"
 
 typedef struct {
-  double area;              // m2
   double least[2], most[2]; // of the nodes in the surface's own coordinates, see CwInterface
 } CwInterfaceSide;
 

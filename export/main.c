@@ -41,7 +41,10 @@ done:;
   int code = cw_ranks_end(&ranks, status, args.log);
   cw_log_close(&args.log);
   cw_stop_end();
-  if (cw_cgns_stuck()) _exit(code);
+  // Where one rank has to end without MPI_Finalize(), the others would wait for it there.
+  int stuck = cw_cgns_stuck();
+  MPI_Allreduce(MPI_IN_PLACE, &stuck, 1, MPI_INT, MPI_MAX, ranks.comm);
+  if (stuck) _exit(code);
   if (code == 0) H5close();
   MPI_Finalize();
   return code;

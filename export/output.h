@@ -16,7 +16,7 @@ typedef struct {
   int formats;                    // 1 << CwFormat of those that are written
   char left_out[CW_FORMATS][200]; // why a format that the case asks is not; "" for the others
   char *folder;                   // where all is written
-  char *cgns_path, *foam_folder, *fluent_folder;
+  char *paths[CW_FORMATS];        // in it: the file or folder of each format
   CwCgnsFile cgns;
   CwFoamMesh foam;
   CwFluentMesh fluent;

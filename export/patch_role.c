@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/patch_role.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch) {
   return patch->kind == CW_PATCH_WALL && patch->turns;
+}
+
+int cw_patch_stands(const CwMesh *mesh, const CwModelPatch *patch) {
+  return patch->kind == CW_PATCH_WALL && !patch->turns;
 }
 
 int cw_patch_rotates(const CwMesh *mesh, const CwModelPatch *patch) {
@@ -27,24 +28,35 @@ int cw_walls_resolved(const CwMesh *mesh) {
 }
 
 int cw_patch_is_there(const CwAssembly *assembly, int patch) {
-  return assembly->patches[patch].triangles + assembly->patches[patch].quads > 0;
+  return cw_face_count(assembly->patches[patch].faces) > 0;
 }
 
-CwStatus cw_patch_names_set(const CwAssembly *assembly, CwPatchChoice wanted, const char *between, const char *key,
-                            CwValues *values) {
+int cw_patch_kind_count(const CwMesh *mesh, CwPatchKind kind) {
+  int count = 0;
+  for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == kind;
+  return count;
+}
+
+static int is_chosen(const CwAssembly *assembly, int p, int domain, CwPatchChoice wanted) {
+  const CwModelPatch *patch = &assembly->mesh->patches[p];
+  return cw_patch_is_there(assembly, p) && (domain < 0 || patch->domain == domain) &&
+         (!wanted || wanted(assembly->mesh, patch));
+}
+
+int cw_patch_count(const CwAssembly *assembly, int domain, CwPatchChoice wanted) {
+  int count = 0;
+  for (int p = 0; p < assembly->mesh->patch_count; ++p) count += is_chosen(assembly, p, domain, wanted);
+  return count;
+}
+
+CwStatus cw_patch_names_set(const CwAssembly *assembly, int domain, CwPatchChoice wanted, const char *between,
+                            const char *key, CwValues *values) {
   CwStatus status = CW_OK;
-  char *text = NULL;
-  size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
-  for (int p = 0, first = 1; p < assembly->mesh->patch_count; ++p)
-    if (cw_patch_is_there(assembly, p) && wanted(assembly->mesh, &assembly->mesh->patches[p])) {
-      fprintf(out, "%s%s", first ? "" : between, assembly->mesh->patches[p].name);
-      first = 0;
-    }
-  fclose(out);
-  CW_TRY(cw_values_set(values, key, "%s", text));
+  int count = 0;
+  CW_TRY(cw_values_start(values, key));
+  for (int p = 0; p < assembly->mesh->patch_count; ++p)
+    if (is_chosen(assembly, p, domain, wanted))
+      CW_TRY(cw_values_append(values, key, "%s%s", count++ ? between : "", assembly->mesh->patches[p].name));
 done:
-  free(text);
   return status;
 }

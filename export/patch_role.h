@@ -11,9 +11,10 @@
 // layer meet, y+ = ln(9.8 y+)/0.41.
 #define CW_Y_PLUS_LAMINAR 11.225
 
-// A wall that turns with the impeller; one that does so in a zone that rotates; and one in a zone that stands still,
-// such as the shaft in a suction pipe.
+// A wall that turns with the impeller, and one that does not; one that turns in a zone that rotates, and one in a zone
+// that stands still, such as the shaft in a suction pipe.
 int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch);
+int cw_patch_stands(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_rotates(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_is_shaft(const CwMesh *mesh, const CwModelPatch *patch);
 
@@ -22,13 +23,17 @@ int cw_patch_is_shaft(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_resolved(const CwModelPatch *patch);
 int cw_walls_resolved(const CwMesh *mesh);
 
-typedef int (*CwPatchChoice)(const CwMesh *mesh, const CwModelPatch *patch);
+// The patches of a kind, there or not.
+int cw_patch_kind_count(const CwMesh *mesh, CwPatchKind kind);
 
 // Whether any face of the mesh lies on the patch.
 int cw_patch_is_there(const CwAssembly *assembly, int patch);
 
-// Sets a value to the names of the patches that are there and `wanted`, with `between` between them.
-CwStatus cw_patch_names_set(const CwAssembly *assembly, CwPatchChoice wanted, const char *between, const char *key,
-                            CwValues *values);
+// The patches that are there and `wanted` (NULL: all), of a domain or of all (-1): how many, and a value of their names
+// with `between` between them.
+typedef int (*CwPatchChoice)(const CwMesh *mesh, const CwModelPatch *patch);
+int cw_patch_count(const CwAssembly *assembly, int domain, CwPatchChoice wanted);
+CwStatus cw_patch_names_set(const CwAssembly *assembly, int domain, CwPatchChoice wanted, const char *between,
+                            const char *key, CwValues *values);
 
 #endif

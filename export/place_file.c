@@ -3,14 +3,15 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "export/folder.h"
+
 CwStatus cw_place_file_open(const char *folder, const char *name, int is_new, CwPlaceFile *file) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(asprintf(&file->path, "%s/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_path_set(&file->path, "%s/%s", folder, name));
   int descriptor = open(file->path, O_WRONLY | O_CLOEXEC | (is_new ? O_CREAT | O_TRUNC : 0), 0666);
   CW_REQUIRE(descriptor > 0, CW_ERR_IO, "%s: cannot be written: %s", file->path, strerror(errno));
   file->descriptor = descriptor;

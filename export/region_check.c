@@ -52,17 +52,12 @@ static int same_bytes(const void *a, const void *b, size_t count, size_t size) {
   return count == 0 || memcmp(a, b, count * size) == 0;
 }
 
-// Whether a region of the same counts has the same cells and boundary faces, and its points are those of the model
-// turned about the axis.
+// Whether a region of the same counts (region_share.h) has the same cells and boundary faces, and its points are those
+// of the model turned about the axis.
 static int is_turned_copy(const CwRegionData *model, const CwRegionData *data) {
   const size_t triangles = (size_t)data->triangle_count, quads = (size_t)data->quad_count;
   double greatest = 0, squares = 0;
   int32_t far = 0;
-  if (model->point_count != data->point_count || model->shared_count != data->shared_count ||
-      model->tetrahedron_count != data->tetrahedron_count || model->pyramid_count != data->pyramid_count ||
-      model->prism_count != data->prism_count || model->triangle_count != data->triangle_count ||
-      model->quad_count != data->quad_count)
-    return 0;
   if (!same_bytes(model->tetrahedra, data->tetrahedra, (size_t)data->tetrahedron_count, sizeof *data->tetrahedra) ||
       !same_bytes(model->pyramids, data->pyramids, (size_t)data->pyramid_count, sizeof *data->pyramids) ||
       !same_bytes(model->prisms, data->prisms, (size_t)data->prism_count, sizeof *data->prisms) ||
@@ -95,7 +90,7 @@ static CwStatus check_counts(const CwAssembly *a, int region, const CwRegionFace
   CwStatus status = CW_OK;
   const CwRegionPlace *place = &a->places[region];
   int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
-  CW_REQUIRE(faces->inner_triangles == place->inner_triangles && faces->inner_quads == place->inner_quads &&
+  CW_REQUIRE(faces->inner_triangles == place->inner.triangles && faces->inner_quads == place->inner.quads &&
                  faces->open_count == open,
              CW_ERR_INPUT, "%s: has other faces than when it was first read", a->mesh->regions[region].path);
 done:

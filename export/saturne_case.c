@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/saturne_case.h"
 
-#include "export/blocks.h"
 #include "export/foam_case.h"
 #include "export/patch_role.h"
 
@@ -21,51 +20,45 @@ static int is_symmetry(const CwMesh *mesh, const CwModelPatch *patch) {
 }
 
 static int stands_in_rotor(const CwMesh *mesh, const CwModelPatch *patch) {
-  return patch->kind == CW_PATCH_WALL && mesh->domains[patch->domain].rotating && !cw_patch_turns(mesh, patch);
+  return mesh->domains[patch->domain].rotating && cw_patch_stands(mesh, patch);
 }
 
 static CwStatus set_groups(const CwAssembly *a, const char *key, CwPatchChoice wanted, CwValues *values) {
-  int count = 0;
-  for (int p = 0; p < a->mesh->patch_count; ++p)
-    count += cw_patch_is_there(a, p) && wanted(a->mesh, &a->mesh->patches[p]);
-  return count ? cw_patch_names_set(a, wanted, " or ", key, values) : cw_values_set(values, key, "%s", none);
+  return cw_patch_count(a, -1, wanted) ? cw_patch_names_set(a, -1, wanted, " or ", key, values)
+                                       : cw_values_set(values, key, "%s", none);
 }
 
 static CwStatus set_zones(const CwMesh *mesh, CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks zones = {0};
   int count = 0;
-  CW_TRY(cw_blocks_open(&zones));
+  CW_TRY(cw_values_start(values, "rotor_zones"));
   for (int d = 0; d < mesh->domain_count; ++d)
-    if (mesh->domains[d].rotating) fprintf(zones.out, "%s%s", count++ ? " or " : "", mesh->domains[d].zone);
-  if (!count) fputs(none, zones.out);
-  CW_TRY(cw_blocks_close(&zones, "rotor_zones", values));
+    if (mesh->domains[d].rotating)
+      CW_TRY(cw_values_append(values, "rotor_zones", "%s%s", count++ ? " or " : "", mesh->domains[d].zone));
+  if (!count) CW_TRY(cw_values_set(values, "rotor_zones", "%s", none));
 done:
-  cw_blocks_close(&zones, NULL, values);
   return status;
 }
 
 static CwStatus set_ends(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  CwBlocks list = {0};
   const CwMesh *mesh = a->mesh;
   double area = 0;
   int count = 0;
-  CW_TRY(cw_blocks_open(&list));
+  CW_TRY(cw_values_start(values, "outlet_shares"));
   for (int p = 0; p < mesh->patch_count; ++p)
     if (mesh->patches[p].kind == CW_PATCH_OUTLET && cw_patch_is_there(a, p))
-      fprintf(list.out, "%s{\"%s\", %.9g}", count++ ? ", " : "", mesh->patches[p].name, mesh->patches[p].flow_share);
-  CW_TRY(cw_blocks_close(&list, "outlet_shares", values));
-  CW_TRY(cw_blocks_open(&list));
+      CW_TRY(cw_values_append(values, "outlet_shares", "%s{\"%s\", %.9g}", count++ ? ", " : "", mesh->patches[p].name,
+                              mesh->patches[p].flow_share));
+  CW_TRY(cw_values_start(values, "interfaces"));
   for (int i = 0; i < mesh->interface_count; ++i) {
     const int *patch = mesh->interfaces[i].patch;
-    fprintf(list.out, "%s\"%s or %s\"", i ? ", " : "", mesh->patches[patch[0]].name, mesh->patches[patch[1]].name);
+    CW_TRY(cw_values_append(values, "interfaces", "%s\"%s or %s\"", i ? ", " : "", mesh->patches[patch[0]].name,
+                            mesh->patches[patch[1]].name));
     area += a->patches[patch[0]].area + a->patches[patch[1]].area;
   }
-  CW_TRY(cw_blocks_close(&list, "interfaces", values));
   CW_TRY(cw_values_set(values, "interface_area", "%.9g", area));
 done:
-  cw_blocks_close(&list, NULL, values);
   return status;
 }
 
@@ -79,8 +72,7 @@ static CwStatus set_numbers(const CwCase *table, const CwMesh *mesh, CwValues *v
   const CwModelFlow *flow = &mesh->flow;
   const CwTurbulence inlet = cw_turbulence(flow->inlet_speed, 0.05, 0.07 * flow->inlet_diameter);
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
-  CW_TRY(cw_values_set(values, "turbulence", "%s",
-                       cw_walls_resolved(mesh) ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
+  CW_TRY(cw_values_set(values, "turbulence", "%s", cw_walls_resolved(mesh) ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
   CW_TRY(cw_values_set(values, "speed", "%.9g", table->operating_point.speed));
   CW_TRY(cw_values_set(values, "flow_rate", "%.9g", table->operating_point.flow_rate));
   CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
@@ -107,7 +99,7 @@ CwStatus cw_saturne_case_write(const char *folder, const CwCase *table, const Cw
   CW_TRY(set_groups(a, "inlets", is_inlet, &values));
   CW_TRY(set_groups(a, "outlets", is_outlet, &values));
   CW_TRY(set_ends(a, &values));
-  CW_TRY(cw_templates_write("code_saturne/", folder, &values));
+  CW_TRY(cw_templates_write("code_saturne/", folder, NULL, &values));
 done:
   cw_values_free(&values);
   return status;

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "export/folder.h"
@@ -14,32 +13,28 @@
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
-static CwStatus join(const char *folder, const char *name, char **path) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(asprintf(path, "%s/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
-done:
-  return status;
-}
-
 // A solver's case needs both ends.
 static CwStatus check_ends(const CwMesh *mesh) {
   CwStatus status = CW_OK;
-  for (CwPatchKind kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind) {
-    int count = 0;
-    for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == kind;
-    CW_REQUIRE(count > 0, CW_ERR_EXPORT, "no patch is of kind %s; a case needs one at least", cw_patch_kind_name(kind));
-  }
+  for (CwPatchKind kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind)
+    CW_REQUIRE(cw_patch_kind_count(mesh, kind) > 0, CW_ERR_EXPORT, "no patch is of kind %s; a case needs one at least",
+               cw_patch_kind_name(kind));
 done:
   return status;
 }
 
 // What rank 0 does alone before the regions are written.
-static CwStatus begin_files(const CwAssembly *assembly, CwInterface *interfaces, CwOutput *output) {
+static CwStatus begin_files(const CwAssembly *assembly, CwOutput *output) {
   CwStatus status = CW_OK;
-  for (int i = 0; i < assembly->mesh->interface_count; ++i) CW_TRY(cw_interface_make(assembly, i, &interfaces[i]));
+  const int count = assembly->mesh->interface_count;
+  CwInterface *interfaces = NULL;
+  CW_NEW(interfaces, count);
+  for (int i = 0; i < count; ++i) CW_TRY(cw_interface_make(assembly, i, &interfaces[i]));
   CW_TRY(cw_folder_remove(output->folder));
   CW_TRY(cw_output_begin(output, interfaces));
 done:
+  for (int i = 0; interfaces && i < count; ++i) cw_interface_free(&interfaces[i]);
+  free(interfaces);
   return status;
 }
 
@@ -96,24 +91,25 @@ static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
   json_t *patches = json_array();
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     const CwPatchPart *sum = &a->patches[p];
-    json_array_append_new(patches,
-                          json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name, "domain",
-                                    a->mesh->domains[a->mesh->patches[p].domain].name, "triangles",
-                                    (json_int_t)sum->triangles, "quads", (json_int_t)sum->quads, "area_m2", sum->area));
+    json_array_append_new(patches, json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name, "domain",
+                                             a->mesh->domains[a->mesh->patches[p].domain].name, "triangles",
+                                             (json_int_t)sum->faces.triangles, "quads", (json_int_t)sum->faces.quads,
+                                             "area_m2", sum->area));
   }
   return cw_record_json(record, "patches", patches);
 }
 
-static CwStatus record_interfaces(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {
+static CwStatus record_interfaces(const CwAssembly *a, CwRecord *record) {
   json_t *list = json_array();
   for (int i = 0; i < a->mesh->interface_count; ++i) {
     const int *patch = a->mesh->interfaces[i].patch;
+    const CwPatchPart *one = &a->patches[patch[0]], *other = &a->patches[patch[1]];
     json_array_append_new(list, json_pack("{s:[s,s], s:[s,s], s:[f,f], s:[I,I]}", "domains",
                                           a->mesh->domains[a->mesh->patches[patch[0]].domain].name,
                                           a->mesh->domains[a->mesh->patches[patch[1]].domain].name, "patches",
                                           a->mesh->patches[patch[0]].name, a->mesh->patches[patch[1]].name, "areas_m2",
-                                          interfaces[i].sides[0].area, interfaces[i].sides[1].area, "faces",
-                                          (json_int_t)interfaces[i].count[0], (json_int_t)interfaces[i].count[1]));
+                                          one->area, other->area, "faces", (json_int_t)cw_face_count(one->faces),
+                                          (json_int_t)cw_face_count(other->faces)));
   }
   return cw_record_json(record, "interfaces", list);
 }
@@ -152,12 +148,10 @@ static void put_counts(const CwFaceQuality *faces, json_t *figures) {
     json_object_set_new(figures, counts[i].name, json_integer((json_int_t)counts[i].count));
 }
 
-static CwStatus record_results(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {
+static CwStatus record_results(const CwAssembly *a, CwRecord *record) {
   CwStatus status = CW_OK;
-  int64_t cells = 0;
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     const CwDomainTotal *t = &a->totals[d];
-    cells += t->cells;
     json_t *figures =
         json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "points", (json_int_t)t->points, "tetrahedra",
                   (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids, "prisms", (json_int_t)t->prisms,
@@ -167,9 +161,9 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
     put_counts(&t->faces, figures);
     CW_TRY(cw_record_json(record, a->mesh->domains[d].name, figures));
   }
-  CW_TRY(cw_record_integer(record, "cells", cells));
+  CW_TRY(cw_record_integer(record, "cells", cw_assembly_cells(a)));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
-  CW_TRY(record_interfaces(a, interfaces, record));
+  CW_TRY(record_interfaces(a, record));
   CW_TRY(record_patches(a, record));
 done:
   return status;
@@ -211,7 +205,7 @@ static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *f
 }
 
 // Worth a word, though the mesh can be used.
-static void warn(CwLog *log, const CwAssembly *a, const CwInterface *interfaces) {
+static void warn(CwLog *log, const CwAssembly *a) {
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     warn_of_faces(log, a->mesh->domains[d].name, &a->totals[d].faces);
     double solid = a->mesh->domains[d].solid_volume, off = a->totals[d].volume / solid - 1;
@@ -220,11 +214,11 @@ static void warn(CwLog *log, const CwAssembly *a, const CwInterface *interfaces)
                   a->totals[d].volume, solid, 100 * off);
   }
   for (int i = 0; i < a->mesh->interface_count; ++i) {
-    const CwInterfaceSide *side = interfaces[i].sides;
     const int *patch = a->mesh->interfaces[i].patch;
-    if (fabs(side[0].area / side[1].area - 1) > 0.02)
-      cw_log_warn(log, "the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'", 1e6 * side[0].area,
-                  a->mesh->patches[patch[0]].name, 1e6 * side[1].area, a->mesh->patches[patch[1]].name);
+    const double area = a->patches[patch[0]].area, other = a->patches[patch[1]].area;
+    if (fabs(area / other - 1) > 0.02)
+      cw_log_warn(log, "the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'", 1e6 * area,
+                  a->mesh->patches[patch[0]].name, 1e6 * other, a->mesh->patches[patch[1]].name);
   }
   for (int p = 0; p < a->mesh->patch_count; ++p)
     if (!cw_patch_is_there(a, p)) cw_log_warn(log, "patch '%s' has no face and is left out", a->mesh->patches[p].name);
@@ -236,12 +230,9 @@ static CwStatus finish_files(const char *folder, const char *part, int formats) 
   char *from = NULL, *to = NULL;
   CW_TRY(cw_folder_sync(part));
   for (int f = 0; f < CW_FORMATS; ++f) {
-    CW_TRY(join(part, cw_output_names[f], &from));
-    CW_TRY(join(folder, cw_output_names[f], &to));
+    CW_TRY(cw_path_set(&from, "%s/%s", part, cw_output_names[f]));
+    CW_TRY(cw_path_set(&to, "%s/%s", folder, cw_output_names[f]));
     CW_TRY(formats >> f & 1 ? cw_folder_replace(from, to) : cw_folder_remove(to));
-    free(from);
-    free(to);
-    from = to = NULL;
   }
   CW_TRY(cw_folder_remove(part));
 done:
@@ -267,10 +258,10 @@ done:
 }
 
 static CwStatus fill_record(const CwCase *table, const CwRanks *ranks, const CwAssembly *assembly,
-                            const CwInterface *interfaces, const CwOutput *output, CwRecord *record) {
+                            const CwOutput *output, CwRecord *record) {
   CwStatus status = CW_OK;
-  warn(ranks->log, assembly, interfaces);
-  CW_TRY(record_results(assembly, interfaces, record));
+  warn(ranks->log, assembly);
+  CW_TRY(record_results(assembly, record));
   CW_TRY(record_points(table, record));
   CW_TRY(record_formats(ranks->log, output, record));
   CW_TRY(cw_record_case(record, table));
@@ -283,40 +274,37 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   CwStatus status = CW_OK;
   CwMesh mesh = {0};
   CwAssembly assembly = {0};
-  CwInterface *interfaces = NULL;
   CwOutput output = {0};
   CwRecord *record = NULL;
   char *folder = NULL, *part = NULL, *path = NULL, digest[CW_HASH_TEXT];
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
-  CW_TRY(join(run, "export", &folder));
-  CW_TRY(join(folder, ".part", &part));
-  CW_TRY(join(folder, "record.json", &path));
-  CW_TRY(cw_record_start("export", ranks->log, &record));
-  status = cw_record_made_from(record, run, reads);
+  status = cw_path_set(&folder, "%s/export", run);
+  if (status == CW_OK) status = cw_path_set(&part, "%s/.part", folder);
+  if (status == CW_OK) status = cw_path_set(&path, "%s/record.json", folder);
+  if (status == CW_OK) status = cw_record_start("export", ranks->log, &record);
+  if (status == CW_OK) status = cw_record_made_from(record, run, reads);
   if (status == CW_OK) status = cw_mesh_manifest_read(run, &mesh);
   if (status == CW_OK) status = check_ends(&mesh);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
   checked = cw_seconds();
-  interfaces = calloc((size_t)mesh.interface_count + 1, sizeof *interfaces);
-  status = interfaces ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory: %d interfaces", mesh.interface_count);
-  CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_output_plan(table, &assembly, part, &output);
-  if (status == CW_OK && ranks->rank == 0) status = begin_files(&assembly, interfaces, &output);
+  if (status == CW_OK && ranks->rank == 0) status = begin_files(&assembly, &output);
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &output));
   CW_TRY(cw_output_digest(&output, ranks, digest));
   written = cw_seconds();
-  int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
-  for (int d = 0; d < mesh.domain_count; ++d) cells += assembly.totals[d].cells;
-  for (int i = 0; i < mesh.interface_count; ++i) faces += interfaces[i].count[0] + interfaces[i].count[1];
+  int64_t memory = cw_peak_memory_bytes(), faces = 0;
+  const int64_t cells = cw_assembly_cells(&assembly);
+  for (int i = 0; i < mesh.interface_count; ++i)
+    for (int s = 0; s < 2; ++s) faces += cw_face_count(assembly.patches[mesh.interfaces[i].patch[s]].faces);
   MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
   if (ranks->rank == 0) {
     CW_TRY(cw_record_step(record, "number the mesh", checked - start, cells, "cells"));
     CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
     CW_TRY(cw_record_step(record, "check and write the mesh", written - planned, cells, "cells"));
-    CW_TRY(fill_record(table, ranks, &assembly, interfaces, &output, record));
+    CW_TRY(fill_record(table, ranks, &assembly, &output, record));
     CW_TRY(cw_record_file_digest(record, cw_output_known_by(&output), digest));
     cw_record_set_peak_memory(record, memory);
     CW_TRY(finish_files(folder, part, output.formats));
@@ -330,8 +318,6 @@ done:
     rmdir(folder); // only if nothing is in it
   }
   cw_output_free(&output);
-  for (int i = 0; interfaces && i < mesh.interface_count; ++i) cw_interface_free(&interfaces[i]);
-  free(interfaces);
   cw_assembly_free(&assembly);
   cw_mesh_free(&mesh);
   cw_record_free(record);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "export/folder.h"
 #include "pipeline/atomic_file.h"
 
 CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ...) {
@@ -29,6 +30,50 @@ done:
   return status;
 }
 
+CwStatus cw_values_start(CwValues *values, const char *key) {
+  return cw_values_set(values, key, "%s", "");
+}
+
+static CwValue *find_value(const CwValues *values, const char *key, size_t length) {
+  for (int i = values->count - 1; i >= 0; --i)
+    if (strlen(values->list[i].key) == length && strncmp(values->list[i].key, key, length) == 0)
+      return &values->list[i];
+  return NULL;
+}
+
+const char *cw_values_get(const CwValues *values, const char *key) {
+  const CwValue *found = find_value(values, key, strlen(key));
+  return found ? found->value : NULL;
+}
+
+CwStatus cw_values_append(CwValues *values, const char *key, const char *format, ...) {
+  CwStatus status = CW_OK;
+  CwValue *value = find_value(values, key, strlen(key));
+  char *more = NULL, *whole = NULL;
+  va_list arguments;
+  va_start(arguments, format);
+  if (vasprintf(&more, format, arguments) < 0) more = NULL;
+  va_end(arguments);
+  CW_REQUIRE(more && asprintf(&whole, "%s%s", value->value, more) >= 0, CW_ERR_MEMORY, "out of memory");
+  free(value->value);
+  value->value = whole;
+done:
+  free(more);
+  return status;
+}
+
+CwStatus cw_values_append_file(CwValues *values, const char *key, const char *path) {
+  CwStatus status = CW_OK;
+  char *filled = NULL;
+  const CwTemplate *file = cw_template_find(path);
+  CW_REQUIRE(file, CW_ERR_EXPORT, "no template %s", path);
+  CW_TRY(cw_template_fill(path, strchr(file->text, '\n') + 1, values, &filled));
+  CW_TRY(cw_values_append(values, key, "%s", filled));
+done:
+  free(filled);
+  return status;
+}
+
 void cw_values_free(CwValues *values) {
   for (int i = 0; i < values->count; ++i) {
     free(values->list[i].key);
@@ -36,13 +81,6 @@ void cw_values_free(CwValues *values) {
   }
   free(values->list);
   memset(values, 0, sizeof *values);
-}
-
-static const char *find_value(const CwValues *values, const char *key, size_t length) {
-  for (int i = values->count - 1; i >= 0; --i)
-    if (strlen(values->list[i].key) == length && strncmp(values->list[i].key, key, length) == 0)
-      return values->list[i].value;
-  return NULL;
 }
 
 CwStatus cw_template_fill(const char *name, const char *text, const CwValues *values, char **filled) {
@@ -58,9 +96,9 @@ CwStatus cw_template_fill(const char *name, const char *text, const CwValues *va
       fputc(*text++, out);
       continue;
     }
-    const char *value = find_value(values, text + 1, length);
-    CW_REQUIRE(value, CW_ERR_EXPORT, "%s: no value for @%.*s@", name, (int)length, text + 1);
-    fputs(value, out);
+    const CwValue *found = find_value(values, text + 1, length);
+    CW_REQUIRE(found, CW_ERR_EXPORT, "%s: no value for @%.*s@", name, (int)length, text + 1);
+    fputs(found->value, out);
     text += length + 2;
   }
 done:
@@ -101,20 +139,19 @@ done:
   return status;
 }
 
-CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValues *values) {
+CwStatus cw_templates_write(const char *prefix, const char *folder, CwValuesOfFile of_file, CwValues *values) {
   CwStatus status = CW_OK;
   char *path = NULL;
   for (int i = 0; i < cw_template_count; ++i) {
     const CwTemplate *t = &cw_templates[i];
     if (strncmp(t->path, prefix, strlen(prefix)) != 0) continue;
-    CW_REQUIRE(asprintf(&path, "%s/%s", folder, t->path + strlen(prefix)) >= 0, CW_ERR_MEMORY, "out of memory");
+    CW_TRY(cw_path_set(&path, "%s/%s", folder, t->path + strlen(prefix)));
     char *slash = strrchr(path, '/');
     *slash = '\0';
     CW_TRY(cw_make_directory(path));
     *slash = '/';
+    if (of_file) CW_TRY(of_file(slash + 1, values));
     CW_TRY(cw_template_write(t, path, values));
-    free(path);
-    path = NULL;
   }
 done:
   free(path);

@@ -28,6 +28,16 @@ typedef struct {
 // Sets a value (printf style); a key's last value counts. Values must be freed with cw_values_free().
 CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+// Sets a value to "", to which texts (printf style) are then appended, or built-in files without their first line (the
+// licence), filled with the values: blocks of which a case has as many as its mesh has domains, patches or interfaces.
+CwStatus cw_values_start(CwValues *values, const char *key);
+CwStatus cw_values_append(CwValues *values, const char *key, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+CwStatus cw_values_append_file(CwValues *values, const char *key, const char *path);
+
+// The value of a key, or NULL.
+const char *cw_values_get(const CwValues *values, const char *key);
 void cw_values_free(CwValues *values);
 
 // The text with every @key@ replaced, as a new string. CW_ERR_EXPORT where a key has no value; `name` says
@@ -40,8 +50,12 @@ const CwTemplate *cw_template_find(const char *path);
 // Writes a built-in file, filled, to `path`, whose folder is there. CW_ERR_EXPORT, CW_ERR_IO.
 CwStatus cw_template_write(const CwTemplate *built_in, const char *path, const CwValues *values);
 
-// Writes every built-in file below `prefix` ("openfoam/") to `folder`, making folders where needed.
-CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValues *values);
+// Sets the values that follow from the name of a file.
+typedef CwStatus (*CwValuesOfFile)(const char *name, CwValues *values);
+
+// Writes every built-in file below `prefix` ("openfoam/") to `folder`, making folders where needed. `of_file`: NULL: no
+// such values.
+CwStatus cw_templates_write(const char *prefix, const char *folder, CwValuesOfFile of_file, CwValues *values);
 
 // Writes a text to a new file. CW_ERR_IO.
 CwStatus cw_text_write(const char *path, const char *text, int executable);

@@ -175,7 +175,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
                  .patches = patches,
                  .flow = {2, 0.07, 9, 0.01, 0.2, 6}};
   CwPatchPart parts[PATCHES];
-  for (int p = 0; p < PATCHES; ++p) parts[p] = (CwPatchPart){.triangles = 1, .area = 1, .vector = {0, 0, 1}};
+  for (int p = 0; p < PATCHES; ++p) parts[p] = (CwPatchPart){.faces.triangles = 1, .area = 1, .vector = {0, 0, 1}};
   CwAssembly assembly = {.mesh = &mesh, .patches = parts};
   CwCase table = {.name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}};
   char path[STAGE_PATH_SIZE + 60];

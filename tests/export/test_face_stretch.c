@@ -19,8 +19,8 @@ static CwMesh mesh = {.regions = &line,
                       .patch_count = 2,
                       .domain_count = 1,
                       .domains = {{.patch_count = 2, .region_count = 1}}};
-static CwRegionPlace place = {.cell = 100, .open = 1, .inner_triangles = 1, .outer_triangles = 1};
-static CwPatchPart parts[] = {{.triangles = 2}, {.triangles = 3}};
+static CwRegionPlace place = {.cell = 100, .open = 1, .inner.triangles = 1, .outer.triangles = 1};
+static CwPatchPart parts[] = {{.faces.triangles = 2}, {.faces.triangles = 3}};
 static int64_t across[] = {0, 200};
 static CwAssembly assembly = {
     .mesh = &mesh, .places = &place, .parts = parts, .patches = parts, .across = across, .open_count = 2};
@@ -59,13 +59,13 @@ static void inner_faces_go_by_the_cells(void **state) {
   assert_false(cw_face_stretch_inner(&assembly, 0, &data, &faces, &s));
   cw_face_stretch_start(&s);
   across[1] = 50; // that of the lower number has the face
-  place.outer_triangles = 0;
+  place.outer.triangles = 0;
   assert_true(cw_face_stretch_inner(&assembly, 0, &data, &faces, &s));
   assert_int_equal(s.faces, 1);
   cw_face_stretch_free(&s);
   cw_region_faces_free(&faces);
   across[1] = 200;
-  place.outer_triangles = 1;
+  place.outer.triangles = 1;
 }
 
 static void faces_on_a_patch_keep_their_order(void **state) {
@@ -100,9 +100,9 @@ static void the_layout_counts_all_faces(void **state) {
   assert_int_equal(cw_face_count(layout.patch[1]), 4);
   assert_int_equal(cw_face_count(layout.all), 7);
   assert_int_equal(cw_corner_count(layout.all), 21);
-  parts[1].triangle = 5; // those of regions before
+  parts[1].before.triangles = 5; // those of regions before
   assert_int_equal(cw_face_layout_patch(&layout, &assembly, 0, 1).triangles, 9);
-  parts[1].triangle = 0;
+  parts[1].before.triangles = 0;
   cw_face_layout_free(&layout);
 }
 

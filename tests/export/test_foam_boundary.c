@@ -38,7 +38,7 @@ static void write_files(const CwPatchKind kind[PATCHES]) {
   for (int p = 0; p < PATCHES; p++) {
     patches[p] = (CwModelPatch){.kind = kind[p], .flow_share = 1};
     strcpy(patches[p].name, names[p]);
-    sums[p] = (CwPatchPart){.triangles = count[p].triangles, .quads = count[p].quads};
+    sums[p] = (CwPatchPart){.faces = count[p]};
     first[p + 1] = (CwFaceCount){first[p].triangles + count[p].triangles, first[p].quads + count[p].quads};
   }
   CwMesh input = {.patch_count = PATCHES, .patches = patches};

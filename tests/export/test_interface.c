@@ -54,8 +54,8 @@ static void make_pair(Pair *p) {
   p->mesh.patch_count = 2;
   p->assembly.mesh = &p->mesh;
   p->assembly.patches = p->sums;
-  p->sums[0].triangles = make_ring(36, 5, 1, 0.02, &p->assembly.interface[0][0]);
-  p->sums[1].quads = make_ring(50, 7, 0, 0.3, &p->assembly.interface[0][1]);
+  p->sums[0].faces.triangles = make_ring(36, 5, 1, 0.02, &p->assembly.interface[0][0]);
+  p->sums[1].faces.quads = make_ring(50, 7, 0, 0.3, &p->assembly.interface[0][1]);
 }
 
 static void free_pair(Pair *p) {
@@ -156,7 +156,7 @@ static void make_discs(Pair *p) {
   for (int side = 0; side < 2; ++side) {
     p->sums[side] = (CwPatchPart){.area = M_PI * RADIUS * RADIUS,
                                   .vector = {0, (side ? 1 : -1) * sin(M_PI / 6), (side ? -1 : 1) * cos(M_PI / 6)}};
-    p->sums[side].triangles = make_disc(24, side ? 7 : 3, &p->assembly.interface[1][side]);
+    p->sums[side].faces.triangles = make_disc(24, side ? 7 : 3, &p->assembly.interface[1][side]);
   }
 }
 
@@ -206,7 +206,7 @@ static void discs_of_different_size_are_told(void **state) {
   Pair p;
   CwInterface interface = {0};
   make_discs(&p);
-  for (int64_t i = 0; i < p.sums[1].triangles; ++i)
+  for (int64_t i = 0; i < p.sums[1].faces.triangles; ++i)
     for (int c = 0; c < 3; ++c)
       for (int k = 0; k < 3; ++k)
         p.assembly.interface[1][1][i].nodes[c][k] +=

@@ -57,8 +57,8 @@ static void a_format_that_cannot_hold_the_mesh_is_left_out(void **state) {
                  .patch_count = 1,
                  .regions = &region,
                  .region_count = 1};
-  CwRegionPlace place = {.inner_triangles = 3000000000};
-  CwPatchPart part = {.triangles = 10};
+  CwRegionPlace place = {.inner.triangles = 3000000000};
+  CwPatchPart part = {.faces.triangles = 10};
   CwAssembly assembly = {.mesh = &mesh,
                          .places = &place,
                          .parts = &part,

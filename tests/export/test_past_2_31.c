@@ -56,11 +56,11 @@ static void large_make(Before before, Large *l) {
   l->mesh = (CwMesh){.domain_count = 1, .patches = &l->patch, .patch_count = 1};
   l->mesh.regions = l->regions, l->mesh.region_count = 2;
   l->mesh.domains[0] = (CwMeshDomain){.name = "rotor", .zone = "ROTOR", .patch_count = 1, .region_count = 2};
-  l->places[0] = (CwRegionPlace){.inner_triangles = before.inner};
+  l->places[0] = (CwRegionPlace){.inner.triangles = before.inner};
   l->places[1] = (CwRegionPlace){.own_point = before.points, .tetrahedron = before.cells, .cell = before.cells};
-  l->parts[0] = (CwPatchPart){.triangles = before.patch};
-  l->parts[1] = (CwPatchPart){.triangles = 4, .triangle = before.patch};
-  l->sum = (CwPatchPart){.triangles = before.patch + 4};
+  l->parts[0] = (CwPatchPart){.faces.triangles = before.patch};
+  l->parts[1] = (CwPatchPart){.faces.triangles = 4, .before.triangles = before.patch};
+  l->sum = (CwPatchPart){.faces.triangles = before.patch + 4};
   l->assembly = (CwAssembly){.mesh = &l->mesh, .places = l->places, .parts = l->parts, .patches = &l->sum};
   l->assembly.totals[0] =
       (CwDomainTotal){.points = before.points + 4, .cells = before.cells + 1, .tetrahedra = before.cells + 1};
@@ -168,6 +168,23 @@ static void openfoam_has_its_labels(void **state) {
   stage_folder_remove(folder_of);
 }
 
+// The mesh has fewer faces, but half of them are as many face corners.
+static void a_part_has_its_labels(void **state) {
+  const Before before = {.points = 100, .cells = 700000000, .inner = 1500000000};
+  for (int is_auto = 0; is_auto < 2; ++is_auto) {
+    const CwExportTable table = {.foam_processors = 2, .foam_labels = is_auto ? CW_INTEGERS_AUTO : CW_INTEGERS_32};
+    CwFoamMesh mesh = {0};
+    Large l;
+    large_make(before, &l);
+    assert_int_equal(cw_foam_layout_plan(&l.assembly, test_folder, &table, &mesh), CW_OK);
+    assert_int_equal(mesh.label_size, 4);
+    mesh.division.parts[0].inner.triangles = before.inner / 2;
+    assert_int_equal(cw_foam_layout_parts(&mesh), is_auto ? CW_OK : CW_ERR_EXPORT);
+    assert_int_equal(mesh.label_size, is_auto ? 8 : 4);
+    cw_foam_layout_free(&mesh);
+  }
+}
+
 static void fluent_has_its_lines(void **state) {
   // As many points and faces as the format allows, nearly: 150 and 99 gigabytes.
   const Before before = {.points = 2100000000, .cells = 1900000000, .inner = 1000000000, .patch = 1100000000};
@@ -213,6 +230,7 @@ int main(int argc, char **argv) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cgns_has_its_integers),
       cmocka_unit_test(openfoam_has_its_labels),
+      cmocka_unit_test(a_part_has_its_labels),
       cmocka_unit_test(fluent_has_its_lines),
   };
   const int failed = cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);

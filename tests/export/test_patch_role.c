@@ -17,6 +17,8 @@ static void walls_turn_in_zones_that_rotate_or_not(void **state) {
   assert_true(cw_patch_turns(&mesh, &hub) && cw_patch_rotates(&mesh, &hub) && !cw_patch_is_shaft(&mesh, &hub));
   assert_true(cw_patch_turns(&mesh, &shaft) && !cw_patch_rotates(&mesh, &shaft) && cw_patch_is_shaft(&mesh, &shaft));
   assert_false(cw_patch_turns(&mesh, &pipe) || cw_patch_turns(&mesh, &inlet) || cw_patch_turns(&mesh, &volute));
+  assert_true(cw_patch_stands(&mesh, &pipe) && cw_patch_stands(&mesh, &volute));
+  assert_false(cw_patch_stands(&mesh, &hub) || cw_patch_stands(&mesh, &inlet));
 }
 
 static void walls_are_resolved_where_one_is(void **state) {

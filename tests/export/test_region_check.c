@@ -24,7 +24,7 @@ static int make(void **state) {
   memcpy(points, (double[][3]){{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -2}, {9, 9, 9}}, sizeof points);
   memcpy(tetrahedra, (int32_t[][4]){{0, 1, 2, 3}, {0, 2, 1, 4}}, sizeof tetrahedra);
   mesh.region_count = 1;
-  for (int r = 0; r < 3; ++r) place[r] = (CwRegionPlace){.inner_triangles = 1};
+  for (int r = 0; r < 3; ++r) place[r] = (CwRegionPlace){.inner.triangles = 1};
   data = (CwRegionData){.points = points,
                         .point_count = 5,
                         .shared_count = 3,
@@ -69,7 +69,7 @@ static void a_point_without_cell_is_told(void **state) {
 }
 
 static void a_region_that_has_changed_is_told(void **state) {
-  place[0].inner_triangles = 2;
+  place[0].inner.triangles = 2;
   fails_with("rotor-0001.h5: has other faces than when it was first read");
 }
 
@@ -141,7 +141,7 @@ static void a_copy_with_another_number_of_faces_is_told(void **state) {
   CwRegionModel model = {0};
   CwRegionData first = turned(0), second = turned(2);
   mesh.region_count = 3;
-  place[1].inner_triangles = 2;
+  place[1].inner.triangles = 2;
   assert_int_equal(cw_region_check(&assembly, 2, &first, &model), CW_OK);
   cw_region_model_keep(&assembly, 2, &first, &model);
   assert_int_equal(cw_region_check(&assembly, 1, &second, &model), CW_ERR_INPUT);

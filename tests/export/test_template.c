@@ -25,6 +25,21 @@ static void a_key_without_value_is_told(void **state) {
   assert_null(text);
 }
 
+static void texts_are_appended(void **state) {
+  CwValues values = {0};
+  assert_int_equal(cw_values_start(&values, "list"), CW_OK);
+  assert_int_equal(cw_values_append(&values, "list", "%d", 1), CW_OK);
+  assert_int_equal(cw_values_set(&values, "zone", "rotor"), CW_OK);
+  assert_int_equal(cw_values_append(&values, "list", ", %s", cw_values_get(&values, "list")), CW_OK);
+  assert_string_equal(cw_values_get(&values, "list"), "1, 1");
+  assert_int_equal(cw_values_start(&values, "list"), CW_OK);
+  assert_int_equal(cw_values_append_file(&values, "list", "cfx_parts/transient_domain.ccl"), CW_OK);
+  assert_memory_equal(cw_values_get(&values, "list"), "  DOMAIN: rotor\n", 16); // without the licence
+  assert_int_equal(cw_values_append_file(&values, "list", "cfx_parts/none.ccl"), CW_ERR_EXPORT);
+  assert_null(cw_values_get(&values, "lis"));
+  cw_values_free(&values);
+}
+
 static void the_scripts_are_built_in_and_executable(void **state) {
   int scripts = 0;
   for (int i = 0; i < cw_template_count; ++i)
@@ -39,6 +54,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_are_replaced_and_other_signs_stay),
       cmocka_unit_test(a_key_without_value_is_told),
+      cmocka_unit_test(texts_are_appended),
       cmocka_unit_test(the_scripts_are_built_in_and_executable),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -29,7 +29,6 @@ class Cutwater(CMakePackage):
     depends_on("python@3.9:", type=("build", "run"))
     depends_on("mpi")
     depends_on("hdf5@1.10:")
-    depends_on("cgns@3.4: +hdf5")
     depends_on("opencascade@7.5: +data_exchange")
     depends_on("cgal@5:")
     depends_on("tetgen@1.5:1.5 +pic")
