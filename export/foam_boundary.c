@@ -15,7 +15,7 @@ static const char head[] = "FoamFile\n{\n    version     2.0;\n    format      a
 static void put_patch(FILE *out, const CwFoamMesh *mesh, int part, int p) {
   const CwMesh *input = mesh->assembly->mesh;
   const CwModelPatch *patch = &input->patches[p];
-  int side = 0, between = cw_mesh_interface_of(input, p, &side);
+  int side = 0, between = cw_interface_of(input->interfaces, input->interface_count, p, &side);
   fprintf(out, "    %s\n    {\n", patch->name);
   if (patch->kind == CW_PATCH_INTERFACE)
     fprintf(out,

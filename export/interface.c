@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "export/interface_near.h"
-#include "pipeline/mesh/interface_tolerance.h"
+#include "pipeline/mesh/cell.h"
 #include "pipeline/vec.h"
 
 static const double ROUNDING = 1e-9; // of the size of the interface

@@ -77,7 +77,6 @@ void cw_sync_begin(const char *path) {
   if (handle < 0) return;
   sync_file_range(handle, 0, 0, SYNC_FILE_RANGE_WRITE);
   close(handle);
-#else
 #endif
 }
 

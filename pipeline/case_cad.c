@@ -28,17 +28,6 @@ enum { DOMAIN_NAME_MOST = 14, PATCH_NAME_MOST = 22 };
   CW_FAIL(CW_ERR_INPUT, "%s:%d:%d: %s: " format, path, (node)->place.line, (node)->place.column, (node)->path,         \
           __VA_ARGS__)
 
-static void list_words(const char *const *words, char text[CW_WRONG_SIZE]) {
-  size_t used = 0;
-  text[0] = '\0';
-  for (int i = 0; words[i] && used < CW_WRONG_SIZE; i++)
-    used += (size_t)snprintf(text + used, CW_WRONG_SIZE - used, "%s%s",
-                             i == 0         ? ""
-                             : words[i + 1] ? ", "
-                                            : " or ",
-                             words[i]);
-}
-
 // Whether `key` is `known`, which may end in another unit of length or speed. *unit: the one it ends in.
 static int is_key(const char *key, const char *known, const CwUnit **unit) {
   size_t stem, known_stem;
@@ -53,7 +42,7 @@ static CwStatus require_map(const char *path, const CwCaseNode *node, const char
   char words[CW_WRONG_SIZE];
   const CwUnit *unit;
   if (known)
-    list_words(known, words);
+    cw_case_words(known, words, sizeof words);
   else
     snprintf(words, sizeof words, "free names, one a line");
   if (node->type != CW_NODE_MAP) return FAIL_AT(node, "it is no mapping; allowed: the keys %s", words);
@@ -129,7 +118,7 @@ static CwStatus read_choice(const char *path, const CwCaseNode *node, const char
     *choice = i;
     return CW_OK;
   }
-  list_words(words, allowed);
+  cw_case_words(words, allowed, sizeof allowed);
   cw_show(node->text ? node->text : "a list", shown);
   return FAIL_AT(node, "%s is not one of the choices; allowed: %s", shown, allowed);
 }
@@ -165,11 +154,8 @@ static CwStatus read_axis(const char *path, const CwCaseNode *node, CwCaseCad *c
   const CwCaseNode *direction = member(node, "direction", &unit);
   if (!direction) goto done;
   CW_TRY(read_point(path, direction, NULL, cad->axis));
-  double *axis = cad->axis, length = cw_unit(axis);
-  if (!(length > 0)) {
+  if (!(cw_unit(cad->axis) > 0))
     status = FAIL_AT(direction, "it has no length; allowed: %s", "a vector other than [0, 0, 0]");
-    goto done;
-  }
 done:
   return status;
 }

@@ -74,8 +74,7 @@ static CwStatus check_priority(const char *path, const CwCase *table, const CwCa
   const CwCasePlace *place = &places[cw_case_key_find("impeller", "priority")];
   CW_REQUIRE(table->impeller.priority != CW_PRIORITY_WRAP || cw_case_given(table->impeller.wrap_angle), CW_ERR_INPUT,
              "%s:%d:%d: impeller.priority: wrap needs the key wrap_angle_deg, which is missing; allowed: "
-             "wrap_angle_deg "
-             "from 20 to 300 degrees, or priority auto, head or beta",
+             "wrap_angle_deg from 20 to 300 degrees, or priority auto, head or beta",
              path, place->line, place->column);
   CW_REQUIRE(table->impeller.priority != CW_PRIORITY_BETA || cw_case_given(table->impeller.outlet_blade_angle),
              CW_ERR_INPUT,
@@ -102,8 +101,7 @@ static CwStatus check_operating_point(const char *path, const CwCase *table, con
   double most = cw_case_given(tip_speed) ? tip_speed * tip_speed / gravity : INFINITY;
   place = &places[cw_case_key_find("operating_point", "head_m")];
   CW_REQUIRE(point->head < most, CW_ERR_INPUT,
-             "%s:%d:%d: operating_point.head_m: %.6g contradicts speed_rpm and impeller.outlet_diameter_mm, "
-             "which give "
+             "%s:%d:%d: operating_point.head_m: %.6g contradicts speed_rpm and impeller.outlet_diameter_mm, which give "
              "the tip speed %.4g m/s; allowed: below %.4g m (u2^2/g)",
              path, place->line, place->column, point->head, tip_speed, most);
 done:
@@ -153,8 +151,7 @@ static CwStatus check_roughness(const char *path, const CwCase *table, const CwC
   CwStatus status = CW_OK;
   const CwCasePlace *place = &places[cw_case_key_find("walls", "treatment")];
   CW_REQUIRE(table->walls.treatment != CW_WALL_FUNCTION_ROUGH || table->walls.roughness > 0, CW_ERR_INPUT,
-             "%s:%d:%d: walls.treatment: rough contradicts roughness_um, which is 0; allowed: smooth, or "
-             "roughness_um "
+             "%s:%d:%d: walls.treatment: rough contradicts roughness_um, which is 0; allowed: smooth, or roughness_um "
              "above 0 to 5000 um",
              path, place->line, place->column);
 done:

@@ -60,6 +60,16 @@ done:
   return status;
 }
 
+CwStatus cw_event_next_key(CwEventStream *stream, const char *path, CwEvent *key) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_event_next(stream, key));
+  CW_REQUIRE(key->type == FYET_SCALAR || key->type == FYET_MAPPING_END, CW_ERR_INPUT,
+             "%s:%d:%d: %s: a key is %s; allowed: a plain word", stream->path, key->place.line, key->place.column, path,
+             cw_event_words(key->type));
+done:
+  return status;
+}
+
 const char *cw_event_words(enum fy_event_type type) {
   switch (type) {
   case FYET_MAPPING_START:

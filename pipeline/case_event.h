@@ -40,6 +40,10 @@ void cw_event_stream_close(CwEventStream *stream);
 // The next event. Fails with CW_ERR_INPUT where the text is not YAML.
 CwStatus cw_event_next(CwEventStream *stream, CwEvent *event);
 
+// The next key of a mapping that messages call `path`; an event of type FYET_MAPPING_END behind the last. CW_ERR_INPUT
+// also where a key is no scalar.
+CwStatus cw_event_next_key(CwEventStream *stream, const char *path, CwEvent *key);
+
 // "a mapping", "a list": for messages.
 const char *cw_event_words(enum fy_event_type type);
 

@@ -27,21 +27,18 @@ static int left_out(const CwCaseKey *key, const CwCase *table) {
 
 json_t *cw_case_origin(const CwCase *table) {
   json_t *origin = json_object();
+  int broken = !origin;
   char path[CW_KEY_PATH_SIZE];
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     const CwCaseKey *key = &cw_case_keys[i];
     if (!cw_case_key_shapes_pump(key) || left_out(key, table)) continue;
     cw_case_key_path(key, path);
-    if (json_object_set_new(origin, path, value_json(key, table))) {
-      json_decref(origin);
-      return NULL;
-    }
+    broken |= json_object_set_new(origin, path, value_json(key, table)) != 0;
   }
-  if (table->cad && json_object_set_new(origin, "cad", json_string(table->cad->digest))) {
-    json_decref(origin);
-    return NULL;
-  }
-  return origin;
+  if (table->cad) broken |= json_object_set_new(origin, "cad", json_string(table->cad->digest)) != 0;
+  if (!broken) return origin;
+  json_decref(origin);
+  return NULL;
 }
 
 static int same(const json_t *a, const json_t *b) {

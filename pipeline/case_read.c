@@ -98,22 +98,12 @@ done:
   return status;
 }
 
-static CwStatus require_scalar_key(const Reader *reader, const char *section, const CwEvent *key) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(key->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: a key is %s; allowed: a plain word",
-             reader->stream.path, key->place.line, key->place.column, section[0] ? section : "case file",
-             cw_event_words(key->type));
-done:
-  return status;
-}
-
 static CwStatus read_section(Reader *reader, const char *section) {
   CwStatus status = CW_OK;
   CwEvent key, value;
   for (;;) {
-    CW_TRY(cw_event_next(&reader->stream, &key));
+    CW_TRY(cw_event_next_key(&reader->stream, section, &key));
     if (key.type == FYET_MAPPING_END) break;
-    CW_TRY(require_scalar_key(reader, section, &key));
     CW_TRY(cw_event_next(&reader->stream, &value));
     CW_TRY(read_pair(reader, section, &key, &value));
   }
@@ -145,9 +135,8 @@ static CwStatus read_top(Reader *reader) {
   CwEvent key, value;
   char shown[CW_SHOWN_SIZE];
   for (;;) {
-    CW_TRY(cw_event_next(&reader->stream, &key));
+    CW_TRY(cw_event_next_key(&reader->stream, "case file", &key));
     if (key.type == FYET_MAPPING_END) break;
-    CW_TRY(require_scalar_key(reader, "", &key));
     CW_TRY(cw_event_next(&reader->stream, &value));
     if (!strcmp(key.text, "cad")) {
       CW_TRY(read_cad(reader, &key, &value));

@@ -305,6 +305,14 @@ static const char *unit_text(const CwCaseKey *key) {
   return unit ? unit->text : "";
 }
 
+void cw_case_words(const char *const *words, char *text, size_t size) {
+  size_t used = 0;
+  for (int i = 0; words[i] && used < size; ++i) {
+    const char *between = i == 0 ? "" : words[i + 1] ? ", " : " or ";
+    used += (size_t)snprintf(text + used, size - used, "%s%s", between, words[i]);
+  }
+}
+
 void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]) {
   size_t size = CW_KEY_ALLOWED_SIZE, used = 0;
   const char *or_auto = key->presence == CW_KEY_AUTO ? ", or auto" : "";
@@ -322,10 +330,7 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
   case CW_KEY_CHOICE:
   case CW_KEY_CHOICES:
     used = (size_t)snprintf(allowed, size, "%s", key->type == CW_KEY_CHOICES ? "a list of one or more of " : "");
-    for (int i = 0; key->choices[i] && used < size; ++i) {
-      const char *between = i == 0 ? "" : key->choices[i + 1] ? ", " : " or ";
-      used += (size_t)snprintf(allowed + used, size - used, "%s%s", between, key->choices[i]);
-    }
+    cw_case_words(key->choices, allowed + used, size - used);
     return;
   case CW_KEY_NAME:
     snprintf(allowed, size, "%.0f to %.0f letters, digits, _ and -, a letter first", key->least, key->most);

@@ -66,6 +66,9 @@ int cw_case_section_known(const char *section);
 // "impeller.blade_count"; "name" at the top.
 void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]);
 
+// "wrap, head or beta", of words that end with NULL.
+void cw_case_words(const char *const *words, char *text, size_t size);
+
 // What the key may be, for messages and the page: "10 to 5000 mm", "a whole number from 3 to 9", "wrap, head
 // or beta".
 void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]);

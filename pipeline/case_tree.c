@@ -19,24 +19,20 @@ done:
   return status;
 }
 
-static CwStatus add_item(CwCaseNode *node, CwCaseNode **item) {
+// Adds an item to a list, or to a mapping with its key.
+static CwStatus add_item(CwCaseNode *node, const char *key, CwCaseNode **item) {
   CwStatus status = CW_OK;
+  char shown[CW_SHOWN_SIZE] = "";
   CwCaseNode *grown = realloc(node->item, (size_t)(node->count + 1) * sizeof *grown);
   CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %s", node->path);
   node->item = grown;
   *item = &grown[node->count++];
   memset(*item, 0, sizeof **item);
-done:
-  return status;
-}
-
-static CwStatus item_path(const CwCaseNode *node, const char *key, CwCaseNode *item) {
-  CwStatus status = CW_OK;
-  char shown[CW_SHOWN_SIZE] = "";
+  if (key) CW_TRY(copy_text(key, &(*item)->key));
   if (key) cw_show(key, shown);
   const size_t size = strlen(node->path) + strlen(shown) + 2;
-  CW_NEW(item->path, size);
-  snprintf(item->path, size, "%s%s%s", node->path, key ? "." : "", shown);
+  CW_NEW((*item)->path, size);
+  snprintf((*item)->path, size, "%s%s%s", node->path, key ? "." : "", shown);
 done:
   return status;
 }
@@ -46,17 +42,13 @@ static CwStatus read_map(CwEventStream *stream, int depth, CwCaseNode *node) {
   CwEvent key, value;
   for (;;) {
     CwCaseNode *item = NULL;
-    CW_TRY(cw_event_next(stream, &key));
+    CW_TRY(cw_event_next_key(stream, node->path, &key));
     if (key.type == FYET_MAPPING_END) break;
-    CW_REQUIRE(key.type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: a key is %s; allowed: a plain word", stream->path,
-               key.place.line, key.place.column, node->path, cw_event_words(key.type));
     const CwCaseNode *before = cw_case_tree_find(node, key.text);
     CW_REQUIRE(!before, CW_ERR_INPUT, "%s:%d:%d: %s: given twice, first in line %d; allowed: once", stream->path,
                key.place.line, key.place.column, before->path, before->place.line);
     CW_TRY(cw_event_next(stream, &value));
-    CW_TRY(add_item(node, &item));
-    CW_TRY(item_path(node, key.text, item));
-    CW_TRY(copy_text(key.text, &item->key));
+    CW_TRY(add_item(node, key.text, &item));
     CW_TRY(read_node(stream, &value, depth + 1, item));
   }
 done:
@@ -70,8 +62,7 @@ static CwStatus read_list(CwEventStream *stream, int depth, CwCaseNode *node) {
     CwCaseNode *item = NULL;
     CW_TRY(cw_event_next(stream, &value));
     if (value.type == FYET_SEQUENCE_END) break;
-    CW_TRY(add_item(node, &item));
-    CW_TRY(item_path(node, NULL, item));
+    CW_TRY(add_item(node, NULL, &item));
     CW_TRY(read_node(stream, &value, depth + 1, item));
   }
 done:

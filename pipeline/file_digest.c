@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -66,6 +67,22 @@ CwStatus cw_file_size(const char *path, int64_t *size) {
   CW_REQUIRE(S_ISREG(about.st_mode), CW_ERR_IO, "%s: cannot be read: it is no plain file", path);
   *size = about.st_size;
 done:
+  return status;
+}
+
+CwStatus cw_file_text(const char *path, char **text, size_t *size) {
+  CwStatus status = CW_OK;
+  int64_t length = 0;
+  FILE *file = NULL;
+  CW_TRY(cw_file_size(path, &length));
+  file = fopen(path, "rb");
+  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+  CW_NEW_UNSET(*text, length + 1);
+  *size = fread(*text, 1, (size_t)length, file);
+  CW_REQUIRE(!ferror(file), CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+  (*text)[*size] = '\0';
+done:
+  if (file) fclose(file);
   return status;
 }
 

@@ -9,10 +9,6 @@
 #include "pipeline/hash.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { CW_FILE_BLOCK = 1 << 22, CW_SUM_PARTS = 4 };
 
 // 32 bits a part, the lowest first, in 64: sums of up to 2^32 ranks are added part by part. Zeroed to begin with.
@@ -32,10 +28,10 @@ void cw_file_sum_digest(const CwFileSum *sum, int64_t size, char digest[CW_HASH_
 // In bytes. CW_ERR_IO where it cannot be read.
 CwStatus cw_file_size(const char *path, int64_t *size);
 
+// Reads a plain file into new memory, with '\0' behind it. CW_ERR_IO where it cannot be read. [out] text: the caller
+// frees it, also after a failure.
+CwStatus cw_file_text(const char *path, char **text, size_t *size);
+
 // Digests a whole file. CW_ERR_IO where it cannot be read.
 CwStatus cw_file_digest(const char *path, char digest[CW_HASH_TEXT]);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

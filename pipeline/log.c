@@ -12,8 +12,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "pipeline/atomic_file.h"
-
 // Lines go to standard error: mpirun hands its ranks a pseudo terminal as standard output even when its own
 // output is a file, so only standard error tells truly whether a person is watching.
 enum { LINE_SIZE = 1200, WARNING_LIMIT = 1000 };
@@ -94,7 +92,6 @@ static void write_line(CwLog *log, const char *kind, const char *text) {
 
 CwStatus cw_log_open(const char *stage, const char *log_path, int speaks, int verbose, CwLog **log) {
   CwStatus status = CW_OK;
-  char *folder = NULL;
   CwLog *made = NULL;
   cw_log_close(log);
   CW_NEW(made, 1);
@@ -104,17 +101,10 @@ CwStatus cw_log_open(const char *stage, const char *log_path, int speaks, int ve
   made->terminal = isatty(STDERR_FILENO);
   *log = made; // so that an error from here on bears the stage's name
   if (log_path && speaks) {
-    const char *slash = strrchr(log_path, '/');
-    if (slash && slash != log_path) {
-      folder = strndup(log_path, (size_t)(slash - log_path));
-      CW_REQUIRE(folder, CW_ERR_MEMORY, "out of memory: the name %s", log_path);
-      CW_TRY(cw_make_directory(folder));
-    }
     made->copy = fopen(log_path, "w");
     CW_REQUIRE(made->copy, CW_ERR_IO, "%s: cannot be written: %s", log_path, strerror(errno));
   }
 done:
-  free(folder);
   return status;
 }
 
@@ -214,11 +204,7 @@ int cw_log_error(CwLog *log, CwStatus status) {
   snprintf(text, sizeof text, "%s", cw_fail_message()[0] ? cw_fail_message() : cw_status_text(status));
   make_one_line(text);
   write_line(log, "error: ", text);
-  if (log && log->verbose && cw_fail_trace()[0]) {
-    char trace[2 * LINE_SIZE];
-    snprintf(trace, sizeof trace, "%s", cw_fail_trace());
-    write_line(log, "passed: ", trace);
-  }
+  if (log && log->verbose && cw_fail_trace()[0]) write_line(log, "passed: ", cw_fail_trace());
   return status > 0 ? (int)status : 1;
 }
 

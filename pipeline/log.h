@@ -18,11 +18,11 @@ extern "C" {
 
 typedef struct CwLog CwLog;
 
-// Starts the log of `stage` ("geometry", "mesh", ...). `log_path` (may be NULL) gets a copy of each line.
-// `speaks` is false on all ranks but one. `verbose` adds the trace to errors and shows cw_log_debug lines.
-// The folder of `log_path` is made where it is missing. [in,out] log: NULL, or a log that is closed first, for a stage
-// opens the log before it reads its command line, so that an error there bears the stage's name, and again when it
-// knows the run's folder. The caller closes it, also after a failure.
+// Starts the log of `stage` ("geometry", "mesh", ...). `log_path` (may be NULL) gets a copy of each line; its folder is
+// there. `speaks` is false on all ranks but one. `verbose` adds the trace to errors and shows cw_log_debug lines.
+// [in,out] log: NULL, or a log that is closed first, for a stage opens the log before it reads its command line, so
+// that an error there bears the stage's name, and again when it knows the run's folder. The caller closes it, also
+// after a failure.
 CwStatus cw_log_open(const char *stage, const char *log_path, int speaks, int verbose, CwLog **log);
 void cw_log_close(CwLog **log);
 

@@ -42,10 +42,10 @@ int cw_model_patch_find(const CwModel *model, const char *name) {
   return -1;
 }
 
-int cw_model_interface_of(const CwModel *model, int patch, int *side) {
-  for (int i = 0; i < model->interface_count; i++)
+int cw_interface_of(const CwModelInterface *interface, int count, int patch, int *side) {
+  for (int i = 0; i < count; i++)
     for (*side = 0; *side < 2; ++*side)
-      if (model->interface[i].patch[*side] == patch) return i;
+      if (interface[i].patch[*side] == patch) return i;
   return -1;
 }
 
@@ -54,11 +54,9 @@ int cw_model_interface_of(const CwModel *model, int patch, int *side) {
 #define DIGITS "0123456789_"
 
 static CwStatus check_name(const char *what, const char *name, int most, const char *allowed, const char *text) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(name[0] && strlen(name) <= (size_t)most && strspn(name, allowed) == strlen(name), CW_ERR_INPUT,
-             "%s '%s'; allowed are 1 to %d %s, digits and _", what, name, most, text);
-done:
-  return status;
+  return name[0] && strlen(name) <= (size_t)most && strspn(name, allowed) == strlen(name)
+             ? CW_OK
+             : CW_FAIL(CW_ERR_INPUT, "%s '%s'; allowed are 1 to %d %s, digits and _", what, name, most, text);
 }
 
 CwStatus cw_model_add_domain(CwModel *model, const char *name, int rotating) {
@@ -110,7 +108,7 @@ CwStatus cw_model_add_interface(CwModel *model, const char *const patch[2], CwIn
     made.patch[s] = cw_model_patch_find(model, patch[s]);
     CW_REQUIRE(made.patch[s] >= 0 && model->patch[made.patch[s]].kind == CW_PATCH_INTERFACE, CW_ERR_INPUT,
                "interface %d: '%s' is no patch of kind interface", model->interface_count + 1, patch[s]);
-    CW_REQUIRE(cw_model_interface_of(model, made.patch[s], &side) < 0, CW_ERR_INPUT,
+    CW_REQUIRE(cw_interface_of(model->interface, model->interface_count, made.patch[s], &side) < 0, CW_ERR_INPUT,
                "interface %d: patch '%s' is a side of another one", model->interface_count + 1, patch[s]);
   }
   CW_REQUIRE(model->patch[made.patch[0]].domain != model->patch[made.patch[1]].domain, CW_ERR_INPUT,
@@ -294,8 +292,9 @@ CwStatus cw_model_unpack(json_t *root, const char *where, CwModel *model) {
   }
   for (int p = 0; p < model->patch_count; p++) {
     int side;
-    CW_REQUIRE(model->patch[p].kind != CW_PATCH_INTERFACE || cw_model_interface_of(model, p, &side) >= 0, CW_ERR_INPUT,
-               "patch '%s' of kind interface has no other side in 'interfaces'", model->patch[p].name);
+    CW_REQUIRE(model->patch[p].kind != CW_PATCH_INTERFACE ||
+                   cw_interface_of(model->interface, model->interface_count, p, &side) >= 0,
+               CW_ERR_INPUT, "patch '%s' of kind interface has no other side in 'interfaces'", model->patch[p].name);
   }
   CW_TRY(cw_json_object(root, where, "flow", &flow));
   CW_TRY(read_numbers(flow, where, model_flow, COUNT(model_flow), &model->flow));

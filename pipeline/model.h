@@ -110,8 +110,8 @@ CwStatus cw_model_add_interface(CwModel *model, const char *const patch[2], CwIn
 // The index of what is called so, or -1.
 int cw_model_domain_find(const CwModel *model, const char *name);
 int cw_model_patch_find(const CwModel *model, const char *name);
-// The interface that a patch is a side of, and which side, or -1.
-int cw_model_interface_of(const CwModel *model, int patch, int *side);
+// Of so many interfaces that which a patch is a side of, and which side, or -1.
+int cw_interface_of(const CwModelInterface *interface, int count, int patch, int *side);
 const char *cw_patch_kind_name(CwPatchKind kind);
 const char *cw_patch_group_name(CwPatchGroup group);
 

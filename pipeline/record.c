@@ -71,13 +71,11 @@ static json_t *json_text(const char *text) {
 }
 
 CwStatus cw_record_step(CwRecord *record, const char *name, double seconds, int64_t items, const char *unit) {
-  CwStatus status = CW_OK;
   json_t *step = json_pack("{so so sI so}", "name", json_text(name), "seconds", cw_json_number(seconds), "items",
                            (json_int_t)items, "unit", json_text(unit));
-  CW_REQUIRE(step && !json_array_append_new(record->steps, step), CW_ERR_MEMORY, "out of memory: the record of step %s",
-             name);
-done:
-  return status;
+  return step && !json_array_append_new(record->steps, step)
+             ? CW_OK
+             : CW_FAIL(CW_ERR_MEMORY, "out of memory: the record of step %s", name);
 }
 
 void cw_record_set_peak_memory(CwRecord *record, int64_t bytes) {
@@ -106,19 +104,15 @@ done:
 }
 
 CwStatus cw_record_file_digest(CwRecord *record, const char *name, const char *digest) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(!json_object_set_new(record->files, name, json_string(digest)), CW_ERR_MEMORY,
-             "out of memory: the record of %s", name);
-done:
-  return status;
+  return !json_object_set_new(record->files, name, json_string(digest))
+             ? CW_OK
+             : CW_FAIL(CW_ERR_MEMORY, "out of memory: the record of %s", name);
 }
 
 CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(!json_object_set_new(record->results, key, value), CW_ERR_MEMORY, "out of memory: the record of result %s",
-             key);
-done:
-  return status;
+  return !json_object_set_new(record->results, key, value)
+             ? CW_OK
+             : CW_FAIL(CW_ERR_MEMORY, "out of memory: the record of result %s", key);
 }
 
 CwStatus cw_record_number(CwRecord *record, const char *key, double value) {
@@ -153,10 +147,9 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
   root = json_pack("{so so sI sO sO sO sO}", "stage", json_text(record->stage), "seconds",
                    cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak, "steps",
                    record->steps, "warnings", warnings, "results", record->results, "files", record->files);
-  CW_REQUIRE(root && (!record->made_from || !json_object_set(root, "made_from", record->made_from)), CW_ERR_MEMORY,
-             "out of memory: the record");
-  CW_REQUIRE(root && (!record->origin || !json_object_set(root, "case", record->origin)), CW_ERR_MEMORY,
-             "out of memory: the record");
+  CW_REQUIRE(root && (!record->made_from || !json_object_set(root, "made_from", record->made_from)) &&
+                 (!record->origin || !json_object_set(root, "case", record->origin)),
+             CW_ERR_MEMORY, "out of memory: the record");
   CW_TRY(cw_sealed_json_write(root, path));
 done:
   json_decref(root);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/sealed_json.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,29 +34,13 @@ done:
   return status;
 }
 
-static CwStatus read_text(const char *path, char **text, size_t *size) {
-  CwStatus status = CW_OK;
-  int64_t length = 0;
-  FILE *file = NULL;
-  CW_TRY(cw_file_size(path, &length));
-  file = fopen(path, "rb");
-  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
-  CW_NEW_UNSET(*text, length + 1);
-  *size = fread(*text, 1, (size_t)length, file);
-  CW_REQUIRE(!ferror(file), CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
-  (*text)[*size] = '\0';
-done:
-  if (file) fclose(file);
-  return status;
-}
-
 CwStatus cw_sealed_json_read(const char *path, json_t **object) {
   CwStatus status = CW_OK;
   char *text = NULL, digest[CW_HASH_TEXT], wanted[SEAL_SIZE + 1];
   size_t size = 0;
   json_error_t error;
   *object = NULL;
-  CW_TRY(read_text(path, &text, &size));
+  CW_TRY(cw_file_text(path, &text, &size));
   size_t sealed = size > SEAL_SIZE ? size - SEAL_SIZE : 0;
   digest_of(text, sealed, digest);
   snprintf(wanted, sizeof wanted, SEAL_START "%s" SEAL_END, digest);

@@ -21,41 +21,20 @@ done:
   return status;
 }
 
-static CwStatus digest_table(const json_t *files, char digest[CW_HASH_TEXT]) {
+// The digest of the files of a stage, as its record tells of them.
+static CwStatus digest_stage(const char *run, const char *stage, char digest[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
   CwHash hash = cw_hash_start();
-  char *text = json_dumps(files, JSON_COMPACT | JSON_SORT_KEYS);
+  char *text = NULL;
+  json_t *record = NULL, *files;
+  CW_TRY(read_record(run, stage, &record, &files));
+  text = json_dumps(files, JSON_COMPACT | JSON_SORT_KEYS);
   CW_REQUIRE(text, CW_ERR_MEMORY, "out of memory: the digest of a stage");
   cw_hash_bytes(&hash, text, strlen(text));
   cw_hash_hex(&hash, digest);
 done:
   free(text);
-  return status;
-}
-
-// The digest of the files of a stage, as its record tells of them.
-static CwStatus digest_stage(const char *run, const char *stage, char digest[CW_HASH_TEXT]) {
-  CwStatus status = CW_OK;
-  json_t *record = NULL, *files;
-  CW_TRY(read_record(run, stage, &record, &files));
-  CW_TRY(digest_table(files, digest));
-done:
   json_decref(record);
-  return status;
-}
-
-static CwStatus check_files(const char *run, const char *stage, json_t *files, CwDigestOf digest_of, void *given) {
-  CwStatus status = CW_OK;
-  char path[PATH_SIZE], digest[CW_HASH_TEXT];
-  const char *name;
-  json_t *wanted;
-  json_object_foreach(files, name, wanted) {
-    snprintf(path, sizeof path, "%s/%s/%s", run, stage, name);
-    CW_TRY(digest_of(given, path, digest));
-    CW_REQUIRE(json_is_string(wanted) && !strcmp(digest, json_string_value(wanted)), CW_ERR_IO,
-               "%s: is not as cutwater-%s wrote it: damaged or replaced; run cutwater-%s again", path, stage, stage);
-  }
-done:
   return status;
 }
 
@@ -77,11 +56,17 @@ done:
 CwStatus cw_stage_files_check_by(const char *run, const char *stage, json_t *record, CwDigestOf digest_of,
                                  void *given) {
   CwStatus status = CW_OK;
-  char path[PATH_SIZE];
-  json_t *files;
+  char path[PATH_SIZE], digest[CW_HASH_TEXT];
+  const char *name;
+  json_t *files, *wanted;
   snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
   CW_TRY(cw_json_object(record, path, "files", &files));
-  CW_TRY(check_files(run, stage, files, digest_of, given));
+  json_object_foreach(files, name, wanted) {
+    snprintf(path, sizeof path, "%s/%s/%s", run, stage, name);
+    CW_TRY(digest_of(given, path, digest));
+    CW_REQUIRE(json_is_string(wanted) && !strcmp(digest, json_string_value(wanted)), CW_ERR_IO,
+               "%s: is not as cutwater-%s wrote it: damaged or replaced; run cutwater-%s again", path, stage, stage);
+  }
 done:
   return status;
 }

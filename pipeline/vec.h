@@ -32,6 +32,14 @@ static inline void cw_cross(const double a[3], const double b[3], double r[3]) {
   r[0] = x, r[1] = y, r[2] = z;
 }
 
+// (b - a) x (c - a): as long as twice the area of the triangle.
+static inline void cw_normal(const double a[3], const double b[3], const double c[3], double n[3]) {
+  double u[3], v[3];
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_cross(u, v, n);
+}
+
 // Scales a to unit length (leaves a zero vector) and returns its length before.
 static inline double cw_unit(double a[3]) {
   double length = cw_norm(a);

@@ -19,14 +19,6 @@ static inline void cw_lerp(const double a[3], const double b[3], double s, doubl
   for (int k = 0; k < 3; k++) r[k] = a[k] + s * (b[k] - a[k]);
 }
 
-// (b - a) x (c - a): as long as twice the area of the triangle.
-static inline void cw_normal(const double a[3], const double b[3], const double c[3], double n[3]) {
-  double u[3], v[3];
-  cw_sub(b, a, u);
-  cw_sub(c, a, v);
-  cw_cross(u, v, n);
-}
-
 // Takes out of a its part along the unit vector n.
 static inline void cw_flatten(double a[3], const double n[3]) {
   double along = cw_dot(a, n);

@@ -7,14 +7,7 @@
 #include <stdint.h>
 
 #include "mesher/parallel/context.h"
-
-typedef enum {
-  CW_LAYER_FULL,      // thickness as asked
-  CW_LAYER_SHARPNESS, // limited by a convex edge so sharp that columns over it would be too long
-  CW_LAYER_GAP,       // limited by a narrow gap or a concave place
-  CW_LAYER_GRADATION, // limited by neighbours
-  CW_LAYER_REPAIR     // limited by validity of the prisms or of the layer top
-} CwLayerReason;
+#include "pipeline/mesh/layer_reason.h"
 
 // How columns are divided, for the determinants of prisms.
 typedef struct {

@@ -17,7 +17,7 @@
 #include "mesher/source_hash.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/hash.h"
-#include "pipeline/mesh/interface_tolerance.h"
+#include "pipeline/mesh/cell.h"
 
 CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwSharedNodes *shared) {
   CwStatus status = CW_OK;

@@ -9,7 +9,6 @@
 
 #include "mesher/common/model_unit.h"
 #include "pipeline/atomic_file.h"
-#include "pipeline/mesh/region_read.h"
 
 // The attributes that are integers.
 static const struct {

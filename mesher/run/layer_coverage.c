@@ -25,14 +25,6 @@ static void count_thin(const CwDomain *domain, int32_t t, CwLayerCoverage *of) {
   }
 }
 
-const char *cw_layer_reason_name(int reason) {
-  static const char *const names[CW_LAYER_REASONS] = {[CW_LAYER_SHARPNESS] = "sharpness",
-                                                      [CW_LAYER_GAP] = "gap",
-                                                      [CW_LAYER_GRADATION] = "gradation",
-                                                      [CW_LAYER_REPAIR] = "repair"};
-  return names[reason];
-}
-
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
   const CwColumnTargets *targets = &domain->targets;
   double fraction[CW_LAYERS_MOST + 1];

@@ -6,7 +6,6 @@
 #include "mesher/run/domain.h"
 
 // How the layers of a patch cover it, as far as it bounds one region.
-enum { CW_LAYER_REASONS = CW_LAYER_REPAIR + 1 };
 typedef struct {
   int64_t faces, full, first_met;   // wall faces; with the full thickness; with the first height
   int64_t reason[CW_LAYER_REASONS]; // by CwLayerReason: why not the full thickness; [0]: it is
@@ -18,8 +17,6 @@ typedef struct {
 } CwLayerCoverage;
 #define CW_FIRST_HEIGHT_TOLERANCE 0.1 // share by which a first layer may be off
 
-// What a reason is called in keys and messages; of CW_LAYER_FULL NULL.
-const char *cw_layer_reason_name(int reason);
 // Whether the first layer at a wall vertex is as high as asked, within the tolerance.
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex);
 

@@ -277,9 +277,8 @@ void cw_warn_of_thin(CwLog *log, const char *domain, const json_t *coverage) {
 }
 
 static double missed_by(const json_t *patch, int reason) {
-  char key[64];
-  snprintf(key, sizeof key, "first_height_missed_by_%s_faces", cw_layer_reason_name(reason));
-  return number(patch, key);
+  char key[CW_LAYER_KEY_SIZE];
+  return number(patch, cw_layer_reason_key("first_height_missed", reason, key));
 }
 
 // Why most faces of a patch miss their first height.

@@ -78,9 +78,8 @@ static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
 }
 
 static void put_by_reason(json_t *result, const char *what, int reason, int64_t faces) {
-  char key[64];
-  snprintf(key, sizeof key, "%s_by_%s_faces", what, cw_layer_reason_name(reason));
-  json_object_set_new(result, key, json_integer((json_int_t)faces));
+  char key[CW_LAYER_KEY_SIZE];
+  json_object_set_new(result, cw_layer_reason_key(what, reason, key), json_integer((json_int_t)faces));
 }
 
 // Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the

@@ -26,10 +26,8 @@ int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nod
 }
 
 static inline void add_triangle(const double a[3], const double b[3], const double c[3], double area[3]) {
-  double u[3], v[3], twice[3];
-  cw_sub(b, a, u);
-  cw_sub(c, a, v);
-  cw_cross(u, v, twice);
+  double twice[3];
+  cw_normal(a, b, c, twice);
   for (int k = 0; k < 3; ++k) area[k] += 0.5 * twice[k];
 }
 
@@ -60,11 +58,9 @@ void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]) 
 
 // Six times the volume of the tetrahedron that a triangle makes with `o`.
 static inline double six_volumes(const double o[3], const double a[3], const double b[3], const double c[3]) {
-  double u[3], v[3], w[3], n[3];
-  cw_sub(a, o, u);
-  cw_sub(b, o, v);
+  double w[3], n[3];
+  cw_normal(o, a, b, n);
   cw_sub(c, o, w);
-  cw_cross(u, v, n);
   return cw_dot(n, w);
 }
 
@@ -81,13 +77,12 @@ double cw_cell_volume(int count, const double *const *x) {
     }
     // The four triangles about the mean m have a x b + b x c + c x d + d x a = (c - a) x (d - b) in common.
     const double *d = x[face[f][3]];
-    double u[3], v[3], m[3];
-    for (int k = 0; k < 3; ++k) {
-      u[k] = c[k] - a[k];
-      v[k] = d[k] - b[k];
-      m[k] = (a[k] + b[k] + c[k] + d[k]) / 4 - o[k];
-    }
-    six += (u[1] * v[2] - u[2] * v[1]) * m[0] + (u[2] * v[0] - u[0] * v[2]) * m[1] + (u[0] * v[1] - u[1] * v[0]) * m[2];
+    double u[3], v[3], n[3], m[3];
+    cw_sub(c, a, u);
+    cw_sub(d, b, v);
+    cw_cross(u, v, n);
+    for (int k = 0; k < 3; ++k) m[k] = (a[k] + b[k] + c[k] + d[k]) / 4 - o[k];
+    six += cw_dot(n, m);
   }
   return six / 6;
 }
@@ -125,6 +120,16 @@ static inline void face_centre(int count, const double *const *x, double centre[
 
 void cw_face_centre(int count, const double *const *x, double centre[3], double twice[3]) {
   face_centre(count, x, centre, twice);
+}
+
+double cw_interface_tolerance(int count, const double *const nodes[4]) {
+  static const double SHARE = 0.01; // of the shortest edge
+  double shortest = INFINITY;
+  for (int i = 0; i < count; ++i) {
+    const double *a = nodes[i], *b = nodes[(i + 1) % count];
+    shortest = fmin(shortest, hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]));
+  }
+  return SHARE * shortest;
 }
 
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
@@ -187,5 +192,5 @@ double cw_cell_determinant(int count, const double *const *x, unsigned inner) {
   if (mean == 0) return 0;
   mean /= faces;
   cw_cross(sum[1], sum[2], minor);
-  return fabs(sum[0][0] * minor[0] + sum[0][1] * minor[1] + sum[0][2] * minor[2]) / 8 / pow(mean, 6);
+  return fabs(cw_dot(sum[0], minor)) / 8 / pow(mean, 6);
 }

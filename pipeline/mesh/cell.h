@@ -33,6 +33,12 @@ void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, do
 // their areas, and twice its area vector (m2). The triangles of a quadrilateral are four about the mean of its nodes.
 void cw_face_centre(int count, const double *const *x, double centre[3], double twice[3]);
 
+// The distance from the exact surface of an interface, in the unit of the coordinates, that is allowed to the `count`
+// (3 or 4) nodes of a face on it, when the mesher makes them and when the exporter reads them: a hundredth of its
+// shortest edge. The gap is then little beside that of the chords, which any two meshes of a curved surface have
+// between them, and no fold of a face.
+double cw_interface_tolerance(int count, const double *const nodes[4]);
+
 // Signed volume in m3 of a cell with so many nodes at `x`, by the divergence theorem over its faces as cw_face_area()
 // takes them: volumes of cells add up to the volume enclosed, without gaps.
 double cw_cell_volume(int count, const double *const *x);

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "pipeline/json_read.h"
-#include "pipeline/mesh/region_items.h"
 
 void cw_mesh_free(CwMesh *mesh) {
   for (int i = 0; mesh->regions && i < mesh->region_count; ++i) free(mesh->regions[i].path);
@@ -21,13 +20,6 @@ void cw_mesh_free(CwMesh *mesh) {
 int cw_mesh_patch_find(const CwMesh *mesh, const char *name) {
   for (int i = 0; i < mesh->patch_count; ++i)
     if (strcmp(mesh->patches[i].name, name) == 0) return i;
-  return -1;
-}
-
-int cw_mesh_interface_of(const CwMesh *mesh, int patch, int *side) {
-  for (int i = 0; i < mesh->interface_count; ++i)
-    for (*side = 0; *side < 2; ++*side)
-      if (mesh->interfaces[i].patch[*side] == patch) return i;
   return -1;
 }
 

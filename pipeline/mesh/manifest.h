@@ -52,7 +52,4 @@ void cw_mesh_free(CwMesh *mesh);
 // The patch called `name`, or -1.
 int cw_mesh_patch_find(const CwMesh *mesh, const char *name);
 
-// The interface that `patch` is a side of and which side it is, or -1.
-int cw_mesh_interface_of(const CwMesh *mesh, int patch, int *side);
-
 #endif

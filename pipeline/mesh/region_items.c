@@ -34,6 +34,11 @@ static const struct {
 #undef ARRAY
 _Static_assert(sizeof arrays / sizeof *arrays == CW_REGION_ARRAYS, "an array without a digest");
 
+void cw_mesh_region_free(CwRegionData *data) {
+  for (int k = 0; k < CW_REGION_ARRAYS; ++k) free(*(void *const *)((const char *)data + arrays[k].member));
+  memset(data, 0, sizeof *data);
+}
+
 // Little-endian in the file.
 static hid_t type_of(Kind kind) {
   return kind == REAL ? H5T_IEEE_F64LE : kind == INDEX ? H5T_STD_I32LE : H5T_STD_I64LE;

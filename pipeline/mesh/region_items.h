@@ -29,6 +29,8 @@ typedef struct {
   int32_t (*quads)[4], *quad_patch, *quad_cell;
 } CwRegionData;
 
+void cw_mesh_region_free(CwRegionData *data);
+
 typedef enum {
   CW_REGION_WHOLE,
   CW_REGION_SURFACE // points and boundary faces with their patches; the other counts stay 0

@@ -2,27 +2,10 @@
 #include "pipeline/mesh/region_read.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-void cw_mesh_region_free(CwRegionData *data) {
-  free(data->points);
-  free(data->shared_id);
-  free(data->tetrahedra);
-  free(data->pyramids);
-  free(data->prisms);
-  free(data->triangles);
-  free(data->triangle_patch);
-  free(data->triangle_cell);
-  free(data->quads);
-  free(data->quad_patch);
-  free(data->quad_cell);
-  memset(data, 0, sizeof *data);
-}
-
 void cw_mesh_region_ahead(const CwMesh *mesh, int region) {
-  if (region >= mesh->region_count) return;
   const int handle = open(mesh->regions[region].path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (handle < 0) return; // reading it tells
   posix_fadvise(handle, 0, 0, POSIX_FADV_WILLNEED);

@@ -11,8 +11,7 @@
 // free it with cw_mesh_region_free, also after a failure.
 CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, CwRegionData *data);
 
-// Has the system read the file of a region that is wanted soon, while this one is worked on; nothing past the last.
+// Has the system read the file of a region that is wanted soon, while this one is worked on.
 void cw_mesh_region_ahead(const CwMesh *mesh, int region);
-void cw_mesh_region_free(CwRegionData *data);
 
 #endif

@@ -16,12 +16,17 @@ typedef struct {
 // parallel.
 void cw_camera_turn(CwCamera *camera, const double towards[3], const double up[3]);
 
+// A point of the view by its way from the centre, m.
+static inline void cw_camera_place(const CwCamera *camera, double right, double up, double towards, double pixel[3]) {
+  pixel[0] = 0.5 * camera->width + right / camera->metres_per_pixel;
+  pixel[1] = 0.5 * camera->height - up / camera->metres_per_pixel;
+  pixel[2] = towards;
+}
+
 static inline void cw_camera_project(const CwCamera *camera, const double x[3], double pixel[3]) {
   double from[3];
   cw_sub(x, camera->centre, from);
-  pixel[0] = 0.5 * camera->width + cw_dot(from, camera->right) / camera->metres_per_pixel;
-  pixel[1] = 0.5 * camera->height - cw_dot(from, camera->up) / camera->metres_per_pixel;
-  pixel[2] = cw_dot(from, camera->towards);
+  cw_camera_place(camera, cw_dot(from, camera->right), cw_dot(from, camera->up), cw_dot(from, camera->towards), pixel);
 }
 
 // What a view must hold, collected point by point; start from zero.

@@ -40,8 +40,7 @@ static void tick(FILE *page, const CwColourSpan *span, double value) {
 
 void cw_colour_bar(FILE *page, const CwColourSpan *span, const char *label) {
   fprintf(page,
-          "<div class=\"bar\"><span>%s</span><svg class=\"plot\" width=\"%d\" height=\"%d\" "
-          "viewBox=\"0 0 %d %d\">",
+          "<div class=\"bar\"><span>%s</span><svg class=\"plot\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\">",
           label, BAR_WIDTH + 2 * BAR_MARGIN, BAR_HEIGHT + 20, BAR_WIDTH + 2 * BAR_MARGIN, BAR_HEIGHT + 20);
   for (int k = 0; k < BAR_STEPS; k++)
     fprintf(page, "<rect x=\"%d\" y=\"0\" width=\"%d\" height=\"%d\" fill=\"#%06x\"/>",

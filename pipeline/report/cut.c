@@ -5,13 +5,10 @@
 #include <stdlib.h>
 
 #include "pipeline/mesh/cell.h"
-
-static double along(const double *a, const double *b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+#include "pipeline/vec.h"
 
 double cw_cut_distance(const CwCutPlane *plane, const double x[3]) {
-  return along(plane->normal, x) - along(plane->normal, plane->origin);
+  return cw_dot(plane->normal, x) - cw_dot(plane->normal, plane->origin);
 }
 
 static const int tetrahedron_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
@@ -44,8 +41,8 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
     if ((s[a] >= 0) == (s[b] >= 0)) continue;
     double t = s[a] / (s[a] - s[b]), point[3];
     for (int i = 0; i < 3; i++) point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
-    polygon[corners][0] = along(point, plane->u);
-    polygon[corners][1] = along(point, plane->v);
+    polygon[corners][0] = cw_dot(point, plane->u);
+    polygon[corners][1] = cw_dot(point, plane->v);
     middle[0] += polygon[corners][0];
     middle[1] += polygon[corners][1];
     corners++;

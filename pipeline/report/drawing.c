@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pipeline/report/cut.h"
+#include "pipeline/report/surface.h"
 #include "pipeline/vec.h"
 
 static const uint32_t ink = 0x27313c, bare_colour = 0xd5dade;
@@ -38,7 +38,6 @@ void cw_drawing_start(const CwPictureSpec *spec, const CwMesh *mesh, const CwSur
   drawing->spec = spec;
   mark_parts(mesh, drawing);
   cw_drawing_aim(drawing, survey);
-  drawing->reach = (CwCameraReach){0};
 }
 
 // From directions along radius, rotation and axis at `middle` to x, y, z.
@@ -54,7 +53,7 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
   const CwPictureSpec *spec = drawing->spec;
   CwCamera *camera = &drawing->camera;
   double towards[3], up[3], middle[3] = {0, 0, 0}, azimuth = cw_survey_meridional_azimuth(survey), z = 0;
-  double radius = survey->sizes.interface_radius + survey->sizes.base_radius;
+  double radius = 0.5 * (survey->sizes.interface_radius + survey->sizes.base_radius);
   memcpy(towards, spec->towards, sizeof towards);
   memcpy(up, spec->up, sizeof up);
   if (spec->plane == CW_PLANE_MERIDIONAL) {
@@ -64,7 +63,6 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
     memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
     memcpy(up, (double[3]){1, 0, 0}, sizeof up);
   }
-  radius *= 0.5;
   switch (spec->target) {
   case CW_TARGET_ALL:
     break;
@@ -108,22 +106,7 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
   }
 }
 
-// Faces as corners: triangles with four equal to three.
-typedef struct {
-  const int32_t *corner;
-  const double *x[4];
-  int count, patch;
-} Face;
-
-static inline Face face_at(const CwRegionData *surface, int32_t index) {
-  Face face = {.count = index < surface->triangle_count ? 3 : 4};
-  face.corner = face.count == 3 ? surface->triangles[index] : surface->quads[index - surface->triangle_count];
-  face.patch = face.count == 3 ? surface->triangle_patch[index] : surface->quad_patch[index - surface->triangle_count];
-  for (int k = 0; k < face.count; k++) face.x[k] = surface->points[face.corner[k]];
-  return face;
-}
-
-static int face_shown(const CwDrawing *drawing, int d, const Face *face) {
+static int face_shown(const CwDrawing *drawing, int d, const CwSurfaceFace *face) {
   if (drawing->hidden[d][face->patch]) return 0;
   if (!drawing->spec->upper_half || drawing->part[d] == CW_SEES_ROTOR) return 1;
   double z = 0;
@@ -132,7 +115,7 @@ static int face_shown(const CwDrawing *drawing, int d, const Face *face) {
 }
 
 // Cuts off what lies at z < 0: the corners that are left, in order; at most one more than before.
-static int upper_part(const Face *face, double part[5][3]) {
+static int upper_part(const CwSurfaceFace *face, double part[5][3]) {
   int count = 0;
   for (int k = 0; k < face->count; k++) {
     const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
@@ -148,8 +131,8 @@ void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *surface) {
   int d = surface->domain;
   if (!(drawing->spec->sees & drawing->part[d])) return;
   if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
-  for (int32_t f = 0; f < surface->triangle_count + surface->quad_count; f++) {
-    Face face = face_at(surface, f);
+  for (int32_t f = 0; f < cw_surface_face_count(surface); f++) {
+    CwSurfaceFace face = cw_surface_face(surface, f);
     if (!face_shown(drawing, d, &face)) continue;
     for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
   }
@@ -157,7 +140,7 @@ void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *surface) {
 
 // Flat shading by a light over the viewer's left shoulder; a face has no back.
 // *outside becomes true where the viewer stands on the outer side of the face.
-static double light_of(const CwCamera *camera, const Face *face, int *outside) {
+static double light_of(const CwCamera *camera, const CwSurfaceFace *face, int *outside) {
   static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
   double u[3], v[3], n[3], facing[3] = {0, 0, 0};
   cw_sub(face->x[face->count - 2], face->x[0], u);
@@ -178,14 +161,15 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
 }
 
 // share: of pressure and y+ by face, for pictures of the flow.
-static uint32_t face_colour(const CwDrawing *drawing, int domain, int region, const Face *face, double share) {
+static uint32_t face_colour(const CwDrawing *drawing, int domain, int region, const CwSurfaceFace *face, double share) {
   if (drawing->spec->colour == CW_COLOUR_REGION) return cw_region_colour(region);
   if (!cw_picture_is_of_flow(drawing->spec)) return drawing->colour[domain][face->patch];
   return isfinite(share) ? cw_colour_scale(share) : bare_colour;
 }
 
 // The polygon of a face on the canvas; `pixel`: where the points of the surface lie there. Returns its corners.
-static int face_polygon(const CwDrawing *drawing, int d, const Face *face, const double (*pixel)[3], double p[5][3]) {
+static int face_polygon(const CwDrawing *drawing, int d, const CwSurfaceFace *face, const double (*pixel)[3],
+                        double p[5][3]) {
   double part[5][3];
   if (!drawing->spec->upper_half || drawing->part[d] != CW_SEES_STATOR) {
     for (int k = 0; k < face->count; k++) memcpy(p[k], pixel[face->corner[k]], sizeof p[k]);
@@ -203,8 +187,8 @@ CwStatus cw_drawing_add_faces(CwDrawing *drawing, int region, const CwRegionData
   int d = surface->domain, outside;
   CW_NEW_UNSET(pixel, surface->point_count);
   for (int32_t k = 0; k < surface->point_count; k++) cw_camera_project(&drawing->camera, surface->points[k], pixel[k]);
-  for (int32_t f = 0; f < surface->triangle_count + surface->quad_count; f++) {
-    Face face = face_at(surface, f);
+  for (int32_t f = 0; f < cw_surface_face_count(surface); f++) {
+    CwSurfaceFace face = cw_surface_face(surface, f);
     if (!face_shown(drawing, d, &face)) continue;
     const int corners = face_polygon(drawing, d, &face, (const double(*)[3])pixel, p);
     if (!cw_render_meets(&drawing->canvas, (const double(*)[3])p, corners)) continue;
@@ -242,11 +226,8 @@ static void draw_cell(CwDrawing *drawing, const CwCutCell *cell, uint32_t colour
   const CwCamera *camera = &drawing->camera;
   double p[CW_CUT_CORNERS][3], centre[2] = {cw_dot(camera->centre, camera->right), cw_dot(camera->centre, camera->up)};
   double area = 0;
-  for (int k = 0; k < cell->corners; k++) {
-    p[k][0] = 0.5 * camera->width + (cell->polygon[k][0] - centre[0]) / camera->metres_per_pixel;
-    p[k][1] = 0.5 * camera->height - (cell->polygon[k][1] - centre[1]) / camera->metres_per_pixel;
-    p[k][2] = 0;
-  }
+  for (int k = 0; k < cell->corners; k++)
+    cw_camera_place(camera, cell->polygon[k][0] - centre[0], cell->polygon[k][1] - centre[1], 0, p[k]);
   if (!cw_render_meets(&drawing->canvas, (const double(*)[3])p, cell->corners)) return;
   for (int k = 0; k < cell->corners; k++) {
     int next = (k + 1) % cell->corners;

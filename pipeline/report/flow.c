@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/mesh/cell.h"
 #include "pipeline/order.h"
 #include "pipeline/vec.h"
 
@@ -153,11 +154,8 @@ done:
 
 // The mean of the corners of a cell.
 static void middle_of(const CwRegionData *cells, int32_t cell, double middle[3]) {
-  int32_t pyramid = cell - cells->tetrahedron_count, prism = pyramid - cells->pyramid_count;
-  int count = pyramid < 0 ? 4 : prism < 0 ? 5 : 6;
-  const int32_t *corner = pyramid < 0 ? cells->tetrahedra[cell]
-                          : prism < 0 ? cells->pyramids[pyramid]
-                                      : cells->prisms[prism];
+  int count;
+  const int32_t *corner = cw_cell_nodes(cells, cell, &count);
   memset(middle, 0, 3 * sizeof *middle);
   for (int k = 0; k < count; k++)
     for (int i = 0; i < 3; i++) middle[i] += cells->points[corner[k]][i] / count;

@@ -32,13 +32,12 @@ static void next_word(Reader *reader, char word[WORD_SIZE]) {
 }
 
 static CwStatus expect(Reader *reader, const char *wanted) {
-  CwStatus status = CW_OK;
   char word[WORD_SIZE];
   next_word(reader, word);
-  CW_REQUIRE(!strcmp(word, wanted), CW_ERR_INPUT, "%s: '%s' stands where '%s' must; it is no whole field of OpenFOAM",
-             reader->path, word, wanted);
-done:
-  return status;
+  return !strcmp(word, wanted)
+             ? CW_OK
+             : CW_FAIL(CW_ERR_INPUT, "%s: '%s' stands where '%s' must; it is no whole field of OpenFOAM", reader->path,
+                       word, wanted);
 }
 
 // Behind "List<...>": the number of items, and these in brackets; `bytes` at the first, NULL where there is none.

@@ -2,10 +2,11 @@
 #include "pipeline/report/html.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+#include "pipeline/file_digest.h"
 
 static void escaped(FILE *page, char c) {
   switch (c) {
@@ -29,11 +30,13 @@ static void escaped(FILE *page, char c) {
   }
 }
 
-void cw_html_text(FILE *page, const char *text) {
-  for (; *text; text++) escaped(page, *text);
+void cw_html_text(FILE *page, const char *before, const char *text, const char *after) {
+  fputs(before, page);
+  for (; text && *text; text++) escaped(page, *text);
+  fputs(after, page);
 }
 
-void cw_html_label(FILE *page, const char *key) {
+static void label(FILE *page, const char *key) {
   if (!strncmp(key, "y_plus", 6)) {
     fputs("y<sup>+</sup>", page);
     for (key += 6; *key; key++) escaped(page, *key == '_' ? ' ' : *key);
@@ -53,6 +56,12 @@ void cw_html_label(FILE *page, const char *key) {
     if (!*c) break;
     escaped(page, *c == '_' ? ' ' : c == key ? (char)toupper((unsigned char)*c) : *c);
   }
+}
+
+void cw_html_label(FILE *page, const char *before, const char *key, const char *after) {
+  fputs(before, page);
+  if (key) label(page, key);
+  fputs(after, page);
 }
 
 void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size) {
@@ -77,14 +86,8 @@ void cw_html_number_cell(FILE *page, const char *number) {
 CwStatus cw_html_svg_file(FILE *page, const char *path) {
   CwStatus status = CW_OK;
   char *text = NULL;
-  long size = 0;
-  FILE *file = fopen(path, "r");
-  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
-  CW_REQUIRE(fseek(file, 0, SEEK_END) == 0 && (size = ftell(file)) >= 0 && fseek(file, 0, SEEK_SET) == 0, CW_ERR_IO,
-             "%s: cannot be read: %s", path, strerror(errno));
-  CW_NEW(text, size + 1);
-  CW_REQUIRE(fread(text, 1, (size_t)size, file) == (size_t)size, CW_ERR_IO, "%s: cannot be read: %s", path,
-             strerror(errno));
+  size_t size;
+  CW_TRY(cw_file_text(path, &text, &size));
   const char *start = strstr(text, "<svg"), *end = start ? strstr(start, "</svg>") : NULL;
   CW_REQUIRE(start && end, CW_ERR_INPUT, "%s: not a whole SVG picture", path);
   CW_REQUIRE(!strstr(start, "<script") && !strstr(start, "href=") && !strstr(start, "url("), CW_ERR_INPUT,
@@ -92,7 +95,6 @@ CwStatus cw_html_svg_file(FILE *page, const char *path) {
   fwrite(start, 1, (size_t)(end - start) + strlen("</svg>"), page);
   fputc('\n', page);
 done:
-  if (file) fclose(file);
   free(text);
   return status;
 }

@@ -8,10 +8,10 @@
 
 #include "pipeline/status.h"
 
-// Writes text with & < > " ' escaped.
-void cw_html_text(FILE *page, const char *text);
+// Writes text (NULL: none) with & < > " ' escaped, between two pieces of HTML.
+void cw_html_text(FILE *page, const char *before, const char *text, const char *after);
 // The same of a key: underscores become blanks, the first letter a capital, y_plus the sign for it.
-void cw_html_label(FILE *page, const char *key);
+void cw_html_label(FILE *page, const char *before, const char *key, const char *after);
 void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size);
 
 // A right-aligned table cell with the decimal points of a column in line.

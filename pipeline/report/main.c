@@ -19,8 +19,7 @@
 static const CwStageUsage usage = {
     .stage = "report",
     .version = cw_version,
-    .summary = "Writes RUN/report/index.html: figures, charts and pictures of RUN/geometry, RUN/mesh and, "
-               "where it is\n"
+    .summary = "Writes RUN/report/index.html: figures, charts and pictures of RUN/geometry, RUN/mesh and, where it is\n"
                "there, RUN/export. The page is one file that refers to nothing outside itself.\n"
                "Runs by itself, or under mpirun with any number of ranks; the page is the same for all.\n",
     .reads = {"geometry", "mesh"},

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/page_curve.h"
+#include "pipeline/report/page_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
@@ -47,7 +46,6 @@ done:
 
 static void plot(FILE *page, const Curve *curve, const char *axis, const CwPlotSeries *series, int count, double mark,
                  const char *caption) {
-  fputs("<figure>", page);
   cw_plot_lines(page, &(CwLinePlot){.axis = axis,
                                     .x_axis = "flow rate, m3/h",
                                     .x = curve->flow,
@@ -55,8 +53,8 @@ static void plot(FILE *page, const Curve *curve, const char *axis, const CwPlotS
                                     .series = series,
                                     .series_count = count,
                                     .mark = mark,
-                                    .width = 560});
-  fprintf(page, "<figcaption>%s</figcaption></figure>\n", caption);
+                                    .width = 560,
+                                    .caption = caption});
 }
 
 static void table(FILE *page, const Curve *curve, json_t *points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/page_design.h"
+#include "pipeline/report/page_parts.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -45,9 +45,7 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES) {
     char chosen[CW_KEY_ALLOWED_SIZE];
     cw_case_key_chosen(key, value, chosen);
-    fputs("<td class=\"n\">", page);
-    cw_html_label(page, chosen);
-    fputs("<span></span></td>", page);
+    cw_html_label(page, "<td class=\"n\">", chosen, "<span></span></td>");
   } else if (automatic) {
     cw_html_number_cell(page, "auto");
   } else if (key->type == CW_KEY_INT64) {
@@ -60,8 +58,7 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
 
 CwStatus cw_page_input(FILE *page, const CwReportData *data) {
   const char *section = NULL;
-  fputs("<p>What the case file asks for, with the operating point. Keys that it leaves to the hydraulic "
-        "design stand "
+  fputs("<p>What the case file asks for, with the operating point. Keys that it leaves to the hydraulic design stand "
         "under <a href=\"#design\">derived dimensions</a>.</p>\n<div class=\"columns\">\n",
         page);
   for (size_t k = 0; k < cw_case_key_count; k++) {
@@ -70,9 +67,7 @@ CwStatus cw_page_input(FILE *page, const CwReportData *data) {
     if (!section || strcmp(section, key->section)) {
       if (section) fputs("</table>\n", page);
       section = key->section;
-      fputs("<table><tr class=\"s\"><td colspan=\"5\">", page);
-      cw_html_label(page, section);
-      fputs("</td></tr>\n", page);
+      cw_html_label(page, "<table><tr class=\"s\"><td colspan=\"5\">", section, "</td></tr>\n");
     }
     input_row(page, key, data->table);
   }
@@ -110,10 +105,7 @@ static void design_rows(FILE *page, json_t *object, json_t *sources, json_t *nam
                                   : cw_format_number(fabs(real) < 1e-9 ? 0 : real, 5, number)); // residuals
     fprintf(page, "<td>%s</td>", unit->unit);
     if (sources) {
-      const char *source = json_string_value(json_object_get(sources, key));
-      fputs("<td class=\"q\">", page);
-      cw_html_text(page, source ? source : "");
-      fputs("</td>", page);
+      cw_html_text(page, "<td class=\"q\">", json_string_value(json_object_get(sources, key)), "</td>");
     }
     fputs("</tr>\n", page);
   }
@@ -127,8 +119,7 @@ CwStatus cw_page_design(FILE *page, const CwReportData *data) {
   design_rows(page, data->design, json_is_object(sources) ? sources : NULL, json_object_get(data->design, "names"));
   fputs("</table>\n", page);
   if (!json_is_object(measured)) return CW_OK;
-  fputs("<h3>Measured on the solids as built</h3>\n<table><tr><th>Quantity</th><th></th><th class=\"n "
-        "p\">Value</th>"
+  fputs("<h3>Measured on the solids as built</h3>\n<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th>"
         "<th>Unit</th></tr>\n",
         page);
   design_rows(page, measured, NULL, NULL);
@@ -164,9 +155,7 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
     snprintf(name, sizeof name, "%.*s", (int)strlen(entry[k]->d_name) - 4, entry[k]->d_name);
     fputs("<figure class=\"drawing\">", page);
     CW_TRY(cw_html_svg_file(page, path));
-    fputs("<figcaption><b>", page);
-    cw_html_label(page, name);
-    fputs("</b></figcaption></figure>\n", page);
+    cw_html_label(page, "<figcaption><b>", name, "</b></figcaption></figure>\n");
   }
 done:
   for (int k = 0; k < count; k++) free(entry[k]);

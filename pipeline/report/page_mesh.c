@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/page_mesh.h"
+#include "pipeline/report/page_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "pipeline/json_read.h"
+#include "pipeline/mesh/layer_reason.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/page_pictures.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/plot.h"
 
@@ -58,13 +58,6 @@ static void inner_row(FILE *page, const CwReportData *data, const char *label, c
   figure_row(page, data, label, unit, inner, key, 1, significant);
 }
 
-static CwStatus all_domains(const CwReportData *data, json_t **domain) {
-  CwStatus status = CW_OK;
-  for (int d = 0; d < data->mesh.domain_count; d++) CW_TRY(cw_report_mesh_domain(data, d, &domain[d]));
-done:
-  return status;
-}
-
 static void count_row(FILE *page, const CwReportData *data, const char *row, const char *label, const int64_t *count) {
   int64_t all = 0;
   fprintf(page, "%s<td>%s</td>", row, label);
@@ -89,7 +82,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   json_t *domain[DOMAINS_MOST];
   char where[4096];
   int64_t cells[DOMAINS_MOST] = {0}, points[DOMAINS_MOST], regions[DOMAINS_MOST];
-  CW_TRY(all_domains(data, domain));
+  CW_TRY(cw_report_mesh_domains(data, domain));
   fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th>", page);
   domain_heads(page, data, "n");
   fputs("<th class=\"n\">Together</th></tr>\n", page);
@@ -126,13 +119,9 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
     size_t k;
     json_t *patch, *patches = json_object_get(domain[d], "patches");
     json_array_foreach(patches, k, patch) {
-      const char *name = json_string_value(json_object_get(patch, "name"));
-      const char *kind = json_string_value(json_object_get(patch, "kind"));
-      fprintf(page, "<tr><td>%s</td><td>", k ? "" : data->mesh.domains[d].name);
-      cw_html_label(page, name ? name : "");
-      fputs("</td><td class=\"q\">", page);
-      cw_html_text(page, kind ? kind : "");
-      fputs("</td>", page);
+      fprintf(page, "<tr><td>%s</td>", k ? "" : data->mesh.domains[d].name);
+      cw_html_label(page, "<td>", json_string_value(json_object_get(patch, "name")), "</td>");
+      cw_html_text(page, "<td class=\"q\">", json_string_value(json_object_get(patch, "kind")), "</td>");
       number_cell(page, cw_json_real(patch, "area_m2") * 1e6, 5);
       fputs("</tr>\n", page);
     }
@@ -148,67 +137,56 @@ static CwStatus balance_chart(FILE *page, const CwReportData *data, int d, json_
   const CwMeshDomain *mesh = &data->mesh.domains[d];
   int count = mesh->region_count;
   double *tets = NULL, *prisms = NULL, sum = 0;
-  char(*label)[32] = NULL, (*note)[CW_FORMAT_SIZE] = NULL, text[CW_FORMAT_SIZE];
-  const char **labels = NULL, **notes = NULL;
+  char text[CW_FORMAT_SIZE], caption[120];
+  CwPlotCategory *category = NULL;
   json_t *list = json_object_get(domain, "region_list");
   CW_NEW(tets, count);
   CW_NEW(prisms, count);
-  CW_NEW(label, count);
-  CW_NEW(note, count);
-  CW_NEW(labels, count);
-  CW_NEW(notes, count);
+  CW_NEW(category, count);
   for (int r = 0; r < count; r++) {
     const CwMeshRegion *region = &data->mesh.regions[mesh->first_region + r];
-    double cells = (double)(region->tetrahedra + region->prisms + region->pyramids);
+    double cells = (double)cw_mesh_region_cells(region);
     tets[r] = (double)(region->tetrahedra + region->pyramids) * 1e-3;
     prisms[r] = (double)region->prisms * 1e-3;
     sum += cells;
-    snprintf(label[r], sizeof label[r], "%s %d", mesh->name, region->region);
-    snprintf(note[r], sizeof note[r], "%s", cw_format_si(cells, 3, text));
+    CwPlotCategory *own = &category[r];
+    snprintf(own->label, sizeof own->label, "%s %d", mesh->name, region->region);
+    snprintf(own->note, sizeof own->note, "%s", cw_format_si(cells, 3, text));
     double seconds = cw_json_real(json_array_get(list, (size_t)r), "seconds");
     if (isfinite(seconds)) {
-      size_t used = strlen(note[r]);
-      snprintf(note[r] + used, sizeof note[r] - used, ", %.30s", cw_format_seconds(seconds, text));
+      size_t used = strlen(own->note);
+      snprintf(own->note + used, sizeof own->note - used, ", %.30s", cw_format_seconds(seconds, text));
     }
-    labels[r] = label[r];
-    notes[r] = note[r];
   }
+  snprintf(caption, sizeof caption, "Cells and meshing time of each region of the %s.", mesh->name);
   CwPlotSeries series[2] = {{"prisms", cw_domain_colour(d, 0), prisms}, {"tetrahedra", cw_domain_colour(d, 1), tets}};
   CwPlot plot = {.axis = "thousand cells; dashed: mean of the domain",
-                 .label = labels,
+                 .category = category,
                  .count = count,
                  .series = series,
                  .series_count = 2,
-                 .note = notes,
                  .mark = sum / count * 1e-3,
-                 .width = 560};
+                 .width = 560,
+                 .caption = caption};
   cw_plot_bars(page, &plot);
 done:
   free(tets);
   free(prisms);
-  free(label);
-  free(note);
-  free(labels);
-  free(notes);
+  free(category);
   return status;
 }
 
 CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   json_t *domain[DOMAINS_MOST];
-  CW_TRY(all_domains(data, domain));
+  CW_TRY(cw_report_mesh_domains(data, domain));
   fputs("<p>Each domain is divided by planes into regions that are meshed on their own; the mesh is the same for any "
         "number of ranks. Where passages of the impeller are equal, their regions are periodic images of the first's, "
         "which takes less time.</p>\n",
         page);
   cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
   fputs("<h3>Balance</h3>\n<div class=\"grid\">\n", page);
-  for (int d = 0; d < data->mesh.domain_count; d++) {
-    fputs("<figure>", page);
-    CW_TRY(balance_chart(page, data, d, domain[d]));
-    fprintf(page, "<figcaption>Cells and meshing time of each region of the %s.</figcaption></figure>\n",
-            data->mesh.domains[d].name);
-  }
+  for (int d = 0; d < data->mesh.domain_count; d++) CW_TRY(balance_chart(page, data, d, domain[d]));
   fputs("</div>\n<table><tr><th></th>", page);
   domain_heads(page, data, "n p");
   fputs("<th></th></tr>\n", page);
@@ -265,9 +243,9 @@ static void quality_table(FILE *page, const CwReportData *data, json_t *const *d
 }
 
 // Columns of each domain's shares in the bins of the array `key` (`bins` of them, of which plot->count are shown), with
-// the paper's beside them where they are given, and a caption.
+// the paper's beside them where they are given.
 static CwStatus bins_chart(FILE *page, const CwReportData *data, json_t *const *domain, const char *key, int bins,
-                           CwPlot plot, const double *paper, const char *caption) {
+                           CwPlot plot, const double *paper) {
   CwStatus status = CW_OK;
   double share[DOMAINS_MOST][BINS_MOST];
   CwPlotSeries series[DOMAINS_MOST + 1];
@@ -281,85 +259,83 @@ static CwStatus bins_chart(FILE *page, const CwReportData *data, json_t *const *
   }
   plot.series = series;
   plot.series_count = domains + (paper != NULL);
-  fputs("<figure>", page);
   cw_plot_columns(page, &plot);
-  fprintf(page, "<figcaption>%s</figcaption></figure>\n", caption);
 done:
   return status;
 }
 
 CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
-  static const char *const aspect_label[ASPECT_CLASSES] = {
-      "1\342\200\2231.5", "1.5\342\200\2232", "2\342\200\2233",  "3\342\200\2234",
-      "4\342\200\2235",   "5\342\200\2237",   "7\342\200\22310", "> 10"};
+  static const CwPlotCategory aspects[ASPECT_CLASSES] = {{.label = "1\342\200\2231.5"}, {.label = "1.5\342\200\2232"},
+                                                         {.label = "2\342\200\2233"},   {.label = "3\342\200\2234"},
+                                                         {.label = "4\342\200\2235"},   {.label = "5\342\200\2237"},
+                                                         {.label = "7\342\200\22310"},  {.label = "> 10"}};
   // The paper's Table 1, proposed algorithm.
   static const double paper[ASPECT_CLASSES] = {4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1, NAN};
-  char label[BINS_MOST][16];
-  const char *labels[BINS_MOST];
+  CwPlotCategory bins[BINS_MOST] = {0};
   json_t *domain[DOMAINS_MOST];
-  for (int k = 0; k < BINS_MOST; k++) labels[k] = label[k];
-  CW_TRY(all_domains(data, domain));
+  CW_TRY(cw_report_mesh_domains(data, domain));
   quality_table(page, data, domain);
   CW_TRY(bins_chart(page, data, domain, "tetrahedron_aspect_class", ASPECT_CLASSES,
                     (CwPlot){.axis = "% of the tetrahedra",
                              .category_axis = "longest edge over shortest edge",
-                             .label = aspect_label,
+                             .category = aspects,
                              .count = ASPECT_CLASSES,
                              .decimals = 1,
-                             .width = 980},
-                    paper,
-                    "<b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the regular "
-                    "tetrahedron."));
+                             .width = 980,
+                             .caption = "<b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; "
+                                        "1 is the regular tetrahedron."},
+                    paper));
   fputs("<div class=\"grid\">\n", page);
   for (int k = 0; k < DIHEDRAL_SHOWN; k++) {
-    snprintf(label[k], sizeof label[k], "%d\342\200\223%d", 10 * k, 10 * k + 10);
+    snprintf(bins[k].label, sizeof bins[k].label, "%d\342\200\223%d", 10 * k, 10 * k + 10);
   }
   CW_TRY(bins_chart(page, data, domain, "least_dihedral_bins", DIHEDRAL_BINS,
                     (CwPlot){.axis = "% of the tetrahedra",
                              .category_axis = "least dihedral angle, degrees",
-                             .label = labels,
+                             .category = bins,
                              .count = DIHEDRAL_SHOWN,
                              .decimals = 1,
-                             .width = 560},
-                    NULL, "<b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular one."));
+                             .width = 560,
+                             .caption = "<b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular "
+                                        "one."},
+                    NULL));
   for (int k = 0; k < JACOBIAN_BINS; k++) {
-    snprintf(label[k], sizeof label[k], k % 4 == 0 ? "%.1f" : "", k / 20.0);
+    snprintf(bins[k].label, sizeof bins[k].label, k % 4 == 0 ? "%.1f" : "", k / 20.0);
   }
   CW_TRY(bins_chart(page, data, domain, "prism_scaled_jacobian_bins", JACOBIAN_BINS,
                     (CwPlot){.axis = "% of the prisms",
                              .category_axis = "scaled Jacobian, from",
-                             .label = labels,
+                             .category = bins,
                              .count = JACOBIAN_BINS,
                              .decimals = -1,
-                             .width = 560},
-                    NULL,
-                    "<b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right prism on an "
-                    "equilateral triangle, 0 and below is inverted."));
+                             .width = 560,
+                             .caption = "<b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right "
+                                        "prism on an equilateral triangle, 0 and below is inverted."},
+                    NULL));
   fputs("</div>\n", page);
 done:
   return status;
 }
 
-enum { REASONS = 4, COVERAGE_KINDS = 1 + REASONS };
-static const char *const coverage_key[COVERAGE_KINDS] = {"full_thickness_faces", "thinned_by_sharpness_faces",
-                                                         "thinned_by_gap_faces", "thinned_by_gradation_faces",
-                                                         "thinned_by_repair_faces"};
+// Wall faces of a patch by what holds their thickness back; of CW_LAYER_FULL those that have all of it. NAN: not told.
+static double coverage(const json_t *patch, int reason) {
+  char key[CW_LAYER_KEY_SIZE];
+  return cw_json_real(patch, reason ? cw_layer_reason_key("thinned", reason, key) : "full_thickness_faces");
+}
 
 static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *const *list) {
   CwStatus status = CW_OK;
-  static const char *const names[COVERAGE_KINDS] = {"full thickness", "thinned by a sharp edge", "thinned by a gap",
-                                                    "thinned by gradation", "thinned by repair"};
-  static const uint32_t colours[COVERAGE_KINDS] = {0x5f9e7c, 0x9a86b8, 0xe0b653, 0x8db4da, 0xc8665a};
+  static const char *const names[CW_LAYER_REASONS] = {"full thickness", "thinned by a sharp edge", "thinned by a gap",
+                                                      "thinned by gradation", "thinned by repair"};
+  static const uint32_t colours[CW_LAYER_REASONS] = {0x5f9e7c, 0x9a86b8, 0xe0b653, 0x8db4da, 0xc8665a};
   size_t count = 0, row = 0;
-  double *share[COVERAGE_KINDS] = {NULL};
-  const char **label = NULL;
-  char(*words)[64] = NULL;
-  CwPlotSeries series[COVERAGE_KINDS];
+  double *share[CW_LAYER_REASONS] = {NULL};
+  CwPlotCategory *category = NULL;
+  CwPlotSeries series[CW_LAYER_REASONS];
   for (int d = 0; d < data->mesh.domain_count; d++) count += json_array_size(list[d]);
-  CW_NEW(label, count);
-  CW_NEW(words, count);
-  for (int s = 0; s < COVERAGE_KINDS; s++) {
+  CW_NEW(category, count);
+  for (int s = 0; s < CW_LAYER_REASONS; s++) {
     CW_NEW(share[s], count);
     series[s] = (CwPlotSeries){names[s], colours[s], share[s]};
   }
@@ -369,28 +345,27 @@ static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *con
     json_array_foreach(list[d], k, patch) {
       const char *name = json_string_value(json_object_get(patch, "patch"));
       double faces = cw_json_real(patch, "wall_faces");
-      for (int s = 0; s < COVERAGE_KINDS; s++)
-        share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
-      snprintf(words[row], sizeof words[row], "%s", name ? name : "");
-      for (char *c = words[row]; *c; c++) {
+      for (int s = 0; s < CW_LAYER_REASONS; s++) share[s][row] = faces > 0 ? 100 * coverage(patch, s) / faces : 0;
+      snprintf(category[row].label, sizeof category[row].label, "%s", name ? name : "");
+      for (char *c = category[row].label; *c; c++) {
         if (*c == '_') *c = ' ';
       }
-      label[row] = words[row];
       row++;
     }
   }
   CwPlot plot = {.axis = "% of the wall faces",
-                 .label = label,
+                 .category = category,
                  .count = (int)count,
                  .series = series,
-                 .series_count = COVERAGE_KINDS,
+                 .series_count = CW_LAYER_REASONS,
                  .limit = 100,
-                 .width = 980};
+                 .width = 980,
+                 .caption = "<b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
+                            "why the others are thinner."};
   cw_plot_bars(page, &plot);
 done:
-  for (int s = 0; s < COVERAGE_KINDS; s++) free(share[s]);
-  free(label);
-  free(words);
+  for (int s = 0; s < CW_LAYER_REASONS; s++) free(share[s]);
+  free(category);
   return status;
 }
 
@@ -399,24 +374,27 @@ static void share_cell(FILE *page, double part, double whole) {
   fprintf(page, "<td class=\"n\">%s</td>", whole > 0 ? cw_format_percent(part / whole, text) : "&ndash;");
 }
 
+// The wall faces of a patch that are `what`, for each reason.
+static void reason_cells(FILE *page, const json_t *patch, const char *what) {
+  char key[CW_LAYER_KEY_SIZE];
+  for (int s = CW_LAYER_FULL + 1; s < CW_LAYER_REASONS; s++)
+    count_cell(page, json_integer_value(json_object_get(patch, cw_layer_reason_key(what, s, key))));
+}
+
 // Thickness of the layers on a patch, and why columns are thinner.
 static void thickness_cells(FILE *page, json_t *patch, double faces) {
   count_cell(page, (long long)faces);
-  share_cell(page, cw_json_real(patch, coverage_key[0]), faces);
+  share_cell(page, coverage(patch, CW_LAYER_FULL), faces);
   number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
   number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
-  for (int s = 1; s < COVERAGE_KINDS; s++)
-    count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+  reason_cells(page, patch, "thinned");
 }
 
 // The first layer against its target, the last against the tetrahedra.
 static void height_cells(FILE *page, json_t *patch, double faces) {
-  static const char *const missed[REASONS] = {
-      "first_height_missed_by_sharpness_faces", "first_height_missed_by_gap_faces",
-      "first_height_missed_by_gradation_faces", "first_height_missed_by_repair_faces"};
   number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
   share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
-  for (int s = 0; s < REASONS; s++) count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
+  reason_cells(page, patch, "first_height_missed");
   share_cell(page, faces - cw_json_real(patch, "thin_last_layer_faces") - cw_json_real(patch, "thick_last_layer_faces"),
              faces);
   number_cell(page, cw_json_real(patch, "volume_ratio_95_percent"), 3);
@@ -432,10 +410,7 @@ static void layer_rows(FILE *page, const CwReportData *data, json_t *const *list
     write_name(page, data, d);
     fputs("</td></tr>\n", page);
     json_array_foreach(list[d], k, patch) {
-      const char *name = json_string_value(json_object_get(patch, "patch"));
-      fputs("<tr><td>", page);
-      cw_html_label(page, name ? name : "");
-      fputs("</td>", page);
+      cw_html_label(page, "<tr><td>", json_string_value(json_object_get(patch, "patch")), "</td>");
       cells(page, patch, cw_json_real(patch, "wall_faces"));
       fputs("</tr>\n", page);
     }
@@ -447,7 +422,7 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   json_t *domain[DOMAINS_MOST], *list[DOMAINS_MOST];
   char where[4096], text[CW_FORMAT_SIZE];
   double all = 0, met = 0;
-  CW_TRY(all_domains(data, domain));
+  CW_TRY(cw_report_mesh_domains(data, domain));
   for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);
     CW_TRY(cw_json_array(domain[d], where, "layer_coverage", &list[d]));
@@ -461,17 +436,14 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
     fprintf(page, "%s%s %d", d ? ", " : "", data->mesh.domains[d].name, (int)cw_json_real(domain[d], "layers"));
   fprintf(page,
           "%s. The first height comes from the y<sup>+</sup> target of the wall; it is met within 10&#8239;%% on %s of "
-          "the wall faces.</p>\n<figure>",
+          "the wall faces.</p>\n",
           data->table->walls.layer_count > 0 ? "" : "; as many as lead to the size of the tetrahedra",
           cw_format_percent(met / all, text));
   CW_TRY(coverage_chart(page, data, list));
-  fputs("<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
-        "why the "
-        "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
+  fputs("<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
         "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
         "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>sharp edge</th><th class=\"n\"><br>gap</th><th "
-        "class=\"n\"><br>gradation</th>"
-        "<th class=\"n\"><br>repair</th></tr>\n",
+        "class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th></tr>\n",
         page);
   layer_rows(page, data, list, 9, thickness_cells);
   fputs(
@@ -481,8 +453,7 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       "<th class=\"n\">Missed by<br>sharp edge</th><th class=\"n\"><br>gap</th><th class=\"n\"><br>gradation</th><th "
       "class=\"n\"><br>repair</th>"
       "<th class=\"n\">Volume ratio<br>up to 4</th><th class=\"n p\"><br>95&#8239;% up to</th>"
-      "<th class=\"n p\"><br>greatest</th>"
-      "</tr>\n",
+      "<th class=\"n p\"><br>greatest</th></tr>\n",
       page);
   layer_rows(page, data, list, 10, height_cells);
   fputs("</table>\n", page);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/page_run.h"
+#include "pipeline/report/page_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static void value_text(FILE *page, const char *key, json_t *value) {
   else if (json_is_real(value))
     fputs(cw_format_number(json_real_value(value) * cw_quantity_unit(key)->scale, 5, text), page);
   else if (json_is_string(value))
-    cw_html_text(page, json_string_value(value));
+    cw_html_text(page, "", json_string_value(value), "");
   else if (json_is_boolean(value))
     fputs(json_is_true(value) ? "yes" : "no", page);
   else if (json_is_array(value))
@@ -39,12 +39,6 @@ static int is_plain(json_t *value) {
   return !json_is_object(value) && !json_is_array(value);
 }
 
-static void heading(FILE *page, const char *key) {
-  fputs("<h3>", page);
-  cw_html_label(page, key);
-  fputs("</h3>\n", page);
-}
-
 // An array of alike objects as a table.
 static void object_table(FILE *page, json_t *array) {
   const char *key;
@@ -55,7 +49,7 @@ static void object_table(FILE *page, json_t *array) {
   json_object_foreach(first, key, member) {
     fprintf(page, "<th%s>", json_is_number(member) ? " class=\"n\"" : "");
     cw_quantity_stem(key, stem);
-    cw_html_label(page, stem);
+    cw_html_label(page, "", stem, "");
     if (*cw_quantity_unit(key)->unit) fprintf(page, ", %s", cw_quantity_unit(key)->unit);
     fputs("</th>", page);
   }
@@ -82,9 +76,7 @@ static void value_table(FILE *page, json_t *object) {
   json_object_foreach(object, key, value) {
     if (!is_plain(value)) continue;
     cw_quantity_stem(key, stem);
-    fputs("<tr><td>", page);
-    cw_html_label(page, stem);
-    fputs("</td><td class=\"n\">", page);
+    cw_html_label(page, "<tr><td>", stem, "</td><td class=\"n\">");
     value_text(page, key, value);
     fprintf(page, "</td><td>%s</td></tr>\n", cw_quantity_unit(key)->unit);
   }
@@ -99,7 +91,7 @@ static void result_tables(FILE *page, json_t *results) {
   json_object_foreach(results, key, value) {
     if (is_plain(value) || (json_is_array(value) && !is_table(value))) continue;
     fprintf(page, "<div%s>", json_is_array(value) ? " class=\"wide\"" : "");
-    heading(page, key);
+    cw_html_label(page, "<h3>", key, "</h3>\n");
     if (is_table(value))
       object_table(page, value);
     else
@@ -110,32 +102,25 @@ static void result_tables(FILE *page, json_t *results) {
 }
 
 CwStatus cw_page_export(FILE *page, const CwReportData *data) {
-  CwStatus status = CW_OK;
-  json_t *results;
-  char where[4096];
   if (!data->record[2]) {
     fputs("<p>This run has not been exported: <code>export/record.json</code> is not there.</p>\n", page);
-    goto done;
+    return CW_OK;
   }
-  snprintf(where, sizeof where, "%s/export/record.json", data->run);
-  CW_TRY(cw_json_object(data->record[2], where, "results", &results));
   fputs("<p>What the exporter counted and measured while it wrote CGNS, OpenFOAM and CFX files from the same "
         "mesh.</p>\n",
         page);
-  result_tables(page, results);
-done:
-  return status;
+  result_tables(page, json_object_get(data->record[2], "results"));
+  return CW_OK;
 }
 
 // Steps that bear the same name (the passes of the mesher) become one.
 typedef struct {
   const char *name;
-  char label[96], note[160];
-  double seconds[CW_STAGES], items;
+  double seconds[CW_STAGES];
   int times;
 } Step;
 
-static size_t gather_steps(const CwReportData *data, Step *step) {
+static size_t gather_steps(const CwReportData *data, Step *step, CwPlotCategory *category) {
   size_t count = 0;
   for (int s = 0; s < CW_STAGES; s++) {
     json_t *list = json_object_get(data->record[s], "steps"), *item;
@@ -146,21 +131,22 @@ static size_t gather_steps(const CwReportData *data, Step *step) {
       char seconds[CW_FORMAT_SIZE], items[CW_FORMAT_SIZE];
       size_t at = first;
       while (at < count && strcmp(step[at].name, name)) at++;
+      CwPlotCategory *of = &category[at];
       if (at == count) {
         step[count++] = (Step){.name = name, .seconds = {NAN, NAN, NAN}};
         step[at].seconds[s] = 0;
-        snprintf(step[at].label, sizeof step[at].label, "%s: %s", cw_report_stage[s], name);
+        snprintf(of->label, sizeof of->label, "%s: %s", cw_report_stage[s], name);
       }
       step[at].times++;
       step[at].seconds[s] += cw_json_real(item, "seconds");
       double number = cw_json_real(item, "items");
-      snprintf(step[at].note, sizeof step[at].note, "%s", cw_format_seconds(step[at].seconds[s], seconds));
-      size_t used = strlen(step[at].note);
+      snprintf(of->note, sizeof of->note, "%s", cw_format_seconds(step[at].seconds[s], seconds));
+      size_t used = strlen(of->note);
       if (isfinite(number) && unit)
-        used += (size_t)snprintf(step[at].note + used, sizeof step[at].note - used, ", %s %s",
+        used += (size_t)snprintf(of->note + used, sizeof of->note - used, ", %s %s",
                                  cw_format_count((int64_t)number, items), unit);
-      if (step[at].times > 1 && used < sizeof step[at].note)
-        snprintf(step[at].note + used, sizeof step[at].note - used, ", %d passes", step[at].times);
+      if (step[at].times > 1 && used < sizeof of->note)
+        snprintf(of->note + used, sizeof of->note - used, ", %d passes", step[at].times);
     }
   }
   return count;
@@ -171,23 +157,18 @@ CwStatus cw_page_times(FILE *page, const CwReportData *data) {
   static const uint32_t colours[CW_STAGES] = {0x7a9e87, 0x4f8fc0, 0xd9a24e};
   Step *step = NULL;
   double *value[CW_STAGES] = {NULL}, sum = 0;
-  const char **label = NULL, **note = NULL;
+  CwPlotCategory *category = NULL;
   char text[CW_FORMAT_SIZE];
   size_t most = 0, count;
   CwPlotSeries series[CW_STAGES];
   for (int s = 0; s < CW_STAGES; s++) most += json_array_size(json_object_get(data->record[s], "steps"));
   CW_NEW(step, most);
-  CW_NEW(label, most);
-  CW_NEW(note, most);
-  count = gather_steps(data, step);
+  CW_NEW(category, most);
+  count = gather_steps(data, step, category);
   for (int s = 0; s < CW_STAGES; s++) {
     CW_NEW(value[s], count);
     for (size_t k = 0; k < count; k++) value[s][k] = step[k].seconds[s];
     series[s] = (CwPlotSeries){cw_report_stage[s], colours[s], value[s]};
-  }
-  for (size_t k = 0; k < count; k++) {
-    label[k] = step[k].label;
-    note[k] = step[k].note;
   }
   fputs("<table class=\"plain\"><tr><th>Stage</th><th class=\"n\">Time</th><th class=\"n\">Peak memory</th>"
         "<th class=\"n\">Warnings</th></tr>\n",
@@ -203,43 +184,36 @@ CwStatus cw_page_times(FILE *page, const CwReportData *data) {
     fprintf(page, "<td class=\"n\">%s</td>", cw_format_bytes(cw_json_real(data->record[s], "peak_memory_bytes"), text));
     fprintf(page, "<td class=\"n\">%zu</td></tr>\n", json_array_size(json_object_get(data->record[s], "warnings")));
   }
-  fprintf(page, "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n<figure>",
+  fprintf(page, "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n",
           cw_format_seconds(sum, text));
   cw_plot_bars(page, &(CwPlot){.axis = "seconds",
-                               .label = label,
+                               .category = category,
                                .count = (int)count,
                                .series = series,
                                .series_count = data->record[2] ? 3 : 2,
-                               .note = note,
-                               .width = 980});
-  fputs("<figcaption><b>Time of each step.</b> Steps that the mesher repeats to meet the asked number of "
-        "cells are added "
-        "up.</figcaption></figure>\n",
-        page);
+                               .width = 980,
+                               .caption = "<b>Time of each step.</b> Steps that the mesher repeats to meet the asked "
+                                          "number of cells are added up."});
 done:
   free(step);
-  free(label);
-  free(note);
+  free(category);
   for (int s = 0; s < CW_STAGES; s++) free(value[s]);
   return status;
 }
 
-static int warnings_of(FILE *page, const char *stage, json_t *record) {
-  int count = 0;
+// Returns their number.
+static size_t warnings_of(FILE *page, const char *stage, json_t *record) {
   size_t k;
   json_t *warning, *list = json_object_get(record, "warnings");
   json_array_foreach(list, k, warning) {
-    const char *text = json_string_value(warning);
     fprintf(page, "<div class=\"warn\"><b>%s:</b> ", stage);
-    cw_html_text(page, text ? text : "");
-    fputs("</div>\n", page);
-    count++;
+    cw_html_text(page, "", json_string_value(warning), "</div>\n");
   }
-  return count;
+  return json_array_size(list);
 }
 
 CwStatus cw_page_warnings(FILE *page, const CwReportData *data) {
-  int count = 0;
+  size_t count = 0;
   for (int s = 0; s < CW_STAGES; s++) count += warnings_of(page, cw_report_stage[s], data->record[s]);
   count += warnings_of(page, "solve", data->solve);
   if (!count) fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/page_solve.h"
+#include "pipeline/report/page_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,13 +7,13 @@
 #include "pipeline/json_read.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/page_curve.h"
-#include "pipeline/report/page_pictures.h"
 #include "pipeline/report/plot.h"
+
+enum { ITERATION, HEAD, TORQUE, RESIDUAL_P, RESIDUAL_U, COLUMNS };
 
 typedef struct {
   int count; // reports
-  double *iteration, *head, *torque, *residual_p, *residual_u;
+  double *column[COLUMNS];
 } History;
 
 static CwStatus read_column(json_t *history, const char *where, const char *key, int count, double **column) {
@@ -31,25 +31,14 @@ done:
   return status;
 }
 
-static void history_free(History *history) {
-  free(history->iteration);
-  free(history->head);
-  free(history->torque);
-  free(history->residual_p);
-  free(history->residual_u);
-}
-
 static CwStatus history_read(json_t *results, const char *where, History *history) {
   CwStatus status = CW_OK;
+  static const char *const keys[COLUMNS] = {"iteration", "head_m", "torque_n_m", "residual_p", "residual_u"};
   json_t *object, *list;
   CW_TRY(cw_json_object(results, where, "history", &object));
-  CW_TRY(cw_json_array(object, where, "iteration", &list));
+  CW_TRY(cw_json_array(object, where, keys[ITERATION], &list));
   history->count = (int)json_array_size(list);
-  CW_TRY(read_column(object, where, "iteration", history->count, &history->iteration));
-  CW_TRY(read_column(object, where, "head_m", history->count, &history->head));
-  CW_TRY(read_column(object, where, "torque_n_m", history->count, &history->torque));
-  CW_TRY(read_column(object, where, "residual_p", history->count, &history->residual_p));
-  CW_TRY(read_column(object, where, "residual_u", history->count, &history->residual_u));
+  for (int k = 0; k < COLUMNS; k++) CW_TRY(read_column(object, where, keys[k], history->count, &history->column[k]));
 done:
   return status;
 }
@@ -81,40 +70,35 @@ static void result_table(FILE *page, const CwReportData *data, json_t *results) 
 }
 
 static void history_plots(FILE *page, const History *history, double asked) {
-  const CwPlotSeries head = {"head, m", 0x0b5c8a, history->head};
-  const CwPlotSeries torque = {"shaft torque, N m", 0x0b5c8a, history->torque};
-  const CwPlotSeries residual[] = {{"pressure", 0x0b5c8a, history->residual_p},
-                                   {"velocity, greatest component", 0xd9a24e, history->residual_u}};
-  fputs("<div class=\"grid\">\n<figure>", page);
-  cw_plot_lines(page, &(CwLinePlot){.axis = "head, m",
-                                    .x_axis = "iteration",
-                                    .x = history->iteration,
-                                    .count = history->count,
-                                    .series = &head,
-                                    .series_count = 1,
-                                    .mark = asked,
-                                    .width = 560});
-  fputs("<figcaption><b>Head.</b> The broken line is the head that the case asks.</figcaption></figure>\n<figure>",
-        page);
-  cw_plot_lines(page, &(CwLinePlot){.axis = "shaft torque, N m",
-                                    .x_axis = "iteration",
-                                    .x = history->iteration,
-                                    .count = history->count,
-                                    .series = &torque,
-                                    .series_count = 1,
-                                    .mark = NAN,
-                                    .width = 560});
-  fputs("<figcaption><b>Shaft torque.</b></figcaption></figure>\n<figure>", page);
-  cw_plot_lines(page, &(CwLinePlot){.axis = "initial residual",
-                                    .x_axis = "iteration",
-                                    .x = history->iteration,
-                                    .count = history->count,
-                                    .series = residual,
-                                    .series_count = 2,
-                                    .logarithmic = 1,
-                                    .mark = 1e-4,
-                                    .width = 560});
-  fputs("<figcaption><b>Residuals.</b> The broken line is 1e-4.</figcaption></figure>\n</div>\n", page);
+  const CwPlotSeries head = {"head, m", 0x0b5c8a, history->column[HEAD]};
+  const CwPlotSeries torque = {"shaft torque, N m", 0x0b5c8a, history->column[TORQUE]};
+  const CwPlotSeries residual[] = {{"pressure", 0x0b5c8a, history->column[RESIDUAL_P]},
+                                   {"velocity, greatest component", 0xd9a24e, history->column[RESIDUAL_U]}};
+  CwLinePlot plots[] = {{.axis = "head, m",
+                         .series = &head,
+                         .series_count = 1,
+                         .mark = asked,
+                         .caption = "<b>Head.</b> The broken line is the head that the case asks."},
+                        {.axis = "shaft torque, N m",
+                         .series = &torque,
+                         .series_count = 1,
+                         .mark = NAN,
+                         .caption = "<b>Shaft torque.</b>"},
+                        {.axis = "initial residual",
+                         .series = residual,
+                         .series_count = 2,
+                         .logarithmic = 1,
+                         .mark = 1e-4,
+                         .caption = "<b>Residuals.</b> The broken line is 1e-4."}};
+  fputs("<div class=\"grid\">\n", page);
+  for (size_t k = 0; k < sizeof plots / sizeof *plots; k++) {
+    plots[k].x_axis = "iteration";
+    plots[k].x = history->column[ITERATION];
+    plots[k].count = history->count;
+    plots[k].width = 560;
+    cw_plot_lines(page, &plots[k]);
+  }
+  fputs("</div>\n", page);
 }
 
 static void y_plus_table(FILE *page, json_t *walls) {
@@ -126,8 +110,7 @@ static void y_plus_table(FILE *page, json_t *walls) {
         "<th class=\"n\">mean</th><th class=\"n\">greatest</th></tr>\n",
         page);
   json_object_foreach(walls, patch, wall) {
-    fputs("<tr><td>", page);
-    cw_html_label(page, patch);
+    cw_html_label(page, "<tr><td>", patch, "");
     static const char *const keys[] = {"least", "mean", "most"};
     for (int k = 0; k < 3; k++)
       fprintf(page, "</td><td class=\"n\">%s", cw_format_number(cw_json_real(wall, keys[k]), 3, text));
@@ -139,7 +122,7 @@ static void y_plus_table(FILE *page, json_t *walls) {
 CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   History history = {0};
-  json_t *results, *curve;
+  json_t *results = json_object_get(data->solve, "results"), *curve;
   char where[4096], text[CW_FORMAT_SIZE], more[CW_FORMAT_SIZE];
   int64_t iterations;
   if (!data->solve) {
@@ -147,7 +130,6 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
     goto done;
   }
   snprintf(where, sizeof where, "%s/solve/record.json", data->run);
-  CW_TRY(cw_json_object(data->solve, where, "results", &results));
   CW_TRY(cw_json_count(results, where, "iterations", &iterations));
   if (!cw_report_is_solved(data)) {
     fputs("<p>The flow was solved on another export: solve it again (<code>make solve</code>).</p>\n", page);
@@ -167,6 +149,6 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
   }
   y_plus_table(page, json_object_get(results, "y_plus"));
 done:
-  history_free(&history);
+  for (int k = 0; k < COLUMNS; k++) free(history.column[k]);
   return status;
 }

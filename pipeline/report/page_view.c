@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/page_view.h"
+#include "pipeline/report/page_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "pipeline/report/html.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/page_texts.h"
 
-enum { LATTICE = 65535, SCALE_COLOURS = 256, LINE_COLOUR = 0x27313c };
+enum { LATTICE = 65535, SCALE_COLOURS = 256 };
 
 // The box of all points, and the step of a lattice of 16 bits along its longest side.
 static double lattice_of(const CwView *view, double least[3]) {
@@ -48,10 +47,9 @@ static CwStatus write_corners(FILE *page, const CwViewPart *part, int width) {
   CwStatus status = CW_OK;
   unsigned char *bytes = NULL;
   size_t made = 0;
-  int each = part->patch < 0 ? 2 : 3;
-  CW_NEW(bytes, (size_t)(each * width) * (size_t)part->triangle_count);
+  CW_NEW(bytes, (size_t)(3 * width) * (size_t)part->triangle_count);
   for (int32_t t = 0; t < part->triangle_count; t++)
-    for (int k = 0; k < each; k++)
+    for (int k = 0; k < 3; k++)
       for (int b = 0; b < width; b++) bytes[made++] = (unsigned char)((unsigned)part->corners[t][k] >> (8 * b) & 255);
   cw_html_base64(page, bytes, made);
 done:
@@ -59,21 +57,18 @@ done:
   return status;
 }
 
-// A number that JSON can hold, with all its digits.
-static void write_number(FILE *page, const char *key, double value) {
-  fprintf(page, "\"%s\":%.9g,", key, isfinite(value) ? value : 0);
+static unsigned colour_of(const CwMesh *mesh, const CwViewPart *part) {
+  const CwModelPatch *patch = &mesh->patches[part->patch];
+  return cw_patch_colour(patch->name, part->patch - mesh->domains[patch->domain].first_patch);
 }
 
 static CwStatus write_part(FILE *page, const CwMesh *mesh, const CwView *view, int index, const double least[3],
                            double step) {
   CwStatus status = CW_OK;
   const CwViewPart *part = &view->part[index];
-  const CwModelPatch *patch = part->patch >= 0 ? &mesh->patches[part->patch] : NULL;
   int wide = part->point_count > LATTICE + 1;
-  unsigned colour = LINE_COLOUR;
-  if (patch) colour = cw_patch_colour(patch->name, part->patch - mesh->domains[patch->domain].first_patch);
-  fprintf(page, "%s{\"lines\":%d,\"shown\":%d,\"colour\":%u,\"wide\":%d,\n\"points\":\"", index ? "," : "", !patch,
-          cw_view_shown(mesh, part), colour, wide);
+  fprintf(page, "%s{\"lines\":0,\"shown\":%d,\"colour\":%u,\"wide\":%d,\n\"points\":\"", index ? "," : "",
+          cw_view_shown(mesh, part), colour_of(mesh, part), wide);
   CW_TRY(write_points(page, part, least, step));
   fputs("\",\n\"corners\":\"", page);
   CW_TRY(write_corners(page, part, wide ? 4 : 2));
@@ -97,8 +92,8 @@ static CwStatus write_data(FILE *page, const CwMesh *mesh, const CwView *view) {
     for (int c = 0; c < 3; c++) scale[3 * k + c] = (unsigned char)(colour >> (16 - 8 * c) & 255);
   }
   fputs("<script type=\"application/json\" id=\"view-data\">{", page);
-  write_number(page, "step", step);
-  fprintf(page, "\"least\":[%.9g,%.9g,%.9g],\"scale\":\"", least[0], least[1], least[2]);
+  fprintf(page, "\"step\":%.9g,\"least\":[%.9g,%.9g,%.9g],\"scale\":\"", isfinite(step) ? step : 0, least[0], least[1],
+          least[2]);
   cw_html_base64(page, scale, sizeof scale);
   fputs("\",\"parts\":[\n", page);
   for (int k = 0; k < view->part_count; k++) CW_TRY(write_part(page, mesh, view, k, least, step));
@@ -109,30 +104,18 @@ done:
 
 static void write_box(FILE *page, const CwMesh *mesh, const CwView *view, int index) {
   const CwViewPart *part = &view->part[index];
-  const CwModelPatch *patch = part->patch >= 0 ? &mesh->patches[part->patch] : NULL;
-  unsigned colour = LINE_COLOUR;
-  if (patch) colour = cw_patch_colour(patch->name, part->patch - mesh->domains[patch->domain].first_patch);
   fprintf(page, "<label><input type=\"checkbox\" data-part=\"%d\"%s><i style=\"background:#%06x\"></i>", index,
-          cw_view_shown(mesh, part) ? " checked" : "", colour);
-  cw_html_label(page, patch ? patch->name : "streamlines");
-  fputs("</label>\n", page);
+          cw_view_shown(mesh, part) ? " checked" : "", colour_of(mesh, part));
+  cw_html_label(page, "", mesh->patches[part->patch].name, "</label>\n");
 }
 
 static void write_boxes(FILE *page, const CwMesh *mesh, const CwView *view) {
   fputs("<div class=\"parts\">\n", page);
   for (int d = 0; d < mesh->domain_count; d++) {
-    fputs("<fieldset><legend>", page);
-    cw_html_label(page, mesh->domains[d].name);
-    fputs("</legend><button type=\"button\" data-zone>all or none</button>\n", page);
+    cw_html_label(page, "<fieldset><legend>", mesh->domains[d].name,
+                  "</legend><button type=\"button\" data-zone>all or none</button>\n");
     for (int k = 0; k < view->part_count; k++)
-      if (view->part[k].patch >= 0 && mesh->patches[view->part[k].patch].domain == d)
-        write_box(page, mesh, view, k);
-    fputs("</fieldset>\n", page);
-  }
-  for (int k = 0; k < view->part_count; k++) {
-    if (view->part[k].patch >= 0) continue;
-    fputs("<fieldset><legend>Flow</legend>\n", page);
-    write_box(page, mesh, view, k);
+      if (mesh->patches[view->part[k].patch].domain == d) write_box(page, mesh, view, k);
     fputs("</fieldset>\n", page);
   }
   fputs("</div>\n", page);
@@ -163,12 +146,13 @@ static void write_controls(FILE *page, const CwView *view) {
   }
 }
 
-CwStatus cw_page_view(FILE *page, const CwMesh *mesh, const CwView *view) {
+CwStatus cw_page_view(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
+  const CwMesh *mesh = &data->mesh;
+  const CwView *view = &data->view;
   int32_t triangles = 0;
   if (view->part_count == 0) goto done;
-  for (int k = 0; k < view->part_count; k++)
-    if (view->part[k].patch >= 0) triangles += view->part[k].triangle_count;
+  for (int k = 0; k < view->part_count; k++) triangles += view->part[k].triangle_count;
   fprintf(page, "<figure id=\"view\" class=\"turning\" data-triangles=\"%d\">\n", (int)triangles);
   fputs("<canvas tabindex=\"0\" role=\"img\" aria-label=\"the pump, to be turned\"></canvas>\n"
         "<div class=\"lacking\" hidden>This picture turns in browsers with WebGL; this one has none, or it is switched "

@@ -9,6 +9,15 @@
 #define OF_TWO .width = 760, .height = 640
 #define DETAIL .width = 760, .height = 600
 
+// Around one of the survey's places.
+#define AROUND(where, over_diameter) .target = CW_TARGET_PLACE, .place = where, .span = over_diameter
+
+// Cuts, and details of them.
+#define MERIDIONAL_CUT                                                                                                 \
+  .colour = CW_COLOUR_CUT, .sees = CW_SEES_ROTOR | CW_SEES_STATOR, .plane = CW_PLANE_MERIDIONAL
+#define Z0_CUT .colour = CW_COLOUR_CUT, .sees = CW_SEES_ALL, .plane = CW_PLANE_Z0
+#define INSET(whole, name) DETAIL, .inset_of = whole, .inset_name = name
+
 // What lies before the blades is taken off.
 #define COVER "|shroud|suction_pipe|inlet|rotor_interface|"
 #define OPEN_ROTOR_AND(more) .sees = CW_SEES_ROTOR, .hidden = COVER more, .hollow_white = 1
@@ -31,8 +40,7 @@ const CwPictureSpec cw_picture_list[] = {
     // 1
     {.section = CW_SECTION_GEOMETRY,
      .title = "Rotor from the suction side",
-     .caption = "Along the axis; shroud, suction pipe, inlet and interface taken off. White: the metal of the "
-                "blades.",
+     .caption = "Along the axis; shroud, suction pipe, inlet and interface taken off. White: the metal of the blades.",
      OF_TWO,
      OPEN_ROTOR,
      .towards = {0, 0, -1},
@@ -65,9 +73,7 @@ const CwPictureSpec cw_picture_list[] = {
      DETAIL,
      OPEN_ROTOR_AND("hub_shaft|"),
      .edges = 1,
-     .target = CW_TARGET_PLACE,
-     .place = CW_PLACE_LEADING_EDGE,
-     .span = 0.2,
+     AROUND(CW_PLACE_LEADING_EDGE, 0.2),
      .towards = {-1, 0.35, -0.9},
      .up = {0, 0, -1}},
     {.section = CW_SECTION_SURFACE,
@@ -76,23 +82,18 @@ const CwPictureSpec cw_picture_list[] = {
      DETAIL,
      OPEN_ROTOR,
      .edges = 1,
-     .target = CW_TARGET_PLACE,
-     .place = CW_PLACE_TRAILING_EDGE,
-     .span = 0.11,
+     AROUND(CW_PLACE_TRAILING_EDGE, 0.11),
      .towards = {1, 0.5, -0.7},
      .up = {0, 0, -1}},
     {.section = CW_SECTION_SURFACE,
      .title = "Tongue",
-     .caption = "The tongue with the spiral and the diffuser, cut at z = 0, seen from the impeller over neck "
-                "and step.",
+     .caption = "The tongue with the spiral and the diffuser, cut at z = 0, seen from the impeller over neck and step.",
      DETAIL,
      .sees = CW_SEES_STATOR,
      .hidden = "|stator_interface|",
      .upper_half = 1,
      .edges = 1,
-     .target = CW_TARGET_PLACE,
-     .place = CW_PLACE_TONGUE,
-     .span = 0.17,
+     AROUND(CW_PLACE_TONGUE, 0.17),
      .towards = {-1, 0.2, -1.1},
      .up = {0, 0, -1}},
     {.section = CW_SECTION_SURFACE,
@@ -101,9 +102,7 @@ const CwPictureSpec cw_picture_list[] = {
      DETAIL,
      OPEN_ROTOR,
      .edges = 1,
-     .target = CW_TARGET_PLACE,
-     .place = CW_PLACE_LEADING_EDGE,
-     .span = 0.5,
+     AROUND(CW_PLACE_LEADING_EDGE, 0.5),
      .towards = {-0.9, 0.5, -1},
      .up = {0, 0, -1}},
     // 9
@@ -127,37 +126,26 @@ const CwPictureSpec cw_picture_list[] = {
     // 11
     {.section = CW_SECTION_CUT,
      .title = "Meridional cut",
-     .caption = "Plane through the axis, midway between two blades at the outlet; horizontal the radius, "
-                "vertical the "
+     .caption = "Plane through the axis, midway between two blades at the outlet; horizontal the radius, vertical the "
                 "axis. Each cell that the plane cuts is drawn with its outline.",
      .wide = 1,
      .width = 1560,
      .height = 560,
-     .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
-     .plane = CW_PLANE_MERIDIONAL},
+     MERIDIONAL_CUT},
     {.section = CW_SECTION_CUT,
      .title = "a: neck and step",
      .caption = "Impeller outlet, interface, neck and the step to the volute; prism layers on all walls.",
-     DETAIL,
-     .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
-     .plane = CW_PLANE_MERIDIONAL,
+     MERIDIONAL_CUT,
+     INSET(MERIDIONAL, "a"),
      .target = CW_TARGET_NECK,
-     .span = 0.1,
-     .inset_of = MERIDIONAL,
-     .inset_name = "a"},
+     .span = 0.1},
     {.section = CW_SECTION_CUT,
      .title = "b: layers on the shroud",
      .caption = "Prism layers at the wall and the passage to the tetrahedra.",
-     DETAIL,
-     .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
-     .plane = CW_PLANE_MERIDIONAL,
+     MERIDIONAL_CUT,
+     INSET(MERIDIONAL, "b"),
      .target = CW_TARGET_SHROUD,
-     .span = 0.09,
-     .inset_of = MERIDIONAL,
-     .inset_name = "b"},
+     .span = 0.09},
     // 14
     {.section = CW_SECTION_CUT,
      .title = "Cut z = 0",
@@ -166,33 +154,19 @@ const CwPictureSpec cw_picture_list[] = {
      .wide = 1,
      .width = 1560,
      .height = 1010,
-     .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ALL,
-     .plane = CW_PLANE_Z0},
+     Z0_CUT},
     {.section = CW_SECTION_CUT,
      .title = "c: trailing edge",
      .caption = "One blade's trailing edge, the interface behind it and the neck.",
-     DETAIL,
-     .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ALL,
-     .plane = CW_PLANE_Z0,
-     .target = CW_TARGET_PLACE,
-     .place = CW_PLACE_TRAILING_EDGE,
-     .span = 0.1,
-     .inset_of = Z0,
-     .inset_name = "c"},
+     Z0_CUT,
+     INSET(Z0, "c"),
+     AROUND(CW_PLACE_TRAILING_EDGE, 0.1)},
     {.section = CW_SECTION_CUT,
      .title = "d: tongue",
      .caption = "Layers around the tongue's nose, between the spiral and the diffuser.",
-     DETAIL,
-     .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ALL,
-     .plane = CW_PLANE_Z0,
-     .target = CW_TARGET_PLACE,
-     .place = CW_PLACE_TONGUE,
-     .span = 0.12,
-     .inset_of = Z0,
-     .inset_name = "d"},
+     Z0_CUT,
+     INSET(Z0, "d"),
+     AROUND(CW_PLACE_TONGUE, 0.12)},
     // 17
     {.section = CW_SECTION_GEOMETRY,
      .title = "All zones",

@@ -41,7 +41,8 @@ typedef enum {
 typedef struct {
   CwPictureSection section;
   const char *title, *caption;
-  int wide, width, height;
+  int wide;          // takes the width of the page
+  int width, height; // px
   CwPictureColour colour;
   unsigned sees;
   const char *hidden; // names of patches that are left out, "|a|b|"

@@ -80,9 +80,9 @@ static void make_legend(const CwMesh *mesh, const CwDrawing *drawing, CwReportPi
   int pyramids = 0;
   const CwPictureSpec *spec = drawing->spec;
   if (spec->colour == CW_COLOUR_REGION || spec->inset_name || cw_picture_is_of_flow(spec)) return;
-  if (drawing->spec->colour == CW_COLOUR_CUT) {
+  if (spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
-      if (!(drawing->spec->sees & drawing->part[d])) continue;
+      if (!(spec->sees & drawing->part[d])) continue;
       for (int k = 1; k >= 0; k--) {
         char label[40];
         snprintf(label, sizeof label, "%.20s %s", mesh->domains[d].name, kind[k]);
@@ -345,12 +345,7 @@ done:
 
 static void describe(const Board *board, int index, CwReportPicture *picture) {
   const CwPictureSpec *spec = &cw_picture_list[index];
-  picture->section = spec->section;
-  picture->title = spec->title;
-  picture->caption = spec->caption;
-  picture->wide = spec->wide;
-  picture->width = spec->width;
-  picture->height = spec->height;
+  picture->spec = spec;
   picture->lacking = board->drawing[index].lacking;
   picture->absent = is_absent(board, spec);
   if (cw_picture_is_of_flow(spec)) {

@@ -17,10 +17,7 @@ typedef struct {
 } CwLegendItem;
 
 typedef struct {
-  CwPictureSection section;
-  const char *title, *caption;
-  int wide;            // takes the width of the page
-  int width, height;   // px
+  const CwPictureSpec *spec;
   CwPng png;           // no bytes: the mesh lacks what the picture shows
   const char *lacking; // then: what
   int absent;          // shows zones that this pump does not have: left out

@@ -2,7 +2,6 @@
 #include "pipeline/report/plot.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "pipeline/report/html.h"
 
@@ -17,8 +16,7 @@ double cw_plot_step(double most) {
 
 static void text(FILE *page, double x, double y, const char *anchor, const char *class, const char *words) {
   fprintf(page, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" class=\"%s\">", x, y, anchor, class);
-  cw_html_text(page, words);
-  fputs("</text>\n", page);
+  cw_html_text(page, "", words, "</text>\n");
 }
 
 static void line(FILE *page, double x0, double y0, double x1, double y1, const char *class) {
@@ -46,7 +44,7 @@ static double begin(FILE *page, const CwPlot *plot, double height) {
   int named = 0;
   for (int s = 0; s < plot->series_count; s++) named |= plot->series[s].name != NULL;
   fprintf(page,
-          "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %.0f\" width=\"%d\" "
+          "<figure><svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %.0f\" width=\"%d\" "
           "height=\"%.0f\" role=\"img\">\n",
           plot->width, height + (named ? key_height : 0), plot->width, height + (named ? key_height : 0));
   for (int s = 0; s < plot->series_count; s++) {
@@ -56,6 +54,16 @@ static double begin(FILE *page, const CwPlot *plot, double height) {
     x += 18 + 7.2 * letters(plot->series[s].name) + 22;
   }
   return named ? key_height : 0;
+}
+
+static void end(FILE *page, const char *caption) {
+  fprintf(page, "</svg>\n<figcaption>%s</figcaption></figure>\n", caption);
+}
+
+// What the values are, from below to the top at the left, in the middle of so many px.
+static void upright(FILE *page, double middle, const char *words) {
+  fprintf(page, "<text transform=\"translate(12 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"x\">", middle);
+  cw_html_text(page, "", words, "</text>\n");
 }
 
 static double largest(const CwPlot *plot, int stacked) {
@@ -99,21 +107,19 @@ void cw_plot_columns(FILE *page, const CwPlot *plot) {
       if (5.6 * letters(words) <= column + 3)
         text(page, x + 0.5 * column, top + body - height - 4, "middle", "v", words);
     }
-    text(page, left + pitch * (c + 0.5), top + body + 17, "middle", "t", plot->label[c]);
+    text(page, left + pitch * (c + 0.5), top + body + 17, "middle", "t", plot->category[c].label);
   }
   if (plot->category_axis) text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->category_axis);
-  fprintf(page, "<text transform=\"translate(12 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"x\">",
-          top + 0.5 * body);
-  cw_html_text(page, plot->axis);
-  fputs("</text>\n</svg>\n", page);
+  upright(page, top + 0.5 * body, plot->axis);
+  end(page, plot->caption);
 }
 
 void cw_plot_bars(FILE *page, const CwPlot *plot) {
   const double row = 22, thick = 14, below = 42;
   double left = 40, right = 16;
   for (int c = 0; c < plot->count; c++) {
-    left = fmax(left, 7.0 * letters(plot->label[c]) + 14);
-    if (plot->note) right = fmax(right, 6.8 * letters(plot->note[c]) + 14);
+    left = fmax(left, 7.0 * letters(plot->category[c].label) + 14);
+    right = fmax(right, 6.8 * letters(plot->category[c].note) + 14);
   }
   double body = row * plot->count, top = begin(page, plot, body + below), width = plot->width - left - right;
   double most = plot->limit > 0 ? plot->limit : largest(plot, 1), step = cw_plot_step(most);
@@ -135,13 +141,13 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
       box(page, x, y, width * value / limit, thick, plot->series[s].colour);
       x += width * value / limit;
     }
-    text(page, left - tick_gap, y + 11, "end", "c", plot->label[c]);
+    text(page, left - tick_gap, y + 11, "end", "c", plot->category[c].label);
     const double mark = left + width * plot->mark / limit;
     if (mark > x - 5) x = fmax(x, mark); // so that the line does not cross the note
-    if (plot->note) text(page, x + 5, y + 11, "start", "v", plot->note[c]);
+    if (*plot->category[c].note) text(page, x + 5, y + 11, "start", "v", plot->category[c].note);
   }
   text(page, left + 0.5 * width, top + body + 36, "middle", "x", plot->axis);
-  fputs("</svg>\n", page);
+  end(page, plot->caption);
 }
 
 // Where values stand on the axis of a line plot.
@@ -224,8 +230,6 @@ void cw_plot_lines(FILE *page, const CwLinePlot *plot) {
       path_of(page, plot, &scale, plot->series[s].value, plot->series[s].colour, frame);
   }
   text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->x_axis);
-  fprintf(page, "<text transform=\"translate(12 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"x\">",
-          top + 0.5 * body);
-  cw_html_text(page, plot->axis);
-  fputs("</text>\n</svg>\n", page);
+  upright(page, top + 0.5 * body, plot->axis);
+  end(page, plot->caption);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Charts as SVG text: columns side by side, stacked bars, and lines.
+// Charts as figures of HTML, drawn in SVG: columns side by side, stacked bars, and lines.
 #ifndef CUTWATER_PIPELINE_REPORT_PLOT_H
 #define CUTWATER_PIPELINE_REPORT_PLOT_H
 
@@ -13,17 +13,22 @@ typedef struct {
 } CwPlotSeries;
 
 typedef struct {
+  char label[96];
+  char note[160]; // of bars: written behind it; may be ""
+} CwPlotCategory;
+
+typedef struct {
   const char *axis;          // what the values are, with unit
   const char *category_axis; // what the categories are; may be NULL
-  const char *const *label;  // one a category
-  int count;                 // categories
+  const CwPlotCategory *category;
+  int count; // categories
   const CwPlotSeries *series;
   int series_count;
-  const char *const *note; // of bars: written behind each; may be NULL
   int decimals;            // of columns: digits after the point of the values over them; below 0: no values
   double limit;            // end of the axis; 0: from the values
   double mark;             // a line across at this value, in the unit of the axis; 0: none
   int width;               // px
+  const char *caption;     // HTML
 } CwPlot;
 
 typedef struct {
@@ -35,6 +40,7 @@ typedef struct {
   int logarithmic; // values as powers of ten; those not above 0 are gaps
   double mark;     // a line across at this value; NAN: none
   int width;       // px
+  const char *caption; // HTML
 } CwLinePlot;
 
 // Step of 1, 2 or 5 times a power of ten that gives 4 to 10 ticks up to `most`; 1 where `most` is not above

@@ -91,9 +91,9 @@ void cw_quantity_start(FILE *page, const char *stem, const char *name) {
   if (name && islower((unsigned char)name[0]) && isalpha((unsigned char)name[1])) // a word; not u2 or c_m
     fputc(toupper((unsigned char)*name++), page);
   if (name)
-    cw_html_text(page, name);
+    cw_html_text(page, "", name, "");
   else
-    cw_html_label(page, stem);
+    cw_html_label(page, "", stem, "");
   fputs("</td>", page);
   symbol_cell(page, stem);
 }

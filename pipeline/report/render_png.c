@@ -30,13 +30,17 @@ static void ink(cairo_t *cr) {
   cairo_set_source_rgb(cr, 0.16, 0.19, 0.23);
 }
 
-// Text on a light ground that keeps it legible over any picture.
+// A light ground under the path, so that it is legible over any picture.
+static void ground(cairo_t *cr, double width, double opacity) {
+  cairo_set_source_rgba(cr, 1, 1, 1, opacity);
+  cairo_set_line_width(cr, width);
+  cairo_stroke_preserve(cr);
+}
+
 static void text_at(cairo_t *cr, double x, double y, const char *text) {
   cairo_move_to(cr, x, y);
   cairo_text_path(cr, text);
-  cairo_set_source_rgba(cr, 1, 1, 1, 0.85);
-  cairo_set_line_width(cr, 3.5);
-  cairo_stroke_preserve(cr);
+  ground(cr, 3.5, 0.85);
   ink(cr);
   cairo_fill(cr);
 }
@@ -55,18 +59,14 @@ static void scale_bar(cairo_t *cr, const CwCanvas *canvas, double metres_per_pix
   double metres = cw_render_round_length(0.22 * canvas->width * metres_per_pixel);
   double length = metres / metres_per_pixel, x = 16, y = canvas->height - 16;
   length_text(metres, text, sizeof text);
-  for (int pass = 0; pass < 2; pass++) {
-    cairo_set_line_width(cr, pass ? 1.6 : 5);
-    if (pass)
-      ink(cr);
-    else
-      cairo_set_source_rgba(cr, 1, 1, 1, 0.85);
-    cairo_move_to(cr, x, y - 5);
-    cairo_line_to(cr, x, y);
-    cairo_line_to(cr, x + length, y);
-    cairo_line_to(cr, x + length, y - 5);
-    cairo_stroke(cr);
-  }
+  cairo_move_to(cr, x, y - 5);
+  cairo_line_to(cr, x, y);
+  cairo_line_to(cr, x + length, y);
+  cairo_line_to(cr, x + length, y - 5);
+  ground(cr, 5, 0.85);
+  ink(cr);
+  cairo_set_line_width(cr, 1.6);
+  cairo_stroke(cr);
   text_at(cr, x + 6, y - 6, text);
 }
 
@@ -78,16 +78,12 @@ static void triad(cairo_t *cr, const CwCanvas *canvas, const CwAnnotation *annot
     if (length < 0.08) continue; // along the view
     double dx = axis->direction[0] * size, dy = axis->direction[1] * size, ux = dx / (length * size),
            uy = dy / (length * size);
-    for (int pass = 0; pass < 2; pass++) {
-      cairo_set_line_width(cr, pass ? 1.4 : 4.5);
-      if (pass)
-        ink(cr);
-      else
-        cairo_set_source_rgba(cr, 1, 1, 1, 0.85);
-      cairo_move_to(cr, x, y);
-      cairo_line_to(cr, x + dx, y + dy);
-      cairo_stroke(cr);
-    }
+    cairo_move_to(cr, x, y);
+    cairo_line_to(cr, x + dx, y + dy);
+    ground(cr, 4.5, 0.85);
+    ink(cr);
+    cairo_set_line_width(cr, 1.4);
+    cairo_stroke(cr);
     cairo_move_to(cr, x + dx + 5 * ux, y + dy + 5 * uy);
     cairo_line_to(cr, x + dx - 2 * ux - 3 * uy, y + dy - 2 * uy + 3 * ux);
     cairo_line_to(cr, x + dx - 2 * ux + 3 * uy, y + dy - 2 * uy - 3 * ux);
@@ -100,15 +96,11 @@ static void triad(cairo_t *cr, const CwCanvas *canvas, const CwAnnotation *annot
 static void frames(cairo_t *cr, const CwAnnotation *annotation) {
   for (int k = 0; k < annotation->frame_count; k++) {
     const CwInsetFrame *frame = &annotation->frame[k];
-    for (int pass = 0; pass < 2; pass++) {
-      cairo_set_line_width(cr, pass ? 1.6 : 4);
-      if (pass)
-        cairo_set_source_rgb(cr, 0.72, 0.11, 0.11);
-      else
-        cairo_set_source_rgba(cr, 1, 1, 1, 0.8);
-      cairo_rectangle(cr, frame->x, frame->y, frame->width, frame->height);
-      cairo_stroke(cr);
-    }
+    cairo_rectangle(cr, frame->x, frame->y, frame->width, frame->height);
+    ground(cr, 4, 0.8);
+    cairo_set_source_rgb(cr, 0.72, 0.11, 0.11);
+    cairo_set_line_width(cr, 1.6);
+    cairo_stroke(cr);
     cairo_set_font_size(cr, 20);
     text_at(cr, frame->x + frame->width + 6, frame->y + 14, frame->text);
     cairo_set_font_size(cr, 13);
@@ -175,10 +167,10 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, 13);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  if (annotation && annotation->streamlines_apart > 0 && canvas->velocity)
-    CW_TRY(streamlines(cr, canvas, annotation->streamlines_apart));
-  if (annotation && annotation->metres_per_pixel > 0) scale_bar(cr, canvas, annotation->metres_per_pixel);
   if (annotation) {
+    if (annotation->streamlines_apart > 0 && canvas->velocity)
+      CW_TRY(streamlines(cr, canvas, annotation->streamlines_apart));
+    if (annotation->metres_per_pixel > 0) scale_bar(cr, canvas, annotation->metres_per_pixel);
     triad(cr, canvas, annotation);
     frames(cr, annotation);
   }

@@ -124,24 +124,19 @@ done:
   return status;
 }
 
-CwStatus cw_report_mesh_results(const CwReportData *data, json_t **results) {
-  char where[4096];
-  snprintf(where, sizeof where, "%s/mesh/record.json", data->run);
-  return cw_json_object(data->record[1], where, "results", results);
-}
-
-CwStatus cw_report_mesh_domain(const CwReportData *data, int d, json_t **domain) {
+CwStatus cw_report_mesh_domains(const CwReportData *data, json_t *domain[CW_DOMAINS_MOST]) {
   CwStatus status = CW_OK;
   char where[4096];
   const char *name;
-  json_t *results, *domains;
+  json_t *domains;
   snprintf(where, sizeof where, "%s/mesh/record.json: results", data->run);
-  CW_TRY(cw_report_mesh_results(data, &results));
-  CW_TRY(cw_json_array(results, where, "domains", &domains));
-  *domain = json_array_get(domains, (size_t)d);
-  CW_TRY(cw_json_text(*domain, where, "name", &name));
-  CW_REQUIRE(!strcmp(name, data->mesh.domains[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'", where,
-             d + 1, name, data->mesh.domains[d].name);
+  CW_TRY(cw_json_array(json_object_get(data->record[1], "results"), where, "domains", &domains));
+  for (int d = 0; d < data->mesh.domain_count; d++) {
+    domain[d] = json_array_get(domains, (size_t)d);
+    CW_TRY(cw_json_text(domain[d], where, "name", &name));
+    CW_REQUIRE(!strcmp(name, data->mesh.domains[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'", where,
+               d + 1, name, data->mesh.domains[d].name);
+  }
 done:
   return status;
 }

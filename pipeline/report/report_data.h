@@ -15,8 +15,8 @@ typedef struct {
   const CwCase *table;
   char *run;
   json_t *design;            // geometry/design.json; NULL: no generator made the pump
-  json_t *record[CW_STAGES]; // geometry, mesh, export; the last may be NULL
-  json_t *solve;             // solve/record.json, or NULL
+  json_t *record[CW_STAGES]; // geometry, mesh, export, each with its results; the last may be NULL
+  json_t *solve;             // solve/record.json with its results, or NULL
   CwMesh mesh;
   CwReportPictures pictures;
   CwView view;
@@ -27,8 +27,7 @@ enum { CW_STAGE_OF_EXPORT = 2 };
 extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
 
 // Reads the files of `run` (all but the region files and those of the export) and checks that they are of this case.
-// CW_ERR_IO,
-// CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
+// CW_ERR_IO, CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data);
 void cw_report_data_free(CwReportData *data);
 
@@ -38,8 +37,7 @@ int cw_report_is_solved(const CwReportData *data);
 // What the pictures need of case and design. CW_ERR_INPUT.
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);
 
-// "results" of the mesh record, and its entry of domain `d` after a check of its name.
-CwStatus cw_report_mesh_results(const CwReportData *data, json_t **results);
-CwStatus cw_report_mesh_domain(const CwReportData *data, int d, json_t **domain);
+// What the results of the mesh record have of each domain of the mesh [out]. CW_ERR_INPUT where they are of others.
+CwStatus cw_report_mesh_domains(const CwReportData *data, json_t *domain[CW_DOMAINS_MOST]);
 
 #endif

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/order.h"
 #include "pipeline/report/exact_sum.h"
+#include "pipeline/vec.h"
 
 // While triangles come there may be SLACK times as many as wanted; from then on the lattice grows.
 enum { SLACK = 4, REACH = 8192 }; // REACH: first cells along the lengths that sums are exact for
@@ -207,17 +209,10 @@ done:
 
 CwStatus cw_simplify_add(CwSimplifier *s, const double *const corner[3], int mark, const double *value) {
   CwStatus status = CW_OK;
-  double u[3], v[3], n[3], area = 0, distance = 0;
+  double n[3], distance = 0;
   Triangle triangle = {.mark = mark};
-  for (int i = 0; i < 3; i++) {
-    u[i] = corner[1][i] - corner[0][i];
-    v[i] = corner[2][i] - corner[0][i];
-  }
-  for (int i = 0; i < 3; i++) {
-    n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-    area += n[i] * n[i];
-  }
-  area = sqrt(area);
+  cw_normal(corner[0], corner[1], corner[2], n);
+  const double area = cw_norm(n);
   if (!(area > 0)) goto done;
   for (int i = 0; i < 3; i++) distance += n[i] / area * corner[0][i];
   const double weight = cw_exact_term(area, s->area_unit);
@@ -302,17 +297,6 @@ int cw_simplify_coarsened(const CwSimplifier *s) {
   return s->cell > s->first_cell;
 }
 
-// Numbers in ascending order.
-static void sort_three(int32_t v[3]) {
-  for (int pass = 0; pass < 3; pass++) {
-    int i = pass % 2;
-    if (v[i] <= v[i + 1]) continue;
-    int32_t swap = v[i];
-    v[i] = v[i + 1];
-    v[i + 1] = swap;
-  }
-}
-
 // A triangle, or a cube with its index, by which it is put in order. No order is left open.
 typedef struct {
   int32_t key[7];
@@ -366,7 +350,7 @@ static CwStatus drop_twins(CwSimplifier *s) {
   CW_NEW_UNSET(sorted, s->triangle_count);
   for (int64_t t = 0; t < s->triangle_count; t++) {
     memcpy(sorted[t].key, s->triangle[t].corner, sizeof s->triangle[t].corner);
-    sort_three(sorted[t].key);
+    qsort(sorted[t].key, 3, sizeof *sorted[t].key, cw_order_int32s);
     memcpy(sorted[t].key + 3, &s->triangle[t], sizeof s->triangle[t]);
   }
   qsort(sorted, (size_t)s->triangle_count, sizeof *sorted, by_key);

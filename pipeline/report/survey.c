@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "pipeline/report/exact_sum.h"
+#include "pipeline/vec.h"
 
 static const char *const place_patch[CW_PLACE_COUNT] = {"blade_leading_edge", "blade_trailing_edge", "tongue"};
 static const char *const wall_patch[CW_WALL_COUNT] = {"hub", "shroud"};
@@ -38,13 +39,9 @@ static int add_point(CwSurvey *survey, const double x[3]) {
 }
 
 static double face_area(const double a[3], const double b[3], const double c[3]) {
-  double u[3], v[3];
-  for (int i = 0; i < 3; i++) {
-    u[i] = b[i] - a[i];
-    v[i] = c[i] - a[i];
-  }
-  return 0.5 * sqrt(pow(u[1] * v[2] - u[2] * v[1], 2) + pow(u[2] * v[0] - u[0] * v[2], 2) +
-                    pow(u[0] * v[1] - u[1] * v[0], 2));
+  double n[3];
+  cw_normal(a, b, c, n);
+  return 0.5 * cw_norm(n);
 }
 
 CwStatus cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *surface) {

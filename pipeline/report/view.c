@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "pipeline/report/picture_list.h"
+#include "pipeline/report/surface.h"
 
 // Triangles of all turning zones together, of the others, and cubes of the first lattice along the pump's size.
 enum { TURNING_MOST = 80000, STANDING_MOST = 60000, FINEST = 8192 };
@@ -35,19 +36,13 @@ CwStatus cw_view_add(CwView *view, const CwMesh *mesh, const CwRegionData *cells
   double value[CW_VIEW_QUANTITIES];
   CwSimplifier *simplifier = view->simplifier[cells->domain];
   int first = mesh->domains[cells->domain].first_patch;
-  for (int32_t t = 0; t < cells->triangle_count; t++) {
-    const double *corner[3];
-    for (int k = 0; k < 3; k++) corner[k] = cells->points[cells->triangles[t][k]];
-    for (int k = 0; k < CW_VIEW_QUANTITIES; k++) value[k] = share[k] ? share[k][t] : NAN;
-    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->triangle_patch[t], value));
-  }
-  for (int32_t q = 0; q < cells->quad_count; q++) {
-    const double *corner[4];
-    for (int k = 0; k < 4; k++) corner[k] = cells->points[cells->quads[q][k]];
-    for (int k = 0; k < CW_VIEW_QUANTITIES; k++) value[k] = share[k] ? share[k][cells->triangle_count + q] : NAN;
-    CW_TRY(cw_simplify_add(simplifier, corner, first + cells->quad_patch[q], value));
-    CW_TRY(cw_simplify_add(simplifier, (const double *const[3]){corner[0], corner[2], corner[3]},
-                           first + cells->quad_patch[q], value));
+  for (int32_t f = 0; f < cw_surface_face_count(cells); f++) {
+    const CwSurfaceFace face = cw_surface_face(cells, f);
+    for (int k = 0; k < CW_VIEW_QUANTITIES; k++) value[k] = share[k] ? share[k][f] : NAN;
+    CW_TRY(cw_simplify_add(simplifier, face.x, first + face.patch, value));
+    if (face.count == 4)
+      CW_TRY(cw_simplify_add(simplifier, (const double *const[3]){face.x[0], face.x[2], face.x[3]}, first + face.patch,
+                             value));
   }
 done:
   return status;
@@ -88,7 +83,6 @@ done:
 
 int cw_view_shown(const CwMesh *mesh, const CwViewPart *part) {
   char name[CW_MESH_NAME_SIZE + 2];
-  if (part->patch < 0) return 0;
   const CwModelPatch *patch = &mesh->patches[part->patch];
   snprintf(name, sizeof name, "|%s|", patch->name);
   return patch->kind == CW_PATCH_WALL && !strstr(cw_picture_list[0].hidden, name);
@@ -141,7 +135,7 @@ CwStatus cw_view_finish(CwView *view, const CwMesh *mesh) {
   CwStatus status = CW_OK;
   CwSimpleSurface surface = {0};
   int32_t *own = NULL;
-  CW_NEW(view->part, mesh->patch_count + 1); // and lines
+  CW_NEW(view->part, mesh->patch_count);
   for (int d = 0; d < mesh->domain_count; d++) {
     CW_TRY(cw_simplify_finish(view->simplifier[d], &surface));
     view->decimated |= cw_simplify_coarsened(view->simplifier[d]);

@@ -11,12 +11,12 @@
 
 enum { CW_VIEW_QUANTITIES = CW_SIMPLIFY_VALUES };
 
-// One patch, or lines, with its own points.
+// One patch with its own points.
 typedef struct {
-  int patch;    // of the mesh; -1: lines
-  int32_t point_count, triangle_count; // of lines: segments
+  int patch; // of the mesh
+  int32_t point_count, triangle_count;
   double (*points)[3];
-  int32_t (*corners)[3];                      // of triangles; of lines two are used
+  int32_t (*corners)[3];
   unsigned char *values[CW_VIEW_QUANTITIES]; // shares of the colour scale, 0 to 255; NULL: none
 } CwViewPart;
 

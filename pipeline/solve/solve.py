@@ -143,8 +143,8 @@ def solve_curve(run, design):
     solved, rows = {1.0: run.folder / "solve/steady"}, []
     for point in sorted(run.export["results"]["operating_points"], key=lambda point: abs(point["flow_share"] - 1)):
         name, share = point["name"], point["flow_share"]
-        if name == "q1000":
-            table = design
+        if name == "q1000":  # the operating point, or by a rounded unit so near to it
+            table, solved[share] = design, solved[1.0]
         else:
             nearest = solved[min(solved, key=lambda other, share=share: abs(other - share))]
             solved[share] = run.folder / "solve/points" / name
@@ -181,7 +181,7 @@ def write_results(run, table, seconds, curve):
     results = run.outcome(folder / "steady", table, run.flow_m3_per_h)
     warnings = warnings_of(results, "operating point")
     for point in curve:
-        warnings += warnings_of(point, point["point"]) if point["flow_share"] != 1 else []
+        warnings += warnings_of(point, point["point"]) if point["point"] != "q1000" else []
     results |= {"headline": headline(results), "cells": run.cells, "y_plus": reports.y_plus(folder / "steady"),
                 "history": {key: [row.get(key) for row in rows] for key in HISTORY},
                 "curve": [{key: point[key] for key in CURVE} for point in curve]}

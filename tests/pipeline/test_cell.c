@@ -103,6 +103,14 @@ static void aspects_and_determinants_by_hand(void **state) {
   assert_float_equal(cw_cell_determinant(4, regular, 0), 0, 0);
 }
 
+static void interfaces_may_be_off_by_a_hundredth_of_the_shortest_edge(void **state) {
+  const double a[3] = {0, 0, 0}, b[3] = {4, 0, 0}, c[3] = {4, 3, 0}, d[3] = {0, 2, 0}, e[3] = {4, 0, 0.5};
+  const double *const triangle[4] = {a, b, c}, *const quad[4] = {a, b, c, d}, *const thin[4] = {a, b, e, d};
+  assert_true(fabs(cw_interface_tolerance(3, triangle) - 0.03) < 1e-15);
+  assert_true(fabs(cw_interface_tolerance(4, quad) - 0.02) < 1e-15);
+  assert_true(fabs(cw_interface_tolerance(4, thin) - 0.005) < 1e-15);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(volumes_of_the_three_shapes),
@@ -110,6 +118,7 @@ int main(void) {
       cmocka_unit_test(centroids_of_the_three_shapes),
       cmocka_unit_test(faces_look_outward_and_close),
       cmocka_unit_test(aspects_and_determinants_by_hand),
+      cmocka_unit_test(interfaces_may_be_off_by_a_hundredth_of_the_shortest_edge),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,15 +22,12 @@ static int kept_stderr = -1;
 
 static int make_folder(void **state) {
   if (make_test_folder(state)) return -1;
-  snprintf(copy_path, sizeof copy_path, "%s/log/mesh.log", test_folder);
+  snprintf(copy_path, sizeof copy_path, "%s/mesh.log", test_folder);
   return 0;
 }
 
 static int remove_files(void **state) {
-  char log_folder[sizeof test_folder + 8];
-  snprintf(log_folder, sizeof log_folder, "%s/log", test_folder);
   unlink(copy_path);
-  rmdir(log_folder);
   return remove_test_folder(state);
 }
 

@@ -46,11 +46,17 @@ static void steps_are_round(void **state) {
 }
 
 static void columns_are_as_high_as_their_values(void **state) {
-  static const char *const label[] = {"a < b", "c"};
+  static const CwPlotCategory category[] = {{.label = "a < b"}, {.label = "c"}};
   const double first[] = {10, 35}, second[] = {20, NAN};
   const CwPlotSeries series[] = {{"first & last", 0x112233, first}, {"second", 0x445566, second}};
-  CwPlot plot = {
-      .axis = "% of all", .label = label, .count = 2, .series = series, .series_count = 2, .decimals = 1, .width = 400};
+  CwPlot plot = {.axis = "% of all",
+                 .category = category,
+                 .count = 2,
+                 .series = series,
+                 .series_count = 2,
+                 .decimals = 1,
+                 .width = 400,
+                 .caption = "a <b>caption</b>"};
   double box[8][4];
   char *text = drawn(cw_plot_columns, &plot);
   assert_int_equal(boxes(text, "#112233", box), 2);
@@ -64,6 +70,7 @@ static void columns_are_as_high_as_their_values(void **state) {
   assert_non_null(strstr(text, ">first &amp; last<"));
   assert_non_null(strstr(text, ">35.0<"));
   assert_non_null(strstr(text, ">% of all<"));
+  assert_non_null(strstr(text, "<figcaption>a <b>caption</b></figcaption></figure>"));
   assert_null(strstr(text, "nan"));
   free(text);
 }
@@ -79,17 +86,17 @@ static double note_place(const char *text, const char *words) {
 }
 
 static void bars_are_stacked_and_noted(void **state) {
-  static const char *const label[] = {"one", "two"}, *const note[] = {"30 s", "60 s"};
+  static const CwPlotCategory category[] = {{"one", "30 s"}, {"two", "60 s"}};
   const double first[] = {10, 20}, second[] = {20, 40};
   const CwPlotSeries series[] = {{"p", 0x112233, first}, {"q", 0x445566, second}};
   CwPlot plot = {.axis = "s",
-                 .label = label,
+                 .category = category,
                  .count = 2,
                  .series = series,
                  .series_count = 2,
-                 .note = note,
                  .mark = 45,
-                 .width = 500};
+                 .width = 500,
+                 .caption = "a <b>caption</b>"};
   double p[4][4], q[4][4];
   char *text = drawn(cw_plot_bars, &plot);
   assert_int_equal(boxes(text, "#112233", p), 2);
@@ -117,7 +124,8 @@ static void bars_are_stacked_and_noted(void **state) {
 
 static void an_empty_plot_is_a_plot(void **state) {
   const CwPlotSeries series[] = {{"none", 0x112233, NULL}};
-  CwPlot plot = {.axis = "s", .count = 0, .series = series, .series_count = 1, .width = 300};
+  CwPlot plot = {
+      .axis = "s", .count = 0, .series = series, .series_count = 1, .width = 300, .caption = "a <b>caption</b>"};
   for (int k = 0; k < 2; k++) {
     char *text = drawn(k ? cw_plot_bars : cw_plot_columns, &plot);
     assert_int_equal(strncmp(text, "<svg ", 5), 0);
@@ -158,7 +166,8 @@ static void lines_stand_where_their_values_are(void **state) {
                      .series = &series,
                      .series_count = 1,
                      .mark = NAN,
-                     .width = 400};
+                     .width = 400,
+                     .caption = "a <b>caption</b>"};
   char *text = drawn_lines(&plot), command[8];
   double p[8][2];
   assert_int_equal(path_places(text, command, p), 3);
@@ -187,7 +196,8 @@ static void logarithmic_lines_have_a_gap_at_zero(void **state) {
                      .series_count = 1,
                      .logarithmic = 1,
                      .mark = NAN,
-                     .width = 400};
+                     .width = 400,
+                     .caption = "a <b>caption</b>"};
   char *text = drawn_lines(&plot), command[8];
   double p[8][2];
   assert_int_equal(path_places(text, command, p), 3);

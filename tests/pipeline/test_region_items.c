@@ -5,7 +5,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "pipeline/mesh/region_read.h"
 #include "tests/unit_test.h"
 
 static char path[] = "/tmp/cutwater-region-XXXXXX";

@@ -98,20 +98,21 @@ static void html_is_escaped_and_encoded(void **state) {
   char *text = NULL;
   size_t size = 0;
   FILE *page = open_memstream(&text, &size);
-  cw_html_text(page, "<a & \"b\">");
-  cw_html_label(page, "|outlet_width");
-  cw_html_label(page, "outlet_width");
-  cw_html_label(page, "y_plus_blade");
-  cw_html_label(page, "|");
-  cw_html_label(page, "npsh_required");
-  cw_html_label(page, "predicted_head_wiesner");
-  cw_html_label(page, "guelich");
+  cw_html_text(page, "<b>", "<a & \"b\">", "</b>");
+  cw_html_text(page, "<i>", NULL, "</i>");
+  cw_html_label(page, "", "|outlet_width", "");
+  cw_html_label(page, "", "outlet_width", "");
+  cw_html_label(page, "", "y_plus_blade", "");
+  cw_html_label(page, "", "|", "");
+  cw_html_label(page, "", "npsh_required", "");
+  cw_html_label(page, "", "predicted_head_wiesner", "");
+  cw_html_label(page, "", "guelich", "");
   cw_html_number_cell(page, "12.87");
   cw_html_number_cell(page, "74");
   for (size_t n = 0; n < 4; n++) cw_html_base64(page, (const unsigned char *)"Man", n);
   cw_html_base64(page, (const unsigned char *)"\377\373\360", 3);
   fclose(page);
-  assert_string_equal(text, "&lt;a &amp; &quot;b&quot;&gt;|outlet widthOutlet widthy<sup>+</sup> blade"
+  assert_string_equal(text, "<b>&lt;a &amp; &quot;b&quot;&gt;</b><i></i>|outlet widthOutlet widthy<sup>+</sup> blade"
                             "|NPSH requiredPredicted head WiesnerG&uuml;lich"
                             "<td class=\"n\">12<span>.87</span></td><td class=\"n\">74<span></span></td>"
                             "TQ==TWE=TWFu//vw");

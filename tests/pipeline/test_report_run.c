@@ -2,7 +2,7 @@
 // cutwater-report on a run of two boxes: one page, whole or not at all, and one line where something is
 // wrong.
 // Modules without a test of their own that it runs: drawing, page_curve, page_design, page_mesh, page_pictures,
-// page_run, page_solve, page_view, picture_list, pictures.
+// page_run, page_solve, page_view, picture_list, pictures, region_read.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

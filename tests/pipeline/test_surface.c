@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The boundary of a region: its faces as they were, its points without those within.
-#include "pipeline/mesh/region_read.h"
 #include "pipeline/report/surface.h"
 #include "tests/unit_test.h"
 
