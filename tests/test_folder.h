@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The folder of a test program: made before its tests and removed after them, by cmocka_run_group_tests.
+// The folder of a test program, made before its tests and removed after them, by cmocka_run_group_tests; or one for
+// each of its tests, by cmocka_unit_test_setup_teardown.
 #ifndef CUTWATER_TESTS_TEST_FOLDER_H
 #define CUTWATER_TESTS_TEST_FOLDER_H
 
+#include <string.h>
 #include <unistd.h>
 
 #include "tests/remove_folder.h"
@@ -10,6 +12,7 @@
 static char test_folder[] = "/tmp/cutwater-test-XXXXXX";
 
 static inline int make_test_folder(void **state) {
+  strcpy(test_folder + sizeof test_folder - 7, "XXXXXX"); // of the test before
   return mkdtemp(test_folder) ? 0 : -1;
 }
 

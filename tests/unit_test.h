@@ -4,6 +4,7 @@
 #ifndef CUTWATER_TESTS_UNIT_TEST_H
 #define CUTWATER_TESTS_UNIT_TEST_H
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,4 +17,11 @@ extern "C" {
 #ifdef __cplusplus
 }
 #endif
+
+// cmocka's own comparison is in float.
+#define assert_near(value, wanted, tolerance)                                                                          \
+  do {                                                                                                                 \
+    const double value_ = (value), wanted_ = (wanted);                                                                 \
+    if (!(fabs(value_ - wanted_) <= (tolerance))) fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);           \
+  } while (0)
 #endif

@@ -17,7 +17,6 @@ A row tells the differences to the pumps as they are.
 A move stops at the value that switches a number off; whole numbers move by 1 at least. A run that ends with an error
 is a failure, and has the means of its pump in the other columns. DIR keeps results.jsonl, one line a run: a second call
 with the same programs does only what is missing."""
-import argparse
 import hashlib
 import json
 import math
@@ -26,12 +25,11 @@ import shutil
 import statistics
 import sys
 import tempfile
-import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 import random_pumps
-from programs import ENVIRONMENT, MPIRUN, SOURCE, execute
+from programs import ENVIRONMENT, SOURCE, execute, options_of
+from runs import quality, record, rows_before, run_tasks, stage_line
 from screening import design, effects, standard_error
 
 # Of a run: key, heading, format. Time is that of the processor in tasks of the mesher, relative to the pump's mean.
@@ -43,18 +41,12 @@ CLEAR = 2.5  # standard errors: one of 80 columns of noise is past them
 
 
 def arguments(words=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--pumps", type=int, default=8)
+    parser = options_of(__doc__, pumps=8, seed=1, factor=1.25, singly=False, work=SOURCE / "build/ablate",
+                        bin=SOURCE / "build/experiment/bin", jobs=2)
     parser.add_argument("--only", type=int, nargs="*", metavar="I", help="these random pumps instead of the first")
     parser.add_argument("--cases", nargs="*", default=["paper"])
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--sizes", nargs="+", default=["60k", "150k"])
-    parser.add_argument("--factor", type=float, default=1.25)
     parser.add_argument("--numbers", nargs="*")
-    parser.add_argument("--singly", action="store_true")
-    parser.add_argument("--work", type=Path, default=SOURCE / "build/ablate")
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/experiment/bin")
-    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--limit", type=float, default=120, help="seconds of a run; past it the run has failed")
     return parser.parse_args(words)
 
@@ -97,16 +89,10 @@ def settings_of(numbers, options):
 
 def figures_of(run):
     """The figures of one mesh, from the mesher's record."""
-    results = json.loads((run / "mesh/record.json").read_text())["results"]
-    domains = results["domains"]
-    walls = [wall for domain in domains for wall in domain["layer_coverage"]]
-    faces = sum(wall["wall_faces"] for wall in walls)
-    tetrahedra = sum(domain["tetrahedra"] for domain in domains)
-    aspect = sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"] for domain in domains) / tetrahedra
-    return {"failed": 0, "dihedral": min(domain["least_dihedral_deg"] for domain in domains),
-            "aspect": math.log(aspect), "time": math.log(results["processor_seconds"]),
-            "first_height": sum(wall["first_height_met_faces"] for wall in walls) / faces,
-            "even": 1 - sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls) / faces,
+    results = record(run)["results"]
+    shares = quality(results)
+    return {"failed": 0, "dihedral": min(domain["least_dihedral_deg"] for domain in results["domains"]),
+            **shares, "aspect": math.log(shares["aspect"]), "time": math.log(results["processor_seconds"]),
             "count": abs(results["cells"] / results["asked_cells"] - 1), "passes": results["passes"]}
 
 
@@ -122,8 +108,8 @@ def mesh(options, case, geometry, cells, setting):
     with tempfile.TemporaryDirectory(dir=options.work) as folder:
         run = Path(folder)
         (run / "geometry").symlink_to(geometry / "geometry")
-        done = execute("env", policy_of(run, setting), "timeout", options.limit, *MPIRUN, 1,
-                       options.bin / "cutwater-mesh", "--case", case, "--run", run, "--cells", cells, check=False)
+        done = execute("env", policy_of(run, setting), "timeout", options.limit,
+                       *stage_line(options.bin, "mesh", case, run, cells), check=False)
         if done.status:
             told = re.findall(r"error: (.*)", done.text)
             return {"failed": 1, "message": told[0][:200] if told else f"status {done.status}"}
@@ -144,7 +130,7 @@ def pumps_of(options):
         folder = options.work / "geometry" / name
         if not (folder / "geometry/record.json").exists():
             shutil.rmtree(folder, ignore_errors=True)
-            execute(options.bin / "cutwater-geometry", "--case", case, "--run", folder, check=False)
+            execute(*stage_line(options.bin, "geometry", case, folder), check=False)
         if (folder / "geometry/record.json").exists():
             made.append((name, case, folder))
     return made
@@ -154,8 +140,12 @@ def run_all(options, pumps, settings):
     """Figures by (pump, cells, label), those of earlier calls among them."""
     digest = hashlib.sha256((options.bin / "cutwater-mesh").read_bytes()).hexdigest()[:16]
     path = options.work / "results.jsonl"
-    before = {one["key"]: one for one in map(json.loads, path.read_text().splitlines())} if path.exists() else {}
+    before = rows_before(path)
     results, waiting = {}, []
+
+    def row(key, place, *work):
+        return {"key": key, "place": place, "figures": mesh(options, *work)}
+
     for label, setting in settings:
         for name, case, folder in pumps:
             for cells in options.sizes:
@@ -164,18 +154,11 @@ def run_all(options, pumps, settings):
                 if key in before:
                     results[name, cells, label] = before[key]["figures"]
                 else:
-                    waiting.append((key, (name, cells, label), (options, case, folder, cells, setting)))
-    began = time.monotonic()
-    with ThreadPoolExecutor(options.jobs) as pool, path.open("a") as file:
-        running = {pool.submit(mesh, *work): (key, place) for key, place, work in waiting}
-        for number, future in enumerate(as_completed(running), 1):
-            key, place = running[future]
-            results[place] = future.result()
-            file.write(json.dumps({"key": key, "place": place, "figures": results[place]}) + "\n")
-            file.flush()
-            if number % 50 == 0:
-                left = (time.monotonic() - began) / number * (len(waiting) - number)
-                print(f"ablate: {number} of {len(waiting)}, {left / 60:.0f} min left", file=sys.stderr, flush=True)
+                    waiting.append((row, key, (name, cells, label), case, folder, cells, setting))
+    for number, left, made in run_tasks(path, waiting, options.jobs):
+        results[made["place"]] = made["figures"]
+        if number % 50 == 0:
+            print(f"ablate: {number} of {len(waiting)}, {left:.0f} min left", file=sys.stderr, flush=True)
     return results
 
 

@@ -12,7 +12,6 @@ Solids of as many faces and the same volume count once. They are read, healed an
 (tests/measure/cad_solids.cpp).
 
 DIR/rows.json holds what is done: a call with the same DIR goes on. Times are those of the processor."""
-import argparse
 import collections
 import concurrent.futures
 import gzip
@@ -25,11 +24,12 @@ import shutil
 import signal
 import statistics
 import subprocess
-import sys
 import tempfile
 import zipfile
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+from programs import ENVIRONMENT, SOURCE, options_of
+from runs import record
+
 BIN = pathlib.Path(os.environ.get("CUTWATER_BIN", SOURCE / "build/bin"))
 LIMIT = 60  # s of the processor
 LEAST_DIHEDRAL, LEAST_SHARE = 10, 0.6  # degrees, or of what the boundary allows
@@ -69,13 +69,12 @@ print(len(t), round(float(least), 1))
 
 def run(line, seconds):
     """What a program said, how it ended ("timeout" where it took more of the processor), and its seconds there."""
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
 
     with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen([str(word) for word in line], env=environment, stdin=subprocess.DEVNULL, stdout=said,
+        child = subprocess.Popen([str(word) for word in line], env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=said,
                                  stderr=subprocess.STDOUT, preexec_fn=limit)
         _, status, used = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
@@ -107,7 +106,7 @@ def mesh(folder, case, cells, limit):
     if code != 0:
         error = re.findall(r"cutwater-mesh: error: (.*)", said)
         return {"cause": "refused" if error else "crashed", "shown": (error[-1] if error else f"exit {code}")[:150]}
-    results = json.loads((folder / "mesh/record.json").read_text())["results"]
+    results = record(folder)["results"]
     domain = results["domains"][0]
     layers = domain["layer_coverage"][0]
     row = {"cells": results["cells"], "seconds": round(seconds, 1), "dihedral": domain["least_dihedral_deg"],
@@ -203,12 +202,10 @@ def summary(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, cells=150000, jobs=2)
     parser.add_argument("folder", nargs="+")
-    parser.add_argument("--cells", type=int, default=150000)
     parser.add_argument("--only", default="", help="files with this in their name")
     parser.add_argument("--most", type=int, default=8, help="solids of a file")
-    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--limit", type=int, default=LIMIT, help="seconds of the processor for a solid")
     parser.add_argument("--no-hxt", dest="hxt", action="store_false", help="without gmsh beside it")
     parser.add_argument("--out", help="folder that the table stays in, to go on from")
@@ -220,7 +217,7 @@ def main():
     table = work / "rows.json"
     rows = json.loads(table.read_text()) if table.exists() else {}
     seen, tasks = set(), {}
-    for path in [path for folder in options.folder for path in files(folder)]:
+    for path in (path for folder in options.folder for path in files(folder)):
         if options.only not in path.name:
             continue
         solids = solids_of(path, work, case, options.limit)
@@ -253,4 +250,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

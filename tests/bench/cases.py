@@ -13,13 +13,12 @@ worst   patch with the fewest of them, of those with 100 faces or more
 beside  how much greater the mean aspect of the tetrahedra beside partition planes is than that of the others, %
 
 Every run is removed before the next one begins. With --mesh-only nothing is exported, and checkMesh not asked."""
-import argparse
-import json
 import re
 import tempfile
 from pathlib import Path
 
-from programs import MPIRUN, SOURCE, execute
+from programs import execute, options_of
+from runs import BIN, cases_named, record, stage_line
 
 
 def judged(run):
@@ -46,8 +45,7 @@ def even_faces(patches):
 
 
 def table_row(name, run, told):
-    record = json.loads((run / "mesh/record.json").read_text())
-    results = record["results"]
+    results = record(run)["results"]
     domains = results["domains"]
     patches = [patch for domain in domains for patch in domain["layer_coverage"]]
     first = percent(sum(p["first_height_met_faces"] for p in patches), sum(p["wall_faces"] for p in patches))
@@ -66,28 +64,19 @@ def table_row(name, run, told):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, ranks=2, bin=BIN, mesh_only=False)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--cells", nargs="*", default=[None])
-    parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
     parser.add_argument("--work", type=Path)
-    parser.add_argument("--mesh-only", action="store_true")
     options = parser.parse_args()
-    cases = SOURCE / "cases"
-    names = options.names or sorted(path.parent.name for path in cases.glob("*/case.yaml"))
     print(f"{'case':10}{'asked':>12}{'made':>12}{'passes':>7}{'layers':>7}  {'first':>6}  {'even':>15}  {'worst':22} "
           f"{'dihedral':>12} {'aspect':>12} {'beside':>12}  checkMesh", flush=True)
     for cells in options.cells:
-        for name in names:
+        for name, case in cases_named(options.names):
             with tempfile.TemporaryDirectory(dir=options.work) as folder:
                 run = Path(folder) / "run"
-                stage = ["--case", cases / name / "case.yaml", "--run", run]
-                many = stage + (["--cells", cells] if cells else [])
-                execute(options.bin / "cutwater-geometry", *stage)
-                execute(*MPIRUN, options.ranks, options.bin / "cutwater-mesh", *many)
-                if not options.mesh_only:
-                    execute(*MPIRUN, options.ranks, options.bin / "cutwater-export", *many)
+                for stage in ("geometry", "mesh") + ("export",) * (not options.mesh_only):
+                    execute(*stage_line(options.bin, stage, case, run, cells, options.ranks))
                 table_row(name, run, "" if options.mesh_only else judged(run))
 
 

@@ -5,21 +5,20 @@
 CGNS's own cgnscheck on each zone of a file alone, from a copy without the others and without their connectivity:
 cgnscheck keeps the faces of all zones that it looks at, about 330 bytes a cell, so that on 24 GiB 145 million cells
 are too many together. Errors, warnings, seconds and peak memory of each; ends with 1 where one has anything to say."""
-import argparse
 import re
 import shutil
 import sys
 import tempfile
 from pathlib import Path
 
-from programs import SOURCE, execute
+from programs import execute, options_of
+from runs import BIN
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, bin=BIN)
     parser.add_argument("file", type=Path)
     parser.add_argument("--work", type=Path)
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
     options = parser.parse_args()
     names = re.findall(r"^    \+-(\w+)\n    [| ] \+-ZoneType", execute("cgnslist", options.file).text, re.M)
     if not names:

@@ -19,6 +19,7 @@
 
 #include "mesher/common/box.h"
 #include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel.h"
 #include "mesher/fill/tetgen_fill.h"
@@ -204,10 +205,6 @@ static void region_surface(const char *path, Mesh *mesh) {
   cw_region_free(&region);
 }
 
-static double distance(const double a[3], const double b[3]) {
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
 static double size_at(const void *context, const double x[3]) {
   return cw_size_grid_at(context, x);
 }
@@ -219,7 +216,7 @@ static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
   double *length = take((size_t)mesh->triangle_count, sizeof *length);
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     for (int k = 0; k < 3; k++)
-      length[t] += distance(mesh->x[mesh->triangle[t][k]], mesh->x[mesh->triangle[t][(k + 1) % 3]]) / 3.0;
+      length[t] += cw_distance(mesh->x[mesh->triangle[t][k]], mesh->x[mesh->triangle[t][(k + 1) % 3]]) / 3.0;
     mean += length[t] / mesh->triangle_count;
   }
   check(cw_size_grid_make(box.low, box.high, mean, 2000000, grid));
@@ -296,31 +293,6 @@ static double resident(void) {
   return (double)pages * (double)sysconf(_SC_PAGESIZE);
 }
 
-static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const double (*x)[3]) {
-  double mean = 0.0, most = 0.0, least = 180.0, ratio = 0.0;
-  for (int32_t t = 0; t < count; t++) {
-    CwTetShape shape;
-    double squares = 0.0;
-    const double *corner[4];
-    for (int i = 0; i < 4; i++) corner[i] = x[tetrahedron[t][i]];
-    if (cw_tet_volume6(corner[0], corner[1], corner[2], corner[3]) < 0.0) {
-      const double *swap = corner[0];
-      corner[0] = corner[1];
-      corner[1] = swap;
-    }
-    cw_tet_shape(corner, &shape);
-    mean += shape.edge_longest / shape.edge_shortest / count;
-    most = fmax(most, shape.edge_longest / shape.edge_shortest);
-    least = fmin(least, shape.dihedral_least);
-    for (int i = 0; i < 4; i++) {
-      for (int j = 0; j < i; j++) squares += distance(corner[i], corner[j]) * distance(corner[i], corner[j]);
-    }
-    // A. Liu and B. Joe, On the shape of tetrahedra from bisection, Math. Comp. 63 (1994): 1 is regular.
-    ratio += 12.0 * cbrt(9.0 * shape.volume * shape.volume) / squares / count;
-  }
-  printf("%.3f %.2f %.2f %.3f\n", mean, most, least, ratio);
-}
-
 // Shapes of tetrahedra: all, those with a corner on a partition plane, the others.
 typedef struct {
   int64_t count, aspect_class[8];
@@ -361,6 +333,13 @@ static void add_shapes(Shapes shapes[3], int32_t count, const int32_t (*tetrahed
     add_shape(&shapes[0], corner);
     add_shape(&shapes[beside ? 1 : 2], corner);
   }
+}
+
+static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const double (*x)[3]) {
+  Shapes shapes[3] = {{0}};
+  add_shapes(shapes, count, tetrahedron, x, 0);
+  printf("%.3f %.2f %.2f %.3f\n", shapes->aspect_sum / count, shapes->aspect_most, shapes->dihedral_least,
+         shapes->ratio_sum / count);
 }
 
 // Three lines: name, number, the eight classes, aspect mean and most, dihedral angles, mean ratio mean and least.

@@ -15,15 +15,13 @@ chooses its own number of tetrahedra; with --equal HXT fills each surface a seco
 the kernel has, scaled so that it makes as many. The last column is our rate over that of the way; the last line tells
 the greatest memory and the least rate of the kernel on one core. A run of gmsh has 10 minutes.
 """
-import argparse
 import shutil
 import subprocess
-import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from programs import SOURCE, execute, gmsh_steps
+from programs import SOURCE, execute, gmsh_steps, options_of
 
 LIMIT = 600  # seconds
 NEAR = 0.05  # of as many tetrahedra
@@ -32,16 +30,14 @@ HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {
         f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
 
 
-def compile_program(build, folder):
-    program = folder / "fill"
-    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5", "libfyaml", "jansson"],
-                           check=True, capture_output=True, text=True).stdout.split()
-    subprocess.run(["mpicc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", f"-I{SOURCE}",
-                    str(SOURCE / "tests/bench/fill.c"), "-o", str(program),
-                    str(build / "mesher/libcutwater_mesher_room.a"),
-                    str(build / "pipeline/mesh/libcutwater_mesh_files.a"),
-                    str(build / "pipeline/libcutwater_pipeline.a"), "-ltet", *flags, "-lgmp", "-lmpfr",
-                    "-lstdc++", "-lm"], check=True)
+def compile_program(build, folder, name="fill"):
+    """Compiles tests/bench/NAME.c with the libraries of a build; the program."""
+    program = folder / name
+    flags = execute("pkg-config", "--cflags", "--libs", "hdf5", "libfyaml", "jansson").text.split()
+    execute("mpicc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", f"-I{SOURCE}",
+            SOURCE / f"tests/bench/{name}.c", "-o", program, build / "mesher/libcutwater_mesher_room.a",
+            build / "pipeline/mesh/libcutwater_mesh_files.a", build / "pipeline/libcutwater_pipeline.a", "-ltet",
+            *flags, "-lgmp", "-lmpfr", "-lstdc++", "-lm")
     return program
 
 
@@ -76,14 +72,12 @@ def fill_by_gmsh(program, surface, shells, algorithm, sizes=None):
         steps = gmsh_steps(run.text)
         if "meshing 3D" not in steps or not mesh.exists():
             return "failed" if run.wall < LIMIT else f"not done in {LIMIT} s"
-        words = subprocess.run([str(program), "quality", str(mesh)], check=True, capture_output=True,
-                               text=True).stdout.split()
+        words = execute(program, "quality", mesh).text.split()
     tets = int(words[1])
     if tets == 0:
         return "failed"
     seconds = steps["meshing 3D"] + steps.get("optimizing mesh", 0)
-    return [int(words[0]), tets, seconds, max(0, run.peak - before.peak) / tets,
-            *map(float, words[2:6])]
+    return [int(words[0]), tets, seconds, max(0, run.peak - before.peak) / tets, *map(float, words[2:6])]
 
 
 def at_once(way, cores):
@@ -104,7 +98,7 @@ def equal_sizes(program, surface, shells, growth, folder):
         return None, ours
     scale = 1.0
     for _ in range(TRIES):
-        subprocess.run([str(program), "sizes", str(surface), str(growth), f"{scale:.6g}", str(sizes)], check=True)
+        execute(program, "sizes", surface, growth, f"{scale:.6g}", sizes)
         row = fill_by_gmsh(program, surface, shells, "hxt", sizes)
         if isinstance(row, str):
             return None, f"{row}, sizes times {scale:.3g}"
@@ -150,14 +144,11 @@ def compare(program, title, surface, shells, words, delaunay, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, growth=0.15, repeat=1)
     parser.add_argument("build", type=Path)
     parser.add_argument("--ring", type=float, nargs="*", default=[0.004, 0.0025, 0.0016])
     parser.add_argument("--run", type=Path, nargs="*", default=[])
     parser.add_argument("--regions", nargs="*", help="names such as rotor-0001; all by default")
-    parser.add_argument("--growth", type=float, default=0.15)
-    parser.add_argument("--repeat", type=int, default=1)
     parser.add_argument("--cores", type=int, nargs="*", default=[1, 2])
     parser.add_argument("--ways", nargs="*", choices=["kernel", "tetgen", "hxt"], default=["kernel", "tetgen", "hxt"])
     parser.add_argument("--delaunay", action="store_true", help="gmsh's Delaunay mesher on the first surface")
@@ -170,14 +161,14 @@ def main():
         surface = folder / "surface.msh"
         first, kernel = True, []
         for edge in words.ring:
-            subprocess.run([str(program), "ring", str(edge), str(surface)], check=True)
+            execute(program, "ring", edge, surface)
             kernel += compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first, folder)
             first = False
         for run in words.run:
             for region in sorted((run / "mesh").glob("[!.]*.h5")):
                 if words.regions and region.stem not in words.regions:
                     continue
-                subprocess.run([str(program), "region", str(region), str(surface)], check=True)
+                execute(program, "region", region, surface)
                 kernel += compare(program, region.stem, surface, 1, words, words.delaunay and first, folder)
                 first = False
         if kernel:
@@ -188,4 +179,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -11,8 +11,6 @@ The last lines are a model: what a host holds once, whatever its ranks (surfaces
 with the cells to the power 2/3), and what each rank has for itself (the program, CAD, size field, plan and curves, and
 the region in its hands, which grow with the cells of a region). Both come from a line through the mesher's peaks of
 each size over its ranks, and what they give for 1,000 million cells on 64 ranks of one machine is said last."""
-import argparse
-import json
 import os
 import shutil
 import subprocess
@@ -21,7 +19,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from programs import ENVIRONMENT, MPIRUN, SOURCE, execute
+from programs import ENVIRONMENT, execute, options_of
+from runs import BIN, PAPER_CASE, record, stage_line, with_key
 
 LARGE, LARGE_RANKS = 1e9, 64
 
@@ -65,32 +64,28 @@ def line_through(points):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, bin=BIN, case=PAPER_CASE)
     parser.add_argument("cells", nargs="*", default=["8M", "100M", "145M"])
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4, 8, 16, 32])
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
-    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
     parser.add_argument("--work", type=Path)
     options = parser.parse_args()
-    programs = {stage: (options.bin / f"cutwater-{stage}").resolve() for stage in ("geometry", "mesh", "export")}
+    programs = options.bin.resolve()
     print("MB; peaks of the mesher | of the exporter (CGNS alone)")
     print(f"{'cells':>12} {'ranks':>6}" + 2 * f" {'all ranks':>10} {'largest':>8} {'a rank':>8}")
     model = []
     with tempfile.TemporaryDirectory(prefix="cutwater-memory-", dir=options.work) as folder:
         case = Path(folder) / "case.yaml"
-        case.write_text(options.case.read_text() + "\nexport: {formats: [cgns]}\n")
+        case.write_text(with_key(options.case.read_text(), "export", "formats", "[cgns]"))
         geometry = Path(folder) / "geometry"
-        execute(programs["geometry"], "--case", case, "--run", geometry)
+        execute(*stage_line(programs, "geometry", case, geometry))
         for cells in options.cells:
             peaks = []
             for ranks in options.ranks:
                 run = Path(folder) / "run"
                 shutil.copytree(geometry, run)
-                row = []
-                for stage in ("mesh", "export"):
-                    row += [watch([*MPIRUN, ranks, programs[stage], "--case", case, "--run", run, "--cells", cells],
-                                  programs[stage])]
-                made = json.loads((run / "mesh/record.json").read_text())["results"]
+                row = [watch(stage_line(programs, stage, case, run, cells, ranks), programs / f"cutwater-{stage}")
+                       for stage in ("mesh", "export")]
+                made = record(run)["results"]
                 count = sum(domain[kind] for domain in made["domains"] for kind in ("tetrahedra", "prisms"))
                 regions = sum(len(domain["region_list"]) for domain in made["domains"])
                 peaks.append((ranks, row[0][0]))

@@ -20,19 +20,16 @@ Progress goes to the standard error. At the end: failures by stage and cause, nu
 command that repeats one; then quantiles of the quality of all pumps that were meshed. DIR keeps cases/ and
 results.jsonl, one line a pump; a second call with the same programs does only what is missing. Meshes are removed once
 judged (--keep: they stay, in DIR/runs). With --strict the status is 1 where a pump fails after the geometry."""
-import argparse
 import hashlib
-import json
 import re
 import shutil
 import sys
 import time
 from collections import defaultdict
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from pathlib import Path
 
 import random_pumps
-from programs import MPIRUN, SOURCE, execute
+from programs import SOURCE, execute, options_of
+from runs import BIN, quality, record, rows_before, run_tasks, stage_line
 
 STAGES = ("geometry", "mesh", "export")
 COUNT_OFF = 0.02
@@ -54,21 +51,13 @@ FIGURES = (("sharpest edge of the fluid, degrees", "fluid_edge", "{:.1f}"),
 
 
 def arguments(words=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, options=False, seed=1, cells="150k", work=SOURCE / "build/population", bin=BIN, jobs=2,
+                        ranks=1, keep=False, strict=False)
     parser.add_argument("count", nargs="?", type=int, default=24, metavar="N")
-    parser.add_argument("--options", action="store_true")
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int, nargs="+", metavar="I")
-    parser.add_argument("--cells", default="150k")
-    parser.add_argument("--work", type=Path, default=SOURCE / "build/population")
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--until", choices=STAGES, default=STAGES[-1], help="the last stage to run")
     parser.add_argument("--limit", type=float, default=600, help="seconds of a stage")
     parser.add_argument("--check-mesh", type=int, default=8, metavar="K", help="every K-th pump; 0: none")
-    parser.add_argument("--keep", action="store_true")
-    parser.add_argument("--strict", action="store_true")
     return parser.parse_args(words)
 
 
@@ -86,9 +75,7 @@ def repeat_command(options, index):
 
 
 def run_stage(options, stage, case, run):
-    line = [options.bin / f"cutwater-{stage}", "--case", case, "--run", run]
-    if stage != "geometry":
-        line = MPIRUN + [options.ranks] + line + ["--cells", options.cells]
+    line = stage_line(options.bin, stage, case, run, options.cells, options.ranks)
     return execute("timeout", options.limit, *line, check=False)
 
 
@@ -112,7 +99,7 @@ def cause(message, name):
 
 def judge_solids(run, figures):
     """The sharpest edges and the sharpest corner of the solids."""
-    measured = json.loads((run / "geometry/record.json").read_text())["results"]["measured"]
+    measured = record(run, "geometry")["results"]["measured"]
     for figure, key in (("fluid_edge", "sharpest_edge_of_fluid"), ("wall_edge", "sharpest_edge_of_wall"),
                         ("corner", "sharpest_corner")):
         figures[figure] = min(measured[domain][key]["angle_deg"] for domain in ("rotor", "stator"))
@@ -120,29 +107,25 @@ def judge_solids(run, figures):
 
 def judge_mesh(run, figures):
     """Fills in the figures of the mesher's record; what is bad of them."""
-    record = json.loads((run / "mesh/record.json").read_text())
-    results = record["results"]
+    made = record(run)
+    results = made["results"]
     domains = results["domains"]
     regions = [region for domain in domains for region in domain["region_list"] if region["tetrahedra"]]
     walls = [wall for domain in domains for wall in domain["layer_coverage"]]
     faces = sum(wall["wall_faces"] for wall in walls)
-    tetrahedra = sum(domain["tetrahedra"] for domain in domains)
     margin, worst = min((region["least_dihedral_deg"] - min(LEAST_DIHEDRAL, region["least_dihedral_allowed_deg"]),
                          number) for number, region in enumerate(regions))
     worst = regions[worst]
-    figures.update({
+    figures.update(quality(results) | {
         "cells": results["cells"], "count": results["cells"] / results["asked_cells"], "passes": results["passes"],
         "retries": results["retries"],
         "dihedral": min(region["least_dihedral_deg"] for region in regions),
         "dihedral_over_bound": min(region["least_dihedral_deg"] / region["least_dihedral_allowed_deg"]
                                    for region in regions),
-        "aspect": sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"] for domain in domains) / tetrahedra,
         "aspect_most": max(domain["tetrahedron_aspect_max"] for domain in domains),
-        "first_height": sum(wall["first_height_met_faces"] for wall in walls) / faces,
-        "even": 1 - sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls) / faces,
         "volume_ratio": max(wall["volume_ratio_greatest"] for wall in walls),
         "full_thickness": sum(wall["full_thickness_faces"] for wall in walls) / faces,
-        "warnings": record["warnings"]})
+        "warnings": made["warnings"]})
     fit = [(wall, domain["sharp_edge_deg"]) for domain in domains for wall in domain["layer_coverage"]
            if wall["first_height_from"] != "fitted"]
     fit_faces = sum(wall["wall_faces"] for wall, _ in fit)
@@ -180,7 +163,7 @@ def prisms_explain(line, zones, flat_as_told):
 
 def judge_files(run, check_mesh, figures):
     """What the exporter's record, cgnscheck and checkMesh say against the files."""
-    results = json.loads((run / "export/record.json").read_text())["results"]
+    results = record(run, "export")["results"]
     zones = [zone for zone in results.values() if isinstance(zone, dict) and "greatest_non_orthogonality_deg" in zone]
     figures["non_orthogonality"] = max(zone["greatest_non_orthogonality_deg"] for zone in zones)
     bad = []
@@ -235,16 +218,10 @@ def pump_case(options, index):
     return name, path, text
 
 
-def results_before(options):
-    """The results of earlier calls by their key; the last of each."""
-    path = options.work / "results.jsonl"
-    lines = path.read_text().splitlines() if path.exists() else []
-    return {result["key"]: result for result in map(json.loads, lines)}
-
-
 def run_all(options):
     """The results of all asked pumps, those of earlier calls with the same programs and cases among them."""
-    digest, before = programs_digest(options.bin), results_before(options)
+    path, digest = options.work / "results.jsonl", programs_digest(options.bin)
+    before = rows_before(path)
     asked = options.only or range(1, options.count + 1)
     results, waiting = {}, []
     for index in asked:
@@ -253,23 +230,13 @@ def run_all(options):
         if key in before and not options.keep:
             results[index] = before[key]
         else:
-            waiting.append((index, case, {"key": key, "name": name, "index": index, "options": options.options,
-                                          "seed": options.seed, "cells": options.cells, "case": str(case),
-                                          "seconds_by_stage": {}, "figures": {}}))
-    began = time.monotonic()
-    with ThreadPoolExecutor(options.jobs) as pool, (options.work / "results.jsonl").open("a") as file:
-        running = [pool.submit(run_pump, options, index, result, case) for index, case, result in waiting]
-        for number, future in enumerate(as_completed(running), 1):
-            if future.exception():
-                pool.shutdown(cancel_futures=True)
-            result = future.result()
-            results[result["index"]] = result
-            file.write(json.dumps(result) + "\n")
-            file.flush()
-            rate = number / (time.monotonic() - began)
-            print(f"population: {number} of {len(waiting)}, {60 * rate:.1f} a minute, "
-                  f"{(len(waiting) - number) / rate / 60:.0f} min left: {result['name']} {told(result)}",
-                  file=sys.stderr, flush=True)
+            result = {"key": key, "name": name, "index": index, "options": options.options, "seed": options.seed,
+                      "cells": options.cells, "case": str(case), "seconds_by_stage": {}, "figures": {}}
+            waiting.append((run_pump, options, index, result, case))
+    for number, left, result in run_tasks(path, waiting, options.jobs):
+        results[result["index"]] = result
+        print(f"population: {number} of {len(waiting)}, {left:.0f} min left: {result['name']} {told(result)}",
+              file=sys.stderr, flush=True)
     return [results[index] for index in asked]
 
 

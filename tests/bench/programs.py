@@ -22,13 +22,12 @@ Run = namedtuple("Run", "text wall processor peak status")
 Gmsh = namedtuple("Gmsh", "wall processor steps peak triangles tetrahedra")
 
 
-def options_of(text, cells):
-    """The parser of a benchmark that runs the programs, with the options that all of these have."""
+def options_of(text, **defaults):
+    """The parser of a benchmark: --KEY for each default, of its type; a default of False makes a switch."""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", default=cells)
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
-    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
+    for key, default in defaults.items():
+        kind = {"action": "store_true"} if default is False else {"type": type(default), "default": default}
+        parser.add_argument(f"--{key.replace('_', '-')}", **kind)
     return parser
 
 

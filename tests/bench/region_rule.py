@@ -15,14 +15,13 @@ left       triangles that still have candidates in their spheres, which both sid
 missing    boundary triangles of the regions, layer tops included, that their Delaunay mesh did not have
 beside     tetrahedra with a corner on a partition plane. All columns after it are of these: mean of longest over
            shortest edge, share with more than 2, %, the greatest, least dihedral angle, mean and least mean ratio"""
-import argparse
-import json
 import tempfile
 from pathlib import Path
 
 from ablate import policy_of
 from fill import compile_program
-from programs import MPIRUN, SOURCE, execute
+from programs import SOURCE, execute, options_of
+from runs import cases_named, record, stage_line
 from table1 import regions_of, shapes
 
 # The numbers of mesher/policy_table.h that make each way.
@@ -31,8 +30,8 @@ WAYS = {"rule": {}, "without": {"interface_sphere": 0}}
 
 def run_mesher(options, case, run, cells, setting, *more):
     """Runs the mesher with these numbers."""
-    execute("env", policy_of(run, setting), *MPIRUN, options.ranks, options.build / "bin/cutwater-mesh", "--case",
-            case, "--run", run, "--cells", cells, *more)
+    execute("env", policy_of(run, setting),
+            *stage_line(options.build / "bin", "mesh", case, run, cells, options.ranks), *more)
 
 
 def row(program, name, way, run, domain):
@@ -46,27 +45,23 @@ def row(program, name, way, run, domain):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, build=SOURCE / "build/experiment", ranks=2)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--cells", nargs="*", default=["300k", "1M"])
-    parser.add_argument("--build", type=Path, default=SOURCE / "build/experiment")
-    parser.add_argument("--ranks", type=int, default=2)
     options = parser.parse_args()
-    names = options.names or sorted(path.parent.name for path in (SOURCE / "cases").glob("*/case.yaml"))
     with tempfile.TemporaryDirectory(prefix="cutwater-rule-") as folder:
         program = compile_program(options.build, Path(folder))
         for cells in options.cells:
             print(f"{cells:10} {'domain':10} {'way':8}{'regions':>8}{'triangles':>10}{'spheres':>8}{'centres':>8}"
                   f"{'left':>5}{'missing':>8}{'beside':>8}{'aspect':>8}{'>2':>7}{'most':>6}{'angle':>7}{'ratio':>8}"
                   f"{'least':>7}")
-            for name in names:
-                case, run = SOURCE / "cases" / name / "case.yaml", Path(folder) / f"{name}-{cells}"
-                execute(options.build / "bin/cutwater-geometry", "--case", case, "--run", run)
+            for name, case in cases_named(options.names):
+                run = Path(folder) / f"{name}-{cells}"
+                execute(*stage_line(options.build / "bin", "geometry", case, run))
                 rows = []
                 for way, setting in WAYS.items():
                     run_mesher(options, case, run, cells, setting)
-                    domains = json.loads((run / "mesh/record.json").read_text())["results"]["domains"]
-                    rows.append([row(program, name, way, run, domain) for domain in domains])
+                    rows.append([row(program, name, way, run, domain) for domain in record(run)["results"]["domains"]])
                 print("\n".join(line for of_domain in zip(*rows) for line in of_domain), flush=True)
 
 

@@ -5,15 +5,15 @@
 Makes docs/mesher-rule.svg, Figure 3 of the paper from a run of its pump: of all places on the interfaces of a domain
 the one with most inserted centres, as planned (the mesher without the rule, region_rule.py) and by the rule. BUILD is
 configured with -DCUTWATER_EXPERIMENT=ON."""
-import argparse
 import math
 import sys
 import tempfile
 from pathlib import Path
 
 from ablate import policy_numbers
-from programs import SOURCE, execute
+from programs import SOURCE, execute, options_of
 from region_rule import WAYS, run_mesher
+from runs import PAPER_CASE, stage_line
 
 WIDTH, HEIGHT, MARGIN, HEAD = 400, 310, 10, 30  # px: of a view, between them, above them
 WINDOW = 3.2  # half width of a view, in radii of the largest sphere
@@ -119,19 +119,13 @@ def picture(planned, refined):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", default="2M")
-    parser.add_argument("--domain", default="rotor")
-    parser.add_argument("--build", type=Path, default=SOURCE / "build/experiment")
-    parser.add_argument("--ranks", type=int, default=2)
-    options = parser.parse_args()
-    case = SOURCE / "cases/paper/case.yaml"
+    options = options_of(__doc__, cells="2M", domain="rotor", build=SOURCE / "build/experiment", ranks=2).parse_args()
     with tempfile.TemporaryDirectory(prefix="cutwater-rule-") as name:
         run = Path(name)
-        execute(options.build / "bin/cutwater-geometry", "--case", case, "--run", run)
+        execute(*stage_line(options.build / "bin", "geometry", PAPER_CASE, run))
         found = {}
         for way in ("without", "rule"):
-            run_mesher(options, case, run, options.cells, WAYS[way], "--stop-after", "interfaces", "--vtk")
+            run_mesher(options, PAPER_CASE, run, options.cells, WAYS[way], "--stop-after", "interfaces", "--vtk")
             found[way] = interfaces(run / f"mesh/{options.domain}-interfaces.vtk")
     (SOURCE / "docs/mesher-rule.svg").write_text(picture(found["without"], found["rule"]))
 

@@ -13,7 +13,6 @@ checkMesh (-allGeometry -allTopology) look at what was written; checkMesh takes 
 
 Every run is removed before the next one begins; what it takes in --work (the system's folder for temporary files unless
 given) tells pipeline/needs.py: 1000 million cells 46 GB with CGNS alone."""
-import argparse
 import hashlib
 import json
 import os
@@ -26,21 +25,15 @@ import tempfile
 import time
 from pathlib import Path
 
-from programs import ENVIRONMENT, MPIRUN, SOURCE, execute
+from programs import ENVIRONMENT, SOURCE, execute, options_of
+from runs import BIN, PAPER_CASE, record, seconds_by_step, stage_line, with_key
 
 sys.path.insert(0, str(SOURCE / "pipeline"))
 import needs  # noqa: E402  (pipeline/needs.py)
 
 
 def command(options, stage, run, cells):
-    line = [options.bin / f"cutwater-{stage}", "--case", options.case, "--run", run]
-    if stage != "geometry":
-        line = MPIRUN + [options.ranks] + line + ["--cells", cells]
-    return [str(word) for word in line]
-
-
-def record(run, stage):
-    return json.loads((run / stage / "record.json").read_text())
+    return [str(word) for word in stage_line(options.bin, stage, options.case, run, cells, options.ranks)]
 
 
 def digests(mesh):
@@ -66,30 +59,25 @@ def table_row(run, cells):
           f"{mesh['peak_memory_bytes'] / 2**30:>9.2f}{export['peak_memory_bytes'] / 2**30:>9.2f}"
           f"  {of_domains('regions', '{}'):>11} {balance:>23} {of_domains('least_dihedral_deg', '{:.1f}'):>14}"
           f" {of_domains('tetrahedron_aspect_mean', '{:.2f}'):>14}", flush=True)
-    steps = {}
-    for step in mesh["steps"]:
-        steps[step["name"]] = steps.get(step["name"], 0) + step["seconds"]
-    long = [f"{name} {seconds:.1f}" for name, seconds in steps.items() if seconds >= 0.1]
+    long = [f"{name} {seconds:.1f}" for name, seconds in seconds_by_step(mesh).items() if seconds >= 0.1]
     print("         mesher, s: " + ", ".join(long), flush=True)
 
 
 def audit(options, run):
     """Prints what the audit of pump.cgns finds; it ends with a line and 1 at the first fault."""
-    began = time.monotonic()
     result = execute(options.bin / "cgns_audit", run / "export/pump.cgns")
     zones = [json.loads(line) for line in result.text.splitlines() if line.startswith("{")]
     total = sum(zone["cells"] for zone in zones)
     print(f"         cgns_audit: {len(zones)} zones, {total:,} cells sound, "
-          f"{sum(zone['memory_bytes'] for zone in zones) / 2**30:.2f} GiB, {time.monotonic() - began:.0f} s",
-          flush=True)
-    if total != record(run, "mesh")["results"]["cells"]:
+          f"{sum(zone['memory_bytes'] for zone in zones) / 2**30:.2f} GiB, {result.wall:.0f} s", flush=True)
+    if total != record(run)["results"]["cells"]:
         sys.exit("scale: the audit counts other cells than the mesher")
 
 
 def case_with_formats(options, folder):
     """A copy of the case with other formats, beside the run."""
     path = Path(folder) / "case.yaml"
-    path.write_text(options.case.read_text() + f"\nexport:\n  formats: [{', '.join(options.formats)}]\n")
+    path.write_text(with_key(options.case.read_text(), "export", "formats", f"[{', '.join(options.formats)}]"))
     return path
 
 
@@ -107,9 +95,7 @@ def kill_half_way(options, run, cells, regions):
     killed = time.monotonic()
     time.sleep(2)  # ranks end when they see their mpirun gone
     whole = len(list((run / "mesh").glob("[!.]*.h5")))
-    again = time.monotonic()
-    execute(*command(options, "mesh", run, cells))
-    return killed - began, whole, time.monotonic() - again
+    return killed - began, whole, execute(*command(options, "mesh", run, cells)).wall
 
 
 def judge(run):
@@ -123,17 +109,10 @@ def judge(run):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, ranks=2, kill=False, judge=False, audit=False, report=False, bin=BIN, case=PAPER_CASE)
     parser.add_argument("cells", nargs="*", default=["8M", "20M"])
-    parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--kill", action="store_true")
-    parser.add_argument("--judge", action="store_true")
-    parser.add_argument("--audit", action="store_true")
-    parser.add_argument("--report", action="store_true")
     parser.add_argument("--formats", nargs="+")
     parser.add_argument("--work", type=Path)
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
-    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
     options = parser.parse_args()
     print(f"{options.ranks} ranks on {os.cpu_count()} cores; seconds of the mesher and the exporter, peak memory of "
           "all ranks in GiB; regions, cells of a region over their mean, least dihedral angle in degrees, mean aspect: "
@@ -152,7 +131,7 @@ def main():
                 execute(*command(options, stage, run, cells))
             table_row(run, cells)
             print(f"         {time.monotonic() - began:.0f} s in all, "
-                  f"{record(run, 'mesh')['results']['cells'] / needs.read_count(cells) - 1:+.2%} off the asked number",
+                  f"{record(run)['results']['cells'] / needs.read_count(cells) - 1:+.2%} off the asked number",
                   flush=True)
             if options.audit:
                 audit(options, run)
@@ -160,7 +139,7 @@ def main():
                 judge(run)
             if options.kill:
                 unkilled = digests(run / "mesh")
-                regions = sum(domain["regions"] for domain in record(run, "mesh")["results"]["domains"])
+                regions = sum(domain["regions"] for domain in record(run)["results"]["domains"])
                 shutil.rmtree(run / "export")
                 shutil.rmtree(run / "mesh")
                 first, whole, again = kill_half_way(options, run, cells, regions)

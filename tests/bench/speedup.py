@@ -26,46 +26,28 @@ TN) with it. Gmsh makes tetrahedra of one size and no layers. --gmsh-seconds giv
 
 `waiting` is the efficiency if regions waited for the fills of their smaller-numbered neighbours, as section 2.3 reads,
 in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring."""
-
-import argparse
 import heapq
 import json
-import pathlib
-import re
 import shutil
-import subprocess
 import sys
 import tempfile
-import time
+from pathlib import Path
 
-from programs import ENVIRONMENT, SOURCE, gmsh, gmsh_first_size, size_for
+from programs import execute, gmsh, gmsh_first_size, options_of, size_for
+from runs import BIN, PAPER_CASE, record, stage_line, with_key
 
 PAPER = {6: 81.13, 12: 75.92, 18: 60.94, 24: 51.04}  # efficiency, %
 TASKS = " (tasks)"
 
 
-def case_with(arguments, folder):
-    """The case with --cells-per-region in a file of its own."""
-    text = arguments.case.read_text()
-    line = f"cells_per_region: {arguments.cells_per_region}"
-    changed, count = re.subn(r"cells_per_region: *\S+", line, text)
-    if count == 0:
-        changed = text.replace("\nmesh:\n", f"\nmesh:\n  {line}\n")
-    path = folder / "case.yaml"
-    path.write_text(changed)
-    return path
-
-
 def mesh(arguments, geometry, ranks):
     """One run in a fresh folder; seconds and the record."""
-    with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as run:
-        shutil.copytree(geometry, pathlib.Path(run) / "geometry")
-        begun = time.monotonic()
-        subprocess.run(["mpirun", "-q", "--oversubscribe", "-n", str(ranks), arguments.bin / "cutwater-mesh", "--case",
-                        arguments.case, "--run", run, "--cells", arguments.cells], check=True, env=ENVIRONMENT,
-                       stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        seconds = time.monotonic() - begun
-        return seconds, json.loads((pathlib.Path(run) / "mesh/record.json").read_text())
+    with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
+        run = Path(name)
+        shutil.copytree(geometry, run / "geometry")
+        seconds = execute("mpirun", "-q", "--oversubscribe", "-n", ranks, arguments.bin / "cutwater-mesh", "--case",
+                          arguments.case, "--run", run, "--cells", arguments.cells).wall
+        return seconds, record(run)
 
 
 def group_sides(cost, own, least_ranks, ranks):
@@ -122,11 +104,11 @@ def replay_waiting(tasks, before, ranks):
     return now
 
 
-def smaller_neighbours(record):
+def smaller_neighbours(results):
     """For each task of the step "regions" but periodic images, in order, those of its neighbours of smaller number.
     Where passages are copies of one another none waits."""
     before = []
-    for domain in record["results"]["domains"]:
+    for domain in results["domains"]:
         firsts = [region for region in domain["region_list"] if region["copy_of"] == region["region"]]
         start, number = len(before), {region["region"]: region["number"] for region in firsts}
         before += [set() for _ in firsts]
@@ -211,13 +193,13 @@ class Model:
     """The run on one rank: what all ranks do together, and side by side."""
 
     def __init__(self, runs):
-        results = [record["results"] for _, record in runs]
-        self.record = runs[0][1]
+        results = [made["results"] for _, made in runs]
+        self.results = results[0]
         self.together = Account([result["together"] for result in results])
         self.sides = results[0]["side_by_side"]
         self.accounts = [[Account(sides) for sides in zip(*(step["side"] for step in several))]
                          for several in zip(*(result["side_by_side"] for result in results))]
-        self.before = smaller_neighbours(self.record)
+        self.before = smaller_neighbours(self.results)
         self.one = self.total(1)
 
     def seconds(self, ranks, waiting=False):
@@ -234,10 +216,9 @@ def serial_gmsh(arguments, cells):
     """Processor seconds of gmsh on one core for about so many tetrahedra; its size is looked for with an eighth of
     them."""
     with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
-        folder = pathlib.Path(name)
+        folder = Path(name)
         geometry, runs = folder / "geometry", []
-        subprocess.run([arguments.bin / "cutwater-geometry", "--case", arguments.case, "--run", folder], check=True,
-                       stderr=subprocess.DEVNULL)
+        execute(*stage_line(arguments.bin, "geometry", arguments.case, folder))
 
         def make(size):
             runs.append(gmsh(geometry / "pump.step", size, arguments.gmsh, folder))
@@ -254,10 +235,10 @@ def serial_gmsh(arguments, cells):
 
 def print_table(model, ranks_asked, measured, serial):
     """`serial`: processor seconds of serial gmsh, or None."""
-    record = model.record["results"]
-    regions = sum(domain["regions"] for domain in record["domains"])
-    print(f"{record['cells']:,} cells in {regions} regions, {record['passes']} passes; colours "
-          f"{', '.join(str(domain['colours']) for domain in record['domains'])}; were fills to wait, chains of "
+    results = model.results
+    regions = sum(domain["regions"] for domain in results["domains"])
+    print(f"{results['cells']:,} cells in {regions} regions, {results['passes']} passes; colours "
+          f"{', '.join(str(domain['colours']) for domain in results['domains'])}; were fills to wait, chains of "
           f"{depth(model.before)} regions")
     print("ranks   seconds  speed-up  efficiency %  waiting %  by paper %  paper %")
     for ranks, seconds in measured.items():
@@ -293,11 +274,10 @@ def most_of(account):
     return seconds
 
 
-def print_check(model, record):
+def print_check(model, results):
     """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by
     schedule, side by side those of the longest group. Such a run may have more ranks than cores: a rank that waits
     sleeps."""
-    results = record["results"]
     ranks, sides = results["ranks"], results["side_by_side"]
     modelled, measured = model.seconds(ranks), most_of(results["together"])
     add(measured, longest_groups(sides, ranks, lambda step, side, of: most_of(sides[step]["side"][side])))
@@ -310,13 +290,9 @@ def print_check(model, record):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", default="2M")
-    parser.add_argument("--repeat", type=int, default=1)
-    parser.add_argument("--case", type=pathlib.Path, default=SOURCE / "cases/paper/case.yaml")
-    parser.add_argument("--bin", type=pathlib.Path, default=SOURCE / "build/bin")
+    parser = options_of(__doc__, cells="2M", repeat=1, case=PAPER_CASE, bin=BIN)
     parser.add_argument("--ranks", type=int, nargs="*", default=[6, 12, 18, 24, 48, 96, 256, 1024])
-    parser.add_argument("--record", type=pathlib.Path)
+    parser.add_argument("--record", type=Path)
     parser.add_argument("--check", type=int)
     parser.add_argument("--cells-per-region")
     parser.add_argument("--gmsh", nargs="?", const="del3d", choices=["del3d", "hxt"])
@@ -324,33 +300,34 @@ def main():
     arguments = parser.parse_args()
     measured, check = {}, None
     if arguments.record:
-        record = json.loads(arguments.record.read_text())
-        if record["results"]["ranks"] != 1:
-            sys.exit(f"speedup: {arguments.record}: a run on {record['results']['ranks']} ranks; one is asked for")
-        model = Model([(None, record)])
+        made = json.loads(arguments.record.read_text())
+        if made["results"]["ranks"] != 1:
+            sys.exit(f"speedup: {arguments.record}: a run on {made['results']['ranks']} ranks; one is asked for")
+        model = Model([(None, made)])
     else:
         ones, twos = [], []
-        with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as run:
+        with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
+            run = Path(name)
             if arguments.cells_per_region:
-                arguments.case = case_with(arguments, pathlib.Path(run))
-            subprocess.run([arguments.bin / "cutwater-geometry", "--case", arguments.case, "--run", run], check=True,
-                           stderr=subprocess.DEVNULL)
+                text = with_key(arguments.case.read_text(), "mesh", "cells_per_region", arguments.cells_per_region)
+                arguments.case = run / "case.yaml"
+                arguments.case.write_text(text)
+            execute(*stage_line(arguments.bin, "geometry", arguments.case, run))
             for _ in range(arguments.repeat):
-                ones.append(mesh(arguments, pathlib.Path(run) / "geometry", 1))
-                twos.append(mesh(arguments, pathlib.Path(run) / "geometry", 2))
+                ones.append(mesh(arguments, run / "geometry", 1))
+                twos.append(mesh(arguments, run / "geometry", 2))
             if arguments.check:
-                check = mesh(arguments, pathlib.Path(run) / "geometry", arguments.check)[1]
+                check = mesh(arguments, run / "geometry", arguments.check)[1]["results"]
         measured = {1: min(seconds for seconds, _ in ones), 2: min(seconds for seconds, _ in twos)}
         model = Model(ones)
     serial = arguments.gmsh_seconds
     if arguments.gmsh:
-        serial = serial_gmsh(arguments, model.record["results"]["cells"])
+        serial = serial_gmsh(arguments, model.results["cells"])
     print_table(model, arguments.ranks, measured, serial)
     print_losses(model, [ranks for ranks in arguments.ranks if ranks <= 96])
     if check:
         print_check(model, check)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -6,7 +6,6 @@ The surface mesh beside gmsh's frontal and Delaunay ones (`gmsh -2 -nt 1 -algo f
 at about the same number of triangles, on one core: triangles a second, and their least angles (least, 1 %, mean). The
 runs alternate. Cutwater's triangles follow a graded size field (curvature, gaps, patches), gmsh's here one size and
 curvature. Cutwater's rate is that of its step `surface`, passes that correct the count included."""
-import json
 import math
 import statistics
 import struct
@@ -14,6 +13,7 @@ import tempfile
 from pathlib import Path
 
 from programs import execute, gmsh, options_of, size_for
+from runs import BIN, PAPER_CASE, record, stage_line
 
 NEAR = 0.1  # of the number of triangles, between the two
 
@@ -22,9 +22,9 @@ def cutwater(options, run):
     """Seconds of the surface steps and triangles made by them, on one rank."""
     execute("mpirun", "-q", "-n", 1, options.bin / "cutwater-mesh", "--case", options.case, "--run", run,
             "--cells", options.cells)
-    record = json.loads((run / "mesh/record.json").read_text())
-    seconds = [step["seconds"] for step in record["steps"] if step["name"] == "surface"]
-    walls = sum(wall["wall_faces"] for domain in record["results"]["domains"] for wall in domain["layer_coverage"])
+    made = record(run)
+    seconds = [step["seconds"] for step in made["steps"] if step["name"] == "surface"]
+    walls = sum(wall["wall_faces"] for domain in made["results"]["domains"] for wall in domain["layer_coverage"])
     return sum(seconds), walls * len(seconds), walls
 
 
@@ -77,12 +77,12 @@ def least_angle(x):
 
 
 def main():
-    options = options_of(__doc__, "2M").parse_args()
+    options = options_of(__doc__, cells="2M", repeat=3, bin=BIN, case=PAPER_CASE).parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run = folder / "run"
         step = run / "geometry/pump.step"
-        execute(options.bin / "cutwater-geometry", "--case", options.case, "--run", run)
+        execute(*stage_line(options.bin, "geometry", options.case, run))
         rates = {"cutwater": [], "front2d": [], "del2d": []}
         shapes = {}
         counts = {}

@@ -21,7 +21,6 @@ to the finished tetrahedra (`wall`: by the clock; Gmsh: its own steps). Messages
 each on a rank of its own; `sent`, those between the ranks of this run. The mesher itself sends the refined interfaces
 to all ranks. Fails where the mean ratio of the tetrahedra beside is worse in the mean than that of the others by more
 than 5 %, or that of the proposed mesh worse than that of the serial one by more than 2 %."""
-import argparse
 import json
 import shutil
 import sys
@@ -30,7 +29,8 @@ from collections import namedtuple
 from pathlib import Path
 
 from fill import compile_program, run_gmsh
-from programs import MPIRUN, SOURCE, execute, gmsh_steps
+from programs import MPIRUN, SOURCE, execute, gmsh_steps, options_of
+from runs import PAPER_CASE, with_key
 
 CLASSES = ["1-1.5", "1.5-2", "2-3", "3-4", "4-5", "5-7", "7-10", ">10"]
 PAPER = {"paper, serial (Gmsh)": ([4.5, 43.3, 32.2, 8.5, 7.3, 3.5, 0.7], 2.90, 8.6),
@@ -89,16 +89,6 @@ def mesh(options, case, folder, geometry, ranks, domain, *more):
 
 def regions_of(folder, domain):
     return sorted(folder.glob(f"{domain}-*.h5"))
-
-
-def whole_case(options, folder):
-    """The case with the impeller meshed whole."""
-    text = options.case.read_text()
-    if "\nmesh:\n" not in text:
-        sys.exit(f"table1: {options.case}: no mesh section")
-    case = folder / "case.yaml"
-    case.write_text(text.replace("\nmesh:\n", "\nmesh:\n  periodic_impeller: false\n", 1))
-    return case
 
 
 def print_way(title, figures, radius=None):
@@ -190,12 +180,8 @@ def table(options, folder, program, case, geometry, domain):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", default="2M")
-    parser.add_argument("--build", type=Path, default=SOURCE / "build")
-    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
+    parser = options_of(__doc__, cells="2M", build=SOURCE / "build", case=PAPER_CASE, ranks=2)
     parser.add_argument("--domains", nargs="*", default=["rotor"])
-    parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--radius", type=float, help="of Chew's spheres, in h; else as many tetrahedra as proposed")
     parser.add_argument("--ratio", type=float, default=1.4, help="of these to the shortest edge")
     parser.add_argument("--algorithms", nargs="*", default=["del3d", "hxt"], help="of Gmsh: del3d, front3d, hxt")
@@ -206,7 +192,8 @@ def main():
         folder = Path(name)
         program = compile_program(options.build, folder)
         execute(options.build / "bin/cutwater-geometry", "--case", options.case, "--run", folder / "first")
-        case = whole_case(options, folder)
+        case = folder / "case.yaml"
+        case.write_text(with_key(options.case.read_text(), "mesh", "periodic_impeller", "false"))
         print_head()
         for domain in options.domains:
             failures += table(options, folder, program, case, folder / "first/geometry", domain)

@@ -6,7 +6,7 @@ import json
 import shutil
 import unittest
 
-from cutwater import BIN, PAPER, digests, done, execute, fresh
+from cutwater import BIN, changed_case, digests, done, fresh, said
 
 CELLS, REGIONS = 200000, 4
 OF_RANKS = ("interface_seconds", "refine_seconds", "fill_seconds", "wall_seconds", "sent_messages", "sent_bytes")
@@ -16,10 +16,8 @@ class Chew(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = fresh("chew")
-        cls.case = cls.folder / "case.yaml"
-        text = PAPER.read_text()
         keys = f"\nmesh:\n  periodic_impeller: false\n  least_regions: {REGIONS}\n"
-        cls.case.write_text(text.replace("\nmesh:\n", keys))
+        cls.case = changed_case(cls.folder, ("\nmesh:\n", keys))
         cls.made = cls.folder / "first"
         cls.made.mkdir()
 
@@ -30,9 +28,8 @@ class Chew(unittest.TestCase):
     def chew(self, ranks):
         """Figures and digests of the regions; the mesher's own are taken up where they are there."""
         run = self.made
-        result = execute(["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n", ranks, BIN / "chew", "--case",
-                          self.case, "--run", run, "--cells", CELLS])
-        self.assertEqual(result.returncode, 0, result.stdout)
+        said(self, ["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n", ranks, BIN / "chew", "--case",
+                    self.case, "--run", run, "--cells", CELLS])
         return json.loads((run / "chew/rotor.json").read_text()), digests(run / "chew", "*.h5")
 
     def test_any_number_of_ranks_makes_the_same(self):

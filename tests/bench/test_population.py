@@ -5,7 +5,7 @@ import sys
 import unittest
 
 import population
-from cutwater import BIN, SOURCE, WORK, execute
+from cutwater import BIN, SOURCE, WORK, said
 
 COUNT = 12
 
@@ -14,8 +14,7 @@ class Population(unittest.TestCase):
     def judge(self, *words):
         program = SOURCE / "tests/bench/population.py"
         line = [sys.executable, "-B", program, COUNT, "--strict", *words, "--bin", BIN, "--work", WORK / "population"]
-        told = execute(line, timeout=7000)
-        self.assertEqual(told.returncode, 0, told.stdout)
+        said(self, line, timeout=7000)
 
     def test_duty_only(self):
         self.judge()

@@ -13,8 +13,6 @@ of runs.
   velocities  relative velocity at 0.8, 1 and 1.2 times the design flow, from the large eddy simulation (figure 7)
   solvers     OpenFOAM and code_saturne on one mesh
   ubaldi      a pump that was measured: ERCOFTAC's test case U3"""
-import argparse
-import base64
 import csv
 import json
 import math
@@ -23,10 +21,13 @@ import shutil
 import sys
 import time
 from collections import namedtuple
-from pathlib import Path
 
 import foam_read
-from programs import MPIRUN, SOURCE, execute
+from programs import SOURCE, execute, options_of
+from runs import BIN, record, save_picture, stage_line, with_key
+
+sys.path.insert(0, str(SOURCE / "tests/cad"))
+import u3  # noqa: E402  (tests/cad/u3.py)
 
 PAGE = "verification.md"
 RATED_HEAD = 10           # m, of the paper's pump
@@ -43,7 +44,6 @@ class Bench:
     def __init__(self, options):
         self.runs, self.sizes = options.runs.resolve(), SMALL if options.small else FULL
         self.docs = self.runs if options.small else SOURCE / "docs"
-        self.bin = SOURCE / "build/bin"
 
     def case(self, name, text):
         """The folder of a run of this case; what is there of another case goes."""
@@ -61,12 +61,11 @@ class Bench:
 
     def stage(self, stage, run, cells=None):
         before = {"mesh": "geometry", "export": "mesh"}.get(stage)
-        if stage != "report" and is_newer(run / stage / "record.json", self.bin / f"cutwater-{stage}",
+        if stage != "report" and is_newer(run / stage / "record.json", BIN / f"cutwater-{stage}",
                                           *([run / before / "record.json"] if before else [])):
             return
         self.say(run, stage)
-        execute(*([] if stage == "geometry" else [*MPIRUN, 2]), self.bin / f"cutwater-{stage}", "--case",
-                run / "case.yaml", "--run", run, *(["--cells", cells] if cells else []))
+        execute(*stage_line(BIN, stage, run / "case.yaml", run, cells, 2))
 
     def solved(self, run, cells, *more):
         """Meshes the run and solves its steady flow; what the flow came to."""
@@ -74,27 +73,19 @@ class Bench:
             self.stage(stage, run, cells)
         self.say(run, "solve")
         execute(sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", run / "case.yaml", "--run", run, "--bin",
-                self.bin, "--most", self.sizes.iterations, *more)
-        return results(run, "solve")
+                BIN, "--most", self.sizes.iterations, *more)
+        return record(run, "solve")["results"]
 
     def picture(self, run, cells, title, name):
         """A picture of the run's report, beside the page; how the page shows it."""
         self.stage("report", run, cells)
-        page = (run / "report/index.html").read_text()
-        found = re.search(rf'alt="{re.escape(title)}" src="data:image/png;base64,([^"]+)"', page)
-        if not found:
-            sys.exit(f"verify: {run}/report/index.html: no picture is called '{title}'")
-        (self.docs / f"verification-{name}.png").write_bytes(base64.b64decode(found[1]))
+        save_picture(run, title, self.docs / f"verification-{name}.png")
         return f"![{title}](verification-{name}.png)"
 
 
 def is_newer(made, *sources):
     """As make has it: what was made is there, and none of its sources changed after."""
     return made.exists() and all(made.stat().st_mtime >= source.stat().st_mtime for source in sources)
-
-
-def results(run, stage):
-    return json.loads((run / stage / "record.json").read_text())["results"]
 
 
 def design(run):
@@ -110,9 +101,7 @@ def case_text(name, **changes):
     """The text of cases/NAME with other values of some keys; one that is not there goes into operating_point."""
     text = (SOURCE / "cases" / name / "case.yaml").read_text()
     for key, value in changes.items():
-        text, found = re.subn(rf"(?m)^  {key}: .*\n", f"  {key}: {value}\n", text)
-        if not found:
-            text = re.sub(r"(?m)^operating_point:.*\n", lambda line, put=f"  {key}: {value}\n": line[0] + put, text)
+        text = with_key(text, "operating_point", key, value)
     return text
 
 
@@ -214,8 +203,9 @@ def velocities(bench):
         eddies(bench, run, flow, share)
         lines += [f"{share:g} Q:", "", bench.picture(flow, cells, "Relative velocity from blade to blade",
                                                      f"velocities-{round(1000 * share):04d}"), ""]
-    return "\n".join([f"{results(run, 'export')['cells']:,} cells; k-omega SST for {bench.sizes.transient_turns:g} "
-                      f"turns, then Smagorinsky's model for {bench.sizes.les_turns:g}.", "", *lines])
+    return "\n".join([f"{record(run, 'export')['results']['cells']:,} cells; k-omega SST for "
+                      f"{bench.sizes.transient_turns:g} turns, then Smagorinsky's model for {bench.sizes.les_turns:g}.",
+                      "", *lines])
 
 
 def eddies(bench, run, flow, share):
@@ -309,9 +299,8 @@ def solvers(bench):
 # ERCOFTAC's test case U3 (tests/cad/ubaldi.py names its sources). Velocities are means of the files crcu0 to crcu3 over
 # two passages, and from 0.05 to 0.95 of the width; pressures are those of cp.dat over the circumference: R / R2, and
 # 2 (p - pt0) / (rho U2^2).
-U3_TIP_SPEED, U3_RADIUS, U3_WIDTH = 2000 * math.pi / 30 * 0.21, 0.21, 0.0404  # m/s, m, m
-U3_RING = 1.02                                                                # R / R2 where velocities were measured
-U3_HEAD, U3_RADIAL, U3_TANGENTIAL = 0.65, 0.131, 0.382                        # 2 g H / U2^2; velocities over U2
+U3_RING = 1.02  # R / R2 where velocities were measured
+U3_RADIAL, U3_TANGENTIAL = 0.131, 0.382  # velocities over U2
 U3_PRESSURE = ((0.53333, -0.024), (0.59524, -0.017), (0.66667, 0.093), (0.7381, 0.230), (0.78571, 0.286),
                (0.83333, 0.361), (0.88095, 0.455), (0.92857, 0.511), (0.97619, 0.571), (1.01905, 0.584))
 SAMPLING = """functions
@@ -341,24 +330,24 @@ def ubaldi(bench):
     case = run / "solve/steady"
     control = (case / "system/controlDict").read_text()
     (case / "system/controlDict").write_text(control[:control.index("functions")] +
-                                             SAMPLING.replace("@radius@", str(U3_RING * U3_RADIUS)))
+                                             SAMPLING.replace("@radius@", str(U3_RING * u3.RADIUS)))
     execute("simpleFoam", "-postProcess", "-latestTime", folder=case)
     (case / "system/controlDict").write_text(control)
     sampled = foam_read.latest(case / "postProcessing/sampled")
-    radial, tangential = (speed / U3_TIP_SPEED
-                          for speed in foam_read.ring_means(sampled / "ring.vtk", 0.05 * U3_WIDTH, 0.95 * U3_WIDTH))
-    head = 2 * 9.80665 * result["head_m"] / U3_TIP_SPEED**2
+    means = foam_read.ring_means(sampled / "ring.vtk", 0.05e-3 * u3.WIDTH, 0.95e-3 * u3.WIDTH)
+    radial, tangential = (speed / u3.TIP_SPEED for speed in means)
+    head = 2 * 9.80665 * result["head_m"] / u3.TIP_SPEED**2
 
     def angle(radial, tangential):
         return f"{math.degrees(math.atan2(U3_RING - tangential, radial)):.1f}"
 
-    rows = [("head coefficient, 2 g H / U2^2", U3_HEAD, f"{head:.3f}"),
+    rows = [("head coefficient, 2 g H / U2^2", u3.HEAD_COEFFICIENT, f"{head:.3f}"),
             ("radial velocity / U2 at 1.02 R2", U3_RADIAL, f"{radial:.3f}"),
             ("tangential velocity / U2 there", U3_TANGENTIAL, f"{tangential:.3f}"),
             ("relative flow angle there, degrees from the radius", angle(U3_RADIAL, U3_TANGENTIAL),
              angle(radial, tangential))]
-    pressure = foam_read.radial_means(sampled / "casing.vtk", [r * U3_RADIUS for r, _ in U3_PRESSURE])
-    places = [(f"{r:.3f}", f"{measured:.3f}", f"{2 * p / U3_TIP_SPEED**2:.3f}")
+    pressure = foam_read.radial_means(sampled / "casing.vtk", [r * u3.RADIUS for r, _ in U3_PRESSURE])
+    places = [(f"{r:.3f}", f"{measured:.3f}", f"{2 * p / u3.TIP_SPEED**2:.3f}")
               for (r, measured), p in zip(U3_PRESSURE, pressure) if not math.isnan(p)]
     return "\n".join([f"{result['cells']:,} cells; {settled_word(result)} after {result['iterations']} iterations.", "",
                       table(("", "measured", "solved"), rows), "",
@@ -391,10 +380,8 @@ def write_page(bench, made):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options_of(__doc__, runs=SOURCE / "runs/verify", small=False)
     parser.add_argument("parts", nargs="*", metavar="PART")
-    parser.add_argument("--runs", type=Path, default=SOURCE / "runs/verify")
-    parser.add_argument("--small", action="store_true")
     options = parser.parse_args()
     unknown = set(options.parts) - set(PARTS)
     if unknown:

@@ -6,14 +6,14 @@ Speed of a whole run, from the case file to CGNS, OpenFOAM and CFX, in cells a s
 tetrahedra (`gmsh -3 -algo hxt -nt RANKS`) on the same solids, at the same number of cells, on the same cores. The runs
 alternate, so that both see the same machine. gmsh reads pump.step, meshes, and writes its own binary file; it makes no
 layers, no interface, no solver's case. Its mesh size is found beforehand by trial runs that do not count."""
-import json
 import os
 import shutil
 import statistics
 import tempfile
 from pathlib import Path
 
-from programs import MPIRUN, execute, gmsh, gmsh_first_size, options_of, size_for
+from programs import execute, gmsh, gmsh_first_size, options_of, size_for
+from runs import BIN, PAPER_CASE, record, stage_line
 
 NEAR = 0.05  # of the number of cells, between the two
 
@@ -21,19 +21,13 @@ NEAR = 0.05  # of the number of cells, between the two
 def cutwater(options, run):
     """Seconds by stage, and the cells made."""
     shutil.rmtree(run, ignore_errors=True)
-    seconds = {}
-    for stage in ("geometry", "mesh", "export"):
-        line = [options.bin / f"cutwater-{stage}", "--case", options.case, "--run", run]
-        if stage != "geometry":
-            line = MPIRUN + [options.ranks] + line + ["--cells", options.cells]
-        seconds[stage] = execute(*line).wall
-    return seconds, json.loads((run / "mesh/record.json").read_text())["results"]["cells"]
+    seconds = {stage: execute(*stage_line(options.bin, stage, options.case, run, options.cells, options.ranks)).wall
+               for stage in ("geometry", "mesh", "export")}
+    return seconds, record(run)["results"]["cells"]
 
 
 def main():
-    parser = options_of(__doc__, "1M")
-    parser.add_argument("--ranks", type=int, default=2)
-    options = parser.parse_args()
+    options = options_of(__doc__, cells="1M", repeat=3, bin=BIN, case=PAPER_CASE, ranks=2).parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run = folder / "run"

@@ -13,6 +13,7 @@ Dynamic Problems in Hydraulic Machinery, Brno, 2009)."""
 import math
 
 import draw
+import u3
 
 # Sides of a blade and of a vane: radius, mm, and angle, degrees, from the nose on. The wheel turns to lesser angles.
 BLADE = (
@@ -35,7 +36,7 @@ VANE = (
     "270.88 -29.80  275.42 -32.25  280.02 -34.66  284.67 -37.02  289.36 -39.34  294.08 -41.62  298.83 -43.86 "
     "303.60 -46.06  308.37 -48.23  313.15 -50.37  317.93 -52.47  322.70 -54.54  327.45 -56.59  332.17 -58.60 "
     "335.70 -60.10")
-WIDTH = 40.4  # mm: from casing to hub. Blades go from wall to wall; those tested end 0.4 mm before the casing
+WIDTH = u3.WIDTH  # Blades go from wall to wall; those tested end 0.4 mm before the casing
 INTERFACE, OUTLET = 215.25, 365  # mm: radii, the first midway between blades and vanes
 
 
@@ -88,13 +89,11 @@ def pump():
     draw.cut(ring, draw.copies(body(VANE, 0, WIDTH), 12))
 
 
-SPEED, DENSITY = 2000, 1.2  # rpm, kg/m3
-TIP_SPEED = SPEED * math.pi / 30 * 0.21  # m/s
-FLOW = 0.0475 * TIP_SPEED * math.pi * 0.42**2 / 4 * 3600  # m3/h, of the flow coefficient 4 Q / (pi D2^2 U2)
-HEAD = 0.65 * TIP_SPEED**2 / (2 * 9.80665)  # m, of the rise of total pressure over rho U2^2 / 2
-FLUID = f"""
+FLOW = u3.FLOW_COEFFICIENT * u3.TIP_SPEED * math.pi * (2 * u3.RADIUS)**2 / 4 * 3600  # m3/h
+HEAD = u3.HEAD_COEFFICIENT * u3.TIP_SPEED**2 / (2 * 9.80665)  # m
+FLUID = """
 fluid:                           # air at 25 degrees Celsius
-  density_kg_per_m3: {DENSITY}
+  density_kg_per_m3: 1.2
   kinematic_viscosity_m2_per_s: 1.55e-5
 """
 CAD = """  domains:
@@ -108,4 +107,4 @@ CAD = """  domains:
 """
 
 if __name__ == "__main__":
-    draw.main("ubaldi", pump, CAD, round(FLOW, 1), round(HEAD, 2), SPEED, 500000, FLUID, "auto", "auto")
+    draw.main("ubaldi", pump, CAD, round(FLOW, 1), round(HEAD, 2), u3.SPEED, 500000, FLUID, "auto", "auto")

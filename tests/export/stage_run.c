@@ -8,24 +8,16 @@
 
 #include "tests/unit_test.h"
 
-int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
+int stage_run_make(const char *folder, const SyntheticPump *pump) {
   char run[STAGE_PATH_SIZE + 10];
-  const char *base = getenv("TMPDIR");
-  snprintf(folder, STAGE_PATH_SIZE, "%s/cutwater-export-XXXXXX", base ? base : P_tmpdir);
   // As root and with more ranks than cores; OpenFOAM must find its etc folder.
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
-  if (!mkdtemp(folder)) return -1;
   snprintf(run, sizeof run, "%s/run", folder);
   return synthetic_run_write(run, pump);
-}
-
-void stage_folder_remove(const char *folder) {
-  char output[STAGE_OUTPUT_SIZE];
-  stage_shell(output, "rm -rf '%s'", folder);
 }
 
 int stage_shell(char *output, const char *format, ...) {
@@ -55,7 +47,7 @@ int stage_export(const char *run, int ranks, char *output) {
                      CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, run);
 }
 
-int stage_cgns_open(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump, char *output, int *file) {
+int stage_cgns_open(const char *folder, const SyntheticPump *pump, char *output, int *file) {
   char path[STAGE_PATH_SIZE + 40];
   if (stage_run_make(folder, pump)) return -1;
   snprintf(path, sizeof path, "%s/run", folder);

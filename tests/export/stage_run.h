@@ -7,10 +7,8 @@
 
 enum { STAGE_OUTPUT_SIZE = 1 << 18, STAGE_PATH_SIZE = 400 };
 
-// Makes a folder for the files of a test, with the meshed toy pump in its `run`; its path in `folder`. Returns 0, or
-// -1.
-int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump);
-void stage_folder_remove(const char *folder);
+// Writes the meshed toy pump into `run` of a test's folder. Returns 0, or -1.
+int stage_run_make(const char *folder, const SyntheticPump *pump);
 
 // Runs a shell command (printf style) and keeps what it prints on both streams, cut to STAGE_OUTPUT_SIZE.
 // Returns its exit status.
@@ -19,8 +17,8 @@ int stage_shell(char *output, const char *format, ...) __attribute__((format(pri
 // Runs the exporter on `run` with so many ranks, on the paper's case. Returns its exit status.
 int stage_export(const char *run, int ranks, char *output);
 
-// Makes such a folder, exports its run on two ranks, and opens pump.cgns as *file. Returns 0, or another number.
-int stage_cgns_open(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump, char *output, int *file);
+// Writes it, exports it on two ranks, and opens pump.cgns as *file. Returns 0, or another number.
+int stage_cgns_open(const char *folder, const SyntheticPump *pump, char *output, int *file);
 
 // The same as stage_export on the paper's case with `more` behind it, keys of sections that the paper's does not have.
 int stage_export_with(const char *run, int ranks, const char *more, char *output);

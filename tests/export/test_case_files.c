@@ -8,19 +8,14 @@
 #include "pipeline/atomic_file.h"
 #include "tests/export/stage_run.h"
 #include "tests/seal_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
   SyntheticPump pump = synthetic_pump();
-  return stage_run_make(folder, &pump);
-}
-
-static int remove_run(void **state) {
-  stage_folder_remove(folder);
-  return 0;
+  return make_test_folder(state) || stage_run_make(test_folder, &pump);
 }
 
 // Exports with the paper's case after a sed command.
@@ -28,12 +23,12 @@ static void export_with(const char *edit) {
   int code = stage_shell(output,
                          "cd '%s' && sed '%s' '%s/cases/paper/case.yaml' > case.yaml && "
                          "'%s/cutwater-export' --case case.yaml --run run",
-                         folder, edit, CUTWATER_SOURCE_DIR, CUTWATER_BIN_DIR);
+                         test_folder, edit, CUTWATER_SOURCE_DIR, CUTWATER_BIN_DIR);
   if (code) fail_msg("%s", output);
 }
 
 static void expect(const char *name, const char *words) {
-  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", folder, name), 0);
+  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", test_folder, name), 0);
   if (!strstr(output, words)) fail_msg("no '%s' in %s:\n%s", words, name, output);
 }
 
@@ -60,7 +55,7 @@ static void the_paper_in_code_saturne(void **state) {
   expect(numbers, "#define PUMP_SHAFTS \"no_group[]\" ");
   expect(numbers, " = {{\"outlet\", 1}};");
   expect(numbers, " = {\"rotor_interface or stator_interface\"};");
-  assert_int_equal(stage_shell(output, "test -x '%s/run/export/code_saturne/run'", folder), 0);
+  assert_int_equal(stage_shell(output, "test -x '%s/run/export/code_saturne/run'", test_folder), 0);
   export_with("s/treatment: smooth/treatment: rough/; $ a export: {formats: code_saturne}");
   expect(numbers, "#define PUMP_ROUGHNESS 1.2755102e-06 "); // 25e-6 * 0.5/9.8
 }
@@ -83,7 +78,7 @@ static void eddies_are_sampled_by_phase(void **state) {
   expect("openfoam/les/system/controlDict", "deltaT          0.000114942529;");
   expect("openfoam/les/system/les_functions", "executeInterval 60;");
   expect("openfoam/les/0/nut", "nutUSpaldingWallFunction");
-  assert_int_not_equal(stage_shell(output, "test -e '%s/run/export/openfoam/les/0/k'", folder), 0);
+  assert_int_not_equal(stage_shell(output, "test -e '%s/run/export/openfoam/les/0/k'", test_folder), 0);
   export_with("s/time_step_deg: 1 /time_step_deg: 7 /");
   expect("openfoam/les/system/controlDict", "deltaT          0.000114942529;");
   export_with("s/time_step_deg: 1 /time_step_deg: 0.35 /"); // 1029 steps a turn: no whole number a pitch
@@ -100,7 +95,7 @@ static void each_point_of_the_curve_has_its_flow(void **state) {
   assert_int_equal(stage_shell(output,
                                "cd '%s/run/export/openfoam' && cmp 0/U points/q1000/0/U && cmp 0/nut "
                                "points/q0800/0/nut && test points/q0800/constant -ef constant",
-                               folder),
+                               test_folder),
                    0);
   double k[2];
   for (int i = 0; i < 2; ++i) {
@@ -118,8 +113,8 @@ static void rough_walls_take_the_roughness(void **state) {
 // By the y+ that the mesh was made for, whatever the case asks.
 static void resolved_walls_take_k_omega(void **state) {
   char run[STAGE_PATH_SIZE + 10];
-  snprintf(run, sizeof run, "%s/run", folder);
-  stage_shell(output, "cp '%s/mesh/manifest.json' '%s/kept.json'", run, folder);
+  snprintf(run, sizeof run, "%s/run", test_folder);
+  stage_shell(output, "cp '%s/mesh/manifest.json' '%s/kept.json'", run, test_folder);
   assert_int_equal(stage_shell(output,
                                "sed -i '/\"name\": \"blade_pressure\"/,/y_plus/s/\"y_plus\": 30.0/\"y_plus\": 1.0/' "
                                "'%s/mesh/manifest.json'",
@@ -127,7 +122,7 @@ static void resolved_walls_take_k_omega(void **state) {
                    0);
   assert_int_equal(seal_run(run), 0);
   export_with("");
-  stage_shell(output, "mv '%s/kept.json' '%s/mesh/manifest.json'", folder, run);
+  stage_shell(output, "mv '%s/kept.json' '%s/mesh/manifest.json'", test_folder, run);
   assert_int_equal(seal_run(run), 0);
   expect("openfoam/constant/turbulenceProperties", "RASModel        kOmegaSST;");
   expect("openfoam/0/nut", "blade_pressure\n    {\n        type            nutUSpaldingWallFunction;");
@@ -137,7 +132,7 @@ static void resolved_walls_take_k_omega(void **state) {
 
 // The block of `file` that begins with `head` and ends with `end`, in `output`.
 static void find_block(const char *file, const char *head, const char *end) {
-  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", folder, file), 0);
+  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", test_folder, file), 0);
   char *from = strstr(output, head), *to = from ? strstr(from, end) : NULL;
   if (!to) fail_msg("no '%s' in %s:\n%s", head, file, output);
   to[strlen(end)] = '\0';
@@ -179,7 +174,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   CwAssembly assembly = {.mesh = &mesh, .patches = parts};
   CwCase table = {.name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}};
   char path[STAGE_PATH_SIZE + 60];
-  snprintf(path, sizeof path, "%s/run/export/cfx", folder);
+  snprintf(path, sizeof path, "%s/run/export/cfx", test_folder);
   assert_int_equal(cw_make_directory(path), CW_OK);
   assert_int_equal(cw_cfx_case_write(path, &table, &assembly), CW_OK);
   find_block("cfx/steady.ccl", "BOUNDARY: suction walls", "\n    END\n");
@@ -197,7 +192,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   assert_int_equal(stage_shell(output, "grep BOUNDARY: '%s/steady.ccl' | sort | uniq -d", path), 0);
   assert_string_equal(output, "");
 
-  snprintf(path, sizeof path, "%s/run/export/openfoam", folder);
+  snprintf(path, sizeof path, "%s/run/export/openfoam", test_folder);
   assert_int_equal(stage_shell(output, "rm -rf '%s'", path), 0);
   assert_int_equal(cw_make_directory(path), CW_OK);
   assert_int_equal(cw_foam_case_write(path, &table, &assembly), CW_OK);
@@ -225,9 +220,9 @@ static void a_wrong_number_of_ranks_is_told(void **state) {
   static const char *const scripts[] = {"Allrun", "transient/Allrun"};
   export_with("");
   for (int i = 0; i < 2; i++) {
-    assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' two", folder, scripts[i]), 1);
+    assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' two", test_folder, scripts[i]), 1);
     assert_string_equal(output, "Allrun: RANKS is 'two'; allowed: a number from 1 on\n");
-    assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' 0", folder, scripts[i]), 1);
+    assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' 0", test_folder, scripts[i]), 1);
   }
 }
 
@@ -252,5 +247,5 @@ int main(void) {
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
       cmocka_unit_test(large_meshes_take_all_cores),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

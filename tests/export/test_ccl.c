@@ -9,6 +9,7 @@
 #include <cgnslib.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 enum { ITEMS_MOST = 2000, NAME_SIZE = 200, VALUE_SIZE = 1000, DEPTH_MOST = 20 };
@@ -22,7 +23,6 @@ typedef struct {
   int is_object;
 } Item;
 
-static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 static Item items[ITEMS_MOST];
 static int item_count;
@@ -30,13 +30,12 @@ static int file;
 
 static int open_export(void **state) {
   SyntheticPump pump = synthetic_pump();
-  return stage_cgns_open(folder, &pump, output, &file);
+  return make_test_folder(state) || stage_cgns_open(test_folder, &pump, output, &file);
 }
 
 static int close_export(void **state) {
   cg_close(file);
-  stage_folder_remove(folder);
-  return 0;
+  return clear_test_folder(state);
 }
 
 static char *trimmed(char *text) {
@@ -49,7 +48,7 @@ static char *trimmed(char *text) {
 static void parse(const char *name) {
   char line[4000], path[DEPTH_MOST][NAME_SIZE] = {""}, owner[DEPTH_MOST][NAME_SIZE] = {""};
   int depth = 0;
-  snprintf(line, sizeof line, "%s/run/export/cfx/%s", folder, name);
+  snprintf(line, sizeof line, "%s/run/export/cfx/%s", test_folder, name);
   FILE *in = fopen(line, "r");
   assert_non_null(in);
   item_count = 0;

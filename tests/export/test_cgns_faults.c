@@ -7,27 +7,22 @@
 #include <string.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
   char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
-  if (stage_run_make(folder, &pump)) return -1;
-  snprintf(run, sizeof run, "%s/run", folder);
+  if (make_test_folder(state) || stage_run_make(test_folder, &pump)) return -1;
+  snprintf(run, sizeof run, "%s/run", test_folder);
   return stage_export_with(run, 2, "export: {formats: cgns}", output);
 }
 
-static int remove_run(void **state) {
-  stage_folder_remove(folder);
-  return 0;
-}
-
 static int audit(const char *file) {
-  return stage_shell(output, "'%s/cgns_audit' '%s/%s'", CUTWATER_BIN_DIR, folder, file);
+  return stage_shell(output, "'%s/cgns_audit' '%s/%s'", CUTWATER_BIN_DIR, test_folder, file);
 }
 
 static void what_was_written_passes(void **state) {
@@ -56,8 +51,8 @@ static void faults_are_found(void **state) {
   for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
     char path[STAGE_PATH_SIZE + 20];
     int32_t values[1 << 17], kept;
-    assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", folder, folder), 0);
-    snprintf(path, sizeof path, "%s/bad.cgns", folder);
+    assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", test_folder, test_folder), 0);
+    snprintf(path, sizeof path, "%s/bad.cgns", test_folder);
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), set = H5Dopen2(file, faults[i].array, H5P_DEFAULT);
     hid_t space = H5Dget_space(set);
     assert_true(file >= 0 && set >= 0);
@@ -78,8 +73,8 @@ static void faults_are_found(void **state) {
 
 static void a_point_that_is_moved_is_found(void **state) {
   char path[STAGE_PATH_SIZE + 20];
-  assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", folder, folder), 0);
-  snprintf(path, sizeof path, "%s/bad.cgns", folder);
+  assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", test_folder, test_folder), 0);
+  snprintf(path, sizeof path, "%s/bad.cgns", test_folder);
   hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
   hid_t set = H5Dopen2(file, "/pump/STATOR/GridCoordinates/CoordinateX/ data", H5P_DEFAULT);
   hid_t there = H5Dget_space(set), here = H5Screate(H5S_SCALAR);
@@ -103,5 +98,5 @@ int main(void) {
       cmocka_unit_test(faults_are_found),
       cmocka_unit_test(a_point_that_is_moved_is_found),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

@@ -6,22 +6,18 @@
 #include <string.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10];
+static char run[sizeof test_folder + 10];
 static char output[STAGE_OUTPUT_SIZE], other[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
-  if (stage_run_make(folder, &pump)) return -1;
-  snprintf(run, sizeof run, "%s/run", folder);
+  if (make_test_folder(state) || stage_run_make(test_folder, &pump)) return -1;
+  snprintf(run, sizeof run, "%s/run", test_folder);
   return stage_export_with(run, 2, "export: {formats: [openfoam, fluent]}", output);
-}
-
-static int remove_run(void **state) {
-  stage_folder_remove(folder);
-  return 0;
 }
 
 static void openfoam_reads_the_same_mesh(void **state) {
@@ -91,5 +87,5 @@ int main(void) {
       cmocka_unit_test(the_file_has_its_frame),
       cmocka_unit_test(any_number_of_ranks_gives_the_same_bytes),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

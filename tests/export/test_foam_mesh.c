@@ -6,54 +6,42 @@
 #include <string.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 enum { PARTS = 4 }; // of 5 regions
 
-static char folder[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10];
+static char run[sizeof test_folder + 10];
 static char output[STAGE_OUTPUT_SIZE], other[STAGE_OUTPUT_SIZE];
 
 // A file of lists of labels, as bytes, from the bracket of the first list.
 typedef struct {
   char *bytes;
   const char *from;
-  long count, size; // of the first list; bytes from its bracket to the end
+  long count; // of the first list
 } Lists;
 
 static Lists read_lists(const char *path) {
-  Lists lists = {0};
-  FILE *in = fopen(path, "rb");
-  if (!in) fail_msg("%s is missing", path);
-  fseek(in, 0, SEEK_END);
-  const long size = ftell(in);
-  rewind(in);
-  lists.bytes = calloc((size_t)size + 1, 1);
-  assert_int_equal(fread(lists.bytes, 1, (size_t)size, in), size);
-  fclose(in);
+  Lists lists = {.bytes = read_whole(path, NULL)};
   const char *at = strstr(lists.bytes, "\n}\n") + 3;
   while (*at < '0' || *at > '9') at = *at == '/' ? strchr(at, '\n') : at + 1; // comments
   char *end;
   lists.count = strtol(at, &end, 10);
   lists.from = strchr(end, '(') + 1;
-  lists.size = lists.bytes + size - lists.from;
   return lists;
 }
 
 static int make_run(void **state) {
   char more[100];
   SyntheticPump pump = synthetic_pump();
-  if (stage_run_make(folder, &pump)) return -1;
-  snprintf(run, sizeof run, "%s/run", folder);
+  if (make_test_folder(state) || stage_run_make(test_folder, &pump)) return -1;
+  snprintf(run, sizeof run, "%s/run", test_folder);
   if (stage_export_with(run, 1, "export: {formats: openfoam}", output)) return -1;
-  stage_shell(output, "cp -r '%s/export/openfoam' '%s/whole'", run, folder);
+  stage_shell(output, "cp -r '%s/export/openfoam' '%s/whole'", run, test_folder);
   snprintf(more, sizeof more, "export: {formats: openfoam}\nopenfoam: {processors: %d}", PARTS);
   if (stage_export_with(run, 2, more, output)) return -1;
-  stage_shell(output, "cp -r '%s/export/openfoam' '%s/parts'", run, folder);
-  return 0;
-}
-
-static int remove_run(void **state) {
-  stage_folder_remove(folder);
+  stage_shell(output, "cp -r '%s/export/openfoam' '%s/parts'", run, test_folder);
   return 0;
 }
 
@@ -63,7 +51,7 @@ static void decompose(void) {
   int32_t part_of[100000];
   int cells = 0;
   for (int p = 0; p < PARTS; ++p) {
-    snprintf(path, sizeof path, "%s/parts/processor%d/constant/polyMesh/cellProcAddressing", folder, p);
+    snprintf(path, sizeof path, "%s/parts/processor%d/constant/polyMesh/cellProcAddressing", test_folder, p);
     Lists list = read_lists(path);
     for (long i = 0; i < list.count; ++i) {
       int32_t cell;
@@ -73,7 +61,7 @@ static void decompose(void) {
     cells += (int)list.count;
     free(list.bytes);
   }
-  snprintf(path, sizeof path, "%s/whole/constant/cellDecomposition", folder);
+  snprintf(path, sizeof path, "%s/whole/constant/cellDecomposition", test_folder);
   FILE *out = fopen(path, "w");
   fprintf(out, "FoamFile { version 2.0; format ascii; class labelList; object cellDecomposition; }\n%d\n(\n", cells);
   for (int i = 0; i < cells; ++i) fprintf(out, "%d\n", part_of[i]);
@@ -83,7 +71,7 @@ static void decompose(void) {
                   "cd '%s/whole' && sed -i '/^numberOf/,$d' system/decomposeParDict && echo 'numberOfSubdomains %d; "
                   "method manual; coeffs { dataFile \"cellDecomposition\"; }' >> system/decomposeParDict && "
                   "decomposePar",
-                  folder, PARTS))
+                  test_folder, PARTS))
     fail_msg("%s", output);
 }
 
@@ -97,8 +85,8 @@ static void parts_are_those_of_decomposepar(void **state) {
       char path[2][STAGE_PATH_SIZE + 100];
       Lists list[2];
       for (int k = 0; k < 2; ++k) {
-        snprintf(path[k], sizeof path[k], "%s/%s/processor%d/constant/polyMesh/%s", folder, k ? "whole" : "parts", p,
-                 names[i]);
+        snprintf(path[k], sizeof path[k], "%s/%s/processor%d/constant/polyMesh/%s", test_folder, k ? "whole" : "parts",
+                 p, names[i]);
         list[k] = read_lists(path[k]);
       }
       assert_int_equal(list[0].count, list[1].count);
@@ -120,22 +108,23 @@ static void parts_are_those_of_decomposepar(void **state) {
                                "$c/processor$p/constant/polyMesh/boundary | grep -E "
                                "'^(procB|nFaces|startFace|neighbProc|[a-z_]+$)' > $c.told; done; "
                                "diff parts.told whole.told || exit 1; done",
-                               folder, PARTS - 1),
+                               test_folder, PARTS - 1),
                    0);
 }
 
 static void the_parts_are_balanced_and_sound(void **state) {
   stage_need_program("checkMesh");
-  stage_shell(output, "cd '%s/parts' && mpirun -n %d checkMesh -parallel -allTopology -allGeometry", folder, PARTS);
+  stage_shell(output, "cd '%s/parts' && mpirun -n %d checkMesh -parallel -allTopology -allGeometry", test_folder,
+              PARTS);
   if (!strstr(output, "Mesh OK") || strstr(output, "***")) fail_msg("%s", output);
-  stage_shell(other, "cd '%s/whole' && checkMesh", folder);
+  stage_shell(other, "cd '%s/whole' && checkMesh", test_folder);
   static const char *const same[] = {"Total volume = ", "\n    cells: ", "\n    points: "};
   for (int i = 0; i < 2; ++i)
     assert_float_equal(strtod(strstr(output, same[i]) + strlen(same[i]), NULL),
                        strtod(strstr(other, same[i]) + strlen(same[i]), NULL), 1e-9);
   int least = 1 << 30, most = 0;
   for (int p = 0; p < PARTS; ++p) {
-    stage_shell(output, "grep -a -o 'nCells:[0-9]*' '%s/parts/processor%d/constant/polyMesh/owner'", folder, p);
+    stage_shell(output, "grep -a -o 'nCells:[0-9]*' '%s/parts/processor%d/constant/polyMesh/owner'", test_folder, p);
     const int cells = atoi(output + 7);
     least = cells < least ? cells : least;
     most = cells > most ? cells : most;
@@ -158,7 +147,7 @@ static void residuals_are_those_of_the_decomposed_case(void **state) {
   stage_need_program("simpleFoam");
   stage_need_program("decomposePar");
   for (int k = 0; k < 3; ++k) {
-    if (stage_shell(output, "cd '%s/%s' && sed -i 's/endTime  .*/endTime 2;/' system/controlDict && %s", folder,
+    if (stage_shell(output, "cd '%s/%s' && sed -i 's/endTime  .*/endTime 2;/' system/controlDict && %s", test_folder,
                     runs[k].folder, runs[k].launch))
       fail_msg("%s", output);
     for (const char *at = output; (at = strstr(at, words)) && count[k] < SOLVED; ++count[k])
@@ -176,10 +165,11 @@ static void residuals_are_those_of_the_decomposed_case(void **state) {
 // As many ranks as parts run the case's own scripts; another number is told.
 static void the_scripts_know_the_parts(void **state) {
   stage_need_program("simpleFoam");
-  assert_int_equal(stage_shell(output, "cd '%s/parts' && ./Allrun 3", folder), 1);
+  assert_int_equal(stage_shell(output, "cd '%s/parts' && ./Allrun 3", test_folder), 1);
   assert_string_equal(output, "Allrun: RANKS is '3'; allowed: 4, for which the mesh is divided\n");
   assert_int_equal(
-      stage_shell(output, "cd '%s/parts' && ./Allclean && ls processor3 && ./Allclean && ls processor3", folder), 0);
+      stage_shell(output, "cd '%s/parts' && ./Allclean && ls processor3 && ./Allclean && ls processor3", test_folder),
+      0);
   assert_string_equal(output, "0\nconstant\n0\nconstant\n");
 }
 
@@ -191,7 +181,7 @@ static void labels_of_64_bits_hold_the_same_numbers(void **state) {
     snprintf(path, sizeof path, "%s/export/openfoam/constant/polyMesh/%s", run, names[i]);
     Lists wide = read_lists(path);
     assert_non_null(strstr(wide.bytes, "\"LSB;label=64;scalar=64\""));
-    snprintf(path, sizeof path, "%s/whole/constant/polyMesh/%s", folder, names[i]);
+    snprintf(path, sizeof path, "%s/whole/constant/polyMesh/%s", test_folder, names[i]);
     Lists narrow = read_lists(path);
     assert_int_equal(wide.count, narrow.count);
     for (long k = 0; k < wide.count; ++k) {
@@ -221,5 +211,5 @@ int main(void) {
       cmocka_unit_test(labels_of_64_bits_hold_the_same_numbers),
       cmocka_unit_test(too_many_parts_are_told),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

@@ -5,27 +5,22 @@
 #include <string.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_export(void **state) {
   char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
-  if (stage_run_make(folder, &pump)) return -1;
-  snprintf(run, sizeof run, "%s/run", folder);
+  if (make_test_folder(state) || stage_run_make(test_folder, &pump)) return -1;
+  snprintf(run, sizeof run, "%s/run", test_folder);
   return stage_export(run, 2, output);
-}
-
-static int remove_export(void **state) {
-  stage_folder_remove(folder);
-  return 0;
 }
 
 static void cgnscheck_has_nothing_to_say(void **state) {
   stage_need_program("cgnscheck");
-  assert_int_equal(stage_shell(output, "cgnscheck '%s/run/export/pump.cgns'", folder), 0);
+  assert_int_equal(stage_shell(output, "cgnscheck '%s/run/export/pump.cgns'", test_folder), 0);
   // It ends with 0 whatever it finds.
   if (strstr(output, "ERROR") || strstr(output, "WARNING")) fail_msg("%s", output);
   assert_non_null(strstr(output, "\"ROTOR\""));
@@ -45,7 +40,7 @@ static void checkmesh_finds_a_sound_mesh(void **state) {
   stage_need_program("checkMesh");
   stage_shell(output,
               "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
-              folder, folder, folder);
+              test_folder, test_folder, test_folder);
   if (!strstr(output, "Mesh OK") || strstr(output, "***") || strstr(output, "Failed")) fail_msg("%s", output);
   assert_non_null(strstr(output, "Upper triangular ordering OK"));
 }
@@ -55,7 +50,7 @@ static void checkmesh_takes_pyramids(void **state) {
   char run[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
   stage_need_program("checkMesh");
-  snprintf(run, sizeof run, "%s/pyramids", folder);
+  snprintf(run, sizeof run, "%s/pyramids", test_folder);
   pump.pyramids = 1;
   assert_int_equal(synthetic_run_write(run, &pump), 0);
   assert_int_equal(stage_export(run, 2, output), 0);
@@ -67,7 +62,7 @@ static void checkmesh_takes_pyramids(void **state) {
 // Weights are the area of the other side over each face, by its own area.
 static void interface_weights_are_about_one(void **state) {
   stage_need_program("checkMesh");
-  stage_shell(output, "cd '%s/run/export/openfoam' && checkMesh -allGeometry | grep weights", folder);
+  stage_shell(output, "cd '%s/run/export/openfoam' && checkMesh -allGeometry | grep weights", test_folder);
   for (int side = 0; side < 2; ++side) {
     char words[60];
     snprintf(words, sizeof words, "Patch %s sum(weights) min:", side ? "target" : "source");
@@ -80,10 +75,10 @@ static void interface_weights_are_about_one(void **state) {
 static void steady_run_starts_and_reports(void **state) {
   stage_need_program("simpleFoam");
   int code = stage_shell(output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run",
-                         folder, folder, folder);
+                         test_folder, test_folder, test_folder);
   if (code || strstr(output, "FOAM FATAL")) fail_msg("%s", output);
   code = stage_shell(output, "cd '%s/steady' && sed -i 's/endTime  .*/endTime 100;/' system/controlDict && ./Allrun",
-                     folder);
+                     test_folder);
   if (code) fail_msg("%s", output);
   // The toy pump has straight radial blades: it lifts the water, and takes more power than it gives.
   double head = number_after("\nhead "), torque = number_after("shaft torque"),
@@ -95,7 +90,7 @@ static void steady_run_starts_and_reports(void **state) {
   assert_non_null(strstr(output, "blade_pressure"));
   assert_non_null(strstr(output, "Mesh OK"));
   // The suction pipe stands still in the turning zone.
-  stage_shell(output, "cd '%s/steady' && grep nonRotatingPatches constant/MRFProperties", folder);
+  stage_shell(output, "cd '%s/steady' && grep nonRotatingPatches constant/MRFProperties", test_folder);
   assert_non_null(strstr(output, "(inlet suction_pipe rotor_interface)"));
 }
 
@@ -107,7 +102,7 @@ static void a_large_mesh_is_checked_in_parts(void **state) {
                          "usual_ranks=$(echo 2)/' run_solver.sh && sed -i 's/endTime  .*/endTime 10;/; s/writeInterval "
                          ".*/writeInterval 10;/' system/controlDict && ./Allrun && ls -d 10/U processor1/constant && "
                          "grep -h '^nProcs' log.checkMesh log.simpleFoam && find . -name cellToRegion",
-                         folder, folder, folder);
+                         test_folder, test_folder, test_folder);
   if (code) fail_msg("%s", output);
   assert_non_null(strstr(output, "Mesh OK"));
   assert_non_null(strstr(output, "10/U\nprocessor1/constant\nnProcs : 2\nnProcs : 2\n"));
@@ -122,7 +117,7 @@ static void transient_run_starts_from_the_steady_one(void **state) {
                          "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' "
                          "../system/functions && "
                          "./Allrun && grep -c '^Time = ' log.pimpleFoam",
-                         folder);
+                         test_folder);
   if (code) fail_msg("%s", output);
   assert_non_null(strstr(output, "starts from iteration 100 of the steady run"));
   assert_float_equal(number_after("out "), 25.0 / 3600, 1e-8);
@@ -131,10 +126,10 @@ static void transient_run_starts_from_the_steady_one(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cgnscheck_has_nothing_to_say),  cmocka_unit_test(checkmesh_finds_a_sound_mesh),
-      cmocka_unit_test(checkmesh_takes_pyramids),      cmocka_unit_test(interface_weights_are_about_one),
-      cmocka_unit_test(steady_run_starts_and_reports), cmocka_unit_test(transient_run_starts_from_the_steady_one),
+      cmocka_unit_test(cgnscheck_has_nothing_to_say),     cmocka_unit_test(checkmesh_finds_a_sound_mesh),
+      cmocka_unit_test(checkmesh_takes_pyramids),         cmocka_unit_test(interface_weights_are_about_one),
+      cmocka_unit_test(steady_run_starts_and_reports),    cmocka_unit_test(transient_run_starts_from_the_steady_one),
       cmocka_unit_test(a_large_mesh_is_checked_in_parts),
   };
-  return cmocka_run_group_tests(tests, make_export, remove_export);
+  return cmocka_run_group_tests(tests, make_export, clear_test_folder);
 }

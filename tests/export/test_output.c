@@ -2,35 +2,25 @@
 // Each format alone, and one that cannot hold the mesh beside those that can.
 #include "export/output.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 #include <hdf5.h>
 
 #include "tests/export/stage_run.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
-static char folder[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10];
+static char run[sizeof test_folder + 10];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
-  (void)state;
   SyntheticPump pump = synthetic_pump();
-  if (stage_run_make(folder, &pump)) return -1;
-  snprintf(run, sizeof run, "%s/run", folder);
-  return 0;
-}
-
-static int remove_run(void **state) {
-  (void)state;
-  stage_folder_remove(folder);
+  if (make_test_folder(state) || stage_run_make(test_folder, &pump)) return -1;
+  snprintf(run, sizeof run, "%s/run", test_folder);
   return 0;
 }
 
 static void each_format_alone(void **state) {
-  (void)state;
   static const char *const formats[][2] = {{"cgns", "pump.cgns\nrecord.json\n"},
                                            {"openfoam", "openfoam\nrecord.json\n"},
                                            {"cfx", "cfx\npump.cgns\nrecord.json\n"},
@@ -48,7 +38,6 @@ static void each_format_alone(void **state) {
 
 // 1.5e9 cells of one kind and as many points: beyond 2^31 faces and face corners, though not elements.
 static void a_format_that_cannot_hold_the_mesh_is_left_out(void **state) {
-  (void)state;
   CwModelPatch patches[] = {{.name = "hub", .kind = CW_PATCH_WALL}};
   CwMeshRegion region = {.path = "r", .tetrahedra = 1500000000};
   CwMesh mesh = {.domain_count = 1,
@@ -97,7 +86,6 @@ static void a_format_that_cannot_hold_the_mesh_is_left_out(void **state) {
 }
 
 static void cgns_of_64_bits_is_sound(void **state) {
-  (void)state;
   stage_need_program("cgnscheck");
   if (stage_export_with(run, 2, "export: {formats: cgns}\ncgns: {integers: 64}", output)) fail_msg("%s", output);
   stage_shell(output, "cd '%s' && cgnscheck export/pump.cgns", run);
@@ -119,5 +107,5 @@ int main(void) {
       cmocka_unit_test(a_format_that_cannot_hold_the_mesh_is_left_out),
       cmocka_unit_test(cgns_of_64_bits_is_sound),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

@@ -98,8 +98,8 @@ static void cgns_has_its_integers(void **state) {
   int64_t range[2], node[12];
   double x[4];
   hid_t in = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  read_back(in, "/pump/ROTOR/GridCoordinates/CoordinateY/ data", before.points + 4, before.points, 4,
-            H5T_NATIVE_DOUBLE, x);
+  read_back(in, "/pump/ROTOR/GridCoordinates/CoordinateY/ data", before.points + 4, before.points, 4, H5T_NATIVE_DOUBLE,
+            x);
   for (int i = 0; i < 4; ++i) assert_true(x[i] == points[i][1]);
   read_back(in, "/pump/ROTOR/tetrahedra/ElementConnectivity/ data", 4 * (before.cells + 1), 4 * before.cells, 4,
             H5T_NATIVE_INT64, node);
@@ -165,7 +165,7 @@ static void openfoam_has_its_labels(void **state) {
   double x;
   memcpy(&x, &bits, sizeof x);
   assert_true(x == points[1][0]);
-  stage_folder_remove(folder_of);
+  remove_folder(folder_of);
 }
 
 // The mesh has fewer faces, but half of them are as many face corners.
@@ -212,7 +212,7 @@ static void fluent_has_its_lines(void **state) {
   fclose(in);
   const char *end = text;
   while (end < text + 600 && !*end) ++end; // what nobody has written
-  for (int f = 0; f < 4; ++f) { // turned over: the rule of the right hand points into the cell
+  for (int f = 0; f < 4; ++f) {            // turned over: the rule of the right hand points into the cell
     snprintf(line, sizeof line, "3 %08llx %08llx %08llx %08llx 00000000\n%s",
              (unsigned long long)(before.points + triangles[f][2] + 1),
              (unsigned long long)(before.points + triangles[f][1] + 1),

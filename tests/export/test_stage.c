@@ -12,24 +12,19 @@
 
 #include "tests/export/stage_run.h"
 #include "tests/seal_run.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
   SyntheticPump pump = synthetic_pump();
-  return stage_run_make(folder, &pump);
-}
-
-static int remove_run(void **state) {
-  stage_folder_remove(folder);
-  return 0;
+  return make_test_folder(state) || stage_run_make(test_folder, &pump);
 }
 
 static void copy_run(const char *name, char run[STAGE_PATH_SIZE + 40]) {
-  snprintf(run, STAGE_PATH_SIZE + 40, "%s/%s", folder, name);
-  assert_int_equal(stage_shell(output, "rm -rf '%s'; cp -r '%s/run' '%s'", run, folder, run), 0);
+  snprintf(run, STAGE_PATH_SIZE + 40, "%s/%s", test_folder, name);
+  assert_int_equal(stage_shell(output, "rm -rf '%s'; cp -r '%s/run' '%s'", run, test_folder, run), 0);
 }
 
 static void any_number_of_ranks_gives_the_same_bytes(void **state) {
@@ -188,10 +183,10 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
 // Two prisms of n sides and of many in one cylinder: their areas are 2 n sin(pi / n) r h.
 static void sides_of_different_area_are_told(void **state) {
   SyntheticPump pump = synthetic_pump();
-  char other[STAGE_PATH_SIZE], run[STAGE_PATH_SIZE + 10], words[200];
+  char run[STAGE_PATH_SIZE + 10], words[200];
   pump.stator.around = 8;
-  assert_int_equal(stage_run_make(other, &pump), 0);
-  snprintf(run, sizeof run, "%s/run", other);
+  snprintf(run, sizeof run, "%s/other", test_folder);
+  assert_int_equal(synthetic_run_write(run, &pump), 0);
   assert_int_equal(stage_export(run, 1, output), 0);
   const double height = pump.top - pump.bottom;
   const int n[2] = {pump.rotor.around, pump.stator.around};
@@ -200,7 +195,6 @@ static void sides_of_different_area_are_told(void **state) {
   snprintf(words, sizeof words, "the interface has %.6g mm2 on patch 'rotor_interface' and %.6g mm2 on '", area[0],
            area[1]);
   if (!strstr(output, words)) fail_msg("no '%s' in: %s", words, output);
-  stage_folder_remove(other);
 }
 
 int main(void) {
@@ -213,5 +207,5 @@ int main(void) {
       cmocka_unit_test(sides_of_different_area_are_told),
       cmocka_unit_test(a_broken_mesh_is_told_with_its_place),
   };
-  return cmocka_run_group_tests(tests, make_run, remove_run);
+  return cmocka_run_group_tests(tests, make_run, clear_test_folder);
 }

@@ -2,17 +2,25 @@
 #include "tests/geometry/paper_rotor.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/rotor.h"
+#include "geometry/rotor_volume.h"
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
 #include "tests/unit_test.h"
 
-CwCase paper(void) {
+CwCase case_of(const char *name) {
   CwCase table;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  char path[512];
+  snprintf(path, sizeof path, CUTWATER_SOURCE_DIR "/cases/%s/case.yaml", name);
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
   return table;
+}
+
+CwCase paper(void) {
+  return case_of("paper");
 }
 
 CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) {
@@ -30,6 +38,15 @@ CwDesign design_of(const CwCase *table) {
   return design;
 }
 
+CwPump pump_of(const CwCase *table, CwDesign *design) {
+  CwPipeStubs stubs;
+  CwPump pump = {0};
+  *design = design_of(table);
+  if (cw_pump_pipe_stubs(table, design, &stubs) != CW_OK || cw_pump_build(table, design, &stubs, &pump) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  return pump;
+}
+
 void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured) {
   CwSolid *rotor = NULL;
   if (cw_rotor_build(design, &rotor) != CW_OK ||
@@ -38,4 +55,10 @@ void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *me
     fail_msg("%s", cw_fail_message());
   cw_solid_free(&rotor);
   assert_true(solid->valid && solid->closed && solid->largest_tolerance < 1e-6);
+}
+
+void volumes_agree(const CwDesign *design, const CwMeasuredSolid *solid, double tolerance) {
+  double expected;
+  assert_int_equal(cw_rotor_volume(design, &expected), CW_OK);
+  assert_near(solid->volume / expected, 1, tolerance);
 }

@@ -4,8 +4,7 @@
 
 #include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
-#include "pipeline/case_read.h"
-#include "tests/geometry/near_to.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
@@ -14,9 +13,9 @@ static CwMeridian meridian;
 static CwBladeSection section;
 
 static int setup(void **state) {
-  CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-         cw_meridian_make(&design, &meridian) || cw_blade_section(&design, &meridian, 0.5, &section);
+  const CwCase table = paper();
+  design = design_of(&table);
+  return cw_meridian_make(&design, &meridian) || cw_blade_section(&design, &meridian, 0.5, &section);
 }
 
 // A logarithmic spiral wraps by the integral of dm/r over tan beta: the integral by chords.
@@ -30,18 +29,18 @@ static void spiral(void **state) {
     last[0] = x[0];
     last[1] = x[1];
   }
-  near_to(cw_blade_wrap(&meridian, 0.5, beta), sum / tan(angle), 1e-7);
+  assert_near(cw_blade_wrap(&meridian, 0.5, beta), sum / tan(angle), 1e-7);
 }
 
 static void wrap_closes(void **state) {
-  near_to(cw_blade_theta(&section, 0), 71 * degree, 1e-8);
-  near_to(cw_blade_theta(&section, 1), 0, 1e-12);
-  near_to(cw_blade_beta(&section, 1), design.outlet_blade_angle, 1e-12);
+  assert_near(cw_blade_theta(&section, 0), 71 * degree, 1e-8);
+  assert_near(cw_blade_theta(&section, 1), 0, 1e-12);
+  assert_near(cw_blade_beta(&section, 1), design.outlet_blade_angle, 1e-12);
   // theta falls with the slope of the law: d theta / dq = -|M'| / (r tan beta).
   double x[2], dx[2];
   cw_meridian_blade_point(&meridian, 0.5, 0.37, x, dx);
   const double slope = (cw_blade_theta(&section, 0.371) - cw_blade_theta(&section, 0.369)) / 0.002;
-  near_to(slope, -hypot(dx[0], dx[1]) / (x[0] * tan(cw_blade_beta(&section, 0.37))), 1e-5);
+  assert_near(slope, -hypot(dx[0], dx[1]) / (x[0] * tan(cw_blade_beta(&section, 0.37))), 1e-5);
 }
 
 // Thickness across the blade, measured between the sides: r d theta sin beta where the offset is tangential.
@@ -51,25 +50,25 @@ static void thickness(void **state) {
     cw_meridian_blade_point(&meridian, 0.5, q, x, NULL);
     const CwBladePoint p = cw_blade_side(&section, CW_BLADE_PRESSURE, q),
                        s = cw_blade_side(&section, CW_BLADE_SUCTION, q);
-    near_to(p.q, q, 1e-12);
-    near_to((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)), 2 * cw_blade_half_thickness(&section, q),
-            1e-12);
+    assert_near(p.q, q, 1e-12);
+    assert_near((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)), 2 * cw_blade_half_thickness(&section, q),
+                1e-12);
   }
-  near_to(cw_blade_half_thickness(&section, section.nose), design.leading_edge_thickness / 2, 1e-12);
-  near_to(cw_blade_half_thickness(&section, 0.45), design.blade_thickness / 2, 1e-12);
-  near_to(cw_blade_half_thickness(&section, 1), design.trailing_edge_thickness / 2, 1e-12);
+  assert_near(cw_blade_half_thickness(&section, section.nose), design.leading_edge_thickness / 2, 1e-12);
+  assert_near(cw_blade_half_thickness(&section, 0.45), design.blade_thickness / 2, 1e-12);
+  assert_near(cw_blade_half_thickness(&section, 1), design.trailing_edge_thickness / 2, 1e-12);
 }
 
 // The ellipse meets the sides in points and begins at the mean line's end.
 static void nose(void **state) {
   const CwBladePoint tip = cw_blade_leading_edge(&section, 0);
-  near_to(tip.q, 0, 1e-15);
-  near_to(tip.theta, 71 * degree, 1e-8);
+  assert_near(tip.q, 0, 1e-15);
+  assert_near(tip.theta, 71 * degree, 1e-8);
   for (int side = 0; side < 2; side++) {
     const CwBladePoint a = cw_blade_leading_edge(&section, side ? -M_PI / 2 : M_PI / 2);
     const CwBladePoint b = cw_blade_side(&section, side ? CW_BLADE_SUCTION : CW_BLADE_PRESSURE, section.nose);
-    near_to(a.q, b.q, 1e-12);
-    near_to(a.theta, b.theta, 1e-12);
+    assert_near(a.q, b.q, 1e-12);
+    assert_near(a.theta, b.theta, 1e-12);
   }
 }
 
@@ -82,13 +81,13 @@ static void bevel(void **state) {
   double x[2], dx[2];
   cw_meridian_blade_point(&meridian, 0.5, 1, x, dx);
   const double dm = (1 - q) * hypot(dx[0], dx[1]);
-  near_to(hypot(dm, (begin.theta - corner.theta) * x[0]), (end - corner.theta) * x[0], 1e-12);
+  assert_near(hypot(dm, (begin.theta - corner.theta) * x[0]), (end - corner.theta) * x[0], 1e-12);
   // Curvature of the side and of the cylinder makes a little difference to the flat triangle.
-  near_to(hypot(dm, (end - begin.theta) * x[0]), facet, 0.05 * facet);
+  assert_near(hypot(dm, (end - begin.theta) * x[0]), facet, 0.05 * facet);
   // The balanced facet is as long as what is left of the cut.
   const double balanced = cw_blade_usual_bevel(CW_EDGE_BEVELLED, 2e-3, 36 * degree),
                leg = balanced / (2 * sin(18 * degree));
-  near_to(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
+  assert_near(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
 }
 
 // Of blades without thickness the width is the pitch, r dtheta sin beta, where that is least; a splitter takes its
@@ -109,11 +108,11 @@ static void clearance(void **state) {
     }
   }
   assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
-  near_to(found, least, 2e-4 * least);
+  assert_near(found, least, 2e-4 * least);
   thin.splitter_start = 0.4;
   thin.splitter_position = 0.35;
   assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
-  near_to(found, 0.35 * behind, 2e-4 * behind);
+  assert_near(found, 0.35 * behind, 2e-4 * behind);
   // Thicker than the pitch: they overlap.
   thin.blade_thickness = 0.06;
   assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
@@ -138,8 +137,8 @@ static void cylindrical_sections_lie_over_each_other(void **state) {
       // d theta / dr = -1 / (r tan beta'), beta' the angle in plan: no step anywhere
       const double plan = tan(cw_blade_beta(&wall, q)) * dx[0] / hypot(dx[0], dx[1]);
       if (i > 0 && dx[0] > 0.1 * hypot(dx[0], dx[1]))
-        near_to(last_theta - theta, (x[0] - last_r) / (0.5 * (x[0] + last_r) * plan),
-                0.02 * (x[0] - last_r) / (x[0] * plan));
+        assert_near(last_theta - theta, (x[0] - last_r) / (0.5 * (x[0] + last_r) * plan),
+                    0.02 * (x[0] - last_r) / (x[0] * plan));
       last_theta = theta, last_r = x[0];
       cw_meridian_blade_point(&meridian, 0.5, 0, y, dy);
       before += x[0] < y[0];
@@ -149,8 +148,8 @@ static void cylindrical_sections_lie_over_each_other(void **state) {
         cw_meridian_blade_point(&meridian, 0.5, mid, y, dy);
         *(y[0] < x[0] ? &low : &high) = mid;
       }
-      near_to(theta, cw_blade_theta(&middle, low), 1e-6);
-      near_to(plan, tan(cw_blade_beta(&middle, low)) * dy[0] / hypot(dy[0], dy[1]), 1e-6);
+      assert_near(theta, cw_blade_theta(&middle, low), 1e-6);
+      assert_near(plan, tan(cw_blade_beta(&middle, low)) * dy[0] / hypot(dy[0], dy[1]), 1e-6);
     }
     assert_int_equal(before > 0, side == 0);
   }

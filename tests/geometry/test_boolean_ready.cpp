@@ -11,7 +11,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static bool crossings = false;
@@ -56,35 +56,24 @@ static void expect_no_fault(const CwSolid *solid) {
 
 static void expect_no_fault_in(const CwCase &table) {
   CwDesign design;
-  CwPipeStubs stubs;
-  CwPump pump = {};
-  if (cw_hydraulic_design(&table, &design) != CW_OK || cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK ||
-      cw_pump_build(&table, &design, &stubs, &pump) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  CwPump pump = pump_of(&table, &design);
   for (int i = 0; i < pump.count; i++) expect_no_fault(pump.solid[i]);
   cw_pump_free(&pump);
 }
 
-static CwCase read_case(const char *name) {
-  CwCase table;
-  const std::string path = std::string(CUTWATER_SOURCE_DIR "/cases/") + name + "/case.yaml";
-  assert_int_equal(cw_case_read(path.c_str(), &table), CW_OK);
-  return table;
-}
-
-static void paper(void **) {
-  expect_no_fault_in(read_case("paper"));
+static void papers_pump(void **) {
+  expect_no_fault_in(case_of("paper"));
 }
 
 static void splitters_and_zones(void **) {
-  CwCase table = read_case("splitters");
+  CwCase table = case_of("splitters");
   table.impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
   table.volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
   expect_no_fault_in(table);
 }
 
 static void fillets_round_edges_shaft_and_radial_discharge(void **) {
-  CwCase table = read_case("paper");
+  CwCase table = case_of("paper");
   table.impeller.root_fillet_radius = 1e-3;
   table.impeller.trailing_edge = CW_EDGE_ROUNDED;
   table.impeller.through_shaft_diameter = 20e-3;
@@ -94,7 +83,7 @@ static void fillets_round_edges_shaft_and_radial_discharge(void **) {
 }
 
 static void sharp_edges(void **) {
-  CwCase table = read_case("paper");
+  CwCase table = case_of("paper");
   table.impeller.trailing_edge = CW_EDGE_SHARP;
   expect_no_fault_in(table);
 }
@@ -102,7 +91,7 @@ static void sharp_edges(void **) {
 int main(int argc, char **argv) {
   crossings = argc > 1 && std::string(argv[1]) == "crossings";
   const CMUnitTest tests[] = {
-      cmocka_unit_test(paper),
+      cmocka_unit_test(papers_pump),
       cmocka_unit_test(splitters_and_zones),
       cmocka_unit_test(fillets_round_edges_shaft_and_radial_discharge),
       cmocka_unit_test(sharp_edges),

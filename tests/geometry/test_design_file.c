@@ -6,7 +6,7 @@
 
 #include "geometry/design_file.h"
 #include "geometry/hydraulic_design.h"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static double number(const json_t *root, const char *key) {
@@ -20,11 +20,9 @@ static void keys_of_the_format(void **state) {
   static const char *const keys[] = {"impeller_tip_speed_m_per_s", "relative_speed_m_per_s",  "volute_speed_m_per_s",
                                      "suction_speed_m_per_s",      "discharge_speed_m_per_s", "interface_radius_m",
                                      "predicted_head_m",           "rotor_volume_m3",         "stator_volume_m3"};
-  CwCase table;
-  CwDesign design;
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
   CwMeasuredPump measured = {.solid = {{.volume = 5e-4}, {.volume = 7e-4}}, .rotor.wrap_angle = 71 * M_PI / 180};
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
   json_error_t error;
   json_t *root = json_load_file("design-file-test.json", 0, &error);
@@ -62,12 +60,10 @@ static void keys_of_the_format(void **state) {
 
 // One splitter a blade, or none.
 static void splitters_are_counted(void **state) {
-  CwCase table;
-  CwDesign design;
+  const CwCase table = paper();
   CwMeasuredPump measured = {.solid = {{.volume = 5e-4}, {.volume = 7e-4}}};
   for (int splitters = 0; splitters < 2; splitters++) {
-    assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-    assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+    CwDesign design = design_of(&table);
     if (splitters) design.splitter_start = 0.4;
     assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
     json_error_t error;

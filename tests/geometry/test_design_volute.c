@@ -4,7 +4,6 @@
 
 #include "geometry/hydraulic_design.h"
 #include "pipeline/case_schema.h"
-#include "tests/geometry/near_to.h"
 #include "tests/unit_test.h"
 
 static const double LEAST_FLOW = 0.3 / 3600; // m3/s
@@ -55,8 +54,8 @@ static void given_walls_yield_after_open_ones(void **state) {
     const double angle = rectangle ? 0 : given->side_wall_angle, asked_angle = d.asked[CW_DESIGN_side_wall_angle];
     assert_int_equal(!isnan(asked_angle), cases[i].angle_yields);
     assert_int_equal(!isnan(d.asked[CW_DESIGN_inlet_width]), cases[i].width_yields);
-    if (cases[i].angle_yields) near_to(asked_angle, angle, 1e-15);
-    if (cases[i].width_yields) near_to(d.asked[CW_DESIGN_inlet_width], given->inlet_width, 1e-15);
+    if (cases[i].angle_yields) assert_near(asked_angle, angle, 1e-15);
+    if (cases[i].width_yields) assert_near(d.asked[CW_DESIGN_inlet_width], given->inlet_width, 1e-15);
     if (cases[i].angle_given || rectangle) assert_int_equal(d.side_wall_angle > angle + 1e-9, cases[i].angle_yields);
     if (cases[i].width_yields) assert_true(d.side_wall_angle > 20.5 * M_PI / 180); // from 20 degrees on, as an open one
     if (given->section == CW_SECTION_TRAPEZOID || !cases[i].angle_yields)
@@ -85,9 +84,9 @@ static void volutes_of_any_duty(void **state) {
 static void similar_pumps(void **state) {
   CwDesign small, large;
   assert_true(duty(30, 0.3, &small) && duty(30, 0.6, &large));
-  near_to(large.base_diameter / large.outlet_diameter, small.base_diameter / small.outlet_diameter, 1e-12);
-  near_to(large.inlet_width / large.outlet_diameter, small.inlet_width / small.outlet_diameter, 1e-3);
-  near_to(large.tongue_radius / large.outlet_diameter, small.tongue_radius / small.outlet_diameter, 1e-12);
+  assert_near(large.base_diameter / large.outlet_diameter, small.base_diameter / small.outlet_diameter, 1e-12);
+  assert_near(large.inlet_width / large.outlet_diameter, small.inlet_width / small.outlet_diameter, 1e-3);
+  assert_near(large.tongue_radius / large.outlet_diameter, small.tongue_radius / small.outlet_diameter, 1e-12);
 }
 
 int main(void) {

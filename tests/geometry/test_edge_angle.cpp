@@ -12,7 +12,6 @@
 #include <TopoDS.hxx>
 #include <gp_Vec.hxx>
 
-#include "near_to.h"
 #include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
@@ -45,11 +44,11 @@ static void wedge(void **) {
     edges[(int)std::lround(found.angle / degree)]++;
     assert_int_not_equal(found.face[0], found.face[1]);
     if (found.angle > 31 * degree) return;
-    near_to(found.angle, 30 * degree, 1e-9);
-    near_to(found.at.X(), std::sqrt(3), 1e-9);
+    assert_near(found.angle, 30 * degree, 1e-9);
+    assert_near(found.at.X(), std::sqrt(3), 1e-9);
     upright = std::fmax(upright, found.at.Z());
   });
-  near_to(upright, 2, 1e-9);
+  assert_near(upright, 2, 1e-9);
   assert_int_equal(edges.size(), 3);
   assert_int_equal(edges[60], edges[30]);
   assert_int_equal(edges[90], 7 * edges[30]);
@@ -68,15 +67,15 @@ static void ledge(void **) {
   int inner = 0, corners = 0, none = 0;
   cw_edge_angles(solid, all, [&](const CwEdgeAngle &found) {
     if (found.angle < M_PI) return;
-    near_to(found.angle, 1.5 * M_PI, 1e-9);
-    near_to(found.at.X(), 1, 1e-9);
-    near_to(found.at.Y(), 1, 1e-9);
+    assert_near(found.angle, 1.5 * M_PI, 1e-9);
+    assert_near(found.at.X(), 1, 1e-9);
+    assert_near(found.at.Y(), 1, 1e-9);
     inner++;
   });
   assert_true(inner > 2);
   cw_corner_angles(solid, [&](const CwCornerAngle &found) {
     if (found.angle < M_PI) return;
-    near_to(found.angle, 1.5 * M_PI, 1e-9);
+    assert_near(found.angle, 1.5 * M_PI, 1e-9);
     corners++;
   });
   assert_int_equal(corners, 2);

@@ -16,16 +16,16 @@ static void open_outlet_diameter_stays_within_the_volute(void **state) {
   CwCase table = duty_point(54, 20, 1800);
   const double open = design_of(&table).outlet_diameter;
   table.volute.base_diameter = 1.1 * open;
-  near_to(design_of(&table).outlet_diameter, open, 1e-9);
+  assert_near(design_of(&table).outlet_diameter, open, 1e-9);
   table.volute.base_diameter = 1.01 * open;
   const CwDesign design = design_of(&table);
-  near_to(design.outlet_diameter, table.volute.base_diameter / 1.02, 1e-9);
-  near_to(design.predicted_head, 20, 1e-4);
+  assert_near(design.outlet_diameter, table.volute.base_diameter / 1.02, 1e-9);
+  assert_near(design.predicted_head, 20, 1e-4);
   assert_true(design.outlet_blade_angle > 18 * degree);
   table.volute.base_diameter = 0.6 * open;
   const CwDesign wider = design_of(&table);
-  near_to(wider.asked[CW_DESIGN_base_diameter], 0.6 * open, 1e-12);
-  near_to(wider.outlet_diameter, open, 1e-9);
+  assert_near(wider.asked[CW_DESIGN_base_diameter], 0.6 * open, 1e-12);
+  assert_near(wider.outlet_diameter, open, 1e-9);
 }
 
 // Given dimensions go before the head down to a third of it, with the blade angle nearest to it; not where the head
@@ -36,8 +36,8 @@ static void head_gives_way_to_given_dimensions(void **state) {
   table.impeller.outlet_width = open.outlet_width;
   table.impeller.outlet_diameter = 0.85 * open.outlet_diameter;
   const CwDesign low = design_of(&table);
-  near_to(low.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
-  near_to(low.outlet_blade_angle, 60 * degree, 1e-9);
+  assert_near(low.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
+  assert_near(low.outlet_blade_angle, 60 * degree, 1e-9);
   assert_true(low.predicted_head > 20.0 / 3 && low.predicted_head < 19.9);
   CwDesign refused;
   table.impeller.priority = CW_PRIORITY_HEAD;
@@ -57,7 +57,7 @@ static void given_values_give_way(void **state) {
   assert_true(isnan(open.asked[CW_DESIGN_wrap_angle]));
   table.impeller.wrap_angle = 2.2 * open.wrap_angle;
   const CwDesign wrapped = design_of(&table);
-  near_to(wrapped.asked[CW_DESIGN_wrap_angle], table.impeller.wrap_angle, 1e-12);
+  assert_near(wrapped.asked[CW_DESIGN_wrap_angle], table.impeller.wrap_angle, 1e-12);
   assert_true(wrapped.wrap_angle < table.impeller.wrap_angle && wrapped.wrap_angle > open.wrap_angle);
   CwDesign refused;
   table.impeller.priority = CW_PRIORITY_WRAP;
@@ -68,7 +68,7 @@ static void given_values_give_way(void **state) {
   table = duty_point(54, 20, 1800);
   table.impeller.root_fillet_radius = open.outlet_diameter / 10;
   const CwDesign rounded = design_of(&table);
-  near_to(rounded.asked[CW_DESIGN_root_fillet_radius], open.outlet_diameter / 10, 1e-12);
+  assert_near(rounded.asked[CW_DESIGN_root_fillet_radius], open.outlet_diameter / 10, 1e-12);
   assert_true(rounded.root_fillet_radius > 0 && rounded.root_fillet_radius < open.outlet_diameter / 10);
   assert_int_equal(rounded.trailing_edge, CW_EDGE_BEVELLED);
   assert_true(isnan(rounded.asked[CW_DESIGN_trailing_edge_bevel]));
@@ -78,7 +78,7 @@ static void given_values_give_way(void **state) {
     const CwDesign filleted = design_of(&table);
     assert_int_equal(filleted.trailing_edge, feather ? CW_EDGE_BEVELLED : edge);
     assert_int_equal(!isnan(filleted.asked[CW_DESIGN_trailing_edge_bevel]), feather);
-    if (feather) near_to(filleted.trailing_edge_bevel, rounded.trailing_edge_bevel, 1e-12);
+    if (feather) assert_near(filleted.trailing_edge_bevel, rounded.trailing_edge_bevel, 1e-12);
   }
   table.impeller.root_fillet_radius = 0;
   assert_int_equal(design_of(&table).trailing_edge, CW_EDGE_SHARP);
@@ -91,11 +91,11 @@ static void given_values_give_way(void **state) {
   const CwDesign flat = design_of(&table);
   assert_int_equal(flat.blade_form, CW_BLADE_TWISTED);
   assert_false(isnan(flat.asked[CW_DESIGN_leading_edge_radius_shroud]));
-  near_to(flat.leading_edge_radius_shroud, twisted.leading_edge_radius_shroud, 1e-12);
+  assert_near(flat.leading_edge_radius_shroud, twisted.leading_edge_radius_shroud, 1e-12);
 
   table = duty_point(2287.1, 1369.9, 6803.2); // whose shaft asks for a thick hub
   table.impeller.inlet_diameter = 0.85 * design_of(&table).inlet_diameter;
-  near_to(design_of(&table).hub_diameter, 0.65 * table.impeller.inlet_diameter, 1e-12);
+  assert_near(design_of(&table).hub_diameter, 0.65 * table.impeller.inlet_diameter, 1e-12);
 }
 
 // A given wheel somewhat too small or too large for its head at any outlet blade angle: b2 meets the head. A given b2
@@ -110,8 +110,8 @@ static void open_outlet_width_meets_the_head_of_a_given_wheel(void **state) {
     for (int i = 1;; i++) {
       table.impeller.outlet_diameter = (1 + 0.01 * way * i) * open.outlet_diameter;
       if (cw_hydraulic_design(&table, &design) != CW_OK) break;
-      near_to(design.predicted_head, 20, 0.02);
-      near_to(design.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
+      assert_near(design.predicted_head, 20, 0.02);
+      assert_near(design.outlet_diameter, table.impeller.outlet_diameter, 1e-12);
       wider += way < 0 && design.outlet_width > 1.001 * open.outlet_width;
       narrower += way > 0 && design.outlet_width < 0.999 * open.outlet_width;
     }
@@ -138,8 +138,8 @@ static void cylindrical_blades_stand_on_the_walls(void **state) {
     assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
     assert_int_equal(cw_blade_wall_angle(&design, &meridian, &angle), CW_OK);
     assert_true(angle >= 50 * degree);
-    near_to(design.leading_edge_radius_hub, design.leading_edge_radius_shroud, 1e-12);
-    near_to(design.predicted_head, duty[i][1], 1e-3 * duty[i][1]);
+    assert_near(design.leading_edge_radius_hub, design.leading_edge_radius_shroud, 1e-12);
+    assert_near(design.predicted_head, duty[i][1], 1e-3 * duty[i][1]);
   }
   // A given wrap with no law for a blade that begins so far out gives way to the nearest step.
   CwCase table = duty_point(1680.3, 12.575, 314.56);
@@ -150,9 +150,9 @@ static void cylindrical_blades_stand_on_the_walls(void **state) {
   table.impeller.outlet_diameter = 1.0145;
   table.impeller.wrap_angle = 143.89 * degree;
   const CwDesign wrapped = design_of(&table);
-  near_to(wrapped.asked[CW_DESIGN_wrap_angle], 143.89 * degree, 1e-9);
-  near_to(wrapped.wrap_angle, 143.89 / 1.12 * degree, 1e-9);
-  near_to(wrapped.outlet_angle_residual, 0, 1e-9);
+  assert_near(wrapped.asked[CW_DESIGN_wrap_angle], 143.89 * degree, 1e-9);
+  assert_near(wrapped.wrap_angle, 143.89 / 1.12 * degree, 1e-9);
+  assert_near(wrapped.outlet_angle_residual, 0, 1e-9);
 }
 
 int main(void) {

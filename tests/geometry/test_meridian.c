@@ -3,17 +3,16 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
-#include "pipeline/case_read.h"
-#include "tests/geometry/near_to.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static CwDesign design;
 static CwMeridian meridian;
 
 static int setup(void **state) {
-  CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-         cw_meridian_make(&design, &meridian);
+  const CwCase table = paper();
+  design = design_of(&table);
+  return cw_meridian_make(&design, &meridian);
 }
 
 // Against the sum of a million chords.
@@ -27,27 +26,27 @@ static void arc_length(void **state) {
     last[0] = x[0];
     last[1] = x[1];
   }
-  near_to(cw_meridian_length(curve, 1), sum, 1e-11);
+  assert_near(cw_meridian_length(curve, 1), sum, 1e-11);
   for (double t = 0.013; t < 1; t += 0.05)
-    near_to(cw_meridian_parameter(curve, cw_meridian_length(curve, t)), t, 1e-12);
+    assert_near(cw_meridian_parameter(curve, cw_meridian_length(curve, t)), t, 1e-12);
 }
 
 static void ends_of_the_blade(void **state) {
   double x[2];
   for (int s = 0; s <= 1; s++) {
     cw_meridian_blade_point(&meridian, s, 0, x, NULL);
-    near_to(x[0], s ? design.leading_edge_radius_shroud : design.leading_edge_radius_hub, 1e-12);
+    assert_near(x[0], s ? design.leading_edge_radius_shroud : design.leading_edge_radius_hub, 1e-12);
   }
   for (double s = 0; s <= 1; s += 0.25) {
     cw_meridian_blade_point(&meridian, s, 1, x, NULL);
-    near_to(x[0], 0.100, 1e-12);
+    assert_near(x[0], 0.100, 1e-12);
   }
 }
 
 // The area at the blade's ends: pi D2 b2 at D2, where both walls are radial, and square to the flow at the leading
 // edge.
 static void areas(void **state) {
-  near_to(cw_meridian_area(&meridian, 1), M_PI * 0.2 * 0.008, 4e-6); // the hub is not quite flat at D2
+  assert_near(cw_meridian_area(&meridian, 1), M_PI * 0.2 * 0.008, 4e-6); // the hub is not quite flat at D2
   double h[2], c[2], a[2], b[2];
   cw_meridian_blade_point(&meridian, 0, 0, h, NULL);
   cw_meridian_blade_point(&meridian, 1, 0, c, NULL);
@@ -56,15 +55,15 @@ static void areas(void **state) {
   const double along =
       ((c[0] - h[0]) * (b[0] - a[0]) + (c[1] - h[1]) * (b[1] - a[1])) / hypot(b[0] - a[0], b[1] - a[1]);
   const double width = sqrt(pow(c[0] - h[0], 2) + pow(c[1] - h[1], 2) - along * along);
-  near_to(cw_meridian_area(&meridian, 0), M_PI * (h[0] + c[0]) * width, 1e-9);
+  assert_near(cw_meridian_area(&meridian, 0), M_PI * (h[0] + c[0]) * width, 1e-9);
 }
 
 // Of a quarter circle's usual cubic.
 static void curvature(void **state) {
   const double k = 0.5522847498;
   const CwMeridianCurve quarter = {.pole = {{0, 3}, {3 * k, 3}, {3, 3 * k}, {3, 0}}};
-  for (double t = 0; t <= 1; t += 0.1) near_to(cw_meridian_curvature(&quarter, t), 1.0 / 3, 0.01);
-  near_to(cw_meridian_bend_radius(&quarter), 3, 0.08);
+  for (double t = 0; t <= 1; t += 0.1) assert_near(cw_meridian_curvature(&quarter, t), 1.0 / 3, 0.01);
+  assert_near(cw_meridian_bend_radius(&quarter), 3, 0.08);
 }
 
 // Volume of revolution against the sum over thin slices of r: 2 pi r times the height.
@@ -96,7 +95,7 @@ static void volume(void **state) {
     low = z[1];
     sum += 2 * M_PI * r * (high - low) * ri / SLICES;
   }
-  near_to(cw_meridian_volume(&meridian) / sum, 1, 4e-6);
+  assert_near(cw_meridian_volume(&meridian) / sum, 1, 4e-6);
 }
 
 static void misplaced_leading_edge_is_refused(void **state) {

@@ -3,8 +3,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian_passage.h"
-#include "pipeline/case_read.h"
-#include "tests/geometry/near_to.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 enum { COUNT = 33 };
@@ -24,10 +23,10 @@ static void straight_annulus(void **state) {
   CwPassageStation station[COUNT];
   cw_meridian_passage(&hub, &shroud, 3, COUNT, station);
   for (int i = 0; i < COUNT; i++) {
-    near_to(station[i].hub[1], station[i].shroud[1], 1e-12);
-    near_to(station[i].area, 3 * M_PI, 1e-12);
+    assert_near(station[i].hub[1], station[i].shroud[1], 1e-12);
+    assert_near(station[i].area, 3 * M_PI, 1e-12);
   }
-  near_to(station[COUNT - 1].length, 3, 1e-9);
+  assert_near(station[COUNT - 1].length, 3, 1e-9);
 }
 
 // Between parallel disks 2 pi r b; the last station lies at the radius asked.
@@ -36,10 +35,10 @@ static void parallel_disks(void **state) {
   CwPassageStation station[COUNT];
   cw_meridian_passage(&hub, &shroud, 3, COUNT, station);
   for (int i = 0; i < COUNT; i++) {
-    near_to(station[i].hub[0], station[i].shroud[0], 1e-12);
-    near_to(station[i].area, 2 * M_PI * station[i].shroud[0], 1e-11);
+    assert_near(station[i].hub[0], station[i].shroud[0], 1e-12);
+    assert_near(station[i].area, 2 * M_PI * station[i].shroud[0], 1e-11);
   }
-  near_to(station[COUNT - 1].shroud[0], 3, 1e-12);
+  assert_near(station[COUNT - 1].shroud[0], 3, 1e-12);
 }
 
 // A wedge: lines across it make the same angle with both walls, so that both ends are as far from its tip.
@@ -48,20 +47,18 @@ static void wedge(void **state) {
   CwPassageStation station[COUNT];
   cw_meridian_passage(&hub, &shroud, 7, COUNT, station);
   for (int i = 0; i < COUNT && station[i].hub[1] < 5; i++)
-    near_to(hypot(station[i].shroud[0] - 1, station[i].shroud[1]), station[i].hub[1], 1e-10);
+    assert_near(hypot(station[i].shroud[0] - 1, station[i].shroud[1]), station[i].hub[1], 1e-10);
 }
 
 static void paper_passage(CwMeridian *meridian, CwPassageStation *station) {
-  CwCase table;
-  CwDesign design;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
   assert_int_equal(cw_meridian_make(&design, meridian), CW_OK);
   cw_meridian_passage(&meridian->hub, &meridian->shroud, design.outlet_diameter / 2, COUNT, station);
 }
 
 // On the paper's wheel: both angles alike, and the area as an integral over the line.
-static void paper(void **state) {
+static void papers_wheel(void **state) {
   CwMeridian meridian;
   CwPassageStation station[COUNT];
   paper_passage(&meridian, station);
@@ -86,9 +83,9 @@ static void paper(void **state) {
       assert_true(least < 1e-5);
       cosine[wall] = (dx[0] * across[0] + dx[1] * across[1]) / (hypot(dx[0], dx[1]) * width);
     }
-    near_to(cosine[0], -cosine[1], 2e-3);
+    assert_near(cosine[0], -cosine[1], 2e-3);
     for (int k = 0; k < 100; k++) sum += 2 * M_PI * (s->hub[0] + across[0] * (k + 0.5) / 100) * width / 100;
-    near_to(s->area, sum, 1e-12);
+    assert_near(s->area, sum, 1e-12);
   }
 }
 
@@ -99,29 +96,25 @@ static void line_at_a_radius(void **state) {
   paper_passage(&meridian, station);
   for (int i = 1; i < COUNT; i++) {
     const CwPassageStation at = cw_meridian_passage_at(&meridian.hub, &meridian.shroud, station[i].shroud[0]);
-    near_to(at.hub[0], station[i].hub[0], 1e-9);
-    near_to(at.height, station[i].height, 1e-9);
-    near_to(at.area, station[i].area, 1e-10);
+    assert_near(at.hub[0], station[i].hub[0], 1e-9);
+    assert_near(at.height, station[i].height, 1e-9);
+    assert_near(at.area, station[i].area, 1e-10);
   }
 }
 
 static void reversal(void **state) {
   CwPassageStation station[5] = {{.area = 10}, {.area = 12}, {.area = 11.4}, {.area = 12.6}, {.area = 13}};
-  near_to(cw_passage_reversal(station, 5), 0.05, 1e-12);
+  assert_near(cw_passage_reversal(station, 5), 0.05, 1e-12);
   station[2].area = 12.3;
   assert_true(cw_passage_reversal(station, 5) == 0);
   station[4].area = 8; // should fall then, but rises from 10 to 12.6
-  near_to(cw_passage_reversal(station, 5), 0.26, 1e-12);
+  assert_near(cw_passage_reversal(station, 5), 0.26, 1e-12);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(straight_annulus),
-      cmocka_unit_test(parallel_disks),
-      cmocka_unit_test(wedge),
-      cmocka_unit_test(paper),
-      cmocka_unit_test(line_at_a_radius),
-      cmocka_unit_test(reversal),
+      cmocka_unit_test(straight_annulus), cmocka_unit_test(parallel_disks),   cmocka_unit_test(wedge),
+      cmocka_unit_test(papers_wheel),     cmocka_unit_test(line_at_a_radius), cmocka_unit_test(reversal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

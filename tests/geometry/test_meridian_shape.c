@@ -5,18 +5,19 @@
 #include "geometry/meridian.h"
 #include "geometry/meridian_passage.h"
 #include "geometry/meridian_shape.h"
-#include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 enum { COUNT = 201 };
 
-static CwCase paper;
+static CwCase paper_case;
 static CwDesign paper_design;
 
 static int setup(void **state) {
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &paper) ||
-         cw_hydraulic_design(&paper, &paper_design);
+  paper_case = paper();
+  paper_design = design_of(&paper_case);
+  return 0;
 }
 
 static double reversal_of(const CwDesign *design) {
@@ -50,14 +51,9 @@ static void area_is_monotone(void **state) {
                                    {60, 12}, {200, 15}, {300, 13.5}}; // m3/h, m at 1450 rpm
   assert_true(reversal_of(&paper_design) == 0 && paper_design.passage_area_reversal == 0);
   for (int i = 0; i < 12; i++) {
-    CwCase table;
-    CwDesign design;
-    cw_case_defaults(&table);
-    table.operating_point.flow_rate = duty[i / 2][0] / 3600;
-    table.operating_point.head = duty[i / 2][1];
-    table.operating_point.speed = 1450 * M_PI / 30;
+    CwCase table = duty_point(duty[i / 2][0], duty[i / 2][1], 1450);
     table.design.correlations = i % 2 ? CW_CORRELATIONS_GUAN : CW_CORRELATIONS_GUELICH;
-    assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+    const CwDesign design = design_of(&table);
     if (reversal_of(&design) > 0 || design.passage_area_outlet <= design.passage_area_eye)
       fail_msg("nq %.1f: from %.0f to %.0f mm2, %.4f back", design.specific_speed_nq, design.passage_area_eye * 1e6,
                design.passage_area_outlet * 1e6, reversal_of(&design));
@@ -120,24 +116,23 @@ static void size_does_not_matter(void **state) {
                       &large.leading_edge_radius_shroud};
   for (size_t i = 0; i < sizeof length / sizeof *length; i++) *length[i] *= 8;
   large.hub_pole_radial = NAN;
-  cw_meridian_shape(&paper.impeller, &large);
+  cw_meridian_shape(&paper_case.impeller, &large);
   assert_true(large.hub_pole_radial == paper_design.hub_pole_radial);
   assert_true(large.shroud_pole_axial == paper_design.shroud_pole_axial);
   assert_true(large.shroud_pole_radial == paper_design.shroud_pole_radial);
 }
 
 static void given_poles_are_kept(void **state) {
-  CwCase table = paper;
-  CwDesign design;
+  CwCase table = paper_case;
   table.impeller.hub_pole_radial = 1.471;
   table.impeller.shroud_pole_axial = 0.431;
   table.impeller.shroud_pole_radial = 0.022;
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  CwDesign design = design_of(&table);
   assert_true(design.hub_pole_radial == 1.471 && design.shroud_pole_axial == 0.431 &&
               design.shroud_pole_radial == 0.022);
   assert_true(design.passage_area_reversal > 0.04);
   table.impeller.shroud_pole_axial = table.impeller.shroud_pole_radial = NAN;
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  design = design_of(&table);
   assert_true(design.hub_pole_radial == 1.471);
   assert_true(design.passage_area_reversal < 0.03);
 }

@@ -7,29 +7,16 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/picture.h"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
-
-static char *slurp(const char *path) {
-  FILE *file = fopen(path, "rb");
-  assert_non_null(file);
-  fseek(file, 0, SEEK_END);
-  const size_t size = (size_t)ftell(file);
-  rewind(file);
-  char *text = malloc(size + 1);
-  assert_non_null(text);
-  assert_int_equal(fread(text, 1, size, file), size);
-  text[size] = 0;
-  fclose(file);
-  return text;
-}
+#include "tests/whole_file.h"
 
 // Each picture is whole, has no undefined number and no point outside its sheet.
 static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design, const char *words) {
   char path[64];
   snprintf(path, sizeof path, "picture-test-%ld.svg", (long)getpid());
   if (draw(design, path) != CW_OK) fail_msg("%s", cw_fail_message());
-  char *text = slurp(path);
+  char *text = read_whole(path, NULL);
   unlink(path);
   assert_int_equal(strncmp(text, "<svg ", 5), 0);
   assert_string_equal(text + strlen(text) - 7, "</svg>\n");
@@ -54,10 +41,8 @@ static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesi
 }
 
 static void pictures(void **state) {
-  CwCase table;
-  CwDesign design;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
   check(cw_picture_meridional, &design, "D2 = 200.0 mm");
   check(cw_picture_blade_to_blade, &design, "wrap 71.0, beta1");
   check(cw_picture_velocity_triangles, &design, "u = 15.18");
@@ -68,14 +53,12 @@ static void pictures(void **state) {
 
 // The blades end at the outlet diameter, by the circle of the interface's radius.
 static void blades_end_at_the_outlet_diameter(void **state) {
-  CwCase table;
-  CwDesign design;
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
   double centre[2], circle, x, y, most = 0;
   int used;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_int_equal(cw_picture_blade_to_blade(&design, "picture-test-blades.svg"), CW_OK);
-  char *text = slurp("picture-test-blades.svg");
+  char *text = read_whole("picture-test-blades.svg", NULL);
   unlink("picture-test-blades.svg");
   assert_int_equal(
       sscanf(strstr(text, "<circle"), "<circle cx=\"%lf\" cy=\"%lf\" r=\"%lf", centre, centre + 1, &circle), 3);
@@ -91,7 +74,7 @@ static void text_is_escaped(void **state) {
   assert_int_equal(cw_picture_begin(&picture, "picture-test-escape.svg", 10, 10), CW_OK);
   cw_picture_text(&picture, CW_TEXT_LEFT, 1, 1, "%s", "a<b & c>d");
   assert_int_equal(cw_picture_end(&picture), CW_OK);
-  char *text = slurp("picture-test-escape.svg");
+  char *text = read_whole("picture-test-escape.svg", NULL);
   assert_non_null(strstr(text, "a&lt;b &amp; c&gt;d"));
   free(text);
   unlink("picture-test-escape.svg");
@@ -99,6 +82,6 @@ static void text_is_escaped(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(blades_end_at_the_outlet_diameter),
-      cmocka_unit_test(text_is_escaped)};
+                                     cmocka_unit_test(text_is_escaped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 
 #include "tests/test_folder.h"
-#include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static int run(const char *case_file, const char *name) {
   char command[600];
@@ -18,13 +18,11 @@ static int run(const char *case_file, const char *name) {
 }
 
 static int messages_have(const char *words) {
-  char path[64], line[1000];
-  int found = 0;
+  char path[64];
   snprintf(path, sizeof path, "%s/messages", test_folder);
-  FILE *file = fopen(path, "r");
-  assert_non_null(file);
-  while (fgets(line, sizeof line, file)) found |= strstr(line, words) != NULL;
-  fclose(file);
+  char *messages = read_whole(path, NULL);
+  const int found = strstr(messages, words) != NULL;
+  free(messages);
   return found;
 }
 

@@ -9,17 +9,16 @@
 #include "geometry/pump.h"
 #include "geometry/rotor.h"
 #include "geometry/stator.h"
-#include "pipeline/case_read.h"
-#include "tests/geometry/near_to.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static CwDesign design;
 static CwSolid *rotor, *stator;
 
 static int setup(void **state) {
-  CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-         cw_rotor_build(&design, &rotor) || cw_stator_build(&design.volute, cw_solid_unit(rotor), &stator);
+  const CwCase table = paper();
+  design = design_of(&table);
+  return cw_rotor_build(&design, &rotor) || cw_stator_build(&design.volute, cw_solid_unit(rotor), &stator);
 }
 
 static int teardown(void **state) {
@@ -37,11 +36,11 @@ static void stator_dimensions_and_interface(void **state) {
   assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
   assert_int_equal(cw_measure_stator(stator, &s), CW_OK);
   assert_int_equal(cw_measure_rotor(rotor, &r), CW_OK);
-  near_to(s.base_diameter, 0.204, 1e-6);
-  near_to(s.inlet_width, 0.012, 1e-6);
-  near_to(s.interface_radius, 0.101, 1e-9);
-  near_to(s.interface_area, 2 * M_PI * 0.101 * 0.008, 1e-10);
-  near_to(s.interface_area / r.interface_area, 1, 1e-9);
+  assert_near(s.base_diameter, 0.204, 1e-6);
+  assert_near(s.inlet_width, 0.012, 1e-6);
+  assert_near(s.interface_radius, 0.101, 1e-9);
+  assert_near(s.interface_area, 2 * M_PI * 0.101 * 0.008, 1e-10);
+  assert_near(s.interface_area / r.interface_area, 1, 1e-9);
 }
 
 // The dimensions of the rotor cannot be read from a stator: one line says what is missing.

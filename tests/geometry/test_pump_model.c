@@ -5,23 +5,15 @@
 #include <string.h>
 
 #include "geometry/hydraulic_design.h"
-#include "pipeline/case_read.h"
-#include "tests/geometry/near_to.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 // The pump of cases/zones, with figures from which the flows follow by hand.
 static CwModel model_of(const char *name, double shaft) {
-  CwCase table;
+  const CwCase table = case_of(name);
   CwDesign design;
-  CwPipeStubs stubs;
-  CwPump pump = {0};
+  CwPump pump = pump_of(&table, &design);
   CwModel model = {0};
-  char path[512];
-  snprintf(path, sizeof path, CUTWATER_SOURCE_DIR "/cases/%s/case.yaml", name);
-  assert_int_equal(cw_case_read(path, &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
-  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_OK);
-  if (cw_pump_build(&table, &design, &stubs, &pump) != CW_OK) fail_msg("%s", cw_fail_message());
   design.relative_speed = 7, design.volute_speed = 6, design.suction_speed = 2;
   design.throat_speed = 12, design.discharge_speed = 3;
   design.interface_radius = 0.1, design.outlet_diameter = 0.196, design.inlet_diameter = 0.07;
@@ -43,34 +35,34 @@ static const CwModelPatch *patch_of(const CwModel *model, const char *name) {
 static void flows_follow_from_the_design(void **state) {
   CwModel model = model_of("zones", 0);
   const CwWallFlow blade = patch_of(&model, "blade_pressure")->flow;
-  near_to(blade.speed, 7, 0);
-  near_to(blade.length, 0.12, 1e-15);
-  near_to(blade.diameter, 0.015, 1e-15); // four times 10 x 30 over 80
-  near_to(blade.width, 0.008, 0);
-  near_to(blade.before, 0, 0);
+  assert_near(blade.speed, 7, 0);
+  assert_near(blade.length, 0.12, 1e-15);
+  assert_near(blade.diameter, 0.015, 1e-15); // four times 10 x 30 over 80
+  assert_near(blade.width, 0.008, 0);
+  assert_near(blade.before, 0, 0);
   assert_memory_equal(&patch_of(&model, "shroud")->flow, &blade, sizeof blade);
-  near_to(patch_of(&model, "blade_trailing_edge")->flow.before, 0.002, 1e-15); // from 98 to 100 mm
+  assert_near(patch_of(&model, "blade_trailing_edge")->flow.before, 0.002, 1e-15); // from 98 to 100 mm
   const CwWallFlow volute = patch_of(&model, "volute")->flow;
-  near_to(volute.speed, 6, 0);
-  near_to(volute.length, 0.3, 1e-15);
-  near_to(volute.diameter, 0.02, 1e-15); // a throat as large as a circle of 20 mm
-  near_to(volute.width, 0.015, 1e-15);
-  near_to(patch_of(&model, "neck")->flow.width, 0.01, 1e-15);
-  near_to(patch_of(&model, "inlet_pipe")->flow.speed, 2, 0);
-  near_to(patch_of(&model, "inlet_pipe")->flow.width, 0.07, 1e-15);
-  near_to(patch_of(&model, "outlet_pipe")->flow.speed, 3, 0);
+  assert_near(volute.speed, 6, 0);
+  assert_near(volute.length, 0.3, 1e-15);
+  assert_near(volute.diameter, 0.02, 1e-15); // a throat as large as a circle of 20 mm
+  assert_near(volute.width, 0.015, 1e-15);
+  assert_near(patch_of(&model, "neck")->flow.width, 0.01, 1e-15);
+  assert_near(patch_of(&model, "inlet_pipe")->flow.speed, 2, 0);
+  assert_near(patch_of(&model, "inlet_pipe")->flow.width, 0.07, 1e-15);
+  assert_near(patch_of(&model, "outlet_pipe")->flow.speed, 3, 0);
   // Of 12 at the throat and 3 at the end of a cone: its radius doubles, and the mean of 12 / (1 + s)^2 over s is 6.
-  near_to(patch_of(&model, "diffuser")->flow.speed, 6, 1e-14);
-  near_to(patch_of(&model, "diffuser")->flow.length, 0.3, 1e-15);
-  near_to(model.flow.inlet_speed, 2, 0);
-  near_to(model.flow.passage_speed, 7, 0);
-  near_to(model.flow.passage_width, 0.01, 0);
-  near_to(model.flow.inlet_diameter, 0.07, 0);
-  near_to(model.flow.reference_length, 0.196, 0);
+  assert_near(patch_of(&model, "diffuser")->flow.speed, 6, 1e-14);
+  assert_near(patch_of(&model, "diffuser")->flow.length, 0.3, 1e-15);
+  assert_near(model.flow.inlet_speed, 2, 0);
+  assert_near(model.flow.passage_speed, 7, 0);
+  assert_near(model.flow.passage_width, 0.01, 0);
+  assert_near(model.flow.inlet_diameter, 0.07, 0);
+  assert_near(model.flow.reference_length, 0.196, 0);
   cw_model_free(&model);
   model = model_of("zones", 0.03); // a ring from 30 to 70 mm
-  near_to(patch_of(&model, "suction_pipe")->flow.diameter, 0.04, 1e-15);
-  near_to(patch_of(&model, "suction_pipe")->flow.width, 0.02, 1e-15);
+  assert_near(patch_of(&model, "suction_pipe")->flow.diameter, 0.04, 1e-15);
+  assert_near(patch_of(&model, "suction_pipe")->flow.width, 0.02, 1e-15);
   cw_model_free(&model);
 }
 
@@ -105,7 +97,7 @@ static void patches_have_groups_and_turn_or_not(void **state) {
   assert_int_equal(model.interface_count, 3);
   for (int i = 0; i < 3; i++)
     assert_int_equal(model.interface[i].surface, i == 0 ? CW_SURFACE_CYLINDER : CW_SURFACE_PLANE);
-  near_to(model.interface[0].radius, 0.1, 0);
+  assert_near(model.interface[0].radius, 0.1, 0);
   cw_model_free(&model);
 }
 

@@ -16,24 +16,8 @@
 #include "geometry/measure.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
-
-static CwCase read_case(const char *name) {
-  CwCase table;
-  const std::string path = std::string(CUTWATER_SOURCE_DIR "/cases/") + name + "/case.yaml";
-  assert_int_equal(cw_case_read(path.c_str(), &table), CW_OK);
-  return table;
-}
-
-static CwPump build(const CwCase &table, CwDesign *design) {
-  CwPipeStubs stubs;
-  CwPump pump = {};
-  assert_int_equal(cw_hydraulic_design(&table, design), CW_OK);
-  assert_int_equal(cw_pump_pipe_stubs(&table, design, &stubs), CW_OK);
-  if (cw_pump_build(&table, design, &stubs, &pump) != CW_OK) fail_msg("%s", cw_fail_message());
-  return pump;
-}
 
 static CwMeasuredSolid measure(const CwSolid *solid) {
   CwMeasuredSolid measured;
@@ -70,10 +54,10 @@ static void same_outline(const CwSolid *a, const char *patch_a, const CwSolid *b
 
 static void check_zones(CwCase table) {
   CwDesign design, whole_design;
-  CwPump zones = build(table, &design);
+  CwPump zones = pump_of(&table, &design);
   table.impeller.suction_pipe_zone = table.volute.discharge_pipe_zone = CW_PIPE_WITH_NEIGHBOUR;
   table.impeller.suction_pipe_length = design.suction_pipe_length;
-  CwPump whole = build(table, &whole_design);
+  CwPump whole = pump_of(&table, &whole_design);
   assert_int_equal(whole.count, 2);
   assert_int_equal(whole.interface_count, 1);
   assert_int_equal(zones.count, 4);
@@ -111,17 +95,17 @@ static void check_zones(CwCase table) {
 }
 
 static void zones_add_up_to_the_whole(void **) {
-  check_zones(read_case("zones"));
+  check_zones(case_of("zones"));
 }
 
 static void the_other_hand_has_zones_too(void **) {
-  CwCase table = read_case("zones");
+  CwCase table = case_of("zones");
   table.impeller.rotation = CW_ROTATION_CLOCKWISE;
   check_zones(table);
 }
 
 static void radial_discharge_and_splitters_have_zones_too(void **) {
-  CwCase table = read_case("splitters");
+  CwCase table = case_of("splitters");
   table.impeller.suction_pipe_zone = table.volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
   table.volute.discharge = CW_DISCHARGE_RADIAL;
   table.volute.diffuser_length = 0.25;
@@ -129,16 +113,16 @@ static void radial_discharge_and_splitters_have_zones_too(void **) {
 }
 
 static void a_short_pipe_is_refused(void **) {
-  CwCase table = read_case("zones");
+  CwCase table = case_of("zones");
   CwDesign design;
   CwPipeStubs stubs;
   table.impeller.suction_pipe_length = 0.03;
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  design = design_of(&table);
   assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
   assert_non_null(std::strstr(cw_fail_message(), "raise suction_pipe_length_mm to at least"));
-  table = read_case("zones");
+  table = case_of("zones");
   table.volute.discharge_pipe_length = 0.02; // DN is 50 mm: 12.5 mm stay with the stator
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  design = design_of(&table);
   assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
   assert_non_null(std::strstr(cw_fail_message(), "raise discharge_pipe_length_mm to at least 25.0"));
 }
@@ -146,13 +130,13 @@ static void a_short_pipe_is_refused(void **) {
 // Round a shaft the zone is a ring, whose inner wall is the shaft; thinner than the hub, and as thick.
 static void a_shaft_makes_a_ring(void **) {
   for (double share : {0.6, 1.0}) {
-    CwCase table = read_case("zones");
+    CwCase table = case_of("zones");
     CwDesign design;
     CwMeasuredPump measured;
     table.impeller.hub_diameter = 0.024;
     table.impeller.through_shaft_diameter = share * 0.024;
     check_zones(table);
-    CwPump pump = build(table, &design);
+    CwPump pump = pump_of(&table, &design);
     if (cw_pump_measure(&design, &pump, &measured) != CW_OK) fail_msg("%s", cw_fail_message());
     int core = 0;
     for (const CwSolidFace &face : pump.solid[2]->faces)
@@ -167,21 +151,21 @@ static void a_shaft_makes_a_ring(void **) {
 
 // The rotor is cut, and so are the sections that its volume is held against.
 static void all_domains_are_sound(void **) {
-  const CwCase table = read_case("zones");
+  const CwCase table = case_of("zones");
   CwDesign design;
   CwMeasuredPump measured;
-  CwPump pump = build(table, &design);
+  CwPump pump = pump_of(&table, &design);
   if (cw_pump_measure(&design, &pump, &measured) != CW_OK) fail_msg("%s", cw_fail_message());
   for (int i = 0; i < pump.count; i++) assert_true(measured.solid[i].volume > 0 && measured.solid[i].valid);
   cw_pump_free(&pump);
 }
 
 static void an_open_length_leaves_a_diameter_to_the_zone(void **) {
-  CwCase table = read_case("zones");
+  CwCase table = case_of("zones");
   CwDesign design;
   CwPipeStubs stubs;
   table.impeller.suction_pipe_length = NAN;
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  design = design_of(&table);
   assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_OK);
   assert_float_equal(design.suction_pipe_length - stubs.suction, design.inlet_diameter, 1e-12);
   assert_true(stubs.suction >= 0.25 * design.inlet_diameter);

@@ -3,15 +3,13 @@
 #include <string.h>
 
 #include "geometry/remedy.h"
-#include "pipeline/case_schema.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static const double degree = M_PI / 180;
 
 static CwCase given(void) {
-  CwCase table;
-  cw_case_defaults(&table);
-  table.operating_point = (CwOperatingPoint){.flow_rate = 25 / 3600.0, .head = 10, .speed = 1450 * M_PI / 30};
+  CwCase table = duty_point(25, 10, 1450);
   table.impeller.wrap_angle = 30 * degree;
   table.impeller.outlet_width = 0.008;
   table.impeller.blade_count = 11;

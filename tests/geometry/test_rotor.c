@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: rotor_edges, rotor_faces, shell_builder.
+// Modules without a test of their own that it runs: rotor_edges, rotor_faces, rotor_volume, shell_builder.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,6 @@
 #include "geometry/measure.h"
 #include "geometry/meridian.h"
 #include "geometry/rotor.h"
-#include "geometry/rotor_volume.h"
 #include "pipeline/case.h"
 #include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
@@ -16,12 +15,6 @@
 static const double degree = M_PI / 180;
 
 // The B-rep's volume and that of the sections.
-static void volumes_agree(const CwDesign *design, const CwMeasuredSolid *solid, double tolerance) {
-  double expected;
-  assert_int_equal(cw_rotor_volume(design, &expected), CW_OK);
-  near_to(solid->volume / expected, 1, tolerance);
-}
-
 static void paper_rotor(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
@@ -29,12 +22,12 @@ static void paper_rotor(void **state) {
   CwMeasuredRotor rotor;
   measure(&design, &solid, &rotor);
   assert_int_equal(solid.face_count, 6 * 10 + 2);
-  near_to(rotor.wrap_angle, 71 * degree, 0.01 * degree);
-  near_to(rotor.inlet_diameter, 0.074, 1e-6);
-  near_to(rotor.outlet_diameter, 0.200, 1e-6);
-  near_to(rotor.outlet_width, 0.008, 1e-6);
-  near_to(rotor.interface_radius, 0.101, 1e-6);
-  near_to(rotor.interface_area, 2 * M_PI * 0.101 * 0.008, 1e-9);
+  assert_near(rotor.wrap_angle, 71 * degree, 0.01 * degree);
+  assert_near(rotor.inlet_diameter, 0.074, 1e-6);
+  assert_near(rotor.outlet_diameter, 0.200, 1e-6);
+  assert_near(rotor.outlet_width, 0.008, 1e-6);
+  assert_near(rotor.interface_radius, 0.101, 1e-6);
+  assert_near(rotor.interface_area, 2 * M_PI * 0.101 * 0.008, 1e-9);
   assert_true(rotor.hub_crease.angle > 72 * degree);
   assert_true(rotor.shroud_crease.angle > 72 * degree);
   assert_true(2 * M_PI - rotor.trailing_edge.angle > 75 * degree);
@@ -94,8 +87,8 @@ static void sweep(void **state) {
       if (!solid.valid || !solid.closed || solid.largest_tolerance > 1e-6)
         fail_msg("z %d, wrap %.0f deg, b2 %.0f mm: valid %d, closed %d, tolerance %.3g m", z, wraps[i],
                  design.outlet_width * 1e3, solid.valid, solid.closed, solid.largest_tolerance);
-      near_to(rotor.wrap_angle, wraps[i] * degree, 0.01 * degree);
-      near_to(rotor.outlet_width, design.outlet_width, 1e-6);
+      assert_near(rotor.wrap_angle, wraps[i] * degree, 0.01 * degree);
+      assert_near(rotor.outlet_width, design.outlet_width, 1e-6);
       volumes_agree(&design, &solid, 2e-5);
     }
 }
@@ -108,7 +101,7 @@ static void other_priorities(void **state) {
     CwMeasuredSolid solid;
     CwMeasuredRotor rotor;
     measure(&design, &solid, &rotor);
-    near_to(rotor.wrap_angle, design.wrap_angle, 0.01 * degree);
+    assert_near(rotor.wrap_angle, design.wrap_angle, 0.01 * degree);
   }
 }
 
@@ -134,8 +127,8 @@ static void trailing_edges(void **state) {
     measure(&design, &solid, &measured);
     volumes_agree(&design, &solid, 2e-5);
     volume[edge] = solid.volume;
-    near_to(measured.outlet_diameter, 0.2, edge == CW_EDGE_ROUNDED ? 1e-5 : 1e-6);
-    near_to(measured.wrap_angle, 71 * degree, edge == CW_EDGE_ROUNDED ? 1 * degree : 0.01 * degree);
+    assert_near(measured.outlet_diameter, 0.2, edge == CW_EDGE_ROUNDED ? 1e-5 : 1e-6);
+    assert_near(measured.wrap_angle, 71 * degree, edge == CW_EDGE_ROUNDED ? 1 * degree : 0.01 * degree);
     assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
     assert_int_equal(faces_of_patch(rotor, "blade_trailing_edge"), 6 * faces[edge]);
     cw_solid_free(&rotor);
@@ -160,7 +153,7 @@ static void rounding_reaches_the_outlet_diameter(void **state) {
       cw_meridian_blade_point(&meridian, 0.5 * j, point.q, x, NULL);
       largest = fmax(largest, x[0]);
     }
-    near_to(largest, 0.1, 5e-6);
+    assert_near(largest, 0.1, 5e-6);
   }
 }
 
@@ -173,7 +166,7 @@ static void splitters(void **state) {
   CwMeasuredSolid solid;
   CwMeasuredRotor measured;
   measure(&design, &solid, &measured);
-  near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
+  assert_near(measured.wrap_angle, 71 * degree, 0.01 * degree);
   assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
   assert_int_equal(faces_of_patch(rotor, "blade_pressure"), 12);
   assert_int_equal(faces_of_patch(rotor, "hub"), 12);
@@ -203,7 +196,7 @@ static void cylindrical_blades_and_lean(void **state) {
       cw_meridian_blade_point(&meridian, 0, 0.5 * (low + high), y, NULL);
       *(y[0] < x[0] ? &low : &high) = 0.5 * (low + high);
     }
-    near_to(cw_blade_theta(&hub, low), cw_blade_theta(&shroud, p), 1e-7);
+    assert_near(cw_blade_theta(&hub, low), cw_blade_theta(&shroud, p), 1e-7);
   }
   CwMeasuredSolid solid;
   CwMeasuredRotor measured;
@@ -213,7 +206,7 @@ static void cylindrical_blades_and_lean(void **state) {
   design = design_of(&table);
   assert_int_equal(cw_blade_section(&design, &meridian, 0, &hub), CW_OK);
   assert_int_equal(cw_blade_section(&design, &meridian, 1, &shroud), CW_OK);
-  near_to(cw_blade_theta(&shroud, 1) - cw_blade_theta(&hub, 1), 8e-3 * tan(12 * degree) / 0.1, 1e-12);
+  assert_near(cw_blade_theta(&shroud, 1) - cw_blade_theta(&hub, 1), 8e-3 * tan(12 * degree) / 0.1, 1e-12);
   measure(&design, &solid, &measured);
 }
 
@@ -229,12 +222,12 @@ static void mirrored(void **state) {
   assert_int_equal(cw_measure_solid(rotor, &a), CW_OK);
   assert_int_equal(cw_measure_solid(other, &b), CW_OK);
   assert_true(b.valid && b.closed && b.largest_tolerance < 1e-6);
-  near_to(b.volume / a.volume, 1, 1e-9);
+  assert_near(b.volume / a.volume, 1, 1e-9);
   for (int face = 0; face < cw_solid_face_count(rotor); face++)
     assert_string_equal(cw_solid_face_name(rotor, face), cw_solid_face_name(other, face));
   CwMeasuredRotor measured;
   assert_int_equal(cw_measure_rotor(other, &measured), CW_OK);
-  near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
+  assert_near(measured.wrap_angle, 71 * degree, 0.01 * degree);
   cw_solid_free(&rotor);
   cw_solid_free(&other);
 }

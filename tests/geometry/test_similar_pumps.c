@@ -12,6 +12,7 @@
 #include "pipeline/case_read.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 // A case with all its lengths given, mm; `more` are further lines of the impeller's and the volute's tables.
 typedef struct {
@@ -58,19 +59,6 @@ static void write_case(const char *path, double s, const Variant *variant) {
   fclose(file);
 }
 
-static char *slurp(const char *path, size_t *size) {
-  FILE *file = fopen(path, "rb");
-  assert_non_null(file);
-  fseek(file, 0, SEEK_END);
-  *size = (size_t)ftell(file);
-  rewind(file);
-  char *text = malloc(*size);
-  assert_non_null(text);
-  assert_int_equal(fread(text, 1, *size, file), *size);
-  fclose(file);
-  return text;
-}
-
 typedef struct {
   int count;
   char *text[CW_PUMP_DOMAINS_MOST]; // of the B-rep files
@@ -98,7 +86,7 @@ static Built build(double s, const Variant *variant) {
   for (int i = 0; i < pump.count; i++) {
     snprintf(path, sizeof path, "%s/solid.brep", test_folder);
     assert_int_equal(cw_solid_write_brep(pump.solid[i], path), CW_OK);
-    built.text[i] = slurp(path, &built.size[i]);
+    built.text[i] = read_whole(path, &built.size[i]);
     unlink(path);
   }
   cw_pump_free(&pump);

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/solid_scale.hpp"
 
-#include <csetjmp>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
 #include <sstream>
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -21,14 +17,11 @@
 #include <TopoDS.hxx>
 #include <gp_Trsf.hxx>
 
-extern "C" {
-#include <cmocka.h>
-}
-
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/pump.h"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
+#include "tests/unit_test.h"
 
 static std::string text_of(const CwSolid &solid) {
   std::ostringstream text;
@@ -39,15 +32,10 @@ static std::string text_of(const CwSolid &solid) {
 // All kinds of faces and curves: cones, tori's neighbours, zones, a shaft and a mirror image. What is scaled is sound,
 // has exactly the scaled volume, and comes back to the last bit.
 static void there_and_back(void **) {
-  CwCase table;
+  CwCase table = case_of("zones");
   CwDesign design;
-  CwPipeStubs stubs;
-  CwPump pump = {};
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/zones/case.yaml", &table), CW_OK);
   table.impeller.rotation = CW_ROTATION_CLOCKWISE;
-  if (cw_hydraulic_design(&table, &design) != CW_OK || cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK ||
-      cw_pump_build(&table, &design, &stubs, &pump) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  CwPump pump = pump_of(&table, &design);
   for (int i = 0; i < pump.count; i++) {
     CwMeasuredSolid before, after;
     const CwSolid &solid = *pump.solid[i];

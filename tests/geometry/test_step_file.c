@@ -10,17 +10,17 @@
 #include "geometry/pump_files.h"
 #include "geometry/rotor.h"
 #include "geometry/step_file.h"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static CwSolid *rotor;
 
 static int setup(void **state) {
-  CwCase table;
-  CwDesign design;
-  return make_test_folder(state) || cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
-         cw_hydraulic_design(&table, &design) || cw_rotor_build(&design, &rotor);
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
+  return make_test_folder(state) || cw_rotor_build(&design, &rotor);
 }
 
 static int teardown(void **state) {
@@ -28,23 +28,9 @@ static int teardown(void **state) {
   return remove_test_folder(state);
 }
 
-static char *slurp(const char *path, size_t *size) {
-  FILE *file = fopen(path, "rb");
-  assert_non_null(file);
-  fseek(file, 0, SEEK_END);
-  *size = (size_t)ftell(file);
-  rewind(file);
-  char *text = malloc(*size + 1);
-  assert_non_null(text);
-  assert_int_equal(fread(text, 1, *size, file), *size);
-  text[*size] = 0;
-  fclose(file);
-  return text;
-}
-
 static void assert_same_files(const char *a, const char *b) {
   size_t na, nb;
-  char *ta = slurp(a, &na), *tb = slurp(b, &nb);
+  char *ta = read_whole(a, &na), *tb = read_whole(b, &nb);
   assert_int_equal(na, nb);
   assert_memory_equal(ta, tb, na);
   free(ta);
@@ -72,7 +58,7 @@ static void faces_table(void **state) {
   snprintf(path, sizeof path, "%s/faces.csv", test_folder);
   assert_int_equal(cw_faces_table_write(solids, 1, path), CW_OK);
   size_t size;
-  char *text = slurp(path, &size);
+  char *text = read_whole(path, &size);
   int lines = 0;
   for (size_t i = 0; i < size; i++) lines += text[i] == '\n';
   assert_int_equal(lines, 63);

@@ -13,16 +13,15 @@
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
 #include "geometry/step_file.h"
-#include "pipeline/case_read.h"
+#include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
 static void names_and_volumes_survive(void **) {
-  CwCase table;
-  CwDesign design;
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
   CwSolid *solids[2];
   CwCadBodies *bodies = nullptr;
-  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-      cw_rotor_build(&design, &solids[0]) || cw_stator_build(&design.volute, cw_solid_unit(solids[0]), &solids[1]) ||
+  if (cw_rotor_build(&design, &solids[0]) || cw_stator_build(&design.volute, cw_solid_unit(solids[0]), &solids[1]) ||
       cw_step_write(solids, 2, "names-test.step") || cw_cad_file_read("names-test.step", 0, 1e-5, &bodies))
     fail_msg("%s", cw_fail_message());
   remove("names-test.step");

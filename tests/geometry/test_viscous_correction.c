@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "geometry/viscous_correction.h"
-#include "tests/geometry/near_to.h"
 #include "tests/unit_test.h"
 
 static const double hour = 3600, rpm = M_PI / 30;
@@ -11,9 +10,9 @@ static const double hour = 3600, rpm = M_PI / 30;
 // 0.74194^3.15 = 0.39053, C_H = exp(-0.064438) = 0.9376; 5.52^0.69 = 3.2507, 5.52^(-0.17781) = 0.7380.
 static void worked_by_hand(void **state) {
   const CwViscousCorrection c = cw_viscous_correction(120e-6, 110 / hour, 77, 2950 * rpm);
-  near_to(c.parameter, 5.520, 2e-3);
-  near_to(c.head, 0.9376, 1e-4);
-  near_to(c.efficiency, 0.7380, 2e-4);
+  assert_near(c.parameter, 5.520, 2e-3);
+  assert_near(c.head, 0.9376, 1e-4);
+  assert_near(c.efficiency, 0.7380, 2e-4);
 }
 
 // Of water and thinner fluids nothing is taken away, also in a pump so small that B of water is 3.5.
@@ -23,7 +22,7 @@ static void water_has_no_correction(void **state) {
   assert_true(water.head == 1 && water.efficiency == 1);
   const CwViscousCorrection thin = cw_viscous_correction(2e-7, 0.3 / hour, 1, 2900 * rpm);
   assert_true(thin.head == 1 && thin.efficiency == 1);
-  near_to(cw_viscous_correction(1.0041e-6, 0.3 / hour, 1, 2900 * rpm).efficiency, 1, 1e-3);
+  assert_near(cw_viscous_correction(1.0041e-6, 0.3 / hour, 1, 2900 * rpm).efficiency, 1, 1e-3);
 }
 
 // The more viscous, the less of both; beyond B = 40 the factors stay.
@@ -35,7 +34,7 @@ static void factors_fall(void **state) {
     head = c.head;
     efficiency = c.efficiency;
   }
-  near_to(head, exp(-0.165 * pow(log10(40), 3.15)), 1e-12);
+  assert_near(head, exp(-0.165 * pow(log10(40), 3.15)), 1e-12);
 }
 
 // The pump selected for a viscous duty has that duty when it is corrected.
@@ -43,8 +42,8 @@ static void selection_undoes_correction(void **state) {
   for (double nu = 1e-6; nu < 1e-2; nu *= 3) {
     const CwViscousCorrection c = cw_viscous_selection(nu, 25 / hour, 10, 1450 * rpm);
     const CwViscousCorrection back = cw_viscous_correction(nu, 25 / hour / c.head, 10 / c.head, 1450 * rpm);
-    near_to(back.head, c.head, 1e-12);
-    near_to(back.efficiency, c.efficiency, 1e-12);
+    assert_near(back.head, c.head, 1e-12);
+    assert_near(back.efficiency, c.efficiency, 1e-12);
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "tests/geometry/near_to.h"
 #include "tests/unit_test.h"
 
 static const CwWaterWay way = {.radius = 0.1,
@@ -24,11 +23,11 @@ static const CwWaterWay way = {.radius = 0.1,
 
 static void check(const CwWallFlow *flow, CwAlong along, double speed, double length, double diameter, double width,
                   double before) {
-  near_to(flow[along].speed, speed, 1e-14);
-  near_to(flow[along].length, length, 1e-15);
-  near_to(flow[along].diameter, diameter, 1e-15);
-  near_to(flow[along].width, width, 1e-15);
-  near_to(flow[along].before, before, 1e-15);
+  assert_near(flow[along].speed, speed, 1e-14);
+  assert_near(flow[along].length, length, 1e-15);
+  assert_near(flow[along].diameter, diameter, 1e-15);
+  assert_near(flow[along].width, width, 1e-15);
+  assert_near(flow[along].before, before, 1e-15);
 }
 
 // By hand: four times 10 x 30 over 80 between the blades; of 12 m/s at the throat and 3 at the end of a cone whose
@@ -51,9 +50,9 @@ static void a_small_throat_is_narrowest(void **state) {
   CwWallFlow flow[CW_ALONG_COUNT];
   small.throat_diameter = 0.01;
   cw_wall_flows(&small, flow);
-  near_to(flow[CW_ALONG_VOLUTE].width, 0.01, 0);
-  near_to(flow[CW_ALONG_NECK].width, 0.01, 0);
-  near_to(flow[CW_ALONG_DIFFUSER].width, 0.01, 0);
+  assert_near(flow[CW_ALONG_VOLUTE].width, 0.01, 0);
+  assert_near(flow[CW_ALONG_NECK].width, 0.01, 0);
+  assert_near(flow[CW_ALONG_DIFFUSER].width, 0.01, 0);
 }
 
 int main(void) {

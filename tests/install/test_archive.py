@@ -8,15 +8,13 @@ import tarfile
 import unittest
 from pathlib import Path
 
-from cutwater import SOURCE, execute, fresh
+from cutwater import SOURCE, execute, fresh, said
 
 
 class Archive(unittest.TestCase):
     def test_it_builds_without_git(self):
         top = fresh("archive")
-        told = execute(["make", "-s", "-C", SOURCE, "dist", f"BUILD={top}"])
-        self.assertEqual(told.returncode, 0, told.stdout)
-        archive = Path(told.stdout.splitlines()[-1])
+        archive = Path(said(self, ["make", "-s", "-C", SOURCE, "dist", f"BUILD={top}"]).splitlines()[-1])
         with tarfile.open(archive) as file:
             file.extractall(top)
         source = top / archive.name.removesuffix(".tar.gz")
@@ -31,9 +29,8 @@ class Archive(unittest.TestCase):
         for line in (["cmake", "-S", source, "-B", top / "build", "-DCUTWATER_TESTS=OFF"],
                      ["cmake", "--build", top / "build", "-j", 2, "--target", "cutwater-report"],
                      [top / "build/bin/cutwater-report", "--version"]):
-            told = execute(["env", path, *line])
-            self.assertEqual(told.returncode, 0, told.stdout)
-        self.assertEqual(told.stdout, f"cutwater-report {version}\n")
+            told = said(self, ["env", path, *line])
+        self.assertEqual(told, f"cutwater-report {version}\n")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import shutil
 import sys
 import unittest
 
-from cutwater import PAPER, SOURCE, WORK, command, digests, done, execute, fresh
+from cutwater import PAPER, SOURCE, WORK, command, digests, done, execute, fresh, said
 
 CELLS = 150000  # in one pass, and quicker than fewer
 BUILD = WORK.parent / "mpich"
@@ -15,8 +15,7 @@ class Mpich(unittest.TestCase):
     def test_the_same_bytes(self):
         for line in (["cmake", "-S", SOURCE, "-B", BUILD, "-DCUTWATER_TESTS=OFF", "-DMPI_C_COMPILER=mpicc.mpich"],
                      ["cmake", "--build", BUILD, "-j", 2, "--target", "cutwater-mesh", "cutwater-export"]):
-            told = execute(line, timeout=3000)
-            self.assertEqual(told.returncode, 0, told.stdout[-3000:])
+            said(self, line, timeout=3000)
         linked = execute(["ldd", BUILD / "bin/cutwater-export"]).stdout
         self.assertIn("libmpich.so", linked)
         self.assertNotIn("libmpi.so", linked)
@@ -26,8 +25,7 @@ class Mpich(unittest.TestCase):
         shutil.copytree(top / "other/geometry", top / "mpich/geometry")
         for stage in ("mesh", "export"):
             line = [BUILD / f"bin/cutwater-{stage}", *command(stage, top / "mpich", case=PAPER, cells=CELLS)[-6:]]
-            told = execute(["mpiexec.mpich", "-n", 2, *line])
-            self.assertEqual(told.returncode, 0, told.stdout)
+            said(self, ["mpiexec.mpich", "-n", 2, *line])
             self.assertEqual(digests(top / "mpich" / stage), digests(top / "other" / stage))
 
 

@@ -28,10 +28,8 @@ static int crosses(const double *const x[4], const double a[3], const double b[3
   static const int face[4][4] = {{1, 2, 3, 0}, {0, 3, 2, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
   double from = 0, to = 1;
   for (int f = 0; f < 4; f++) {
-    double u[3], v[3], n[3], w[3];
-    cw_sub(x[face[f][1]], x[face[f][0]], u);
-    cw_sub(x[face[f][2]], x[face[f][0]], v);
-    cw_cross(u, v, n);
+    double n[3], w[3];
+    cw_normal(x[face[f][0]], x[face[f][1]], x[face[f][2]], n);
     cw_sub(x[face[f][3]], x[face[f][0]], w);
     double side = cw_dot(n, w) > 0 ? 1 : -1, at[2];
     cw_sub(a, x[face[f][0]], w);
@@ -73,18 +71,15 @@ static void count_cell(const double *const *x, int corners, Probe *probe, int pr
   }
 }
 
-static int find_probes(const CwCad *cad, const CwBackground *background, double greatest,
-                       Probe *probe) {
+static int find_probes(const CwCad *cad, const CwBackground *background, double greatest, Probe *probe) {
   int32_t step = background->triangle_count / RAYS + 1;
   int count = 0;
   for (int32_t t = 0; t < background->triangle_count; t += step) {
-    double centre[3], u[3], v[3], n[3], away[3], gap;
+    double centre[3], n[3], away[3], gap;
     if (cw_cad_patch_kind(cad, cw_cad_face_patch(cad, background->face[t])) != CW_PATCH_WALL) continue;
     const double *corner_x[3];
     for (int k = 0; k < 3; k++) corner_x[k] = background->x[background->triangle[t][k]];
-    cw_sub(corner_x[1], corner_x[0], u);
-    cw_sub(corner_x[2], corner_x[0], v);
-    cw_cross(u, v, n);
+    cw_normal(corner_x[0], corner_x[1], corner_x[2], n);
     cw_unit(n);
     for (int k = 0; k < 3; k++) {
       centre[k] = (corner_x[0][k] + corner_x[1][k] + corner_x[2][k]) / 3;
@@ -93,9 +88,7 @@ static int find_probes(const CwCad *cad, const CwBackground *background, double 
     int32_t hit = cw_rays_exit(background->rays, centre, away, 1e-5, greatest, &gap);
     if (hit < 0) continue;
     const int32_t *corner = background->triangle[hit];
-    cw_sub(background->x[corner[1]], background->x[corner[0]], u);
-    cw_sub(background->x[corner[2]], background->x[corner[0]], v);
-    cw_cross(u, v, n);
+    cw_normal(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]], n);
     cw_unit(n);
     if (cw_dot(n, away) < FACING) continue;
     Probe *made = &probe[count++];

@@ -54,10 +54,7 @@ done:
 }
 
 static void triangle_normal(const CwRegionMesh *mesh, const int32_t *corner, double normal[3]) {
-  double u[3], v[3];
-  cw_sub(mesh->cells.points[corner[1]], mesh->cells.points[corner[0]], u);
-  cw_sub(mesh->cells.points[corner[2]], mesh->cells.points[corner[0]], v);
-  cw_cross(u, v, normal);
+  cw_normal(mesh->cells.points[corner[0]], mesh->cells.points[corner[1]], mesh->cells.points[corner[2]], normal);
   cw_unit(normal);
 }
 

@@ -174,7 +174,7 @@ static inline void case_picture(const Case *c, const char *path, const double o[
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\">\n", PIXELS, PIXELS);
-  fputs("<rect width=\"100%\" thickness=\"100%\" fill=\"white\"/>\n", file);
+  fputs("<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n", file);
   for (int level = 0; level <= LEVELS; level++)
     for (int32_t f = 0; f < c->wall.triangle_count; f++) {
       double at[3][2], page[2][2], x[3][3], away[3];

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/vec.h"
 #include "tests/unit_test.h"
 
 void surface_at(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
@@ -117,13 +118,9 @@ static int compare_sides(const void *left, const void *right) {
   return l->a != r->a ? (l->a > r->a) - (l->a < r->a) : (l->b > r->b) - (l->b < r->b);
 }
 
-static double distance(const double a[3], const double b[3]) {
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
 static double height_over(const CwPatchMesh *mesh, int32_t p, int32_t a, int32_t b) {
-  double ab = distance(mesh->x[a], mesh->x[b]), ap = distance(mesh->x[a], mesh->x[p]),
-         bp = distance(mesh->x[b], mesh->x[p]);
+  double ab = cw_distance(mesh->x[a], mesh->x[b]), ap = cw_distance(mesh->x[a], mesh->x[p]),
+         bp = cw_distance(mesh->x[b], mesh->x[p]);
   double along = (ab * ab + ap * ap - bp * bp) / (2 * ab);
   return sqrt(fmax(ap * ap - along * along, 0));
 }
@@ -185,7 +182,7 @@ void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area) {
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double x[3];
     surface_at(plan, mesh->uv[p], x, NULL, NULL);
-    assert_true(distance(x, mesh->x[p]) < 1e-12);
+    assert_true(cw_distance(x, mesh->x[p]) < 1e-12);
   }
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     const int32_t *c = mesh->triangle[t];
@@ -205,7 +202,7 @@ static Figures measure(const Plan *plan, const CwPatchMesh *mesh) {
     double l[3], least = 180;
     for (int i = 0; i < 3; i++) {
       const double *a = mesh->x[mesh->triangle[t][(i + 1) % 3]], *b = mesh->x[mesh->triangle[t][(i + 2) % 3]];
-      l[i] = distance(a, b);
+      l[i] = cw_distance(a, b);
       double ratio = 2 * l[i] / (size_at(plan, a) + size_at(plan, b));
       figures.outside += (ratio < 0.5 || ratio > 1.6) / (3.0 * mesh->triangle_count);
     }

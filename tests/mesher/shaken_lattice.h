@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Points of a body-centred lattice, shaken, for tests of what improves tetrahedra.
+// Points of a body-centred lattice, shaken and connected, for tests of what improves tetrahedra.
 #ifndef CUTWATER_TESTS_MESHER_SHAKEN_LATTICE_H
 #define CUTWATER_TESTS_MESHER_SHAKEN_LATTICE_H
 
@@ -7,9 +7,12 @@
 #include <stdlib.h>
 
 #include "draw.h"
+#include "mesher/fill/delaunay.h"
+#include "tests/unit_test.h"
 
-// A body-centred lattice of n cubes along each edge, shaken by so much of a cube; those on the outside first.
-static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, double (**x)[3]) {
+// A body-centred lattice of n cubes along each edge, shaken by so much of a cube, those on the outside first, and its
+// Delaunay mesh; the caller frees both. Returns how many points there are.
+static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, double (**x)[3], CwTetMesh *mesh) {
   uint64_t state = 7;
   *outside = 0;
   int32_t count = 0;
@@ -29,6 +32,7 @@ static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, doub
     }
     if (pass == 0) *outside = count;
   }
+  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])(*x), mesh), CW_OK);
   return count;
 }
 

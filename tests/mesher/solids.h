@@ -23,13 +23,6 @@
 // Last: its macro named fail breaks the C++ headers. So this header comes last in a test as well.
 #include "tests/unit_test.h"
 
-// cmocka's own comparison is in float.
-#define assert_near(value, wanted, tolerance)                                                                          \
-  do {                                                                                                                 \
-    double value_ = (value), wanted_ = (wanted);                                                                       \
-    if (!(std::fabs(value_ - wanted_) <= (tolerance))) fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);      \
-  } while (0)
-
 // Volume of the solid, m3, from all its faces.
 static inline double solid_volume(const CwCad *cad) {
   double volume = 0;

@@ -10,6 +10,7 @@
 #include "tests/sync_order.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static char whole[sizeof test_folder + 32];
 
@@ -25,12 +26,9 @@ static int remove_files(void **state) {
 }
 
 static void assert_content(const char *path, const char *expected) {
-  char text[64] = "";
-  FILE *file = fopen(path, "r");
-  assert_non_null(file);
-  text[fread(text, 1, sizeof text - 1, file)] = '\0';
-  fclose(file);
+  char *text = read_whole(path, NULL);
   assert_string_equal(text, expected);
+  free(text);
 }
 
 static int exists(const char *path) {

@@ -2,27 +2,15 @@
 // The section `cad`: what is read of it, and the place of what is wrong.
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "given_case.h"
 #include "pipeline/case_cad.h"
-#include "pipeline/case_read.h"
-#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char path[64];
-
 static CwStatus read_text(const char *cad, CwCase *table) {
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fprintf(file, "name: x\noperating_point: {flow_rate_m3_per_h: 4, head_m: 2, speed_rpm: 1450}\ncad:\n%s", cad);
-  fclose(file);
-  return cw_case_read(path, table);
-}
-
-static void near_to(double value, double wanted) {
-  if (!(fabs(value - wanted) <= 1e-12)) fail_msg("%.17g, not %.17g", value, wanted);
+  return read_given("name: x\noperating_point: {flow_rate_m3_per_h: 4, head_m: 2, speed_rpm: 1450}\ncad:\n", cad,
+                    table);
 }
 
 static void everything_is_read(void **state) {
@@ -48,28 +36,28 @@ static void everything_is_read(void **state) {
   snprintf(placed, sizeof placed, "%s/pump.step", test_folder);
   assert_string_equal(cad->files.text[0], placed);
   assert_string_equal(cad->files.text[1], "/abs/other.brep");
-  near_to(cad->unit, 0.0254);
-  near_to(cad->tolerance, 20e-6);
+  assert_near(cad->unit, 0.0254, 1e-12);
+  assert_near(cad->tolerance, 20e-6, 1e-12);
   assert_int_equal(cad->names_are_patches, 0);
-  near_to(cad->point[2], 0.0508);
-  near_to(cad->axis[2], 0.8);
+  assert_near(cad->point[2], 0.0508, 1e-12);
+  assert_near(cad->axis[2], 0.8, 1e-12);
   assert_int_equal(cad->cut.count, 2);
-  near_to(cad->cut.meridian[1][0], 0.06);
-  near_to(cad->cut.meridian[1][1], 0.0055);
+  assert_near(cad->cut.meridian[1][0], 0.06, 1e-12);
+  assert_near(cad->cut.meridian[1][1], 0.0055, 1e-12);
   assert_int_equal(cad->domain_count, 2);
   assert_int_equal(cad->domain[0].rotating, 1);
   assert_string_equal(cad->domain[0].solids.text[1], "3");
-  near_to(cad->domain[1].inside.at[1][2], 0.006);
+  assert_near(cad->domain[1].inside.at[1][2], 0.006, 1e-12);
   const CwCadPatch *patch = cad->patch;
   assert_int_equal(cad->patch_count, 4);
   assert_string_equal(patch[0].faces.text[1], "12");
   assert_string_equal(patch[0].domain, "rotor");
   assert_int_equal(patch[0].walls, CW_CAD_WALLS_BLADE);
-  near_to(patch[0].y_plus, 5);
-  near_to(patch[0].velocity, 7);
+  assert_near(patch[0].y_plus, 5, 1e-12);
+  assert_near(patch[0].velocity, 7, 1e-12);
   assert_int_equal(patch[0].turns, -1);
   assert_int_equal(patch[1].kind, CW_CAD_KIND_INLET);
-  near_to(patch[1].near.at[0][2], -0.009);
+  assert_near(patch[1].near.at[0][2], -0.009, 1e-12);
   assert_true(isnan(patch[1].y_plus));
   assert_int_equal(patch[2].colour, 0x00ff10);
   assert_string_equal(patch[2].layers.text[0], "wet");
@@ -84,8 +72,8 @@ static void what_is_left_out_has_its_default(void **state) {
   if (read_text("  files: pump.step\n  cut: {radius_cm: 10}\n  domains: {a: {solid: 1}}\n", &table))
     fail_msg("%s", cw_fail_message());
   assert_true(isnan(table.cad->tolerance));
-  near_to(table.cad->axis[2], 1);
-  near_to(table.cad->cut.radius, 0.1);
+  assert_near(table.cad->axis[2], 1, 1e-12);
+  assert_near(table.cad->cut.radius, 0.1, 1e-12);
   assert_int_equal(table.cad->names_are_patches, 1);
   assert_int_equal(table.cad->patch_count, 0);
   char first[CW_HASH_TEXT];
@@ -148,20 +136,9 @@ static void wrong_values_have_their_place(void **state) {
   }
 }
 
-static int make_folder(void **state) {
-  if (make_test_folder(state)) return -1;
-  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
-  return 0;
-}
-
-static int remove_files(void **state) {
-  unlink(path);
-  return remove_test_folder(state);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(everything_is_read), cmocka_unit_test(what_is_left_out_has_its_default),
       cmocka_unit_test(names_may_be_so_long), cmocka_unit_test(wrong_values_have_their_place)};
-  return cmocka_run_group_tests(tests, make_folder, remove_files);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "pipeline/case_read.h"
+#include "given_case.h"
 #include "pipeline/water.h"
-#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static CwStatus read_with(const char *fluid, CwCase *table) {
-  char path[sizeof test_folder + 16];
-  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
-  FILE *stream = fopen(path, "w");
-  assert_non_null(stream);
-  fprintf(stream, "name: f\noperating_point:\n  flow_rate_m3_per_h: 25\n  head_m: 10\n  speed_rpm: 1450\nfluid:\n%s",
-          fluid);
-  fclose(stream);
-  const CwStatus status = cw_case_read(path, table);
-  unlink(path);
-  return status;
+  return read_given("name: f\noperating_point:\n  flow_rate_m3_per_h: 25\n  head_m: 10\n  speed_rpm: 1450\nfluid:\n",
+                    fluid, table);
 }
 
 static void temperature_sets_water(void **state) {

@@ -10,7 +10,7 @@
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/wall_group.h"
-#include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -48,13 +48,6 @@ static int make_path(void **state) {
 
 static int remove_path(void **state) {
   return unlink(path);
-}
-
-static void write_bytes(const char *text, size_t length) {
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(text, 1, length, file), length);
-  assert_int_equal(fclose(file), 0);
 }
 
 // Writes the good case with line `line` (1-based) replaced; "" removes it, line 0 changes nothing.
@@ -104,10 +97,10 @@ static void whole_files_that_are_no_case(void **state) {
       {"{}\n", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
   };
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
-    write_bytes(files[i].text, strlen(files[i].text));
+    write_text(path, files[i].text);
     assert_true(is_refused(files[i].expected));
   }
-  write_bytes("name: a\0b\n", 10);
+  write_whole(path, "name: a\0b\n", 10);
   assert_true(is_refused("1:8: case file: byte 0x00 is no text; allowed: UTF-8 text"));
 }
 
@@ -116,7 +109,7 @@ static void huge_file_is_refused(void **state) {
   char *text = malloc(size);
   assert_non_null(text);
   memset(text, '#', size);
-  write_bytes(text, size);
+  write_whole(path, text, size);
   free(text);
   assert_true(is_refused("1:1: case file: it is too large; allowed: at most 1 MiB"));
 }
@@ -124,7 +117,7 @@ static void huge_file_is_refused(void **state) {
 static void deep_nesting_is_refused(void **state) {
   char text[20000] = "mesh: ";
   memset(text + 6, '[', sizeof text - 7);
-  write_bytes(text, sizeof text - 1);
+  write_text(path, text);
   CwCase table;
   assert_int_equal(cw_case_read(path, &table), CW_ERR_INPUT);
 }
@@ -223,7 +216,7 @@ static void units_of_other_systems(void **state) {
 static void duty_point_alone(void **state) {
   static const char text[] = "name: a\noperating_point: {flow_rate_m3_per_h: 25, head_m: 10, speed_rpm: 1450}\n";
   CwCase table;
-  write_bytes(text, sizeof text - 1);
+  write_text(path, text);
   assert_int_equal(cw_case_read(path, &table), CW_OK);
   assert_int_equal(table.impeller.blade_count, 0);
   assert_int_equal(table.impeller.priority, CW_PRIORITY_AUTO);

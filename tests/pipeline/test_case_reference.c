@@ -7,6 +7,7 @@
 
 #include "pipeline/case_schema.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static char *tables_text(void) {
   char *text = NULL;
@@ -19,14 +20,7 @@ static char *tables_text(void) {
 }
 
 static void page_holds_exactly_the_tables(void **state) {
-  FILE *file = fopen(CUTWATER_SOURCE_DIR "/docs/case-reference.md", "r");
-  assert_non_null(file);
-  char *page = calloc(1, 1 << 17);
-  assert_non_null(page);
-  size_t length = fread(page, 1, (1 << 17) - 1, file);
-  fclose(file);
-  assert_true(length > 0);
-  char *tables = tables_text();
+  char *page = read_whole(CUTWATER_SOURCE_DIR "/docs/case-reference.md", NULL), *tables = tables_text();
   const char *begin = strstr(page, "### Top of the file\n");
   assert_non_null(begin);
   assert_string_equal(begin, tables); // they are the end of the page

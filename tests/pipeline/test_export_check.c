@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/report/export_check.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/atomic_file.h"
 #include "pipeline/file_digest.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
-#include "tests/remove_folder.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
 
 enum { SIZE = 2 * CW_FILE_BLOCK + 12345 }; // three blocks
 
-static char run[] = "/tmp/cutwater-check-XXXXXX", path[sizeof run + 60];
+static char path[sizeof test_folder + 60];
 
 static const char *in_run(const char *name) {
-  snprintf(path, sizeof path, "%s/%s", run, name);
+  snprintf(path, sizeof path, "%s/%s", test_folder, name);
   return path;
 }
 
@@ -37,8 +32,7 @@ static void write_file(const char *name, int size, int place) {
 
 static int make_run(void **state) {
   CwRecord *record;
-  strcpy(run + sizeof run - 7, "XXXXXX");
-  assert_non_null(mkdtemp(run));
+  if (make_test_folder(state)) return -1;
   assert_int_equal(cw_make_directory(in_run("export")), CW_OK);
   write_file("export/pump.cgns", SIZE, -1);
   write_file("export/small", 3, -1);
@@ -52,17 +46,13 @@ static int make_run(void **state) {
   return 0;
 }
 
-static int remove_run(void **state) {
-  return remove_folder(run);
-}
-
 // The outcome of a check by this rank alone; its message stays.
 static CwStatus checked(void) {
   const CwRanks alone = {.comm = MPI_COMM_SELF, .rank = 0, .size = 1};
   CwExportCheck *check = NULL;
   json_t *record = NULL;
   assert_int_equal(cw_sealed_json_read(in_run("export/record.json"), &record), CW_OK);
-  assert_int_equal(cw_export_check_begin(run, record, &alone, &check), CW_OK);
+  assert_int_equal(cw_export_check_begin(test_folder, record, &alone, &check), CW_OK);
   const CwStatus status = cw_export_check_end(check);
   cw_export_check_free(&check);
   assert_null(check);
@@ -100,7 +90,7 @@ static void it_can_be_given_up(void **state) {
   CwExportCheck *check = NULL;
   json_t *record = NULL;
   assert_int_equal(cw_sealed_json_read(in_run("export/record.json"), &record), CW_OK);
-  assert_int_equal(cw_export_check_begin(run, record, &alone, &check), CW_OK);
+  assert_int_equal(cw_export_check_begin(test_folder, record, &alone, &check), CW_OK);
   cw_export_check_free(&check);
   cw_export_check_free(&check);
   json_decref(record);
@@ -108,10 +98,10 @@ static void it_can_be_given_up(void **state) {
 
 int main(int argc, char **argv) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(files_as_written_are_taken, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(a_changed_byte_in_any_block_is_told, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(a_shorter_file_and_one_that_is_missing_are_told, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(it_can_be_given_up, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(files_as_written_are_taken, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(a_changed_byte_in_any_block_is_told, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(a_shorter_file_and_one_that_is_missing_are_told, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(it_can_be_given_up, make_run, clear_test_folder),
   };
   MPI_Init(&argc, &argv);
   int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static const char file[] = "model-test.json";
 
@@ -129,18 +130,14 @@ static void names_and_sides_are_held_against_the_rules(void **state) {
 // A member of the file put at another value.
 static void damaged(const char *find, const char *replace, const char *message) {
   CwModel model = double_suction(), again = {0};
-  char text[20000], *at;
   assert_int_equal(cw_model_write(&model, file), CW_OK);
-  FILE *stream = fopen(file, "r");
-  assert_non_null(stream);
-  text[fread(text, 1, sizeof text - 1, stream)] = '\0';
-  fclose(stream);
-  at = strstr(text, find);
+  char *text = read_whole(file, NULL), *at = strstr(text, find);
   if (!at) fail_msg("no %s", find);
-  stream = fopen(file, "w");
+  FILE *stream = fopen(file, "w");
   assert_non_null(stream);
   fprintf(stream, "%.*s%s%s", (int)(at - text), text, replace, at + strlen(find));
   fclose(stream);
+  free(text);
   refused(cw_model_read(file, &again), message);
   cw_model_free(&again);
   cw_model_free(&model);
@@ -167,9 +164,8 @@ static void a_missing_file_is_told(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(what_is_left_open),
-      cmocka_unit_test(names_and_sides_are_held_against_the_rules), cmocka_unit_test(wrong_files_are_told),
-      cmocka_unit_test(a_missing_file_is_told)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(what_is_left_open),
+                                     cmocka_unit_test(names_and_sides_are_held_against_the_rules),
+                                     cmocka_unit_test(wrong_files_are_told), cmocka_unit_test(a_missing_file_is_told)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,8 +7,6 @@
 #include "pipeline/report/plot.h"
 #include "tests/unit_test.h"
 
-#define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
-
 static char *drawn(void (*draw)(FILE *, const CwPlot *), const CwPlot *plot) {
   char *text = NULL;
   size_t size = 0;

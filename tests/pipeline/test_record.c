@@ -10,6 +10,7 @@
 #include "pipeline/record.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static CwLog *test_log;
 
@@ -28,7 +29,7 @@ static int remove_files(void **state) {
 
 static void record_is_written_whole_and_in_order(void **state) {
   CwRecord *record = NULL;
-  char expected[2000], text[2000];
+  char expected[2000];
   cw_log_open("mesh", NULL, 0, 0, &test_log); // speaks to nobody, keeps the warnings
   cw_log_warn(test_log, "narrow gap at %d mm in \"pa\xffper\"", 5);
   assert_int_equal(cw_record_start("mesh", test_log, &record), CW_OK);
@@ -48,10 +49,7 @@ static void record_is_written_whole_and_in_order(void **state) {
   cw_record_free(record);
   cw_log_close(&test_log);
 
-  FILE *file = fopen(path, "r");
-  assert_non_null(file);
-  text[fread(text, 1, sizeof text - 1, file)] = '\0';
-  fclose(file);
+  char *text = read_whole(path, NULL);
   double seconds = -1;
   const char *place = strstr(text, "\"seconds\": ");
   assert_non_null(place);
@@ -76,6 +74,7 @@ static void record_is_written_whole_and_in_order(void **state) {
   assert_string_equal(end + CW_HASH_TEXT - 1, "\"\n}\n");
   *end = '\0';
   assert_string_equal(text, expected);
+  free(text);
 }
 
 static void peak_memory_is_that_of_the_process(void **state) {

@@ -9,8 +9,6 @@
 #include "pipeline/report/render.h"
 #include "tests/unit_test.h"
 
-#define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
-
 enum { WHITE = 0xffffff, RED = 0xc02010, BLUE = 0x1040c0, BLACK = 0x000000 };
 
 static const CwPaint red = {.colour = RED, .group = 1}, blue = {.colour = BLUE, .group = 2};

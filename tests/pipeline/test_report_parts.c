@@ -14,8 +14,6 @@
 #include "pipeline/report/survey.h"
 #include "tests/unit_test.h"
 
-#define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
-
 #define GAP "\342\200\257"
 #define MINUS "\342\210\222"
 

@@ -15,24 +15,20 @@
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/report/page.h"
 #include "tests/seal_run.h"
-#include "tests/remove_folder.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 #define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
 
-static char run[64];
-
 static void path_in_run(const char *name, char path[200]) {
-  snprintf(path, 200, "%s/%s", run, name);
+  snprintf(path, 200, "%s/%s", test_folder, name);
 }
 
-static void write_text(const char *name, const char *text) {
+static void write_in_run(const char *name, const char *text) {
   char path[200];
   path_in_run(name, path);
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fputs(text, file);
-  fclose(file);
+  write_text(path, text);
 }
 
 // A stage's record, with the case that it ran for.
@@ -42,22 +38,15 @@ static void write_record(const char *name, const char *text) {
   json_t *record = json_loads(text, 0, NULL);
   assert_int_equal(json_object_set_new(record, "case", cw_case_origin(&table)), 0);
   char *whole = json_dumps(record, 0);
-  write_text(name, whole);
+  write_in_run(name, whole);
   free(whole);
   json_decref(record);
 }
 
-static char *read_text(const char *name) {
-  char path[200], *text = NULL;
-  size_t size = 0;
+static char *read_in_run(const char *name) {
+  char path[200];
   path_in_run(name, path);
-  FILE *file = fopen(path, "r");
-  if (!file) return NULL;
-  FILE *copy = open_memstream(&text, &size);
-  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
-  fclose(file);
-  fclose(copy);
-  return text;
+  return read_whole(path, NULL);
 }
 
 static int there(const char *name) {
@@ -69,7 +58,7 @@ static int there(const char *name) {
 // Whether nothing half-written lies beside the page.
 static int is_clean(void) {
   char command[200];
-  snprintf(command, sizeof command, "! ls -A '%s/report' | grep -q '^\\.part-'", run);
+  snprintf(command, sizeof command, "! ls -A '%s/report' | grep -q '^\\.part-'", test_folder);
   return system(command) == 0;
 }
 
@@ -139,41 +128,36 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
 
 static int make_run(void **state) {
   char path[200];
-  strcpy(run, "/tmp/cutwater-report-XXXXXX");
-  assert_non_null(mkdtemp(run));
+  if (make_test_folder(state)) return -1;
   path_in_run("geometry", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
   path_in_run("mesh", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  write_text("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,\"blade_count\":6,"
-                                     "\"outlet_diameter_m\":0.2,\"base_diameter_m\":0.204,"
-                                     "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
-                                     "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
+  write_in_run("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,\"blade_count\":6,"
+                                       "\"outlet_diameter_m\":0.2,\"base_diameter_m\":0.204,"
+                                       "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
+                                       "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
   write_record("geometry/record.json", "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
                                        "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
                                        "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
-  write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
+  write_in_run("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
   write_record("mesh/record.json",
                "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
                "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
                "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
                "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"headlines\":[\"laminar <flow>\"],"
                "\"domains\":[" DOMAIN("rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
-  write_text("mesh/manifest.json", MANIFEST);
+  write_in_run("mesh/manifest.json", MANIFEST);
   write_region("rotor", 0.03, 0.101, 7);
   write_region("stator", 0.101, 0.14, 7);
-  return seal_run(run);
-}
-
-static int remove_run(void **state) {
-  return remove_folder(run);
+  return seal_run(test_folder);
 }
 
 // Runs the program by itself or by a launcher; returns its exit status and what it said.
 static int report_by(const char *launcher, char said[4000]) {
   char command[600];
   snprintf(command, sizeof command, "%s %s/cutwater-report --case %s --run %s 2>&1", launcher, CUTWATER_BIN_DIR, CASE,
-           run);
+           test_folder);
   FILE *pipe = popen(command, "r");
   assert_non_null(pipe);
   size_t length = fread(said, 1, 3999, pipe);
@@ -239,7 +223,7 @@ static int count_of(const char *page, const char *text) {
 static void page_tells_all_and_stands_alone(void **state) {
   char said[4000];
   if (report(said) != 0) fail_msg("%s", said);
-  char *page = read_text("report/index.html");
+  char *page = read_in_run("report/index.html");
   assert_non_null(page);
   assert_true(there("report/record.json"));
   assert_true(is_clean());
@@ -277,14 +261,14 @@ static void page_tells_all_and_stands_alone(void **state) {
   assert_null(strstr(page, "nan"));
   // The same bytes each time.
   assert_int_equal(report(said), 0);
-  char *again = read_text("report/index.html");
+  char *again = read_in_run("report/index.html");
   assert_string_equal(page, again);
   free(again);
   // And with two ranks that draw a region each, or a third that has none.
   static const char *const launchers[] = {"mpirun -q --oversubscribe -n 2", "mpirun -q --oversubscribe -n 3"};
   for (int k = 0; k < 2; k++) {
     if (report_by(launchers[k], said) != 0) fail_msg("%s", said);
-    again = read_text("report/index.html");
+    again = read_in_run("report/index.html");
     assert_true(strcmp(page, again) == 0);
     free(again);
   }
@@ -298,7 +282,7 @@ static char *page_without_pictures(void) {
   char *page = NULL;
   size_t size = 0;
   assert_int_equal(cw_case_read(CASE, &table), CW_OK);
-  assert_int_equal(cw_report_data_read(run, &table, &data), CW_OK);
+  assert_int_equal(cw_report_data_read(test_folder, &table, &data), CW_OK);
   FILE *stream = open_memstream(&page, &size);
   assert_int_equal(cw_page_write(stream, &data), CW_OK);
   fclose(stream);
@@ -314,7 +298,7 @@ static void export_figures_are_shown(void **state) {
                                      "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025012345},"
                                      "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
                                      "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
-  assert_int_equal(seal_run(run), 0);
+  assert_int_equal(seal_run(test_folder), 0);
   char *page = page_without_pictures();
   holds(page, "<tr><td>Volume</td><td class=\"n\">250.12</td><td>cm&sup3;</td></tr>"); // five digits
   holds(page, "<h3>Patches</h3>");
@@ -330,40 +314,40 @@ static void files_that_do_not_belong_together_are_told(void **state) {
   char path[200], first[300];
   path_in_run("export", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  write_text("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
+  write_in_run("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
                                      "\"warnings\":[],\"results\":{\"cells\":4,\"interfaces\":[],\"patches\":[]}}");
-  assert_int_equal(seal_run(run), 0);
-  write_text("export/pump.cgns", "a mesh, for whoever looks at its digest alon");
+  assert_int_equal(seal_run(test_folder), 0);
+  write_in_run("export/pump.cgns", "a mesh, for whoever looks at its digest alon");
   fails(CW_ERR_IO, "export/pump.cgns: is not as cutwater-export wrote it: damaged or replaced; run cutwater-export");
-  write_text("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
-  write_text("geometry/velocity_triangles.svg", "<svg></svg>");
+  write_in_run("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
+  write_in_run("geometry/velocity_triangles.svg", "<svg></svg>");
   fails(CW_ERR_IO, "geometry/velocity_triangles.svg: is not as cutwater-geometry wrote it");
   // The geometry is made again and another one: the mesh is not of it.
-  char *mesh_record = read_text("mesh/record.json");
-  assert_int_equal(seal_run(run), 0);
-  write_text("mesh/record.json", mesh_record);
+  char *mesh_record = read_in_run("mesh/record.json");
+  assert_int_equal(seal_run(test_folder), 0);
+  write_in_run("mesh/record.json", mesh_record);
   free(mesh_record);
   snprintf(first, sizeof first, "%s/mesh: was made from other files than lie in %s/geometry; run cutwater-mesh again",
-           run, run);
+           test_folder, test_folder);
   fails(CW_ERR_INPUT, first);
   // A record that was changed by hand.
-  assert_int_equal(seal_run(run), 0);
-  char *text = read_text("geometry/record.json");
+  assert_int_equal(seal_run(test_folder), 0);
+  char *text = read_in_run("geometry/record.json");
   *strstr(text, "1.5") = '2';
-  write_text("geometry/record.json", text);
+  write_in_run("geometry/record.json", text);
   free(text);
   fails(CW_ERR_IO, "geometry/record.json: is not as the stage wrote it");
 }
 
 static void domains_of_another_mesh_are_told(void **state) {
-  char *text = read_text("mesh/record.json"), *changed = read_text("mesh/record.json");
+  char *text = read_in_run("mesh/record.json"), *changed = read_in_run("mesh/record.json");
   memcpy(strstr(changed, "\"stator\""), "\"status\"", 8);
-  write_text("mesh/record.json", changed);
-  assert_int_equal(seal_run(run), 0);
+  write_in_run("mesh/record.json", changed);
+  assert_int_equal(seal_run(test_folder), 0);
   fails(CW_ERR_INPUT, "mesh/record.json: results: domain 2 is 'status'; it must be 'stator'");
-  write_text("mesh/record.json", text);
-  assert_int_equal(seal_run(run), 0);
+  write_in_run("mesh/record.json", text);
+  assert_int_equal(seal_run(test_folder), 0);
   free(text);
   free(changed);
 }
@@ -404,18 +388,18 @@ static void wrong_content_is_named(void **state) {
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
     path_in_run(wrong[k].file, path);
     assert_int_equal(rename(path, aside), 0);
-    (strstr(wrong[k].text, "\"stage\"") ? write_record : write_text)(wrong[k].file, wrong[k].text);
-    assert_int_equal(seal_run(run), 0);
+    (strstr(wrong[k].text, "\"stage\"") ? write_record : write_in_run)(wrong[k].file, wrong[k].text);
+    assert_int_equal(seal_run(test_folder), 0);
     fails(CW_ERR_INPUT, wrong[k].message);
     assert_int_equal(rename(aside, path), 0);
   }
-  write_text("mesh/rotor-0001.h5", "no HDF5");
-  assert_int_equal(seal_run(run), 0);
+  write_in_run("mesh/rotor-0001.h5", "no HDF5");
+  assert_int_equal(seal_run(test_folder), 0);
   fails(CW_ERR_IO, "mesh/rotor-0001.h5: is missing, damaged or cut short");
   write_region("rotor", 0.03, 0.101, 7);
   fails(CW_ERR_INPUT, "mesh/rotor-0001.h5: is not the file that the manifest tells of");
   write_region("rotor", 0.03, 0.101, 8);
-  assert_int_equal(seal_run(run), 0);
+  assert_int_equal(seal_run(test_folder), 0);
   fails(CW_ERR_INPUT, "'prisms': entry 10 is 8; allowed 0 to 7");
 }
 
@@ -423,12 +407,12 @@ int main(void) {
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(files_that_do_not_belong_together_are_told, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(domains_of_another_mesh_are_told, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(missing_files_are_named, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(wrong_content_is_named, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(files_that_do_not_belong_together_are_told, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(domains_of_another_mesh_are_told, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(missing_files_are_named, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(wrong_content_is_named, make_run, clear_test_folder),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,53 +2,36 @@
 // Files, records and digests of a run of three stages, each damaged in turn; also sealed_json.h and file_digest.h.
 #include "pipeline/stage_files.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "pipeline/atomic_file.h"
 #include "pipeline/file_digest.h"
 #include "pipeline/record.h"
 #include "pipeline/sealed_json.h"
-#include "tests/remove_folder.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
-static char run[] = "/tmp/cutwater-files-XXXXXX", path[sizeof run + 60];
+static char path[sizeof test_folder + 60];
 
 static const char *in_run(const char *name) {
-  snprintf(path, sizeof path, "%s/%s", run, name);
+  snprintf(path, sizeof path, "%s/%s", test_folder, name);
   return path;
-}
-
-// Into a new file: one that is cut to nothing first is brought to the disk by some file systems, which takes long.
-static void write_bytes(const char *name, const char *bytes, size_t size) {
-  unlink(in_run(name));
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, size, file), size);
-  fclose(file);
-}
-
-static void write_text(const char *name, const char *text) {
-  write_bytes(name, text, strlen(text));
 }
 
 // A stage that has written one file, from those of other stages.
 static void write_stage(const char *stage, const char *const *reads, const char *text) {
   CwRecord *record;
-  char folder[sizeof run + 20], name[40];
-  snprintf(folder, sizeof folder, "%s/%s", run, stage);
+  char folder[sizeof test_folder + 20], name[40];
+  snprintf(folder, sizeof folder, "%s/%s", test_folder, stage);
   snprintf(name, sizeof name, "%s/made.txt", stage);
   assert_int_equal(cw_make_directory(folder), CW_OK);
-  write_text(name, text);
+  write_text(in_run(name), text);
   assert_int_equal(cw_record_start(stage, NULL, &record), CW_OK);
-  assert_int_equal(cw_record_made_from(record, run, reads), CW_OK);
+  assert_int_equal(cw_record_made_from(record, test_folder, reads), CW_OK);
   assert_int_equal(cw_record_file(record, folder, "made.txt"), CW_OK);
   snprintf(name, sizeof name, "%s/record.json", stage);
   assert_int_equal(cw_record_write(record, in_run(name)), CW_OK);
@@ -56,33 +39,28 @@ static void write_stage(const char *stage, const char *const *reads, const char 
 }
 
 static int make_run(void **state) {
-  strcpy(run + sizeof run - 7, "XXXXXX");
-  assert_non_null(mkdtemp(run));
+  if (make_test_folder(state)) return -1;
   write_stage("geometry", (const char *const[]){NULL}, "a solid\n");
   write_stage("mesh", (const char *const[]){"geometry", NULL}, "a mesh\n");
   write_stage("export", (const char *const[]){"geometry", "mesh", NULL}, "a case\n");
   return 0;
 }
 
-static int remove_run(void **state) {
-  return remove_folder(run);
-}
-
 static void refuses(const char *stage, CwStatus code, const char *words) {
-  assert_int_equal(cw_stage_files_check(run, stage), code);
+  assert_int_equal(cw_stage_files_check(test_folder, stage), code);
   if (!strstr(cw_fail_message(), words)) fail_msg("%s", cw_fail_message());
 }
 
 static void all_as_written_is_taken(void **state) {
-  assert_int_equal(cw_stage_files_check(run, "geometry"), CW_OK);
-  assert_int_equal(cw_stage_files_check(run, "mesh"), CW_OK);
-  assert_int_equal(cw_stage_files_check(run, "export"), CW_OK);
+  assert_int_equal(cw_stage_files_check(test_folder, "geometry"), CW_OK);
+  assert_int_equal(cw_stage_files_check(test_folder, "mesh"), CW_OK);
+  assert_int_equal(cw_stage_files_check(test_folder, "export"), CW_OK);
 }
 
 static void a_changed_file_is_told_by_its_name(void **state) {
-  write_text("geometry/made.txt", "a solit\n");
+  write_text(in_run("geometry/made.txt"), "a solit\n");
   refuses("geometry", CW_ERR_IO, "geometry/made.txt: is not as cutwater-geometry wrote it: damaged or replaced; run");
-  write_text("geometry/made.txt", "a solid\n");
+  write_text(in_run("geometry/made.txt"), "a solid\n");
   assert_int_equal(unlink(in_run("mesh/made.txt")), 0);
   refuses("mesh", CW_ERR_IO, "mesh/made.txt: cannot be read: No such file");
   assert_int_equal(cw_make_directory(path), CW_OK);
@@ -92,39 +70,32 @@ static void a_changed_file_is_told_by_its_name(void **state) {
 // The same stage again with the same result is no other geometry, whatever its record says of time and memory.
 static void what_was_made_from_others_is_told(void **state) {
   write_stage("geometry", (const char *const[]){NULL}, "a solid\n");
-  assert_int_equal(cw_stage_files_check(run, "mesh"), CW_OK);
+  assert_int_equal(cw_stage_files_check(test_folder, "mesh"), CW_OK);
   write_stage("geometry", (const char *const[]){NULL}, "another solid\n");
-  assert_int_equal(cw_stage_files_check(run, "geometry"), CW_OK);
+  assert_int_equal(cw_stage_files_check(test_folder, "geometry"), CW_OK);
   refuses("mesh", CW_ERR_INPUT, "mesh: was made from other files than lie in ");
   write_stage("mesh", (const char *const[]){"geometry", NULL}, "a mesh\n");
-  assert_int_equal(cw_stage_files_check(run, "mesh"), CW_OK);
+  assert_int_equal(cw_stage_files_check(test_folder, "mesh"), CW_OK);
   refuses("export", CW_ERR_INPUT, "/geometry; run cutwater-export again");
 }
 
-static size_t read_bytes(const char *name, char *bytes, size_t most) {
-  FILE *file = fopen(in_run(name), "rb");
-  assert_non_null(file);
-  size_t size = fread(bytes, 1, most, file);
-  fclose(file);
-  return size;
-}
-
 static void no_bit_of_a_record_may_change(void **state) {
-  char bytes[2000];
   json_t *object;
-  size_t size = read_bytes("mesh/record.json", bytes, sizeof bytes);
-  assert_true(size > 200 && size < sizeof bytes);
+  size_t size;
+  char *bytes = read_whole(in_run("mesh/record.json"), &size);
+  assert_true(size > 200);
   for (size_t bit = 0; bit < 8 * size; bit++) {
     bytes[bit / 8] ^= (char)(1 << bit % 8);
-    write_bytes("mesh/record.json", bytes, size);
+    write_whole(path, bytes, size);
     assert_int_equal(cw_sealed_json_read(path, &object), CW_ERR_IO);
     assert_null(object);
     bytes[bit / 8] ^= (char)(1 << bit % 8);
   }
   for (size_t cut = 0; cut < size; cut++) {
-    write_bytes("mesh/record.json", bytes, cut);
+    write_whole(path, bytes, cut);
     assert_int_equal(cw_sealed_json_read(path, &object), CW_ERR_IO);
   }
+  free(bytes);
 }
 
 static void any_object_comes_back(void **state) {
@@ -147,7 +118,7 @@ static void shared_blocks_give_the_same_digest(void **state) {
   for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
     CwFileSum sum = {0};
     int64_t size = -1;
-    write_bytes("blocks", bytes, sizes[s]);
+    write_whole(in_run("blocks"), bytes, sizes[s]);
     assert_int_equal(cw_file_digest(path, digest), CW_OK);
     assert_int_equal(cw_file_size(path, &size), CW_OK);
     assert_int_equal(size, sizes[s]);
@@ -213,12 +184,12 @@ static void holes_add_nothing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(all_as_written_is_taken, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(a_changed_file_is_told_by_its_name, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(what_was_made_from_others_is_told, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(no_bit_of_a_record_may_change, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(any_object_comes_back, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(shared_blocks_give_the_same_digest, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(all_as_written_is_taken, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(a_changed_file_is_told_by_its_name, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(what_was_made_from_others_is_told, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(no_bit_of_a_record_may_change, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(any_object_comes_back, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(shared_blocks_give_the_same_digest, make_run, clear_test_folder),
       cmocka_unit_test(any_pieces_give_the_same_digest),
       cmocka_unit_test(holes_add_nothing),
   };

@@ -9,18 +9,18 @@
 #include <unistd.h>
 
 #include "pipeline/stop_line.h"
-#include "tests/remove_folder.h"
-#include "tests/unit_test.h"
+#include "tests/test_folder.h"
+#include "tests/whole_file.h"
 
 enum { RANKS = 4 };
 
-static char run[64], token[100];
+static char token[sizeof test_folder + 40];
 
 // A rank: watches, tells so on `ready`, and waits for the signal.
 static void be_rank(int rank, int told, int ready) {
   alarm(60); // where the test ends before
   dup2(told, STDERR_FILENO);
-  if (cw_stop_watch(run, "mesh", rank == 0) != CW_OK || write(ready, "r", 1) != 1) _exit(1);
+  if (cw_stop_watch(test_folder, "mesh", rank == 0) != CW_OK || write(ready, "r", 1) != 1) _exit(1);
   for (;;) pause();
 }
 
@@ -84,13 +84,6 @@ static void one_tells_where_the_first_is_killed(void **state) {
   assert_ptr_equal(strchr(said, '\n'), said + strlen(said) - 1);
 }
 
-static void write_host(const char *path, const char *host) {
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fputs(host, file);
-  fclose(file);
-}
-
 // Ranks of another host may be cut off: one of them speaks, and so does one of the first rank's host that
 // ends later.
 static void ranks_elsewhere_leave_the_word_to_the_first_host(void **state) {
@@ -100,10 +93,10 @@ static void ranks_elsewhere_leave_the_word_to_the_first_host(void **state) {
   snprintf(far_token, sizeof far_token, "%s.far", token);
   gethostname(host, sizeof host - 1);
   start_ranks(rank, &told);
-  write_host(token, "elsewhere");
+  write_text(token, "elsewhere");
   end_ranks(rank, 1, RANKS);
   assert_int_not_equal(access(token, F_OK), 0);
-  write_host(far_token, host);
+  write_text(far_token, host);
   end_ranks(rank, 0, 1);
   assert_int_not_equal(access(far_token, F_OK), 0);
   ssize_t length = read(told, said, sizeof said - 1);
@@ -119,7 +112,7 @@ static void nobody_tells_after_an_error(void **state) {
   char said[1000];
   int told;
   start_ranks(rank, &told);
-  assert_int_equal(cw_stop_watch(run, "mesh", 0), CW_OK); // as one rank more, which fails
+  assert_int_equal(cw_stop_watch(test_folder, "mesh", 0), CW_OK); // as one rank more, which fails
   assert_int_equal(cw_stop_claim(), 1);
   cw_stop_end();
   stop_ranks(rank, 0, told, said);
@@ -128,7 +121,7 @@ static void nobody_tells_after_an_error(void **state) {
 
 static void the_end_leaves_nothing(void **state) {
   struct sigaction action;
-  assert_int_equal(cw_stop_watch(run, "mesh", 1), CW_OK);
+  assert_int_equal(cw_stop_watch(test_folder, "mesh", 1), CW_OK);
   assert_int_equal(access(token, F_OK), 0);
   cw_stop_end();
   assert_int_not_equal(access(token, F_OK), 0);
@@ -138,25 +131,20 @@ static void the_end_leaves_nothing(void **state) {
 }
 
 static int make_run(void **state) {
-  char log[80];
-  strcpy(run, "/tmp/cutwater-stop-XXXXXX");
-  assert_non_null(mkdtemp(run));
-  snprintf(log, sizeof log, "%s/log", run);
+  char log[sizeof test_folder + 8];
+  if (make_test_folder(state)) return -1;
+  snprintf(log, sizeof log, "%s/log", test_folder);
   snprintf(token, sizeof token, "%s/mesh.running", log);
   return mkdir(log, 0777);
 }
 
-static int remove_run(void **state) {
-  return remove_folder(run);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(one_of_all_ranks_tells, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(one_tells_where_the_first_is_killed, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(ranks_elsewhere_leave_the_word_to_the_first_host, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(nobody_tells_after_an_error, make_run, remove_run),
-      cmocka_unit_test_setup_teardown(the_end_leaves_nothing, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(one_of_all_ranks_tells, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(one_tells_where_the_first_is_killed, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(ranks_elsewhere_leave_the_word_to_the_first_host, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(nobody_tells_after_an_error, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(the_end_leaves_nothing, make_run, clear_test_folder),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,6 +44,13 @@ def execute(line, folder=None, timeout=1500):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=timeout)
 
 
+def said(test, line, folder=None, timeout=1500):
+    """Runs a program that must succeed; what it says."""
+    result = execute(line, folder, timeout)
+    test.assertEqual(result.returncode, 0, result.stdout[-5000:])
+    return result.stdout
+
+
 def stage(name, run, **options):
     """Runs a stage to its end; gives what it returned, its lines in .stdout."""
     return execute(command(name, run, **options))
@@ -75,15 +82,20 @@ def with_geometry(name):
     return folder
 
 
+def changed_case(folder, *changes):
+    """The paper's case as a file of this folder, with parts of its text changed: (old, new)."""
+    text = PAPER.read_text()
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    case = folder / "case.yaml"
+    case.write_text(text)
+    return case
+
+
 def seal(test, folder):
     """Makes the digests of a stage's record those of its files as they are now: for files that a test has changed."""
-    result = execute([BIN / "seal_files", folder])
-    test.assertEqual(result.returncode, 0, result.stdout)
-
-
-def interface_sides(folder, domains):
-    """What the program of that name tells of a folder of region files."""
-    return execute([BIN / "interface_sides", folder, *domains])
+    said(test, [BIN / "seal_files", folder])
 
 
 def interfaces_agree(test, run):
@@ -91,10 +103,9 @@ def interfaces_agree(test, run):
     region has waited for another: only a periodic image waits for the region that it is made from."""
     results = record(run, "mesh")["results"]
     domains = results["domains"]
-    told = interface_sides(run / "mesh", [domain["name"] for domain in domains])
-    test.assertEqual(told.returncode, 0, told.stdout)
+    told = said(test, [BIN / "interface_sides", run / "mesh", *(domain["name"] for domain in domains)])
     after = []
-    for domain, line in zip(domains, told.stdout.splitlines(), strict=True):
+    for domain, line in zip(domains, told.splitlines(), strict=True):
         rule, (name, *counts) = domain["region_rule"], line.split()
         regions, _, triangles, _ = map(int, counts)
         test.assertEqual((name, regions), (domain["name"], domain["regions"]))
@@ -113,6 +124,15 @@ def digests(folder, pattern="*", leave_out=("record.json",)):
     folder = Path(folder)
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(folder.rglob(pattern)) if path.is_file() and path.name not in leave_out}
+
+
+def surface(path):
+    """The points, m, and the triangles (numbers of points) of a surface that the mesher has drawn as VTK."""
+    with open(path) as lines:
+        count = next(line for line in lines if line.startswith("POINTS")).split()[1]
+        points = [tuple(map(float, next(lines).split())) for _ in range(int(count))]
+        count = next(line for line in lines if line.startswith("POLYGONS")).split()[1]
+        return points, [tuple(map(int, next(lines).split()[1:])) for _ in range(int(count))]
 
 
 def regions(run):

@@ -4,7 +4,7 @@ import json
 import shutil
 import unittest
 
-from cutwater import CELLS, RUN, fresh, interface_sides, interfaces_agree, record
+from cutwater import BIN, CELLS, RUN, execute, fresh, interfaces_agree, record
 
 # Chords cut the curved walls: the volume comes short by about h2/8R2, which a coarse mesh shows.
 VOLUME_TOLERANCE = 0.002 if CELLS >= 500000 else 0.008
@@ -64,7 +64,7 @@ class Audit(unittest.TestCase):
         folder = fresh("one-side")
         for region in self.mesh["domains"][0]["region_list"][:-1]:
             shutil.copy(RUN / f"mesh/rotor-{region['region']:04d}.h5", folder)
-        told = interface_sides(folder, ["rotor"])
+        told = execute([BIN / "interface_sides", folder, "rotor"])
         self.assertEqual(told.returncode, 1)
         self.assertIn("is not that of one other region", told.stdout)
         shutil.rmtree(folder)

@@ -8,7 +8,7 @@ import random
 import shutil
 import unittest
 
-from cutwater import BIN, PAPER, WORK, digests, done, error_lines, execute, fresh, record, regions, stage
+from cutwater import PAPER, WORK, changed_case, digests, done, error_lines, fresh, record, regions, seal, stage
 
 CELLS = 150000  # in one pass, and quicker than fewer
 DAMAGES = int(os.environ.get("CUTWATER_DAMAGES", 60))
@@ -19,11 +19,9 @@ READERS = {"geometry": ("mesh", "export", "report"), "mesh": ("export", "report"
 
 
 def make_run(folder, case):
-    geometry_and_mesh = [("geometry", {}), ("mesh", {"cells": CELLS, "ranks": 2})]
-    for name, options in geometry_and_mesh + [("export", {"ranks": 2}), ("report", {})]:
-        result = stage(name, folder, case=case, **options)
-        assert result.returncode == 0, result.stdout
-    return folder
+    for name, options in (("geometry", {}), ("mesh", {"cells": CELLS, "ranks": 2}), ("export", {"ranks": 2}),
+                          ("report", {})):
+        done(unittest.TestCase(), name, folder, case=case, **options)
 
 
 def flip(data, dice, other):
@@ -96,9 +94,8 @@ def copy_run(name):
 class Damage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        other = fresh("damage-cases") / "case.yaml"
-        other.write_text(PAPER.read_text().replace("layer_count: 5", "layer_count: 4", 1)
-                         .replace("outlet_width_mm: 8", "outlet_width_mm: 8.5", 1))
+        other = changed_case(fresh("damage-cases"), ("layer_count: 5", "layer_count: 4"),
+                             ("outlet_width_mm: 8", "outlet_width_mm: 8.5"))
         make_run(fresh(WHOLE.name), PAPER)
         make_run(fresh(OTHER.name), other)
         cls.mesh = digests(WHOLE / "mesh")
@@ -145,8 +142,7 @@ class Damage(unittest.TestCase):
             if dice.random() < 0.5 and (run / "mesh/pass.json").exists():
                 told += " " + damage(run / "mesh/pass.json", dice, OTHER / "mesh/pass.json")
             with self.subTest(told):
-                result = stage("mesh", run, cells=CELLS, ranks=dice.choice((1, 2, 3)))
-                self.assertEqual(result.returncode, 0, result.stdout)
+                done(self, "mesh", run, cells=CELLS, ranks=dice.choice((1, 2, 3)))
                 self.assertEqual(digests(run / "mesh"), self.mesh, told)
                 warned = "".join(record(run, "mesh")["warnings"])
                 for name in changed:
@@ -165,7 +161,7 @@ class Damage(unittest.TestCase):
                 text = changed.read_text()
                 changed.unlink()
                 changed.write_text(text + "\n")
-                self.assertEqual(execute([BIN / "seal_files", run / folder]).returncode, 0)
+                seal(self, run / folder)
                 later = [name for name in kept if name != folder]
                 for name in later:
                     (run / name / "record.json").write_bytes(kept[name])

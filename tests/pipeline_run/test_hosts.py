@@ -57,12 +57,11 @@ class Hosts(unittest.TestCase):
 
     def test_the_same_bytes(self):
         run = self.with_geometry("several")
-        for stage in ("mesh", "export"):
+        for stage in ("mesh", "export", "report"):
             result = on_hosts(*without_launcher(stage, run))
             self.assertEqual(result.returncode, 0, result.stdout)
-            self.assertEqual(digests(run / stage), digests(self.one / stage))
-        result = on_hosts(*without_launcher("report", run))
-        self.assertEqual(result.returncode, 0, result.stdout)
+            if stage != "report":
+                self.assertEqual(digests(run / stage), digests(self.one / stage))
         page = (run / "report/index.html").read_bytes()
         done(self, "report", run, cells=CELLS, ranks=2)
         self.assertTrue((run / "report/index.html").read_bytes() == page)

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The layers of the shared run at places that are hard for them, and their last layers against the tetrahedra.
 Modules without a test of their own that it runs: layer_coverage."""
-import json
 import re
 import shutil
 import unittest
 
-from cutwater import BIN, PAPER, RUN, done, execute, fresh, record, with_geometry
+from cutwater import BIN, PAPER, RUN, changed_case, done, fresh, record, said, with_geometry
 
 # Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves
 # 1 mm for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
@@ -17,10 +16,7 @@ PLACES = {"trailing_edge", "trailing_edge_hub", "trailing_edge_shroud", "neck", 
 
 class Layers(unittest.TestCase):
     def test_hard_places(self):
-        folder = RUN / "mesh"
-        result = execute([BIN / "layer_places", RUN / "geometry", folder, RUN])
-        self.assertEqual(result.returncode, 0, result.stdout)
-        head, *lines = result.stdout.splitlines()
+        head, *lines = said(self, [BIN / "layer_places", RUN / "geometry", RUN / "mesh", RUN]).splitlines()
         rows = [dict(zip(head.split(), line.split())) for line in lines]
         self.assertEqual({row["place"] for row in rows}, PLACES)
         for row in rows:
@@ -35,8 +31,7 @@ class Layers(unittest.TestCase):
                 self.assertGreater(picture.count("<path"), 20)
 
     def test_last_layer(self):
-        results = json.loads((RUN / "mesh" / "record.json").read_text())["results"]
-        patches = [patch for domain in results["domains"] for patch in domain["layer_coverage"]]
+        patches = [patch for domain in record(RUN, "mesh")["results"]["domains"] for patch in domain["layer_coverage"]]
 
         def total(key):
             return sum(patch[key] for patch in patches)
@@ -54,8 +49,7 @@ class Layers(unittest.TestCase):
     def test_thin_prisms(self):
         """First layers of 1/100 of the edges in the volute: the user is told where, and how much would spare them."""
         folder = with_geometry("thin-prisms")
-        case = folder / "case.yaml"
-        case.write_text(PAPER.read_text().replace("y_plus_volute: 30", "first_height_volute_um: 40", 1))
+        case = changed_case(folder, ("y_plus_volute: 30", "first_height_volute_um: 40"))
         done(self, "mesh", folder, case=case, cells=100000)
         results, warnings = (record(folder, "mesh")[key] for key in ("results", "warnings"))
         coverage = results["domains"][1]["layer_coverage"]

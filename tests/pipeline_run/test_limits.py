@@ -36,9 +36,6 @@ class Limits(unittest.TestCase):
         for name in STAGES:
             done(cls(), name, cls.whole, cells=CELLS)
 
-    def runTest(self):  # setUpClass needs an instance
-        pass
-
     def before(self, name):
         """A run folder in which all stages before this one are done."""
         run = fresh("limits") / "run"

@@ -5,7 +5,7 @@ import json
 import shutil
 import unittest
 
-from cutwater import CELLS, PAPER, RUN, digests, done, record, seal, with_geometry
+from cutwater import CELLS, RUN, changed_case, digests, done, record, seal, with_geometry
 
 PASSAGES = 6
 
@@ -55,10 +55,7 @@ class Periodic(unittest.TestCase):
 
     def test_the_case_may_ask_for_the_whole_impeller(self):
         run = with_geometry("whole")
-        case = run / "case.yaml"
-        text = PAPER.read_text()
-        self.assertIn("\nmesh:\n", text)
-        case.write_text(text.replace("\nmesh:\n", "\nmesh:\n  periodic_impeller: false\n"))
+        case = changed_case(run, ("\nmesh:\n", "\nmesh:\n  periodic_impeller: false\n"))
         result = done(self, "mesh", run, case=case, cells=CELLS, ranks=2)
         self.assertNotIn("passages", result.stdout)
         whole(self, run)

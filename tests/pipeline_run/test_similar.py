@@ -7,7 +7,7 @@ import os
 import shutil
 import unittest
 
-from cutwater import BIN, done, execute, fresh, record, seal
+from cutwater import BIN, done, fresh, record, said, seal
 
 CELLS = int(os.environ["CUTWATER_SIMILAR_CELLS"])
 # What rounding may do. It moves small meshes more, and the least angle is that of a single tetrahedron.
@@ -63,17 +63,14 @@ class Similar(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.one = similar(1, "1")
-        test = unittest.TestCase()
-        for stage in ("geometry", "mesh"):
-            done(test, stage, cls.one, case=cls.one / "case.yaml", cells=CELLS, ranks=2)
+        cls().meshed(cls.one)
 
     def meshed(self, run, stages=("geometry", "mesh")):
         for stage in stages:
             done(self, stage, run, case=run / "case.yaml", cells=CELLS, ranks=2)
 
     def expect_same(self, run, power):
-        result = execute([BIN / "similar_meshes", self.one, run, power, "rotor", "stator"])
-        self.assertEqual(result.returncode, 0, result.stdout)
+        said(self, [BIN / "similar_meshes", self.one, run, power, "rotor", "stator"])
 
     def test_powers_of_two_give_the_same_bits(self):
         for power in POWERS:
@@ -93,8 +90,7 @@ class Similar(unittest.TestCase):
                 (run / "geometry/model.json").write_text(json.dumps({**model, "unit_m": one["unit_m"]}))
                 for domain in ("rotor", "stator"):
                     solid = f"geometry/{domain}.brep"
-                    scaled = execute([BIN / "scaled_solid", self.one / solid, run / solid, power])
-                    self.assertEqual(scaled.returncode, 0, scaled.stdout)
+                    said(self, [BIN / "scaled_solid", self.one / solid, run / solid, power])
                 seal(self, run / "geometry")
                 self.meshed(run, ["mesh"])
                 self.expect_same(run, power)

@@ -141,9 +141,6 @@ class Flow(unittest.TestCase):
         for stage in ("geometry", "mesh", "export"):
             done(cls(), stage, cls.pump, case=cls.case, cells=CELLS)
 
-    def runTest(self):  # setUpClass needs an instance
-        pass
-
     def line(self, *more):
         return [sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", self.case, "--run", self.pump, "--ranks",
                 "1", "--bin", BIN, *more]

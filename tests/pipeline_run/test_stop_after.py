@@ -5,16 +5,7 @@ import re
 import shutil
 import unittest
 
-from cutwater import CELLS, RUN, error_lines, execute, command, record, with_geometry
-
-
-def triangles(path):
-    """The triangles of a VTK file, and its points in m."""
-    text = path.read_text()
-    points, count = re.search(r"POINTS (\d+) double\n", text), re.search(r"POLYGONS (\d+) \d+\n", text)
-    places = [tuple(map(float, line.split())) for line in text[points.end():].splitlines()[:int(points[1])]]
-    corners = [tuple(map(int, line.split()[1:])) for line in text[count.end():].splitlines()[:int(count[1])]]
-    return places, corners
+from cutwater import CELLS, RUN, command, error_lines, execute, record, said, surface, with_geometry
 
 
 def rims(corners):
@@ -29,9 +20,8 @@ def rims(corners):
 class StopAfter(unittest.TestCase):
     def stopped(self, stage):
         run = with_geometry(f"stop-{stage}")
-        result = execute(command("mesh", run, cells=CELLS, ranks=2) + ["--stop-after", stage, "--vtk"])
-        self.assertEqual(result.returncode, 0, result.stdout)
-        self.assertIn(f"ended after the stage {stage}, as asked", result.stdout)
+        told = said(self, command("mesh", run, cells=CELLS, ranks=2) + ["--stop-after", stage, "--vtk"])
+        self.assertIn(f"ended after the stage {stage}, as asked", told)
         self.assertEqual([path.name for path in (run / "mesh").glob("*.json") if path.name != "pass.json"], [])
         self.assertEqual(list((run / "mesh").glob("*.h5")), [])
         return run
@@ -42,7 +32,7 @@ class StopAfter(unittest.TestCase):
         for stage in ("surface", "layers", "interfaces"):
             run = self.stopped(stage)
             for domain in whole["domains"]:
-                places, corners = triangles(run / f"mesh/{domain['name']}-{stage}.vtk")
+                places, corners = surface(run / f"mesh/{domain['name']}-{stage}.vtk")
                 self.assertLess(max(map(max, corners)), len(places))
                 if stage == "interfaces":
                     continue

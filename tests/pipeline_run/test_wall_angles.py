@@ -5,20 +5,10 @@ import math
 import os
 import unittest
 
-from cutwater import command, execute, with_geometry
+from cutwater import command, said, surface, with_geometry
 
 SIZES = os.environ["CUTWATER_SIZES"].split()
 LEAST = 12  # degrees; as of the tetrahedra in tests/bench/population.py
-
-
-def triangles(path):
-    """Triangles of a surface that the mesher has drawn, as corners (m)."""
-    with open(path) as lines:
-        place = next(line for line in lines if line.startswith("POINTS"))
-        point = [tuple(map(float, next(lines).split())) for _ in range(int(place.split()[1]))]
-        faces = next(line for line in lines if line.startswith("POLYGONS"))
-        for _ in range(int(faces.split()[1])):
-            yield [point[int(corner)] for corner in next(lines).split()[1:]]
 
 
 def least_angle(corners):
@@ -32,11 +22,12 @@ class WallAngles(unittest.TestCase):
     def test_no_size_leaves_flat_triangles(self):
         run = with_geometry("wall-angles")
         for size in SIZES:
-            result = execute(command("mesh", run, cells=size, ranks=2) + ["--stop-after", "surface", "--vtk"])
-            self.assertEqual(result.returncode, 0, result.stdout)
+            said(self, command("mesh", run, cells=size, ranks=2) + ["--stop-after", "surface", "--vtk"])
             for path in sorted((run / "mesh").glob("*-surface.vtk")):
                 with self.subTest(size=size, domain=path.stem):
-                    angle, where = min((least_angle(corners), corners) for corners in triangles(path))
+                    points, triangles = surface(path)
+                    places = ([points[corner] for corner in triangle] for triangle in triangles)
+                    angle, where = min((least_angle(corners), corners) for corners in places)
                     print(f"{size} {path.stem}: {angle:.1f} degrees")
                     self.assertGreaterEqual(angle, LEAST, f"at {where[0]} m")
                 path.unlink()

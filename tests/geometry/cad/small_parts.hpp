@@ -56,8 +56,4 @@ inline TopoDS_Shape small_box(double x, double y, double z, double dx, double dy
 
 #include "tests/unit_test.h"
 
-inline void small_near(double value, double wanted, double within) {
-  if (!(std::fabs(value - wanted) <= within)) fail_msg("%.9g where %.9g is wanted", value, wanted);
-}
-
 #endif

@@ -62,22 +62,22 @@ static void speeds_follow_from_the_operating_point(void **) {
   const double swirl = 9.80665 * 2 / (0.85 * u2), meridional = flow / (2 * M_PI * r2 * 10 * mm);
   const double w2 = std::hypot(u2 - swirl, meridional), before = flow / (M_PI * 400 * mm * mm);
   const double w1 = std::hypot(150 * 20 * mm, before);
-  small_near(made.patch("blade").flow.speed, (w1 + w2) / 2, 1e-5);
-  small_near(made.patch("hub").flow.speed, (w1 + w2) / 2, 1e-5);
+  assert_near(made.patch("blade").flow.speed, (w1 + w2) / 2, 1e-5);
+  assert_near(made.patch("hub").flow.speed, (w1 + w2) / 2, 1e-5);
   // Of the vortex even at 50 mm, but no slower than the outlet.
   const double after = flow / (320 * mm * mm);
   assert_true(swirl * r2 / (50 * mm) < after);
-  small_near(made.patch("stator_wall").flow.speed, after, 1e-5);
-  small_near(made.patch("stator_pipe").flow.speed, flow / (320 * mm * mm), 1e-5);
+  assert_near(made.patch("stator_wall").flow.speed, after, 1e-5);
+  assert_near(made.patch("stator_pipe").flow.speed, flow / (320 * mm * mm), 1e-5);
   assert_int_equal(made.patch("blade").group, CW_GROUP_BLADE);
   assert_int_equal(made.patch("shroud").group, CW_GROUP_HUB_SHROUD);
   assert_int_equal(made.patch("stator_wall").group, CW_GROUP_VOLUTE);
   assert_int_equal(made.patch("stator_pipe").group, CW_GROUP_PIPE);
   assert_int_equal(made.patch("hub").turns, 1);
   assert_int_equal(made.patch("stator_wall").turns, 0);
-  small_near(made.patch("outlet").flow_share, 1, 1e-9);
+  assert_near(made.patch("outlet").flow_share, 1, 1e-9);
   assert_int_equal(made.model.flow.blade_count, 6);
-  small_near(made.model.flow.reference_length, 2 * r2, 1e-6);
+  assert_near(made.model.flow.reference_length, 2 * r2, 1e-6);
 }
 
 // Of a greater head in half the flow the vortex is the faster.
@@ -95,7 +95,7 @@ static void the_spiral_has_a_free_vortex(void **) {
     moment += made.survey.face[f].area * made.survey.face[f].mean_radius;
   }
   assert_true(moment / area > 60 * mm && moment / area < 85 * mm);
-  small_near(made.patch("stator_wall").flow.speed, swirl * r2 * (1 / (50 * mm) + area / moment) / 2, 1e-5);
+  assert_near(made.patch("stator_wall").flow.speed, swirl * r2 * (1 / (50 * mm) + area / moment) / 2, 1e-5);
 }
 
 // The back of the wheel as a patch of this name, of which the case says nothing more.
@@ -123,8 +123,8 @@ static void rules_go_before(void **) {
   if (made.make()) fail_msg("%s", cw_fail_message());
   const CwModelPatch &patch = made.patch("back");
   assert_int_equal(patch.group, CW_GROUP_PIPE);
-  small_near(patch.flow.speed, 9, 0);
-  small_near(patch.y_plus_asked, 3, 0);
+  assert_near(patch.flow.speed, 9, 0);
+  assert_near(patch.y_plus_asked, 3, 0);
   assert_int_equal(patch.turns, 0);
   assert_int_equal(patch.monitored, 1);
 }
@@ -139,7 +139,7 @@ static void names_are_those_of_generated_walls(void **) {
   const CwModelPatch &patch = made.patch("suction_pipe");
   assert_int_equal(patch.group, CW_GROUP_PIPE);
   assert_int_equal(patch.size, CW_GROUP_PIPE);
-  small_near(patch.flow.speed, 4. / 3600 / (M_PI * 400 * mm * mm), 1e-5);
+  assert_near(patch.flow.speed, 4. / 3600 / (M_PI * 400 * mm * mm), 1e-5);
   assert_int_equal(patch.turns, 0);
   assert_int_equal(patch.monitored, 0);
 }

@@ -47,9 +47,9 @@ static void parts_stand_about_the_axis(void **) {
   double low[3], high[3];
   BRepBndLib::AddOptimal(parts->part[0].solid, box, Standard_False, Standard_False);
   box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
-  small_near(high[0] * to_mm, 50, 1e-3);
-  small_near(low[2] * to_mm, 3, 1e-3);
-  small_near(high[2] * to_mm, 23, 1e-3);
+  assert_near(high[0] * to_mm, 50, 1e-3);
+  assert_near(low[2] * to_mm, 3, 1e-3);
+  assert_near(high[2] * to_mm, 23, 1e-3);
   assert_int_equal(cw_cad_part_face_count(parts, 0), 3);
   for (int f = 0; f < 3; f++) {
     assert_string_equal(cw_cad_part_face(parts, 0, f).name, "wheel");
@@ -67,7 +67,7 @@ static void several_bodies_are_fused(void **) {
   const int domain[] = {0, 0};
   CwCadParts *parts = nullptr;
   if (make(bodies, domain, small_frame, 1, &parts)) fail_msg("%s", cw_fail_message());
-  small_near(volume(parts->part[0]) * std::pow(1e3 * cw_cad_parts_unit(parts), 3), M_PI * 2500 * 10, 1);
+  assert_near(volume(parts->part[0]) * std::pow(1e3 * cw_cad_parts_unit(parts), 3), M_PI * 2500 * 10, 1);
   int lefts = 0, rights = 0;
   for (const CwCadFaceOrigin &origin : parts->part[0].origin) {
     lefts += origin.name == "left";

@@ -20,7 +20,7 @@ static void equal_faces_touch_wholly(void **) {
   if (small.look()) fail_msg("%s", cw_fail_message());
   for (int part = 0; part < 2; part++) {
     assert_int_equal(touching(small, part, &share), 1);
-    small_near(share, 1, 0);
+    assert_near(share, 1, 0);
   }
 }
 
@@ -31,17 +31,17 @@ static void faces_that_touch_in_part_are_cut(void **) {
   SmallParts small({{"a", small_box(0, 0, 0, 20, 20, 5)}, {"b", small_box(8, 8, 5, 5, 5, 5)}});
   if (small.look()) fail_msg("%s", cw_fail_message());
   assert_int_equal(touching(small, 1, &share), 1);
-  small_near(share, 1, 0);
+  assert_near(share, 1, 0);
   assert_int_equal(cw_contact_imprint(&small.survey, small.contact, small_tolerance, NULL, &small.parts, &cut), CW_OK);
   assert_int_equal(cut, 1);
   cw_survey_free(&small.survey);
   free(small.contact);
   if (small.look()) fail_msg("%s", cw_fail_message());
   assert_int_equal(touching(small, 0, &share), 1);
-  small_near(share, 1, 0);
+  assert_near(share, 1, 0);
   for (int f = 0; f < small.survey.face_count; f++)
     if (small.contact[f].part == 1) area += small.survey.face[f].area;
-  small_near(area, 25e-6, 1e-12);
+  assert_near(area, 25e-6, 1e-12);
 }
 
 static void gaps_are_told_with_their_size(void **) {
@@ -67,7 +67,7 @@ static void thin_rings_touch_wholly(void **) {
   if (small.look()) fail_msg("%s", cw_fail_message());
   for (int part = 0; part < 2; part++) {
     assert_int_equal(touching(small, part, &share), 1);
-    small_near(share, 1, 0);
+    assert_near(share, 1, 0);
   }
 }
 

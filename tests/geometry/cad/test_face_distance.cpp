@@ -28,11 +28,11 @@ static void a_box(void **) {
   const TopoDS_Shape box = small_box(0, 0, 0, 2, 3, 4);
   const int face = face_at(box, 2);
   CwFaceDistance distance(box);
-  small_near(distance.at(face, gp_Pnt(5, 1, 1), far), 3, 1e-12);         // over the face
-  small_near(distance.at(face, gp_Pnt(5, 3 + 4, 1), far), 5, 1e-12);     // beside an edge
-  small_near(distance.at(face, gp_Pnt(3, 3 + 2, 4 + 2), far), 3, 1e-12); // beside a corner
-  small_near(distance.at(face, gp_Pnt(2, 1, 1), far), 0, 1e-12);
-  small_near(distance.at(face, gp_Pnt(5, 1, 1), 2), 2, 0); // beyond the reach
+  assert_near(distance.at(face, gp_Pnt(5, 1, 1), far), 3, 1e-12);         // over the face
+  assert_near(distance.at(face, gp_Pnt(5, 3 + 4, 1), far), 5, 1e-12);     // beside an edge
+  assert_near(distance.at(face, gp_Pnt(3, 3 + 2, 4 + 2), far), 3, 1e-12); // beside a corner
+  assert_near(distance.at(face, gp_Pnt(2, 1, 1), far), 0, 1e-12);
+  assert_near(distance.at(face, gp_Pnt(5, 1, 1), 2), 2, 0); // beyond the reach
 }
 
 static void a_wheel(void **) {
@@ -43,7 +43,7 @@ static void a_wheel(void **) {
     const gp_Pnt at(60 * std::sin(2.1 * i), 60 * std::sin(1.3 * i + 1), -30 + 40 * std::sin(3.7 * i));
     for (int f = 0; f < faces.Extent(); f++) {
       BRepExtrema_DistShapeShape wanted(BRepBuilderAPI_MakeVertex(at).Vertex(), faces(f + 1));
-      small_near(distance.at(f, at, far), wanted.Value(), 1e-9);
+      assert_near(distance.at(f, at, far), wanted.Value(), 1e-9);
     }
   }
 }

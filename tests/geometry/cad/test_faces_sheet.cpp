@@ -55,7 +55,7 @@ static void a_row_tells_a_face(void **) {
     for (int other, last = 0; neighbours >> other; count++, last = other) assert_true(other > last && other != f);
     assert_int_equal(count, 4);
   }
-  small_near(area, 52, 1e-4);
+  assert_near(area, 52, 1e-4);
 }
 
 int main() {

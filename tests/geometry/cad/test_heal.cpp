@@ -32,7 +32,7 @@ static void solids_inside_out_are_turned(void **) {
   CwCadFault fault;
   assert_true(volume(small.parts.part[0].solid) < 0);
   assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_OK);
-  small_near(volume(small.parts.part[0].solid), 6, 1e-9);
+  assert_near(volume(small.parts.part[0].solid), 6, 1e-9);
 }
 
 // A box of six faces that share nothing, the lid 0.005 off: sewn within 0.01.
@@ -58,7 +58,7 @@ static void gaps_are_sewn(void **) {
   CwCadFault fault;
   if (cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault)) fail_msg("%s", cw_fail_message());
   assert_true(BRepCheck_Analyzer(small.parts.part[0].solid).IsValid());
-  small_near(volume(small.parts.part[0].solid), 6, 0.02);
+  assert_near(volume(small.parts.part[0].solid), 6, 0.02);
   assert_int_equal(small.parts.part[0].origin.size(), 6);
 }
 
@@ -71,7 +71,7 @@ static void what_stays_open_is_refused_with_its_place(void **) {
   assert_non_null(strstr(cw_fail_message(), "mm; allowed"));
   assert_true(fault.found);
   assert_int_equal(fault.part, 1);
-  small_near(fault.at[2], 3e-3, 1e-9); // the lid is missing
+  assert_near(fault.at[2], 3e-3, 1e-9); // the lid is missing
 }
 
 // A box one corner of which lies at `at`, and is said to be within 0.9 mm of its edges.
@@ -91,7 +91,7 @@ static void tolerances_that_are_not_needed_go(void **) {
   assert_true(BRepCheck_Analyzer(small.parts.part[0].solid).IsValid());
   for (TopExp_Explorer at(small.parts.part[0].solid, TopAbs_VERTEX); at.More(); at.Next())
     assert_true(BRep_Tool::Tolerance(TopoDS::Vertex(at.Current())) <= 0.1);
-  small_near(volume(small.parts.part[0].solid), 6, 1e-9);
+  assert_near(volume(small.parts.part[0].solid), 6, 1e-9);
 }
 
 // Edges that meet in a corner within 0.7 mm alone, where 0.01 mm are allowed: the refusal names that corner.
@@ -101,7 +101,7 @@ static void wide_corners_are_refused_with_their_place(void **) {
   assert_int_equal(cw_cad_heal(0.01, &small_frame, nullptr, &small.parts, &fault), CW_ERR_GEOMETRY);
   assert_non_null(strstr(cw_fail_message(), "fit one another within no less than 0.9"));
   assert_true(fault.found);
-  for (int k = 0; k < 3; k++) small_near(fault.at[k], 1e-3 * (k + 1.4), 1e-9);
+  for (int k = 0; k < 3; k++) assert_near(fault.at[k], 1e-3 * (k + 1.4), 1e-9);
 }
 
 int main() {

@@ -48,7 +48,7 @@ static void check(const TopoDS_Shape &solid, int count, double volume) {
   const CwCadPart made = made_of(solid, count);
   CwImagesOfSolid images;
   assert_true(BRepCheck_Analyzer(made.solid).IsValid());
-  small_near(volume_of(made.solid), volume, 1e-6 * volume);
+  assert_near(volume_of(made.solid), volume, 1e-6 * volume);
   const std::string why = images.find(made.solid, count, 1e-10, 1e-3);
   if (!why.empty()) fail_msg("%s", why.c_str());
   assert_int_equal(made.origin.size(), images.faces.Extent());
@@ -59,7 +59,7 @@ static void check(const TopoDS_Shape &solid, int count, double volume) {
     GProp_GProps area, outline;
     BRepGProp::SurfaceProperties(images.faces(f + 1), area);
     BRepGProp::LinearProperties(images.faces(f + 1), outline);
-    small_near(4 * M_PI * area.Mass() / (outline.Mass() * outline.Mass()), 1, 1e-6);
+    assert_near(4 * M_PI * area.Mass() / (outline.Mass() * outline.Mass()), 1, 1e-6);
   }
 }
 
@@ -104,7 +104,7 @@ static void what_is_not_symmetric_stays(void **) {
   const double volume = volume_of(ring);
   const CwCadPart made = made_of(ring, 5);
   CwImagesOfSolid images;
-  small_near(volume_of(made.solid), volume, 1e-9 * volume);
+  assert_near(volume_of(made.solid), volume, 1e-9 * volume);
   const std::string why = images.find(made.solid, 5, tolerance, 1e-3);
   if (why.find("is 0.1 mm off its image") == std::string::npos) fail_msg("%s", why.c_str());
 }

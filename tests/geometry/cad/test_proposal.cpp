@@ -29,10 +29,10 @@ static void the_wheel_has_hub_shroud_and_blades(void **) {
   SmallParts small({{"rotor", small_rotor()}, {"stator", small_stator()}});
   const Proposed made = propose(small);
   assert_int_equal(made.blades, 6);
-  small_near(made.area[CW_ROLE_INLET], M_PI * 400, 1);
-  small_near(made.area[CW_ROLE_OUTLET], 20 * 16, 1e-3);
-  small_near(made.area[CW_ROLE_BLADE], 6 * (2 * 20 + 2 * 3) * 10, 1e-3);
-  small_near(made.area[CW_ROLE_HUB], M_PI * 2500 - 6 * 60, 1);
+  assert_near(made.area[CW_ROLE_INLET], M_PI * 400, 1);
+  assert_near(made.area[CW_ROLE_OUTLET], 20 * 16, 1e-3);
+  assert_near(made.area[CW_ROLE_BLADE], 6 * (2 * 20 + 2 * 3) * 10, 1e-3);
+  assert_near(made.area[CW_ROLE_HUB], M_PI * 2500 - 6 * 60, 1);
   assert_int_equal(made.count[CW_ROLE_PIPE], 4);
 }
 
@@ -97,7 +97,8 @@ int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_wheel_has_hub_shroud_and_blades),
                                      cmocka_unit_test(a_disc_has_no_passages),
                                      cmocka_unit_test(a_missing_blade_is_seen),
-      cmocka_unit_test(side_chambers_have_no_opening), cmocka_unit_test(pipes_have_two_ends),
+                                     cmocka_unit_test(side_chambers_have_no_opening),
+                                     cmocka_unit_test(pipes_have_two_ends),
                                      cmocka_unit_test(a_casing_round_the_wheel_has_side_walls)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

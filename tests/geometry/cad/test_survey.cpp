@@ -7,7 +7,7 @@ static const double mm = 1e-3;
 static void a_box_has_planes_and_right_angles(void **) {
   SmallParts small({{"water", small_box(10, 20, 30, 2, 3, 4)}});
   assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
-  small_near(small.survey.size, 4 * mm, 1e-9); // the longest side
+  assert_near(small.survey.size, 4 * mm, 1e-9); // the longest side
   assert_int_equal(small.survey.face_count, 6);
   assert_int_equal(small.survey.edge_count, 12);
   double area = 0, length = 0;
@@ -21,12 +21,12 @@ static void a_box_has_planes_and_right_angles(void **) {
     for (int i = 0; i < 3; i++) outward += face.normal[i] * (face.at[i] - middle[i]);
     assert_true(outward > 0);
   }
-  small_near(area, 52 * mm * mm, 1e-12);
+  assert_near(area, 52 * mm * mm, 1e-12);
   for (int e = 0; e < 12; e++) {
     length += small.survey.edge[e].length;
-    small_near(small.survey.edge[e].angle, M_PI / 2, 1e-9);
+    assert_near(small.survey.edge[e].angle, M_PI / 2, 1e-9);
   }
-  small_near(length, 36 * mm, 1e-12);
+  assert_near(length, 36 * mm, 1e-12);
 }
 
 // Into a notch the water has three right angles.
@@ -37,7 +37,7 @@ static void notches_are_concave(void **) {
   for (int e = 0; e < small.survey.edge_count; e++)
     if (small.survey.edge[e].angle > M_PI) {
       concave++;
-      small_near(small.survey.edge[e].angle, 3 * M_PI / 2, 1e-9);
+      assert_near(small.survey.edge[e].angle, 3 * M_PI / 2, 1e-9);
     }
   assert_int_equal(concave, 1);
 }
@@ -49,13 +49,13 @@ static void pipes_are_revolved(void **) {
   for (int f = 0; f < small.survey.face_count; f++) {
     const CwSurveyFace &face = small.survey.face[f];
     assert_true(face.turned);
-    small_near(face.mean_radius, face.form == CW_FORM_REVOLVED ? 5 * mm : 5 * mm / std::sqrt(2), 1e-6); // of a disc
+    assert_near(face.mean_radius, face.form == CW_FORM_REVOLVED ? 5 * mm : 5 * mm / std::sqrt(2), 1e-6); // of a disc
     if (face.form != CW_FORM_REVOLVED) continue;
     revolved++;
-    small_near(face.area, 2 * M_PI * 5 * 10 * mm * mm, 1e-10);
-    small_near(face.radius[0], 5 * mm, 1e-9);
-    small_near(face.height[0], -3 * mm, 1e-9);
-    small_near(face.height[1], 7 * mm, 1e-9);
+    assert_near(face.area, 2 * M_PI * 5 * 10 * mm * mm, 1e-10);
+    assert_near(face.radius[0], 5 * mm, 1e-9);
+    assert_near(face.height[0], -3 * mm, 1e-9);
+    assert_near(face.height[1], 7 * mm, 1e-9);
   }
   assert_int_equal(revolved, 1);
 }
@@ -76,9 +76,9 @@ static void the_nearest_face_is_found(void **) {
   int face;
   double distance, second;
   assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 1, &face, &distance, &second), CW_OK);
-  small_near(small.survey.face[face].normal[2], 1, 1e-12);
-  small_near(distance, 0.5 * mm, 1e-12);
-  small_near(second, std::hypot(4, 0.5) * mm, 1e-12);
+  assert_near(small.survey.face[face].normal[2], 1, 1e-12);
+  assert_near(distance, 0.5 * mm, 1e-12);
+  assert_near(second, std::hypot(4, 0.5) * mm, 1e-12);
   assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 0.1 * mm, &face, &distance, nullptr), CW_OK);
   assert_int_equal(face, -1);
 }

@@ -8,6 +8,7 @@
 #include "mesher/boundary/surface_mesh.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 enum { VERTICES = 4, TRIANGLES = 4, REGIONS = 2 };
 
@@ -92,20 +93,18 @@ static void freed_ones_are_empty(void **state) {
 }
 
 static void vtk_has_all_triangles(void **state) {
-  char path[sizeof test_folder + 16], text[4000] = {0};
+  char path[sizeof test_folder + 16];
   Tetrahedron of;
   make(&of);
   snprintf(path, sizeof path, "%s/it.vtk", test_folder);
   assert_int_equal(cw_surface_mesh_vtk(&of.surface, path), CW_OK);
-  FILE *stream = fopen(path, "r");
-  assert_non_null(stream);
-  assert_true(fread(text, 1, sizeof text - 1, stream) > 0);
-  fclose(stream);
+  char *text = read_whole(path, NULL);
   remove(path);
   assert_non_null(strstr(text, "DATASET POLYDATA\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"));
   assert_non_null(strstr(text, "POLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"));
   assert_non_null(strstr(text, "CELL_DATA 4\nSCALARS face int 1\nLOOKUP_TABLE default\n0\n1\n2\n3\n"));
   assert_non_null(strstr(text, "SCALARS region int 1\nLOOKUP_TABLE default\n0\n1\n0\n1\n"));
+  free(text);
 }
 
 int main(void) {

@@ -8,14 +8,12 @@
 
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static CwStatus read_of(const char *text, double *unit) {
   char path[64];
   snprintf(path, sizeof path, "%s/model.json", test_folder);
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fputs(text, file);
-  fclose(file);
+  write_text(path, text);
   const CwStatus status = cw_cad_unit_read(test_folder, unit);
   unlink(path);
   return status;

@@ -4,18 +4,16 @@
 #include "mesher/common/quality.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
-
 static void regular_tetrahedron(void **state) {
   const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {0.5, sqrt(0.75), 0};
   const double d[3] = {0.5, sqrt(1.0 / 12.0), sqrt(2.0 / 3.0)};
   const double *x[4] = {a, b, c, d};
   CwTetShape shape;
   cw_tet_shape(x, &shape);
-  NEAR(shape.volume, 1.0 / (6.0 * sqrt(2.0)), 1e-15);
-  NEAR(shape.edge_longest / shape.edge_shortest, 1.0, 1e-15);
-  NEAR(shape.dihedral_least, 70.528779365509, 1e-9); // arccos(1/3)
-  NEAR(shape.dihedral_greatest, 70.528779365509, 1e-9);
+  assert_near(shape.volume, 1.0 / (6.0 * sqrt(2.0)), 1e-15);
+  assert_near(shape.edge_longest / shape.edge_shortest, 1.0, 1e-15);
+  assert_near(shape.dihedral_least, 70.528779365509, 1e-9); // arccos(1/3)
+  assert_near(shape.dihedral_greatest, 70.528779365509, 1e-9);
 }
 
 static void corner_of_a_cube(void **state) {
@@ -23,22 +21,22 @@ static void corner_of_a_cube(void **state) {
   const double *x[4] = {a, b, c, d}, *turned[4] = {a, c, b, d};
   CwTetShape shape;
   cw_tet_shape(x, &shape);
-  NEAR(shape.volume, 1.0 / 6.0, 1e-16);
-  NEAR(shape.edge_longest / shape.edge_shortest, sqrt(2.0), 1e-15);
-  NEAR(shape.dihedral_least, 54.735610317245, 1e-9); // arctan(sqrt 2)
-  NEAR(shape.dihedral_greatest, 90.0, 1e-9);
+  assert_near(shape.volume, 1.0 / 6.0, 1e-16);
+  assert_near(shape.edge_longest / shape.edge_shortest, sqrt(2.0), 1e-15);
+  assert_near(shape.dihedral_least, 54.735610317245, 1e-9); // arctan(sqrt 2)
+  assert_near(shape.dihedral_greatest, 90.0, 1e-9);
   cw_tet_shape(turned, &shape);
-  NEAR(shape.volume, -1.0 / 6.0, 1e-16);
-  NEAR(shape.dihedral_least, 0.0, 0.0);
+  assert_near(shape.volume, -1.0 / 6.0, 1e-16);
+  assert_near(shape.dihedral_least, 0.0, 0.0);
 }
 
 static void scaled_jacobian_of_prisms(void **state) {
   const double h = sqrt(0.75);
   double p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1e-3}, {1, 0, 1e-3}, {0.5, h, 1e-3}};
   const double *x[6] = {p[0], p[1], p[2], p[3], p[4], p[5]};
-  NEAR(cw_prism_scaled_jacobian(x), 1.0, 1e-14); // thin is not bad
-  for (int k = 3; k < 6; k++) p[k][0] += 1e-3;   // sheared by 45 degrees
-  NEAR(cw_prism_scaled_jacobian(x), sqrt(0.5), 1e-12);
+  assert_near(cw_prism_scaled_jacobian(x), 1.0, 1e-14); // thin is not bad
+  for (int k = 3; k < 6; k++) p[k][0] += 1e-3;          // sheared by 45 degrees
+  assert_near(cw_prism_scaled_jacobian(x), sqrt(0.5), 1e-12);
   p[5][2] = -1e-3;
   assert_true(cw_prism_scaled_jacobian(x) < 0.0);
 }

@@ -8,8 +8,6 @@
 #include "pipeline/order.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
-
 static const double origin[3] = {0, 0, 0};
 
 static CwVerticals *verticals_of(const Surface *s) {
@@ -33,8 +31,8 @@ static void box_is_cut_in_two_places(void **unused) {
     assert_int_equal(count % 2, 0);
     if (k % 9 == 0 || k % 9 == 8 || k / 9 == 0 || k / 9 == 8) continue; // upright walls: either
     assert_int_equal(count, 2);
-    NEAR(fmin(z[0], z[1]), 1.0, 1e-14);
-    NEAR(fmax(z[0], z[1]), 3.0, 1e-14);
+    assert_near(fmin(z[0], z[1]), 1.0, 1e-14);
+    assert_near(fmax(z[0], z[1]), 3.0, 1e-14);
   }
   assert_int_equal(cw_verticals_cut(verticals, -0.1, 2.0, &count, &z), CW_OK);
   assert_int_equal(count, 0);
@@ -58,10 +56,10 @@ static void ball_with_a_void_is_cut_in_four(void **unused) {
     memcpy(four, z, sizeof four);
     qsort(four, 4, sizeof *four, cw_order_doubles);
     double square = x * x + y * y;
-    NEAR(four[0], -sqrt(1.0 - square), 0.01);
-    NEAR(four[1], -sqrt(0.25 - square), 0.01);
-    NEAR(four[2], sqrt(0.25 - square), 0.01);
-    NEAR(four[3], sqrt(1.0 - square), 0.01);
+    assert_near(four[0], -sqrt(1.0 - square), 0.01);
+    assert_near(four[1], -sqrt(0.25 - square), 0.01);
+    assert_near(four[2], sqrt(0.25 - square), 0.01);
+    assert_near(four[3], sqrt(1.0 - square), 0.01);
   }
   cw_verticals_free(&verticals);
   surface_free(&s);

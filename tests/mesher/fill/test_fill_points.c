@@ -9,8 +9,6 @@
 #include "mesher/policy.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
-
 typedef struct {
   double size, growth; // size + growth * |x|
   int along;           // of the first coordinate alone
@@ -173,7 +171,7 @@ static void row_stands_over_the_last_triangles(void **unused) {
   }
   assert_true(row > 0.35 * input.offset_count && row < 0.6 * input.offset_count);
   for (int32_t p = count - row; p < count; p++) {
-    NEAR(x[p][2], N * edge - sqrt(2.0 / 3) * spacing, 1e-12);
+    assert_near(x[p][2], N * edge - sqrt(2.0 / 3) * spacing, 1e-12);
     for (int32_t q = 0; q < p; q++) {
       double distance = cw_distance(x[p], x[q]);
       assert_true(distance > cw_policy.least_distance * spacing * (1 - 1e-12));

@@ -5,23 +5,21 @@
 #include "mesher/fill/fill_reach.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
-
 static const double A[3] = {0, 0, 0}, B[3] = {1, 0, 0}, C[3] = {0, 1, 0};
 
 static void sphere_is_the_smallest_through_the_corners(void **unused) {
   CwReachBox box;
   CwReachBall ball;
   cw_reach_of_triangle(A, B, C, 10, 1, &box, &ball);
-  NEAR(ball.centre[0], 0.5);
-  NEAR(ball.centre[1], 0.5);
-  NEAR(ball.centre[2], 0);
-  NEAR(ball.square, 0.5);
-  NEAR(ball.edge, sqrt(4.0 / 3.0));
+  assert_near(ball.centre[0], 0.5, 1e-12);
+  assert_near(ball.centre[1], 0.5, 1e-12);
+  assert_near(ball.centre[2], 0, 1e-12);
+  assert_near(ball.square, 0.5, 1e-12);
+  assert_near(ball.edge, sqrt(4.0 / 3.0), 1e-12);
   assert_true(cw_reach_in_ball(&ball, (double[3]){0.5, 0.5, 0.7}));
   assert_false(cw_reach_in_ball(&ball, (double[3]){0.5, 0.5, 0.71}));
   cw_reach_of_triangle(A, B, C, 10, 2, &box, &ball);
-  NEAR(ball.square, 2);
+  assert_near(ball.square, 2, 1e-12);
 }
 
 static void sphere_of_a_needle_is_no_larger_than_its_edges(void **unused) {
@@ -29,7 +27,7 @@ static void sphere_of_a_needle_is_no_larger_than_its_edges(void **unused) {
   CwReachBall ball;
   const double tip[3] = {0.5, 1e-3, 0};
   cw_reach_of_triangle(A, B, tip, 10, 1, &box, &ball);
-  NEAR(ball.square, 1);
+  assert_near(ball.square, 1, 1e-12);
 }
 
 // Half of h, or of the edges, from the inside of the triangle, from an edge and from a corner.

@@ -6,8 +6,6 @@
 #include "mesher/fill/offset_points.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
-
 static double size_at(const void *context, const double x[3]) {
   return *(const double *)context;
 }
@@ -28,10 +26,10 @@ static CwOffsetPoint place_for(double size, double edge) {
 
 static void stands_inside_over_the_middle(void **unused) {
   CwOffsetPoint place = place_for(2, 2);
-  NEAR(place.spacing, 2);
-  NEAR(place.x[0], 1);
-  NEAR(place.x[1], sqrt(1.0 / 3.0));
-  NEAR(place.x[2], -2 * sqrt(2.0 / 3));
+  assert_near(place.spacing, 2, 1e-12);
+  assert_near(place.x[0], 1, 1e-12);
+  assert_near(place.x[1], sqrt(1.0 / 3.0), 1e-12);
+  assert_near(place.x[2], -2 * sqrt(2.0 / 3), 1e-12);
 }
 
 // The line of the order runs along no axis: it grows with each coordinate, by different amounts.
@@ -58,13 +56,13 @@ static void line_runs_along_no_axis(void **unused) {
 static void makes_a_good_tetrahedron(void **unused) {
   CwOffsetPoint place = place_for(1, 1);
   double side = cw_norm(place.x);
-  NEAR(side, 1);
+  assert_near(side, 1, 1e-12);
 }
 
 static void spacing_is_between_the_wanted_length_and_the_edges(void **unused) {
-  NEAR(place_for(1.21, 1).spacing, 1.1);
-  NEAR(place_for(1, 1.331).spacing, 1.1); // nearer to the shorter one
-  NEAR(place_for(9, 1).spacing, 3);
+  assert_near(place_for(1.21, 1).spacing, 1.1, 1e-12);
+  assert_near(place_for(1, 1.331).spacing, 1.1, 1e-12); // nearer to the shorter one
+  assert_near(place_for(9, 1).spacing, 3, 1e-12);
 }
 
 static void last_triangles_are_on_the_interface(void **unused) {

@@ -5,8 +5,6 @@
 #include "mesher/fill/tet_bound.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
-
 static double bound_of(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*triangle)[3],
                        int32_t *worst) {
   CwFillInput input = {
@@ -26,7 +24,7 @@ static void a_tetrahedron_allows_its_own_angle(void **state) {
   int32_t worst;
   cw_tet_shape(corner, &shape);
   assert_true(shape.dihedral_least < CW_TET_BOUND_MOST);
-  NEAR(bound_of(4, x, 4, four, &worst), shape.dihedral_least, 1e-9);
+  assert_near(bound_of(4, x, 4, four, &worst), shape.dihedral_least, 1e-9);
 }
 
 // A roof over a long edge, wedge angle A: the two triangles at the edge have other neighbours, and their tetrahedron is
@@ -51,7 +49,7 @@ static void sharp_edges_allow_half_or_their_tetrahedron(void **state) {
     assert_true(worst >= 0 && bound >= 0.5 * degrees - 1e-9 && bound <= degrees + 1e-9);
   }
   // 2 and 3 face one another over the edge's middle: triangles 0-1-4 and 0-3-1 have the tetrahedron 0-1-4-3.
-  NEAR(roof(10.0, 0.0001, &worst), 10.0, 0.1);
+  assert_near(roof(10.0, 0.0001, &worst), 10.0, 0.1);
 }
 
 static void a_cube_is_not_bounded(void **state) {
@@ -60,12 +58,12 @@ static void a_cube_is_not_bounded(void **state) {
   for (int k = 0; k < 8; k++) x[k][0] = k & 1, x[k][1] = k >> 1 & 1, x[k][2] = k >> 2;
   const int32_t triangle[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  NEAR(bound_of(8, (const double(*)[3])x, 12, triangle, &worst), CW_TET_BOUND_MOST, 0.0);
+  assert_near(bound_of(8, (const double(*)[3])x, 12, triangle, &worst), CW_TET_BOUND_MOST, 0.0);
   // Turned inside out its edges are 270 degrees wide.
   int32_t turned[12][3];
   for (int t = 0; t < 12; t++)
     turned[t][0] = triangle[t][0], turned[t][1] = triangle[t][2], turned[t][2] = triangle[t][1];
-  NEAR(bound_of(8, (const double(*)[3])x, 12, (const int32_t(*)[3])turned, &worst), CW_TET_BOUND_MOST, 0.0);
+  assert_near(bound_of(8, (const double(*)[3])x, 12, (const int32_t(*)[3])turned, &worst), CW_TET_BOUND_MOST, 0.0);
   assert_int_equal(worst, -1);
 }
 

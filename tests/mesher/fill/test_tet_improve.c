@@ -6,8 +6,6 @@
 #include "mesher/fill/tet_quality.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
-
 static CwFill fill_of(int32_t points, const double (*x)[3], int32_t tets, const int32_t (*tet)[4]) {
   CwFill fill = {.point_count = points, .tetrahedron_count = tets};
   fill.x = malloc((size_t)points * sizeof *fill.x);
@@ -27,12 +25,8 @@ static double least_of(const CwFill *fill, double *volume) {
   *volume = 0.0;
   for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
     const double *x[4];
-    double u[3], v[3], w[3];
     for (int i = 0; i < 4; i++) x[i] = fill->x[fill->tetrahedron[t][i]];
-    for (int i = 0; i < 3; i++) u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
-    *volume +=
-        ((u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2]) /
-        6.0;
+    *volume += cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0;
     least = fmin(least, cw_tet_quality(x[0], x[1], x[2], x[3]));
   }
   return least;
@@ -41,14 +35,14 @@ static double least_of(const CwFill *fill, double *volume) {
 static void quality_by_hand(void **state) {
   const double h = sqrt(0.75), a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {0.5, h, 0};
   const double d[3] = {0.5, h / 3.0, sqrt(2.0 / 3.0)}, corner[3] = {0, 1, 0}, up[3] = {0, 0, 1};
-  NEAR(cw_tet_quality(a, b, c, d), sqrt(8.0) / 3.0, 1e-14);       // sine of arccos(1/3)
-  NEAR(cw_tet_quality(a, b, corner, up), sqrt(2.0 / 3.0), 1e-14); // sine of arctan(sqrt 2)
+  assert_near(cw_tet_quality(a, b, c, d), sqrt(8.0) / 3.0, 1e-14);       // sine of arccos(1/3)
+  assert_near(cw_tet_quality(a, b, corner, up), sqrt(2.0 / 3.0), 1e-14); // sine of arctan(sqrt 2)
   assert_true(cw_tet_quality(b, a, c, d) <= 0.0);
   const double sine = sqrt(0.1786);              // what an aspect of 4 counts
   const double tall[3] = {0.5, h / 3.0, 3.0};    // longest edge over shortest sqrt(28 / 3), below 4
   const double far_up[3] = {0.5, h / 3.0, 12.0}; // sqrt(433 / 3), above 4: by the root
-  NEAR(cw_tet_quality(a, b, c, tall), 4.0 * sine / sqrt(28.0 / 3.0), 1e-14);
-  NEAR(cw_tet_quality(a, b, c, far_up), sine * sqrt(4.0 / sqrt(433.0 / 3.0)), 1e-14);
+  assert_near(cw_tet_quality(a, b, c, tall), 4.0 * sine / sqrt(28.0 / 3.0), 1e-14);
+  assert_near(cw_tet_quality(a, b, c, far_up), sine * sqrt(4.0 / sqrt(433.0 / 3.0)), 1e-14);
 }
 
 // An octahedron can be cut along each of its three diagonals; the boundary is the same. Started from the
@@ -77,9 +71,9 @@ static void octahedron_gets_its_best_diagonal(void **state) {
   assert_int_equal(cw_tet_improve(6, &fill, &changes), CW_OK);
   assert_int_equal(changes.edges_removed, 1);
   assert_int_equal(fill.tetrahedron_count, 4);
-  NEAR(least_of(&fill, &got_volume), best, 1e-14);
-  NEAR(got_volume, volume[worst], 1e-14);
-  NEAR(changes.least_before, least[worst], 1e-14);
+  assert_near(least_of(&fill, &got_volume), best, 1e-14);
+  assert_near(got_volume, volume[worst], 1e-14);
+  assert_near(changes.least_before, least[worst], 1e-14);
   assert_true(best > 0.4226 && changes.least_after == 0.4226);
   free_fill(&fill);
 }
@@ -97,17 +91,17 @@ static void two_become_three_and_three_two(void **state) {
   CwFill other = fill_of(5, x, 3, three);
   double other_volume;
   least_three = least_of(&other, &other_volume);
-  NEAR(volume, other_volume, 1e-15);
+  assert_near(volume, other_volume, 1e-15);
   CwTetChanges changes;
   // Apexes close to one another: compare the two cuts and expect the better of them, from either side.
   double best = fmax(least_two, least_three);
   assert_int_equal(cw_tet_improve(5, &fill, &changes), CW_OK);
   assert_true(least_of(&fill, &volume) >= best - 1e-14); // a new point may go further
-  NEAR(volume, other_volume, 1e-15);
+  assert_near(volume, other_volume, 1e-15);
   assert_int_equal(changes.faces_removed + changes.edges_removed, least_three > least_two);
   assert_int_equal(cw_tet_improve(5, &other, &changes), CW_OK);
   assert_true(least_of(&other, &volume) >= best - 1e-14);
-  NEAR(volume, other_volume, 1e-15);
+  assert_near(volume, other_volume, 1e-15);
   assert_int_equal(changes.edges_removed + changes.faces_removed, least_two > least_three);
   free_fill(&fill);
   free_fill(&other);
@@ -142,12 +136,12 @@ static void inner_point_is_smoothed(void **state) {
   CwFill fill = fill_of(13, (const double(*)[3])x, 20, (const int32_t(*)[4])tet);
   double before = least_of(&fill, &volume), whole = volume, enclosed = surface_volume(&s);
   assert_true(before > 0.0 && before < 0.2);
-  NEAR(whole, enclosed, 1e-14);
+  assert_near(whole, enclosed, 1e-14);
   CwTetChanges changes;
   assert_int_equal(cw_tet_improve(12, &fill, &changes), CW_OK);
   assert_true(changes.points_moved + changes.edges_removed + changes.faces_removed > 0);
   assert_true(least_of(&fill, &volume) > 0.454);
-  NEAR(volume, enclosed, 1e-14);
+  assert_near(volume, enclosed, 1e-14);
   assert_memory_equal(fill.x, x, 12 * sizeof *x);
   free_fill(&fill);
   free(x);
@@ -168,11 +162,11 @@ static void points_go_into_a_ball(void **state) {
   CwFill fill = fill_of(42, (const double(*)[3])s.x, 75, (const int32_t(*)[4])tet);
   CwTetChanges changes;
   assert_true(least_of(&fill, &volume) < 0.4);
-  NEAR(volume, surface_volume(&s), 1e-14);
+  assert_near(volume, surface_volume(&s), 1e-14);
   assert_int_equal(cw_tet_improve(42, &fill, &changes), CW_OK);
   assert_true(changes.points_added > 0 && fill.point_count > 42);
   assert_true(least_of(&fill, &volume) > 0.4226);
-  NEAR(volume, surface_volume(&s), 1e-13);
+  assert_near(volume, surface_volume(&s), 1e-13);
   assert_memory_equal(fill.x, s.x, 42 * sizeof *fill.x);
   free_fill(&fill);
   surface_free(&s);

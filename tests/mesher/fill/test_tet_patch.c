@@ -3,37 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "joined_mesh.h"
 #include "mesher/fill/tet_patch.h"
-#include "mesher/fill/tet_quality.h"
 #include "shaken_lattice.h"
 #include "tests/unit_test.h"
-
-static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-// Six times the volume; all are positive, and each knows its neighbours.
-static double sound_volume(const CwTetMesh *mesh) {
-  double six = 0.0;
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwTet *tet = &mesh->tet[t];
-    const int32_t *c = tet->corner;
-    if (c[0] < 0) continue;
-    double here =
-        cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x).six;
-    assert_true(here > 0.0);
-    six += here;
-    for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0) continue;
-      const CwTet *other = &mesh->tet[tet->neighbour[i] / 4];
-      assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
-      for (int k = 0; k < 3; k++) { // the same three points
-        int found = 0;
-        for (int m = 0; m < 3; m++) found |= other->corner[face[tet->neighbour[i] % 4][m]] == c[face[i][k]];
-        assert_true(found);
-      }
-    }
-  }
-  return six;
-}
 
 static int32_t used_count(const CwTetMesh *mesh) {
   int32_t count = 0;
@@ -46,9 +19,8 @@ static int32_t used_count(const CwTetMesh *mesh) {
 // both.
 static void patch_goes_out_and_back(void **state) {
   double(*x)[3];
-  int32_t outside, count = shaken_lattice(8, 0.1, &outside, &x), middle = -1, *place = NULL;
   CwTetMesh whole;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
+  int32_t outside, count = shaken_lattice(8, 0.1, &outside, &x, &whole), middle = -1, *place = NULL;
   for (int32_t t = 0; t < whole.tet_count && middle < 0; t++) {
     int inner = whole.tet[t].corner[0] >= 0;
     for (int i = 0; i < 4 && inner; i++) {
@@ -57,14 +29,14 @@ static void patch_goes_out_and_back(void **state) {
     if (inner) middle = t;
   }
   assert_true(middle >= 0);
-  double six = sound_volume(&whole);
+  double six = joined_volume6(&whole);
   int32_t before = used_count(&whole);
   CwTetPatch patch;
   assert_int_equal(cw_tet_patch_take(&whole, middle, 400, outside, &patch), CW_OK);
   assert_int_equal(patch.tet_count, 400);
   assert_int_equal(patch.mesh.tet_count, 400);
   assert_int_equal(patch.tet[0], middle);
-  double taken = sound_volume(&patch.mesh);
+  double taken = joined_volume6(&patch.mesh);
   assert_true(taken > 0.0 && taken < six);
   int32_t free_count = 0, moved = -1;
   for (int32_t p = 0; p < patch.point_count; p++) {
@@ -99,7 +71,7 @@ static void patch_goes_out_and_back(void **state) {
   int32_t whole_point = patch.point[moved], sources = count, points = whole.point_count;
   assert_int_equal(cw_tet_patch_put(&patch, &whole, &sources, &place), CW_OK);
   assert_int_equal(used_count(&whole), before + 3);
-  assert_true(fabs(sound_volume(&whole) / six - 1.0) < 1e-12);
+  assert_true(fabs(joined_volume6(&whole) / six - 1.0) < 1e-12);
   assert_int_equal(sources, count + 1);
   assert_int_equal(whole.point_count, points + 1);
   assert_int_equal(whole.source[points], count);
@@ -115,10 +87,9 @@ static void patch_goes_out_and_back(void **state) {
 // One that lost a face of its hull is refused.
 static void other_hull_is_refused(void **state) {
   double(*x)[3];
-  int32_t outside, count = shaken_lattice(4, 0.1, &outside, &x), *place = NULL, sources = count;
   CwTetMesh whole;
   CwTetPatch patch;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
+  int32_t outside, *place = NULL, sources = shaken_lattice(4, 0.1, &outside, &x, &whole);
   assert_int_equal(cw_tet_patch_take(&whole, whole.tet_count / 2, 20, outside, &patch), CW_OK);
   int32_t k = 0;
   while (patch.mesh.tet[k / 4].neighbour[k % 4] < 0) k++;
@@ -141,10 +112,9 @@ static int32_t beside_count(const CwTetMesh *mesh, int32_t beside) {
 // patch, nor beside what comes back.
 static void nothing_beside_stays_nothing(void **state) {
   double(*x)[3];
-  int32_t outside, count = shaken_lattice(4, 0.1, &outside, &x), sources = count, *place = NULL;
   CwTetMesh whole;
   CwTetPatch patch;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
+  int32_t outside, sources = shaken_lattice(4, 0.1, &outside, &x, &whole), *place = NULL;
   for (int32_t k = 0; k < 4 * whole.tet_count; k++) {
     if (whole.tet[k / 4].corner[0] >= 0 && whole.tet[k / 4].neighbour[k % 4] < 0)
       whole.tet[k / 4].neighbour[k % 4] = CW_BESIDE_NOTHING;

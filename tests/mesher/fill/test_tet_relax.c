@@ -1,40 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/fill/delaunay.h"
-#include "mesher/fill/tet_aspect.h"
 #include "mesher/fill/tet_relax.h"
 #include "mesher/policy.h"
 #include "shaken_lattice.h"
+#include "tet_sums.h"
 #include "tests/unit_test.h"
-
-// Sum of the volumes, mean quality and mean ratio of the longest to the shortest edge of the tetrahedra that have an
-// inner point; all are positive.
-static double shape_of(const CwTetWork *w, double *mean, double *aspect) {
-  double six = 0.0;
-  int count = 0;
-  *mean = *aspect = 0.0;
-  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
-    const int32_t *c = w->mesh->tet[t].corner;
-    int inner = 0;
-    if (c[0] < 0) continue;
-    for (int i = 0; i < 4; i++) inner |= w->mesh->source[c[i]] >= w->fixed_count;
-    CwTetMeasures m = cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
-    double shortest, longest;
-    assert_true(m.six > 0.0);
-    six += m.six;
-    if (!inner) continue;
-    cw_tet_edges(&m, &shortest, &longest);
-    *aspect += sqrt(longest / shortest);
-    *mean += cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
-    count++;
-  }
-  *mean /= count;
-  *aspect /= count;
-  return six;
-}
 
 // Relaxing is to follow: nothing is left worse below 0.3.
 static CwTetWork work_on(CwTetMesh *mesh, int32_t outside, int32_t count, CwTetShapes *shapes) {
@@ -51,18 +23,18 @@ static CwTetWork work_on(CwTetMesh *mesh, int32_t outside, int32_t count, CwTetS
 static const int moves = CW_TET_CENTRES | CW_TET_EDGES;
 
 static void shaken_points_become_even(void **state) {
-  double(*x)[3], before, after, uneven, even;
-  int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x), moved = 0;
+  double(*x)[3];
   CwTetMesh mesh;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
+  int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x, &mesh), moved = 0;
   CwTetShapes shapes;
   CwTetWork w = work_on(&mesh, outside, count, &shapes);
   assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
-  double six = shape_of(&w, &before, &uneven);
+  TetSums before = tet_sums(&w, outside);
   assert_int_equal(cw_tet_relax(&w, &shapes, moves), CW_OK);
-  assert_true(fabs(shape_of(&w, &after, &even) / six - 1.0) < 1e-12);
-  assert_true(after > before + 0.03);
-  assert_true(uneven > 1.49 && even < 1.335); // 1.348 by the centres alone
+  TetSums after = tet_sums(&w, outside);
+  assert_true(fabs(after.six / before.six - 1.0) < 1e-12);
+  assert_true(after.quality > before.quality + 0.03);
+  assert_true(before.aspect > 1.49 && after.aspect < 1.335); // 1.348 by the centres alone
   for (int32_t p = 0; p < mesh.point_count; p++) {
     if (mesh.source[p] < 0) continue;
     int same = memcmp(mesh.point[p].x, x[mesh.source[p]], sizeof *x) == 0;
@@ -71,15 +43,7 @@ static void shaken_points_become_even(void **state) {
   }
   assert_int_equal(moved, w.count.points_moved);
   assert_true(moved > (count - outside) / 2);
-  for (int32_t t = 0; t < mesh.tet_count; t++) { // qualities are kept, those below the limit listed
-    const int32_t *c = mesh.tet[t].corner;
-    if (c[0] < 0 || mesh.tet[t].quality == 1.0) continue;
-    double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
-    assert_true(fabs(mesh.tet[t].quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
-    int listed = mesh.tet[t].quality >= cw_policy.improve_below;
-    for (int32_t k = 0; k < w.next.count && !listed; k++) listed = w.next.tet[k] == t;
-    assert_true(listed);
-  }
+  assert_qualities_kept(&w);
   cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
   cw_tet_mesh_free(&mesh);
@@ -89,9 +53,8 @@ static void shaken_points_become_even(void **state) {
 // Two layers below the skin all tetrahedra are regular: their points stay to the bit.
 static void lattice_stays(void **state) {
   double(*x)[3];
-  int32_t outside, count = shaken_lattice(8, 1e-3, &outside, &x), deep = 0;
   CwTetMesh mesh;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
+  int32_t outside, count = shaken_lattice(8, 1e-3, &outside, &x, &mesh), deep = 0;
   CwTetShapes shapes;
   CwTetWork w = work_on(&mesh, outside, count, &shapes);
   assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
@@ -113,10 +76,9 @@ static void lattice_stays(void **state) {
 // Tetrahedra that come out below a floor and worse than they were, of some that the steps spoil.
 static int spoilt_below(double floor) {
   double(*x)[3], *before;
-  int32_t outside, count = shaken_lattice(8, 0.25, &outside, &x);
-  int spoilt = 0;
   CwTetMesh mesh;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
+  int32_t outside, count = shaken_lattice(8, 0.25, &outside, &x, &mesh);
+  int spoilt = 0;
   CwTetShapes shapes;
   CwTetWork w = work_on(&mesh, outside, count, &shapes);
   shapes.floor = floor;

@@ -1,36 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/fill/delaunay.h"
+#include "joined_mesh.h"
 #include "mesher/fill/fill_mesh.h"
-#include "mesher/fill/tet_aspect.h"
 #include "mesher/fill/tet_shorten.h"
 #include "shaken_lattice.h"
+#include "tet_sums.h"
 #include "tests/unit_test.h"
-
-typedef struct {
-  int count;
-  double six, aspect, least; // sums, and the least quality
-} Shape;
-
-static Shape shape_of(const CwTetWork *w) {
-  Shape shape = {.least = 1.0};
-  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
-    const int32_t *c = w->mesh->tet[t].corner;
-    if (c[0] < 0) continue;
-    CwTetMeasures m = cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
-    double shortest, longest;
-    assert_true(m.six > 0.0);
-    cw_tet_edges(&m, &shortest, &longest);
-    shape.six += m.six;
-    shape.aspect += sqrt(longest / shortest);
-    shape.least = fmin(shape.least, cw_tet_quality_of(w, c[0], c[1], c[2], c[3]));
-    shape.count++;
-  }
-  return shape;
-}
 
 static void release(CwTetWork *w, CwTetShapes *shapes) {
   cw_tet_shapes_free(shapes);
@@ -40,32 +17,20 @@ static void release(CwTetWork *w, CwTetShapes *shapes) {
 
 static void tetrahedra_become_less_slender(void **state) {
   double(*x)[3];
-  int32_t outside, count = shaken_lattice(8, 0.15, &outside, &x);
   CwTetMesh mesh;
-  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
+  int32_t outside, count = shaken_lattice(8, 0.15, &outside, &x, &mesh);
   CwTetWork w = {.mesh = &mesh, .limit = 0.48, .fixed_count = outside, .source_count = count};
   CwTetShapes shapes = {.floor = 0.3};
   assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
-  Shape before = shape_of(&w);
+  TetSums before = tet_sums(&w, -1);
   assert_int_equal(cw_tet_shorten(&w, &shapes), CW_OK);
-  Shape after = shape_of(&w);
+  TetSums after = tet_sums(&w, -1);
   assert_true(fabs(after.six / before.six - 1.0) < 1e-12);
   assert_true(after.least >= fmin(before.least, 0.3));
   assert_true(w.count.edges_removed > before.count / 50);
-  assert_true(after.aspect / after.count < before.aspect / before.count - 0.005);
-  for (int32_t t = 0; t < mesh.tet_count; t++) { // qualities are kept, those below the limit listed
-    const CwTet *tet = &mesh.tet[t];
-    const int32_t *c = tet->corner;
-    if (c[0] < 0) continue;
-    double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
-    assert_true(tet->quality == 1.0 || fabs(tet->quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
-    int listed = tet->quality >= w.limit;
-    for (int32_t k = 0; k < w.next.count && !listed; k++) listed = w.next.tet[k] == t;
-    assert_true(listed);
-    for (int i = 0; i < 4; i++) // neighbours know one another
-      assert_true(tet->neighbour[i] < 0 ||
-                  mesh.tet[tet->neighbour[i] / 4].neighbour[tet->neighbour[i] % 4] == 4 * t + i);
-  }
+  assert_true(after.aspect < before.aspect - 0.005);
+  assert_qualities_kept(&w);
+  joined_volume6(&mesh);
   release(&w, &shapes);
   free(x);
 }
@@ -86,11 +51,11 @@ static void shorten_round(int n, const double (*round)[2], int *count, int *with
   CwTetWork w = {.mesh = &mesh, .fixed_count = 2 + n, .source_count = 2 + n};
   CwTetShapes shapes = {.floor = 0.3};
   assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
-  double six = shape_of(&w).six;
+  double six = tet_sums(&w, -1).six;
   assert_int_equal(cw_tet_shorten(&w, &shapes), CW_OK);
-  Shape shape = shape_of(&w);
-  assert_true(fabs(shape.six / six - 1.0) < 1e-12);
-  *count = shape.count;
+  TetSums after = tet_sums(&w, -1);
+  assert_true(fabs(after.six / six - 1.0) < 1e-12);
+  *count = after.count;
   *with = 0;
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     int ends = 0;

@@ -5,12 +5,11 @@
 #include <string.h>
 
 #include "closed_surfaces.h"
+#include "mesher/common/quality.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/tetgen_fill.h"
 #include "mesher/region/audit.h"
 #include "tests/unit_test.h"
-
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 
 typedef struct {
   double size, growth, place[3]; // size + growth * distance from place
@@ -79,7 +78,7 @@ static CwQuality check_fill(const Surface *s, const CwFill *fill) {
                          .cells.triangle_cell = cell};
   if (cw_audit_region(&region, &quality) != CW_OK) fail_msg("%s", cw_fail_message());
   double volume = surface_volume(s);
-  NEAR(quality.volume, volume, 1e-12 * volume);
+  assert_near(quality.volume, volume, 1e-12 * volume);
   assert_true(quality.dihedral_least >= 10.0);
   assert_true(quality.aspect_max <= 4.0);
   assert_true(quality.aspect_mean <= 1.55);
@@ -103,7 +102,7 @@ static const double origin[3] = {0, 0, 0};
 static void cube(void **state) {
   Surface s = {0};
   surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){12, 12, 12}, 1);
-  NEAR(surface_volume(&s), 6.4e-5, 1e-18);
+  assert_near(surface_volume(&s), 6.4e-5, 1e-18);
   CwQuality q = fill_and_check(&s, &(Field){.size = 0.04 / 12});
   // 6 sqrt(2) tetrahedra in h^3 for regular ones; right-angled triangles on the faces have longer edges than
   // h.
@@ -147,7 +146,7 @@ static void shell_in_a_void_of_a_shell(void **state) {
   surface_add_sphere(&s, origin, 0.03, 3, 0);
   surface_add_sphere(&s, (double[3]){0.001, 0, 0}, 0.02, 2, 1);
   double thirds = pow(0.05, 3) - pow(0.03, 3) + pow(0.02, 3);
-  NEAR(surface_volume(&s) / (4.0 / 3.0 * 3.141592653589793 * thirds), 1.0, 0.03);
+  assert_near(surface_volume(&s) / (4.0 / 3.0 * 3.141592653589793 * thirds), 1.0, 0.03);
   fill_and_check(&s, &(Field){.size = 0.006});
   surface_free(&s);
 }
@@ -171,14 +170,11 @@ static void slab_thinner_than_the_size(void **state) {
   for (int32_t t = 0; t < fill.tetrahedron_count; t++) {
     const double *x[4];
     for (int i = 0; i < 4; i++) x[i] = fill.x[fill.tetrahedron[t][i]];
-    double u[3], v[3], w[3];
-    for (int i = 0; i < 3; i++) u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
-    double six =
-        (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2];
+    double six = cw_tet_volume6(x[0], x[1], x[2], x[3]);
     assert_true(six > 0.0);
     volume += six / 6.0;
   }
-  NEAR(volume, 4e-7, 1e-18);
+  assert_near(volume, 4e-7, 1e-18);
   cw_fill_free(&fill);
   surface_free(&s);
 }
@@ -273,9 +269,9 @@ static void self_intersection_is_named_with_its_place(void **state) {
   const char *place = strchr(cw_fail_message(), '(');
   assert_non_null(place);
   assert_int_equal(sscanf(place, "(%lf, %lf, %lf) mm", &at[0], &at[1], &at[2]), 3);
-  NEAR(at[0], 40.0, 11.0);
-  NEAR(at[1], 20.0, 11.0);
-  NEAR(at[2], 20.0, 11.0);
+  assert_near(at[0], 40.0, 11.0);
+  assert_near(at[1], 20.0, 11.0);
+  assert_near(at[2], 20.0, 11.0);
   surface_free(&s);
 }
 

@@ -7,6 +7,7 @@
 #include "layers_case.h"
 #include "mesher/common/vec.h"
 #include "tests/test_folder.h"
+#include "tests/whole_file.h"
 
 static void flat_square(void **state) {
   Case c = {.target = 0.6 * MM};
@@ -241,20 +242,18 @@ static void spoiled_layers_are_told(void **state) {
 }
 
 static void vtk_has_the_layer_top(void **state) {
-  char path[sizeof test_folder + 16], text[4000] = {0};
+  char path[sizeof test_folder + 16];
   Square of;
   square(&of);
   snprintf(path, sizeof path, "%s/it.vtk", test_folder);
   assert_int_equal(cw_layers_vtk(&of.layers, of.region, path), CW_OK);
-  FILE *stream = fopen(path, "r");
-  assert_non_null(stream);
-  assert_true(fread(text, 1, sizeof text - 1, stream) > 0);
-  fclose(stream);
+  char *text = read_whole(path, NULL);
   remove(path);
   assert_non_null(strstr(text, "POINTS 4 double\n0 0 -0.1"));
   assert_non_null(strstr(text, "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\n"));
   assert_non_null(strstr(text, "SCALARS reason int 1\nLOOKUP_TABLE default\n2\n4\n")); // of its thinnest column
   assert_non_null(strstr(text, "SCALARS region int 1\nLOOKUP_TABLE default\n3\n4\n"));
+  free(text);
 }
 
 int main(void) {

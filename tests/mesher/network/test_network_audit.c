@@ -6,6 +6,7 @@
 
 #include "mesher/network/network_audit.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 enum { POINTS = 3 };
 
@@ -76,19 +77,16 @@ static void spoiled_ones_are_told(void **state) {
 
 static void pictures_have_the_lines(void **state) {
   const char *path = "network-audit.vtk";
-  char text[2000];
   Lines lines;
   make(&lines);
   assert_int_equal(cw_network_vtk(&lines.network, path), CW_OK);
-  FILE *file = fopen(path, "r");
-  assert_non_null(file);
-  text[fread(text, 1, sizeof text - 1, file)] = '\0';
-  fclose(file);
+  char *text = read_whole(path, NULL);
   remove(path);
   const char *parts = strstr(text, "LINES");
   assert_non_null(parts);
   assert_string_equal(parts, "LINES 2 8\n3 0 1 2\n3 3 4 5\nCELL_DATA 2\nSCALARS kind int 1\nLOOKUP_TABLE default\n"
                              "0\n1\nSCALARS wall int 1\nLOOKUP_TABLE default\n1\n0\n");
+  free(text);
 }
 
 int main(void) {

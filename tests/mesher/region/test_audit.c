@@ -6,8 +6,6 @@
 #include "mesher/region/audit.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
-
 // A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
 static double x[8][3];
 static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4], quad_patch[4],
@@ -48,15 +46,15 @@ static void good_region_passes_with_its_figures(void **state) {
   CwRegionMesh r = prism_and_tet();
   CwQuality q;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
-  NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
-  NEAR(q.least_volume, 1.0 / 6.0, 1e-15);
+  assert_near(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
+  assert_near(q.least_volume, 1.0 / 6.0, 1e-15);
   assert_int_equal(q.cells, 2);
-  NEAR(q.aspect_mean, sqrt(2.0), 1e-15);
+  assert_near(q.aspect_mean, sqrt(2.0), 1e-15);
   assert_int_equal(q.aspect_class[0], 1);
-  NEAR(q.dihedral_least, 54.735610317245, 1e-9);
+  assert_near(q.dihedral_least, 54.735610317245, 1e-9);
   assert_int_equal(q.dihedral_bin[5], 1);
   assert_int_equal(q.prism_count, 1);
-  NEAR(q.prism_least_scaled_jacobian, sqrt(0.5) * 2.0 / sqrt(3.0), 1e-14); // corners of 45 degrees
+  assert_near(q.prism_least_scaled_jacobian, sqrt(0.5) * 2.0 / sqrt(3.0), 1e-14); // corners of 45 degrees
   assert_int_equal(q.prism_jacobian_bin[16], 1);
 }
 
@@ -69,7 +67,7 @@ static void single_tetrahedron(void **state) {
   r.cells.point_count = 4, r.cells.prism_count = 0, r.cells.quad_count = 0;
   CwQuality q;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
-  NEAR(q.volume, 1.0 / 6.0, 1e-16);
+  assert_near(q.volume, 1.0 / 6.0, 1e-16);
   assert_int_equal(q.prism_count, 0);
 }
 
@@ -181,7 +179,7 @@ static void corners_may_be_turned(void **state) {
       for (int k = 0; k < 4; k++) quad[f][k] = was[(k + face_turn) % 4];
     }
     assert_int_equal(cw_audit_region(&r, &q), CW_OK);
-    NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
+    assert_near(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
   }
 }
 
@@ -294,17 +292,17 @@ static void sums_of_two_regions(void **state) {
   q.apart = (CwTetFigures){7, 8.0, 2.0, 4.5, 0.5, 30.0};
   const CwTetFigures beside = sum.beside, apart = sum.apart;
   cw_quality_add(&sum, &q, 3);
-  NEAR(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
-  NEAR(sum.aspect_max, 4.0, 0.0);
-  NEAR(sum.dihedral_least, 12.0, 0.0);
-  NEAR(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
+  assert_near(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
+  assert_near(sum.aspect_max, 4.0, 0.0);
+  assert_near(sum.dihedral_least, 12.0, 0.0);
+  assert_near(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
   assert_int_equal(sum.cells, 4);
   assert_int_equal(sum.beside.count, beside.count + 5);
   assert_int_equal(sum.apart.count, apart.count + 7);
-  NEAR(sum.apart.aspect_sum, apart.aspect_sum + 8.0, 1e-14);
-  NEAR(sum.apart.mean_ratio_sum, apart.mean_ratio_sum + 4.5, 1e-14);
-  NEAR(sum.apart.mean_ratio_least, 0.5, 0.0);
-  NEAR(sum.apart.dihedral_least, 30.0, 0.0);
+  assert_near(sum.apart.aspect_sum, apart.aspect_sum + 8.0, 1e-14);
+  assert_near(sum.apart.mean_ratio_sum, apart.mean_ratio_sum + 4.5, 1e-14);
+  assert_near(sum.apart.mean_ratio_least, 0.5, 0.0);
+  assert_near(sum.apart.dihedral_least, 30.0, 0.0);
   assert_int_equal(sum.aspect_class[2], 3);
   assert_int_equal(sum.prism_count, 2);
 }

@@ -7,8 +7,6 @@
 #include "mesher/region/encroach.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
-
 static void flat_map(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
   memcpy(x, (double[3]){uv[0], uv[1], 0}, sizeof(double[3]));
   if (xu) memcpy(xu, (double[3]){1, 0, 0}, sizeof(double[3]));
@@ -60,13 +58,13 @@ static void rectangle(Rectangle *r, double width, double height, int steps, doub
 static void circles_by_hand(void **unused) {
   double centre[2], radius;
   assert_true(cw_encroach_circle((double[2]){0, 0}, (double[2]){1, 0}, (double[2]){0, 1}, centre, &radius));
-  NEAR(centre[0], 0.5);
-  NEAR(centre[1], 0.5);
-  NEAR(radius, sqrt(0.5));
+  assert_near(centre[0], 0.5, 1e-12);
+  assert_near(centre[1], 0.5, 1e-12);
+  assert_near(radius, sqrt(0.5), 1e-12);
   // A needle: its circle has a radius of 50.0025, its longest edge is 2.
   assert_true(cw_encroach_circle((double[2]){-1, 0}, (double[2]){1, 0}, (double[2]){0, 0.01}, centre, &radius));
-  NEAR(centre[1], 0.005 - 50);
-  NEAR(radius, 2);
+  assert_near(centre[1], 0.005 - 50, 1e-12);
+  assert_near(radius, 2, 1e-12);
   assert_false(cw_encroach_circle((double[2]){0, 0}, (double[2]){1, 1}, (double[2]){2, 2}, centre, &radius));
 }
 
@@ -82,8 +80,8 @@ static void candidates_beside_a_plane(void **unused) {
   assert_int_equal(beside.candidate[1], 2);
   assert_int_equal(beside.candidate[2], 4);
   assert_int_equal(beside.candidate[3], 0);
-  NEAR(beside.at[1][1], -1);
-  NEAR(beside.at[0][2], -0.1);
+  assert_near(beside.at[1][1], -1, 1e-12);
+  assert_near(beside.at[0][2], -0.1, 1e-12);
   assert_int_equal(cw_beside_in_sphere(&beside, (double[2]){1.5, 0}, 0.75, mark), 2); // 1 and 4
   assert_true(!mark[0] && mark[1] && !mark[2] && !mark[3] && mark[4]);
   assert_int_equal(cw_beside_in_sphere(&beside, (double[2]){1.5, 0}, 0.5, NULL), 0);
@@ -108,8 +106,8 @@ static void a_square_gets_its_centre(void **unused) {
   assert_int_equal(cw_encroach_refine(&r.input, &beside, &refined), CW_OK);
   assert_int_equal(refined.encroached, 2);
   assert_int_equal(refined.point_count, 1);
-  NEAR(refined.uv[0][0], 0.5);
-  NEAR(refined.uv[0][1], 0.5);
+  assert_near(refined.uv[0][0], 0.5, 1e-12);
+  assert_near(refined.uv[0][1], 0.5, 1e-12);
   assert_int_equal(refined.triangle_count, 4);
   cw_encroach_refined_free(&refined);
   // Where edges of 1 are asked for (the centre is 0.707 from the corners, 0.5 from the edges) as well; not at 1.2.
@@ -167,7 +165,7 @@ static void a_coarse_interface_is_refined(void **unused) {
     double edge = fmin(fmin(centre[0], 2 - centre[0]), fmin(centre[1], 1 - centre[1]));
     assert_true(true_radius < 0.62 * h + 1e-12 || edge < 0.5 * h + 1e-12);
   }
-  NEAR(area, 2);
+  assert_near(area, 2, 1e-12);
   assert_int_equal(left, refined.left);
   free(uv);
   cw_encroach_refined_free(&again);

@@ -12,6 +12,7 @@
 #include "tests/refused_write.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static char path[300], other[300];
 
@@ -84,26 +85,14 @@ static void file_is_in_metres(void **state) {
   cw_region_free(&got);
 }
 
-static size_t read_all(const char *name, char **bytes) {
-  FILE *file = fopen(name, "rb");
-  assert_non_null(file);
-  fseek(file, 0, SEEK_END);
-  size_t size = (size_t)ftell(file);
-  rewind(file);
-  *bytes = malloc(size + 1);
-  assert_int_equal(fread(*bytes, 1, size, file), size);
-  fclose(file);
-  return size;
-}
-
 static void equal_regions_give_equal_bytes(void **state) {
   CwRegionMesh r = region_by_hand();
-  char *a, *b;
+  size_t size, size_b;
   assert_int_equal(cw_region_write(path, &r), CW_OK);
   sleep(1); // a time stamp would differ
   assert_int_equal(cw_region_write(other, &r), CW_OK);
-  size_t size = read_all(path, &a);
-  assert_int_equal(read_all(other, &b), size);
+  char *a = read_whole(path, &size), *b = read_whole(other, &size_b);
+  assert_int_equal(size_b, size);
   assert_memory_equal(a, b, size);
   free(a);
   free(b);
@@ -129,8 +118,8 @@ static void taken_up_only_with_the_fingerprint_and_whole(void **state) {
   assert_int_equal(cw_region_digest_read(path, digest), CW_OK);
   assert_string_equal(digest, r.digest);
   assert_int_equal(take_up("0123456789abcdef0123456789abcdee", &got), CW_REGION_OTHER);
-  char *bytes;
-  size_t size = read_all(path, &bytes);
+  size_t size;
+  char *bytes = read_whole(path, &size);
   assert_int_equal(truncate(path, (off_t)size - 8), 0);
   assert_int_equal(take_up(r.fingerprint, &got), CW_REGION_DAMAGED);
   assert_non_null(strstr(cw_fail_message(), path));
@@ -139,26 +128,17 @@ static void taken_up_only_with_the_fingerprint_and_whole(void **state) {
   free(bytes);
 }
 
-// Into a new file: one that is cut to nothing first is brought to the disk by some file systems, which takes long.
-static void write_all(const char *bytes, size_t size) {
-  unlink(path);
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, size, file), size);
-  fclose(file);
-}
-
 // Every bit of the file counts, whether it belongs to an array, an attribute, or HDF5 itself.
 static void no_bit_may_change(void **state) {
   CwRegionMesh r = region_by_hand(), got;
-  char *bytes;
+  size_t size;
   int taken = 0;
   assert_int_equal(cw_region_write(path, &r), CW_OK);
-  size_t size = read_all(path, &bytes);
+  char *bytes = read_whole(path, &size);
   for (size_t i = 0; i < size; i++) {
     const char kept = bytes[i];
     bytes[i] ^= (char)(1 << i % 8);
-    write_all(bytes, size);
+    write_whole(path, bytes, size);
     if (take_up(r.fingerprint, &got) == CW_REGION_TAKEN) {
       print_message("byte %zu of %zu\n", i, size);
       taken++;
@@ -167,7 +147,7 @@ static void no_bit_may_change(void **state) {
     bytes[i] = kept;
   }
   assert_int_equal(taken, 0);
-  write_all(bytes, size + 1); // whatever lay behind them
+  write_whole(path, bytes, size + 1); // whatever lay behind them
   assert_int_equal(take_up(r.fingerprint, &got), CW_REGION_DAMAGED);
   assert_non_null(strstr(cw_fail_message(), "has bytes after its end"));
   free(bytes);

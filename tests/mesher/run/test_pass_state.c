@@ -9,6 +9,7 @@
 #include "pipeline/case_schema.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "model.json"};
 enum { FILE_COUNT = sizeof FILES / sizeof *FILES };
@@ -23,10 +24,7 @@ static void path_of(char path[PATH_SIZE], const char *name) {
 static void write_file(const char *name, const char *text) {
   char path[PATH_SIZE];
   path_of(path, name);
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fputs(text, file);
-  fclose(file);
+  write_text(path, text);
 }
 
 static int make_run(void **state) {

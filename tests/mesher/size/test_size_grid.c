@@ -4,13 +4,10 @@
 #include <stdlib.h>
 
 #include "mesher/size/size_grid.h"
+#include "pipeline/vec.h"
 #include "tests/unit_test.h"
 
 static const double low[3] = {0, 0, 0}, high[3] = {10, 8, 6};
-
-static double distance(const double a[3], const double b[3]) {
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
 
 static void grid_covers_its_box_within_the_limit(void **state) {
   CwSizeGrid grid;
@@ -61,8 +58,8 @@ static void seeds_spread_with_the_slope(void **state) {
     for (double y = 0.2; y < 8; y += 0.7) {
       for (double x = 0.1; x < 10; x += 0.7) {
         const double p[3] = {x, y, z};
-        double exact = fmin(1.2 + slope * x,
-                            fmin(value[0] + slope * distance(p, seed[0]), value[1] + slope * distance(p, seed[1])));
+        double exact = fmin(1.2 + slope * x, fmin(value[0] + slope * cw_distance(p, seed[0]),
+                                                  value[1] + slope * cw_distance(p, seed[1])));
         double got = cw_size_grid_at(&grid, p);
         assert_true(got > exact - slope * 0.1 * 2.1); // a seed holds within its cell
         assert_true(got < exact + slope * 0.1 * 3 + 0.04 * (exact - 0.4));

@@ -7,8 +7,6 @@
 #include "mesher/thickness/column_targets.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-9)
-
 enum { MOST = 16 };
 
 typedef struct {
@@ -61,20 +59,20 @@ static double edge_below(double last) {
 }
 
 static void a_flat_wall(void **state) {
-  NEAR(cw_column_thickness_flat(&DOUBLING, 3, edge_below(5)), 7);
-  NEAR(cw_column_thickness_flat(&DOUBLING, 3, edge_below(2.25)), 4.75); // layers of 1, 1.5 and 2.25
-  NEAR(cw_column_thickness_flat(&DOUBLING, 3, edge_below(0.5)), 3);     // three even layers
-  NEAR(cw_column_thickness_least(1, 3), 3);
+  assert_near(cw_column_thickness_flat(&DOUBLING, 3, edge_below(5)), 7, 1e-9);
+  assert_near(cw_column_thickness_flat(&DOUBLING, 3, edge_below(2.25)), 4.75, 1e-9); // layers of 1, 1.5 and 2.25
+  assert_near(cw_column_thickness_flat(&DOUBLING, 3, edge_below(0.5)), 3, 1e-9);     // three even layers
+  assert_near(cw_column_thickness_least(1, 3), 3, 1e-9);
   CwLayerTarget thin = DOUBLING;
   thin.thickness = 4;
-  NEAR(cw_column_thickness_flat(&thin, 3, edge_below(5)), 4);
-  NEAR(cw_column_thickness_flat(&(CwLayerTarget){.first_height = 1, .growth = 2, .thickness = INFINITY, .last = 1}, 1,
-                                1),
-       1);
+  assert_near(cw_column_thickness_flat(&thin, 3, edge_below(5)), 4, 1e-9);
+  assert_near(cw_column_thickness_flat(
+                  &(CwLayerTarget){.first_height = 1, .growth = 2, .thickness = INFINITY, .last = 1}, 1, 1),
+              1, 1e-9);
   // A last layer of at most a sixth of it.
   CwLayerTarget open = DOUBLING;
   open.last = 1.0 / 6;
-  NEAR(cw_column_thickness_flat(&open, 3, edge_below(6 * 2.25)), 4.75);
+  assert_near(cw_column_thickness_flat(&open, 3, edge_below(6 * 2.25)), 4.75, 1e-9);
 }
 
 static void the_finer_patch_holds_where_two_meet(void **state) {
@@ -94,12 +92,12 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   make_wall(&wall, 100, 8, x, 6, triangle, face);
   assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
   // Three layers that grow by 1.1 are 3.31 times the first, and thicknesses rise by 0.3.
-  for (int v = 0; v < 4; v++) NEAR(targets.first_height[v], 0.1);
-  for (int v = 4; v < 8; v++) NEAR(targets.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1));
-  for (int v = 0; v < 8; v++) NEAR(targets.growth[v], v < 4 ? 2 : 1.5);
+  for (int v = 0; v < 4; v++) assert_near(targets.first_height[v], 0.1, 1e-9);
+  for (int v = 4; v < 8; v++) assert_near(targets.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1), 1e-9);
+  for (int v = 0; v < 8; v++) assert_near(targets.growth[v], v < 4 ? 2 : 1.5, 1e-9);
   // Growth of the face that has most, thickness of the one that has least.
-  for (int v = 0; v < 4; v++) NEAR(targets.target[v], 0.7);
-  NEAR(targets.target[4], targets.first_height[4] * 4.75);
+  for (int v = 0; v < 4; v++) assert_near(targets.target[v], 0.7, 1e-9);
+  assert_near(targets.target[4], targets.first_height[4] * 4.75, 1e-9);
   free_wall(&wall, &targets);
 }
 
@@ -116,9 +114,9 @@ static void images_have_those_of_their_first(void **state) {
   wall.surface.images = (CwNodeImages){.capacity = 8, .next = next, .turns = turns};
   assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
   for (int v = 0; v < 8; v++) {
-    NEAR(targets.first_height[v], 1);
-    NEAR(targets.growth[v], 2);
-    NEAR(targets.target[v], 7);
+    assert_near(targets.first_height[v], 1, 1e-9);
+    assert_near(targets.growth[v], 2, 1e-9);
+    assert_near(targets.target[v], 7, 1e-9);
   }
   free_wall(&wall, &targets);
 }
@@ -143,11 +141,11 @@ static double roof_height(double size, int fluid_above, double lift) {
 
 static void bends_of_the_wall(void **state) {
   // In the hollow tetrahedra are lower by cos 45: with a last layer of 2.25, after 1 and 1.5.
-  NEAR(roof_height(edge_below(2.25) / sqrt(0.5), 0, 0), 4.75);
+  assert_near(roof_height(edge_below(2.25) / sqrt(0.5), 0, 0), 4.75, 1e-9);
   // Over the ridge they are not, be it level or rising to one side.
-  NEAR(roof_height(edge_below(2.25), 1, 0), 4.75);
-  NEAR(roof_height(edge_below(2.25), 1, 0.1), 4.75);
-  NEAR(roof_height(edge_below(5), 1, 0), 7);
+  assert_near(roof_height(edge_below(2.25), 1, 0), 4.75, 1e-9);
+  assert_near(roof_height(edge_below(2.25), 1, 0.1), 4.75, 1e-9);
+  assert_near(roof_height(edge_below(5), 1, 0), 7, 1e-9);
 }
 
 static void a_vertex_without_triangle_is_an_error(void **state) {
@@ -169,11 +167,11 @@ static void the_share_of_graded_columns(void **state) {
   assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, &layers, 2, &targets), CW_OK);
   assert_int_equal(cw_column_targets_share(NULL, &targets, &wall.in, &wall.surface, &wall.around, &layers, &share),
                    CW_OK);
-  NEAR(share, 1);
+  assert_near(share, 1, 1e-9);
   targets.target[0] = 1; // its neighbours come down to 1.3, the corner over the diagonal to 1 + 0.3 sqrt(2)
   assert_int_equal(cw_column_targets_share(NULL, &targets, &wall.in, &wall.surface, &wall.around, &layers, &share),
                    CW_OK);
-  NEAR(share, (1 + 1.3 + 1 + 0.3 * sqrt(2)) / 3 / 2);
+  assert_near(share, (1 + 1.3 + 1 + 0.3 * sqrt(2)) / 3 / 2, 1e-9);
   free_wall(&wall, &targets);
 }
 

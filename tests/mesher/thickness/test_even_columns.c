@@ -10,8 +10,6 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "tests/unit_test.h"
 
-#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
-
 // First height made of the four columns of so many layers where `asked` is; corners 0 and 2 are on both triangles.
 static void make(int layers, double asked, const double thickness[4], double made[4]) {
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, top[4][3];
@@ -40,8 +38,8 @@ static void short_ones_until_none_is_small(void **state) {
   assert_true(determinant(cw_policy.least_growth * start) < CW_SMALL_DETERMINANT &&
               determinant(short_one / 2) > CW_SMALL_DETERMINANT);
   make(2, 0.05, (double[4]){short_one, short_one, short_one, short_one}, made);
-  for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
-  NEAR(made[0], start * pow(0.95, 4));
+  for (int v = 0; v < 4; v++) assert_near(made[v], made[0], 1e-12);
+  assert_near(made[0], start * pow(0.95, 4), 1e-12);
   assert_true(determinant(short_one - made[0]) > CW_SMALL_DETERMINANT);
   assert_true(determinant(short_one - made[0] / 0.95) < 1.05 * CW_SMALL_DETERMINANT);
 }
@@ -53,18 +51,18 @@ static void others_stay(void **state) {
   assert_true(determinant(0.04) > CW_SMALL_DETERMINANT && determinant(0.02) < CW_SMALL_DETERMINANT);
   for (int i = 0; i < 3; i++) {
     make(2, 0.05, (double[4]){all[i], all[i], all[i], all[i]}, made);
-    for (int v = 0; v < 4; v++) NEAR(made[v], 0.05);
+    for (int v = 0; v < 4; v++) assert_near(made[v], 0.05, 1e-12);
   }
   // Even ones would do, but not within a tenth of the first height, for which there is room: it stays.
   const double held = 0.038, column = held * (1 + cw_policy.least_growth) * 1.001;
   assert_true(determinant(column - 0.9 * held) < CW_SMALL_DETERMINANT &&
               determinant(column / 2) > CW_SMALL_DETERMINANT);
   make(2, held, (double[4]){column, column, column, column}, made);
-  for (int v = 0; v < 4; v++) NEAR(made[v], held);
+  for (int v = 0; v < 4; v++) assert_near(made[v], held, 1e-12);
   // A tall column among short ones keeps its first height.
   make(2, 0.05, (double[4]){0.06, 0.06, 0.06, 0.11}, made);
   assert_true(made[1] < 0.06 / (1 + cw_policy.least_growth));
-  NEAR(made[3], 0.05);
+  assert_near(made[3], 0.05, 1e-12);
 }
 
 // Five layers that grow by 1.2, of which the second is the thinnest of the inner ones. With a greater first height it
@@ -78,7 +76,7 @@ static void growing_ones_within_a_tenth(void **state) {
     cw_layer_fractions(thickness, made[0], 5, 1.2, fraction);
     double now = determinant((fraction[2] - fraction[1]) * thickness);
     print_message("  determinant %.5f, then %.5f with %.2f of the first height\n", wanted, now, made[0] / asked);
-    for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
+    for (int v = 0; v < 4; v++) assert_near(made[v], made[0], 1e-12);
     assert_true(curable ? now > CW_SMALL_DETERMINANT : made[0] == asked);
     assert_true(made[0] <= 1.09 * asked);
   }
