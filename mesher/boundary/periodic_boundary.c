@@ -40,9 +40,7 @@ CwStatus cw_image_outlines(const CwBoundaryInput *in, CwFreeCurves *free_curves,
     CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, x, "an interface on plane %d has no periodic image",
                   outline->node);
   }
-  status = cw_images_make(count, next, turns, 1, &free_curves->outline_images, &whole);
-  next = NULL;
-  CW_TRY(status);
+  CW_TRY(cw_images_make(count, &next, turns, 1, &free_curves->outline_images, &whole));
   CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "turns do not bring the interfaces to themselves");
 done:
   free(next);

@@ -35,11 +35,10 @@ double cw_background_area(const CwBackground *background, int32_t t, double cent
 double cw_background_volume(const CwBackground *background) {
   double six_volumes = 0;
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    const double *a = background->x[background->triangle[t][0]];
-    const double *b = background->x[background->triangle[t][1]];
-    const double *c = background->x[background->triangle[t][2]];
-    six_volumes +=
-        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    const int32_t *corner = background->triangle[t];
+    double n[3];
+    cw_cross(background->x[corner[1]], background->x[corner[2]], n);
+    six_volumes += cw_dot(background->x[corner[0]], n);
   }
   return six_volumes / 6;
 }

@@ -14,14 +14,6 @@ typedef struct {
   int forward;
 } HalfEdge;
 
-static CwStatus not_closed(const CwCad *cad, const CwBackground *background, const HalfEdge *half, int32_t point,
-                           int pair) {
-  const double *x = background->x[point];
-  return CW_FAIL(CW_ERR_GEOMETRY, "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm",
-                 cw_cad_face_name(cad, background->face[half->triangle]), pair ? "folds or turns over" : "is open",
-                 CW_MM(x));
-}
-
 // Pairs the half edges of one point, whose other ends have greater numbers.
 static CwStatus pair_up(const CwCad *cad, CwBackground *background, int32_t point, const HalfEdge *half,
                         int32_t count) {
@@ -33,7 +25,9 @@ static CwStatus pair_up(const CwCad *cad, CwBackground *background, int32_t poin
       met++;
     }
     if (met != 1 || half[mate].forward == half[i].forward) {
-      return not_closed(cad, background, &half[i], point, met > 0);
+      return CW_FAIL(CW_ERR_GEOMETRY, "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm",
+                     cw_cad_face_name(cad, background->face[half[i].triangle]),
+                     met > 0 ? "folds or turns over" : "is open", CW_MM(background->x[point]));
     }
     background->neighbour[half[i].triangle][half[i].side] = half[mate].triangle;
   }

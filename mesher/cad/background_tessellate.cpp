@@ -140,17 +140,10 @@ CwStatus hand_over(const Weld &weld, CwBackground *background) {
   background->uv = (double(*)[3][2])calloc(triangles + 1, sizeof *background->uv);
   CW_REQUIRE(background->x && background->triangle && background->face && background->uv, CW_ERR_MEMORY,
              "out of memory: %zu background triangles", triangles);
-  for (size_t i = 0; i < points; i++) {
-    for (int k = 0; k < 3; k++) background->x[i][k] = weld.x[i][k];
-  }
-  for (size_t t = 0; t < triangles; t++) {
-    background->face[t] = weld.face[t];
-    for (int k = 0; k < 3; k++) {
-      background->triangle[t][k] = weld.triangle[t][k];
-      background->uv[t][k][0] = weld.uv[t][2 * k];
-      background->uv[t][k][1] = weld.uv[t][2 * k + 1];
-    }
-  }
+  memcpy(background->x, weld.x.data(), points * sizeof *background->x);
+  memcpy(background->triangle, weld.triangle.data(), triangles * sizeof *background->triangle);
+  memcpy(background->face, weld.face.data(), triangles * sizeof *background->face);
+  memcpy(background->uv, weld.uv.data(), triangles * sizeof *background->uv);
 done:
   return status;
 }

@@ -46,10 +46,7 @@ std::vector<double> length_shares(const std::vector<Point> &x) {
 double nearest_share(const std::vector<Point> &line, const double x[3]) {
   double best = INFINITY, share = 0;
   for (size_t i = 0; i + 1 < line.size(); i++) {
-    double along[3], from[3], p[3];
-    cw_sub(line[i + 1].data(), line[i].data(), along);
-    cw_sub(x, line[i].data(), from);
-    double square = cw_dot(along, along), s = square > 0 ? std::clamp(cw_dot(from, along) / square, 0.0, 1.0) : 0;
+    double s = cw_nearest_share(line[i].data(), line[i + 1].data(), x), p[3];
     cw_lerp(line[i].data(), line[i + 1].data(), s, p);
     double distance = cw_distance(p, x);
     if (distance >= best) continue;
@@ -111,10 +108,6 @@ void replace_side(CwCad *cad, const CwCadChainStrip &strip, Change &change) {
   change.edges.insert(goes.edge);
 }
 
-bool ends_in(const CwCad *cad, const std::vector<CwCadUse> &side, int vertex) {
-  return cw_cad_use_vertex(cad, side.front(), 0) == vertex || cw_cad_use_vertex(cad, side.back(), 1) == vertex;
-}
-
 // Whether the chain can go beside what went before; fills what goes with it but for its sides.
 bool plan_change(const CwCad *cad, const CwCadChain &chain, std::set<int> &touched, std::vector<int> &left_in_patch,
                  Change &change) {
@@ -124,7 +117,7 @@ bool plan_change(const CwCad *cad, const CwCadChain &chain, std::set<int> &touch
     for (const CwCadUse &end : strip.end) {
       int a = cw_cad_use_vertex(cad, end, 0), b = cw_cad_use_vertex(cad, end, 1),
           other = cw_cad_beyond(cad, end.edge, strip.face);
-      if (!ends_in(cad, strip.side[strip.stays], a)) std::swap(a, b);
+      if (!cw_cad_side_ends_at(cad, strip.side[strip.stays], a)) std::swap(a, b);
       if (change.vertex.count(b) && change.vertex[b] != a) return false;
       change.vertex[b] = a;
       change.edges.insert(end.edge);

@@ -87,14 +87,14 @@ template <class Curve> static CwCadKnots knots_of_curve(Curve &curve) {
   return knots_of(intervals);
 }
 
-static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face, const char *what) {
+static CwStatus edge_failure(const CwCad *cad, const TopoDS_Edge &edge, int face, const char *what) {
   TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
   gp_Pnt p = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
-  return CW_FAIL(CW_ERR_INPUT, "%s: face '%s': the edge at (%.3f, %.3f, %.3f) mm %s", path,
+  return CW_FAIL(CW_ERR_INPUT, "%s: face '%s': the edge at (%.3f, %.3f, %.3f) mm %s", cad->path.c_str(),
                  face >= 0 ? cad->table.face[face].name : "?", p.X(), p.Y(), p.Z(), what);
 }
 
-static CwStatus read_face(const char *path, CwCad *cad, int index) {
+static CwStatus read_face(CwCad *cad, int index) {
   const TopoDS_Face &shape = TopoDS::Face(cad->face_map(index + 1));
   CwCadFace &face = cad->face[index];
   face.surface.Load(BRep_Tool::Surface(shape));
@@ -115,44 +115,44 @@ static CwStatus read_face(const char *path, CwCad *cad, int index) {
   if (cw_cad_pole_find(shape, surface, cad->vertex_map, face.pole)) return CW_OK;
   TopExp_Explorer edge(shape, TopAbs_EDGE);
   while (!BRep_Tool::Degenerated(TopoDS::Edge(edge.Current()))) edge.Next();
-  return edge_failure(path, cad, TopoDS::Edge(edge.Current()), index,
+  return edge_failure(cad, TopoDS::Edge(edge.Current()), index,
                       "is degenerate (a point), and so is another, or it is oblique; split the face between them");
 }
 
-static CwStatus read_edge(const char *path, CwCad *cad, int index, const TopTools_ListOfShape &faces) {
+static CwStatus read_edge(CwCad *cad, int index, const TopTools_ListOfShape &faces) {
   TopoDS_Edge shape = TopoDS::Edge(cad->edge_map(index + 1).Oriented(TopAbs_FORWARD));
   CwCadEdge &edge = cad->edge[index];
   int first = faces.IsEmpty() ? -1 : cad->face_map.FindIndex(faces.First()) - 1;
-  if (faces.Extent() != 2) return edge_failure(path, cad, shape, first, "does not have two faces; each edge needs two");
+  if (faces.Extent() != 2) return edge_failure(cad, shape, first, "does not have two faces; each edge needs two");
   edge.face[0] = first;
   edge.face[1] = cad->face_map.FindIndex(faces.Last()) - 1;
   if (edge.face[0] == edge.face[1]) {
-    return edge_failure(path, cad, shape, first, "is a seam; split the face so that each edge has two different faces");
+    return edge_failure(cad, shape, first, "is a seam; split the face so that each edge has two different faces");
   }
   Handle(Geom_Curve) curve = BRep_Tool::Curve(shape, edge.range[0], edge.range[1]);
-  if (curve.IsNull()) return edge_failure(path, cad, shape, first, "has no curve in space");
+  if (curve.IsNull()) return edge_failure(cad, shape, first, "has no curve in space");
   edge.curve.Load(curve);
   edge.knots = knots_of_curve(edge.curve);
   for (int side = 0; side < 2; side++) {
     double range[2];
     const TopoDS_Face &face = TopoDS::Face(cad->face_map(edge.face[side] + 1));
     Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(shape, face, range[0], range[1]);
-    if (pcurve.IsNull()) return edge_failure(path, cad, shape, edge.face[side], "has no curve in (u,v) of that face");
+    if (pcurve.IsNull()) return edge_failure(cad, shape, edge.face[side], "has no curve in (u,v) of that face");
     edge.pcurve[side].Load(pcurve);
     edge.pcurve_knots[side] = knots_of_curve(edge.pcurve[side]);
   }
   TopoDS_Vertex begin, end;
   TopExp::Vertices(shape, begin, end);
-  if (begin.IsNull() || end.IsNull()) return edge_failure(path, cad, shape, first, "has no vertex at one of its ends");
+  if (begin.IsNull() || end.IsNull()) return edge_failure(cad, shape, first, "has no vertex at one of its ends");
   edge.vertex[0] = cad->vertex_map.FindIndex(begin) - 1;
   edge.vertex[1] = cad->vertex_map.FindIndex(end) - 1;
   return CW_OK;
 }
 
-CwStatus cw_cad_read_parts(const char *path, CwCad *cad) {
+CwStatus cw_cad_read_parts(CwCad *cad) {
   cad->face.resize(cad->face_map.Extent());
   for (int f = 0; f < cad->face_map.Extent(); f++) {
-    CwStatus status = read_face(path, cad, f);
+    CwStatus status = read_face(cad, f);
     if (status != CW_OK) return status;
   }
 
@@ -163,7 +163,7 @@ CwStatus cw_cad_read_parts(const char *path, CwCad *cad) {
   TopExp::MapShapesAndAncestors(cad->solid, TopAbs_EDGE, TopAbs_FACE, edge_faces);
   cad->edge.resize(cad->edge_map.Extent());
   for (int e = 0; e < cad->edge_map.Extent(); e++) {
-    CwStatus status = read_edge(path, cad, e, edge_faces.FindFromKey(cad->edge_map(e + 1)));
+    CwStatus status = read_edge(cad, e, edge_faces.FindFromKey(cad->edge_map(e + 1)));
     if (status != CW_OK) return status;
   }
   return CW_OK;

@@ -134,7 +134,7 @@ CwStatus cw_cad_rescale(CwCad *cad, int power) {
     cw_cad_map_parts(cad);
     cad->face.clear();
     cad->edge.clear();
-    return cw_cad_read_parts(cad->path.c_str(), cad);
+    return cw_cad_read_parts(cad);
   } catch (const Standard_Failure &failure) {
     const char *text = failure.GetMessageString();
     return CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE failed: %s", cad->path.c_str(), text ? text : "?");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, cad_scale.cpp, cad_strips.cpp,
-// cad_leave_out.cpp, background_tessellate.cpp).
-// Lengths in here are in the unit of the B-rep; only the C functions speak metres, or the unit of the model.
+// Inside of CwCad, for the C++ files of the bridge only: its faces and edges, and how they are evaluated. Lengths in
+// here are in the unit of the B-rep; only the C functions speak metres, or the unit of the model.
 #ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
 #define CUTWATER_MESHER_CAD_CAD_SHAPE_H
 
@@ -94,6 +93,6 @@ void cw_cad_map_parts(CwCad *cad);
 // of its curves in (u,v). Throws Standard_Failure.
 TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power);
 // Checks edges and builds face and edge evaluators; needs the table for its messages.
-CwStatus cw_cad_read_parts(const char *path, CwCad *cad);
+CwStatus cw_cad_read_parts(CwCad *cad);
 
 #endif

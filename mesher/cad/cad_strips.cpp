@@ -31,6 +31,12 @@ double use_length(const CwCad *cad, const CwCadUse &use) {
   return length;
 }
 
+double side_length(const CwCad *cad, const Side &side) {
+  double length = 0;
+  for (const CwCadUse &use : side) length += use_length(cad, use);
+  return length;
+}
+
 // The loop of a face; empty where it has more than one, or touches itself.
 Side loop_of(const CwCad *cad, const std::vector<int> &edges) {
   Side loop{{edges[0], false}};
@@ -85,7 +91,7 @@ struct Candidate {
 
 int elongated(const CwCad *cad, const Quad &quad) {
   double length[4];
-  for (int k = 0; k < 4; k++) length[k] = cw_cad_side_length(cad, quad[k]);
+  for (int k = 0; k < 4; k++) length[k] = side_length(cad, quad[k]);
   for (int odd = 0; odd < 2; odd++) {
     double sides = std::min(length[odd], length[odd + 2]), ends = std::max(length[1 - odd], length[(3 - odd)]);
     if (sides > ELONGATED * ends) return odd;
@@ -154,7 +160,7 @@ bool sides_fit(const CwCad *cad, int face, const Side &a, const Side &b) {
 void measure(const CwCad *cad, CwCadChainStrip &strip) {
   auto a = places(cad, strip.side[0], CW_CAD_STRIP_SAMPLES, false),
        b = places(cad, strip.side[1], CW_CAD_STRIP_SAMPLES, true);
-  strip.length = std::max(cw_cad_side_length(cad, strip.side[0]), cw_cad_side_length(cad, strip.side[1]));
+  strip.length = std::max(side_length(cad, strip.side[0]), side_length(cad, strip.side[1]));
   for (int i = 0; i < CW_CAD_STRIP_SAMPLES; i++) {
     strip.width[i] = cw_distance(a[i].data(), b[i].data());
     cw_lerp(a[i].data(), b[i].data(), 0.5, strip.x[i]);
@@ -247,10 +253,6 @@ void turn(CwCadChainStrip &strip) {
   std::swap(strip.end[0], strip.end[1]);
 }
 
-bool begins_or_ends(const CwCad *cad, const Side &side, int vertex) {
-  return cw_cad_use_vertex(cad, side.front(), 0) == vertex || cw_cad_use_vertex(cad, side.back(), 1) == vertex;
-}
-
 // The strips that hang together by their ends, each with its side[0] in the same row; empty where a row runs into the
 // other.
 CwCadChain chain_from(const CwCad *cad, std::vector<CwCadChainStrip> &strips, const std::vector<int> &of_face,
@@ -265,9 +267,9 @@ CwCadChain chain_from(const CwCad *cad, std::vector<CwCadChainStrip> &strips, co
       if (next < 0) continue;
       CwCadChainStrip &to = strips[next];
       if (to.end[0].edge != end.edge && to.end[1].edge != end.edge) continue; // its side: it does not follow
-      int vertex = begins_or_ends(cad, from.side[0], cw_cad_use_vertex(cad, end, 0)) ? cw_cad_use_vertex(cad, end, 0)
-                                                                                     : cw_cad_use_vertex(cad, end, 1);
-      bool in_row = begins_or_ends(cad, to.side[0], vertex);
+      int begin = cw_cad_use_vertex(cad, end, 0);
+      int vertex = cw_cad_side_ends_at(cad, from.side[0], begin) ? begin : cw_cad_use_vertex(cad, end, 1);
+      bool in_row = cw_cad_side_ends_at(cad, to.side[0], vertex);
       if (taken[next]) {
         whole = whole && in_row;
         continue;
@@ -297,7 +299,7 @@ bool settle_row(const CwCad *cad, CwCadChain &chain) {
   bool can_go[2] = {true, true};
   for (const CwCadChainStrip &strip : chain) {
     for (int row = 0; row < 2; row++) {
-      length[row] += cw_cad_side_length(cad, strip.side[row]);
+      length[row] += side_length(cad, strip.side[row]);
       can_go[row] = can_go[row] && strip.side[row].size() == 1;
     }
   }
@@ -320,14 +322,12 @@ double cw_cad_use_at(const CwCad *cad, const CwCadUse &use, double share) {
   return use.reversed ? range[1] + share * (range[0] - range[1]) : range[0] + share * (range[1] - range[0]);
 }
 
-double cw_cad_side_length(const CwCad *cad, const std::vector<CwCadUse> &side) {
-  double length = 0;
-  for (const CwCadUse &use : side) length += use_length(cad, use);
-  return length;
-}
-
 int cw_cad_use_vertex(const CwCad *cad, const CwCadUse &use, int end) {
   return cad->edge[use.edge].vertex[use.reversed ? 1 - end : end];
+}
+
+bool cw_cad_side_ends_at(const CwCad *cad, const std::vector<CwCadUse> &side, int vertex) {
+  return cw_cad_use_vertex(cad, side.front(), 0) == vertex || cw_cad_use_vertex(cad, side.back(), 1) == vertex;
 }
 
 std::vector<CwCadChain> cw_cad_chains(const CwCad *cad) {

@@ -34,10 +34,10 @@ typedef std::vector<CwCadChainStrip> CwCadChain;
 int cw_cad_beyond(const CwCad *cad, int edge, int face);
 // Parameter of the edge at a share of its range, as it is used.
 double cw_cad_use_at(const CwCad *cad, const CwCadUse &use, double share);
-// Length of a side, in metres or the unit of the model.
-double cw_cad_side_length(const CwCad *cad, const std::vector<CwCadUse> &side);
 // The vertex at which the use of an edge begins (end: 0) or ends (1).
 int cw_cad_use_vertex(const CwCad *cad, const CwCadUse &use, int end);
+// Whether a side begins or ends at a vertex.
+bool cw_cad_side_ends_at(const CwCad *cad, const std::vector<CwCadUse> &side, int vertex);
 
 std::vector<CwCadChain> cw_cad_chains(const CwCad *cad);
 

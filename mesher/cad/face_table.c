@@ -10,10 +10,6 @@ enum { COLUMN_DOMAIN, COLUMN_FACE, COLUMN_PATCH, COLUMN_KIND, COLUMN_NAME, COLUM
 
 static const char *const header_line = "domain,face,patch,kind,name";
 
-static void strip_line_end(char *line) {
-  line[strcspn(line, "\r\n")] = '\0';
-}
-
 // Splits in place; returns the number of columns found (at most one more than wanted).
 static int split(char *line, char *column[COLUMN_COUNT]) {
   int count = 0;
@@ -98,7 +94,7 @@ CwStatus cw_face_table_read(const char *path, const char *domain, int face_count
   CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
   while (getline(&text, &size, file) >= 0) {
     line++;
-    strip_line_end(text);
+    text[strcspn(text, "\r\n")] = '\0';
     if (line == 1) {
       CW_REQUIRE(strcmp(text, header_line) == 0, CW_ERR_INPUT, "%s:1: the header is '%s'; it must be '%s'", path, text,
                  header_line);

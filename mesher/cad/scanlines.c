@@ -104,7 +104,6 @@ done:
 static CwStatus cut(const CwBackground *background, const double low[2], const double high[2], double spacing,
                     int32_t variant, CwScanlines *lines, int64_t *odd) {
   CwStatus status = CW_OK;
-  int64_t *next = NULL;
   Crossing *crossing = NULL;
   size_t crossings = 0;
   lines->spacing = spacing;
@@ -116,12 +115,11 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
   size_t count = (size_t)lines->count[0] * (size_t)lines->count[1];
   CW_NEW(lines->start, count + 1);
   CW_TRY(find_crossings(background, lines, &crossing, &crossings));
-  for (size_t i = 0; i < crossings; i++) lines->start[crossing[i].line + 1]++;
-  for (size_t i = 0; i < count; i++) lines->start[i + 1] += lines->start[i];
-  CW_NEW(lines->crossing, lines->start[count]);
-  CW_NEW(next, count);
-  memcpy(next, lines->start, count * sizeof *next);
-  for (size_t i = 0; i < crossings; i++) lines->crossing[next[crossing[i].line]++] = crossing[i].x;
+  int64_t *end = lines->start; // where the lines end, until they are filled from behind
+  for (size_t i = 0; i < crossings; i++) end[crossing[i].line]++;
+  for (size_t i = 0; i < count; i++) end[i + 1] += end[i];
+  CW_NEW(lines->crossing, crossings);
+  for (size_t i = crossings; i-- > 0;) lines->crossing[--end[crossing[i].line]] = crossing[i].x;
   *odd = 0;
   for (size_t i = 0; i < count; i++) {
     int64_t length = lines->start[i + 1] - lines->start[i];
@@ -130,7 +128,6 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
   }
 done:
   free(crossing);
-  free(next);
   return status;
 }
 

@@ -26,12 +26,12 @@ void cw_images_free(CwImages *images) {
   memset(images, 0, sizeof *images);
 }
 
-CwStatus cw_images_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwImages *images,
+CwStatus cw_images_make(int32_t item_count, int32_t **next, int32_t count, int allow_fixed, CwImages *images,
                         int *whole) {
   CwStatus status = CW_OK;
   *whole = 0;
-  memset(images, 0, sizeof *images);
-  images->next = next;
+  *images = (CwImages){.next = *next};
+  *next = NULL;
   CW_NEW(images->first, item_count);
   CW_NEW(images->turns, item_count);
   for (int32_t i = 0; i < item_count; i++) images->first[i] = -1;
@@ -46,7 +46,7 @@ CwStatus cw_images_make(int32_t item_count, int32_t *next, int32_t count, int al
       }
       images->first[at] = i;
       images->turns[at] = size++;
-      at = next[at];
+      at = images->next[at];
     } while (at != i);
     if (size != count && !(size == 1 && allow_fixed)) *whole = 0;
   }
@@ -199,18 +199,15 @@ static CwStatus try_count(const CwCad *cad, double near, const FaceSamples *samp
     turning += next[f] != f;
   }
   if (turning == 0) goto done;
-  status = cw_images_make(faces, next, count, 1, &symmetry->face, whole);
-  next = NULL;
+  CW_TRY(cw_images_make(faces, &next, count, 1, &symmetry->face, whole));
   if (!*whole) goto done;
   CW_NEW(next, edges);
   for (int32_t e = 0; e < edges; e++) next[e] = edge_image(cad, near, &symmetry->face, count, e);
-  status = cw_images_make(edges, next, count, 0, &symmetry->edge, whole);
-  next = NULL;
+  CW_TRY(cw_images_make(edges, &next, count, 0, &symmetry->edge, whole));
   if (!*whole) goto done;
   CW_NEW(next, cw_cad_vertex_count(cad));
   for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) next[v] = vertex_image(cad, near, count, v);
-  status = cw_images_make(cw_cad_vertex_count(cad), next, count, 1, &symmetry->vertex, whole); // one on the axis
-  next = NULL;
+  CW_TRY(cw_images_make(cw_cad_vertex_count(cad), &next, count, 1, &symmetry->vertex, whole)); // one on the axis
 done:
   free(next);
   return status;

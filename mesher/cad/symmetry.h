@@ -38,10 +38,10 @@ void cw_symmetry_free(CwSymmetry **symmetry);
 // x turned by `turns` z-ths of a revolution; `turned` may be x.
 void cw_symmetry_turn(int32_t count, int32_t turns, const double x[3], double turned[3]);
 
-// Image sets from next[0..item_count), which they take over; the first of each is the one with the least number.
-// *whole: 0 (and `next` freed) unless every item comes back to itself after exactly `count` turns, or, with
-// `allow_fixed`, one.
-CwStatus cw_images_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwImages *images,
+// Image sets from (*next)[0..item_count), which they take over (*next is NULL after); the first of each is the one with
+// the least number. *whole: 0, and no image sets, unless every item comes back to itself after exactly `count` turns,
+// or, with `allow_fixed`, one.
+CwStatus cw_images_make(int32_t item_count, int32_t **next, int32_t count, int allow_fixed, CwImages *images,
                         int *whole);
 void cw_images_free(CwImages *images);
 int32_t cw_images_turned(const CwImages *images, int32_t item, int32_t turns);

@@ -74,8 +74,7 @@ CwStatus cw_box_tree_make(const CwContext *context, int32_t count, const CwBox *
   CW_NEW_UNSET(place, count);
   CW_NEW_UNSET(tree->item, count);
   CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
-  double side = 0;
-  for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
+  double side = cw_box_longest(within);
   Boxes boxes = {box_of, given, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
   CW_TRY(cw_parallel_for(context, "places of boxes", count, sizeof *key, find_key, &boxes, key));
   for (int32_t i = 0; i < count; i++) place[i] = (CwRadix){key[i], i, 0};

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/model_unit.h"
+#include "mesher/common/vec.h"
 
 // Half-edges: 2e runs along edge e, 2e + 1 against it.
 typedef struct {
@@ -260,14 +261,10 @@ static int by_low(const void *p, const void *q) {
   return (a->edge > b->edge) - (a->edge < b->edge);
 }
 
-static double side_of(const double a[2], const double b[2], const double c[2]) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
 static int cross(const double (*point)[2], const int32_t e[2], const int32_t f[2]) {
   if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return 0;
   const double *a = point[e[0]], *b = point[e[1]], *c = point[f[0]], *d = point[f[1]];
-  return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
+  return cw_twice_area(a, b, c) * cw_twice_area(a, b, d) < 0 && cw_twice_area(c, d, a) * cw_twice_area(c, d, b) < 0;
 }
 
 CwStatus cw_polygons_crossings(int32_t point_count, const double (*point)[2], int32_t edge_count,

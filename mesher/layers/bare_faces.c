@@ -3,13 +3,12 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers_normal.h"
 
 enum { SAMPLES = 9, FACES_MOST = CW_LAYER_NORMALS };
-enum { OPEN_MOST = 2 }; // open faces that a column slides on
+enum { OPEN_MOST = 2 };                    // open faces that a column slides on
 static const double SAME_PLANE = 1 - 1e-6; // cosine of normals that hold a column in one plane
 
 // A place on an edge, or at a corner, and the faces about it.

@@ -13,8 +13,6 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/layers/direction_smoothing_block.h"
-#include "mesher/layers/direction_smoothing_reach.h"
 #include "mesher/layers/direction_smoothing_work.h"
 #include "mesher/layers/layers_normal.h"
 #include "mesher/parallel/schedule.h"
@@ -42,9 +40,8 @@ static void raise_source(const CwLayerWork *work, CwSmoothingSource *source) {
   cw_sub(source->u, undisturbed, source->u);
 }
 
-// The one direction in which the column of a source may still lean: along its concave edge, or along the
-// line that wall and
-// constraint share; zero where its column is wholly given.
+// The one direction in which the column of a source may still lean: along its concave edge, or along the line that wall
+// and constraint share; zero where its column is wholly given.
 static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]) {
   int constraints = work->in->constraint_count ? work->in->constraint_count[v] : 0;
   memset(line, 0, 3 * sizeof *line);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The solution of the smoothing in one block and the rows around it.
-#include "mesher/layers/direction_smoothing_block.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -139,7 +137,8 @@ static int by_distance(const void *p, const void *q) {
   return a->key != b->key ? (a->key > b->key) - (a->key < b->key) : (a->v > b->v) - (a->v < b->v);
 }
 
-int32_t cw_smoothing_block_size(const CwSmoothing *smoothing, int32_t block) {
+// Members of a block.
+static int32_t block_size(const CwSmoothing *smoothing, int32_t block) {
   int32_t left = smoothing->count - block * CW_SMOOTHING_BLOCK;
   return left < CW_SMOOTHING_BLOCK ? left : CW_SMOOTHING_BLOCK;
 }
@@ -148,10 +147,10 @@ int32_t cw_smoothing_block_size(const CwSmoothing *smoothing, int32_t block) {
 static CwStatus gather_members(const CwSmoothing *smoothing, int32_t block, Part *part) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = smoothing->work;
-  int32_t capacity = 2 * cw_smoothing_block_size(smoothing, block), ring = 0;
+  int32_t capacity = 2 * block_size(smoothing, block), ring = 0;
   CwHeapItem *order = NULL;
   CW_NEW(part->member, capacity);
-  for (int32_t i = 0; i < cw_smoothing_block_size(smoothing, block); i++) {
+  for (int32_t i = 0; i < block_size(smoothing, block); i++) {
     int32_t v = smoothing->member[block * CW_SMOOTHING_BLOCK + i];
     part->local[v] = 1;
     part->member[part->count++] = v;
@@ -446,7 +445,7 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
   CwSmoothing *smoothing = context;
   Part part = {0};
   CwLean *lean_of = NULL;
-  int32_t count = cw_smoothing_block_size(smoothing, block);
+  int32_t count = block_size(smoothing, block);
   void *local = NULL;
   CW_TRY(cw_scratch_take(smoothing->local, &local));
   CW_TRY(part_make(smoothing, block, local, &part));

@@ -5,8 +5,6 @@
 // a block. A place at the distance D from the block, which some wave has come to after a way d, matters to none that
 // comes to the block where d + D > R: neither that wave nor one that comes there later has way left to go on to the
 // block. So a block without those places has the same bits as if all were one.
-#include "mesher/layers/direction_smoothing_reach.h"
-
 #include <math.h>
 #include <stdlib.h>
 

@@ -6,6 +6,7 @@
 
 #include "mesher/layers/layer_columns.h"
 #include "mesher/parallel/scratch.h"
+#include "pipeline/status.h"
 
 enum { CW_SMOOTHING_BLOCK = 4096 }; // vertices
 
@@ -45,5 +46,11 @@ typedef struct CwSmoothing {
   void **lean;    // the CwLean of the members of each block, as the last smoothing left them; NULL before the first
   double *lean_t; // of each vertex: the thickness it was made for; negative out of reach
 } CwSmoothing;
+
+// Sets `reach` from the sources. Collective.
+CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing);
+
+// Solves one block: a task (CwTask) over CwSmoothing; gives the CwLean of its members.
+CwStatus cw_smoothing_solve_block(void *smoothing, int32_t block, void **bytes, int64_t *size);
 
 #endif

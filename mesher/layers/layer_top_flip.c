@@ -26,14 +26,6 @@ static double least_angle(const double (*x)[3], int32_t a, int32_t b, int32_t c)
   return atan2(cw_norm(n), -cw_dot(u, v));
 }
 
-static void unit_normal(const double (*x)[3], int32_t a, int32_t b, int32_t c, double normal[3]) {
-  double u[3], v[3];
-  cw_sub(x[b], x[a], u);
-  cw_sub(x[c], x[a], v);
-  cw_cross(u, v, normal);
-  cw_unit(normal);
-}
-
 // Least scaled Jacobian over the six corners of the prism between wall and layer top; the fluid lies against the
 // normal.
 static double prism_quality(const double (*wall)[3], const double (*top)[3], int32_t a, int32_t b, int32_t c) {
@@ -46,7 +38,6 @@ static double prism_quality(const double (*wall)[3], const double (*top)[3], int
       cw_sub(x[corner[(k + 1) % 3]], x[corner[k]], u);
       cw_sub(x[corner[(k + 2) % 3]], x[corner[k]], v);
       cw_sub(wall[corner[k]], top[corner[k]], column);
-      cw_cross(u, v, n);
       cw_unit(u);
       cw_unit(v);
       cw_unit(column);
@@ -59,8 +50,10 @@ static double prism_quality(const double (*wall)[3], const double (*top)[3], int
 
 static int flat_pair(const double (*x)[3], const int32_t p[3], const int32_t q[3]) {
   double n[3], m[3];
-  unit_normal(x, p[0], p[1], p[2], n);
-  unit_normal(x, q[0], q[1], q[2], m);
+  cw_normal(x[p[0]], x[p[1]], x[p[2]], n);
+  cw_normal(x[q[0]], x[q[1]], x[q[2]], m);
+  cw_unit(n);
+  cw_unit(m);
   return cw_dot(n, m) > cw_policy.crease_cosine;
 }
 

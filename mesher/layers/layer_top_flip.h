@@ -12,17 +12,10 @@
 #include "mesher/surface/flip_mesh.h"
 #include "pipeline/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Flips edges between triangles of equal `group`, not below 0, where that raises the least angle of the layer top,
 // keeps the wall's triangles fair and flat, and leaves the thick prisms valid. Changes `mesh` in place; *flips counts.
 // Deterministic. Collective.
 CwStatus cw_layer_top_flip(const CwContext *context, const double (*wall)[3], const double (*top)[3],
                            int32_t triangle_count, CwFlipMesh *mesh, const int64_t *group, int32_t *flips);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

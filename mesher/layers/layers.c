@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/layers/layers.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

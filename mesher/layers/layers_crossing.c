@@ -80,9 +80,9 @@ static int cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
     for (int j = 0; j < 3; j++)
       if (a[i] == b[j]) shared++, in_a = i, in_b = j;
   if (shared == 2) { // they overlap only where folded flat onto each other, and then their normals are opposite
-    double u[3], v[3], n[3], m[3];
-    cw_sub(p[1], p[0], u), cw_sub(p[2], p[0], v), cw_cross(u, v, n);
-    cw_sub(q[1], q[0], u), cw_sub(q[2], q[0], v), cw_cross(u, v, m);
+    double n[3], m[3];
+    cw_normal(p[0], p[1], p[2], n);
+    cw_normal(q[0], q[1], q[2], m);
     if (cw_dot(n, m) > -0.9 * cw_norm(n) * cw_norm(m)) return 0;
   } else if (shared < 2 && kept_apart(p, q, in_a, in_b)) {
     return 0;
@@ -318,9 +318,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   CW_TRY(cw_schedule_run(crossing->work->in->context, &schedule, bytes, size, NULL));
   size_t total = (size_t)crossing->pair_count;
   for (int32_t i = 0; i < blocks; i++) total += (size_t)size[i] / sizeof *crossing->pair;
-  CwLayerPair *pair = realloc(crossing->pair, (total + 1) * sizeof *pair);
-  CW_REQUIRE(pair, CW_ERR_MEMORY, "out of memory: %zu crossing pairs", total);
-  crossing->pair = pair;
+  CW_GROW(crossing->pair, crossing->pair_space, total);
   for (int32_t i = 0; i < blocks; i++) {
     if (size[i] == 0) continue;
     memcpy(crossing->pair + crossing->pair_count, bytes[i], (size_t)size[i]);

@@ -60,9 +60,8 @@ done:
   return status;
 }
 
-// Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the
-// normal that points
-// out of the domain.
+// Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the normal that
+// points out of the domain.
 static double hit(const CwLayerInput *in, int32_t f, const double x[3], const double g[3], double *facing) {
   const double *corner[3];
   double e1[3], e2[3], p[3], q[3], s[3], normal[3];

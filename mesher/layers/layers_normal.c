@@ -52,10 +52,8 @@ static void search_free(Search *search) {
   for (int i = 0; i < search->count; i++)
     for (int j = i + 1; j < search->count; j++)
       for (int k = j + 1; k < search->count; k++) {
-        double a[3], b[3], g[3];
-        cw_sub(n[j], n[i], a);
-        cw_sub(n[k], n[i], b);
-        cw_cross(a, b, g);
+        double g[3];
+        cw_normal(n[i], n[j], n[k], g);
         offer_both(search, g);
       }
 }
@@ -115,7 +113,8 @@ double cw_layers_fair_normal(int count, const double (*normal)[3], int constrain
   return least;
 }
 
-int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]) {
+// Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
+static int distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]) {
   // Vertices with very many faces lie on smooth surfaces; a coarser distinction is enough there.
   for (double same = 1e-9;; same *= 30) {
     int count = 0;
@@ -184,7 +183,7 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   const double none[2][3] = {{0}}, *x = in->x[v];
   Direction *made = out;
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
-  int count = cw_layers_distinct_normals(work, v, normal);
+  int count = distinct_normals(work, v, normal);
   double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g), most = -1;
   made->normal_cos = c;
   if (c >= BENT) return CW_OK;
@@ -224,7 +223,7 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
   int32_t v = special->vertex[i];
   Held *made = out;
   double normal[CW_LAYER_NORMALS][3];
-  int count = cw_layers_distinct_normals(work, v, normal), constraints = constraints_at(work, v);
+  int count = distinct_normals(work, v, normal), constraints = constraints_at(work, v);
   if (work->crease[v] != CW_CREASE_NONE) edge_direction(count, normal, made->along);
   memcpy(made->base, work->normal[v], sizeof made->base);
   made->base_cos = work->normal_cos[v];

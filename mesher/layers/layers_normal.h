@@ -28,9 +28,7 @@ CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v);
 // outcome: that of cw_layers_kind_at where the faces around a vertex see no common one, CW_OUTCOME_REPLAN where other
 // constraints hold none.
 CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
-// Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
-enum { CW_LAYER_NORMALS = 48 };
-int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]);
+enum { CW_LAYER_NORMALS = 48 }; // distinct ones around a vertex, at most
 // Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor). Over convex
 // edges CW_CONVEX_FLOOR: sharper ones leave thinner layers.
 #define CW_CONVEX_FLOOR 0.55

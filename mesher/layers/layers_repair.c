@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "mesher/common/box_tree.h"
-#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/direction_smoothing.h"
 #include "mesher/layers/layers_crossing.h"
@@ -17,6 +16,7 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
+#include "pipeline/order.h"
 
 enum { ROUNDS = 120, TURNS = 4, RESMOOTH = 3 };
 enum { TOGETHER = 16 };                // columns at least that are turned in one task
@@ -50,15 +50,19 @@ static void set_moved(Repair *repair, int32_t v) {
   repair->moved[v] = 1;
 }
 
-// Marks the columns of bad prism f. thinned: those alone of which less helps.
-static void mark_corners(Repair *repair, int32_t f, int thinned) {
+// Marks the columns of the bad prisms. thinned: those alone of which less helps.
+static void mark_bad(Repair *repair, int thinned) {
   const CwLayerWork *work = repair->work;
   const double(*top)[3] = (const double(*)[3])repair->top;
-  int marked[3] = {1, 1, 1}, sound = cw_layers_is_sound(work, f, top);
-  if (thinned) cw_layers_helped_by(work, f, top, sound, marked);
-  for (int k = 0; k < 3; k++) {
-    uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
-    if (marked[k] && *mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
+  memset(repair->mark, 0, (size_t)work->n);
+  for (int32_t i = 0; i < repair->bad_count; i++) {
+    int32_t f = repair->bad[i];
+    int marked[3] = {1, 1, 1}, sound = cw_layers_is_sound(work, f, top);
+    if (thinned) cw_layers_helped_by(work, f, top, sound, marked);
+    for (int k = 0; k < 3; k++) {
+      uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
+      if (marked[k] && *mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
+    }
   }
 }
 
@@ -85,8 +89,7 @@ static CwStatus find_bad(Repair *repair) {
   }
   if (stale > MANY) {
     CW_NEW_UNSET(many, stale);
-    CW_TRY(
-        cw_parallel_for(repair->work->in->context, "layers: prisms", stale, sizeof *many, judge_stale, repair, many));
+    CW_TRY(cw_parallel_for(work->in->context, "layers: prisms", stale, sizeof *many, judge_stale, repair, many));
   }
   for (int32_t i = 0; i < stale; i++) {
     int32_t f = repair->stale[i];
@@ -94,8 +97,7 @@ static CwStatus find_bad(Repair *repair) {
     if (repair->quality[f] < repair->limit) repair->bad[kept++] = f;
   }
   repair->bad_count = kept;
-  memset(repair->mark, 0, (size_t)work->n);
-  for (int32_t i = 0; i < kept; i++) mark_corners(repair, repair->bad[i], 0);
+  mark_bad(repair, 0);
 done:
   free(many);
   return status;
@@ -115,12 +117,6 @@ static void place_changed(Repair *repair) {
 static CwStatus find_end(void *context, int32_t v, void *out) {
   cw_layers_place(context, v, out);
   return CW_OK;
-}
-
-// Marks of the bad prisms the columns that are to be thinned for them.
-static void mark_thinned(Repair *repair) {
-  memset(repair->mark, 0, (size_t)repair->work->n);
-  for (int32_t i = 0; i < repair->bad_count; i++) mark_corners(repair, repair->bad[i], 1);
 }
 
 static CwStatus thin_marked(Repair *repair) {
@@ -169,11 +165,6 @@ typedef struct {
   int32_t changed;
 } Turned;
 
-static int by_number(const void *a, const void *b) {
-  int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
-  return (p > q) - (p < q);
-}
-
 // Lists the marked vertices that hang together with v by edges, in ascending order from place `first` on; returns where
 // they end.
 static int32_t list_group(const Repair *repair, int32_t v, uint8_t *listed, int32_t first, int32_t *vertex) {
@@ -189,7 +180,7 @@ static int32_t list_group(const Repair *repair, int32_t v, uint8_t *listed, int3
       vertex[end++] = w;
     }
   }
-  qsort(vertex + first, (size_t)(end - first), sizeof *vertex, by_number);
+  qsort(vertex + first, (size_t)(end - first), sizeof *vertex, cw_order_int32s);
   return end;
 }
 
@@ -250,7 +241,7 @@ static CwStatus turn_marked(Repair *repair) {
   for (int32_t g = 0; g < groups.count; g++) cost[g] = groups.start[g + 1] - groups.start[g];
   CwSchedule schedule = {
       .step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group, .context = &groups, .gather = 1};
-  CW_TRY(cw_schedule_run(repair->work->in->context, &schedule, bytes, size, NULL));
+  CW_TRY(cw_schedule_run(work->in->context, &schedule, bytes, size, NULL));
   for (int32_t g = 0; g < groups.count; g++) {
     const Turned *made = bytes[g];
     for (int32_t i = groups.start[g]; i < groups.start[g + 1]; i++, made++) {
@@ -379,12 +370,11 @@ static CwStatus start(Repair *repair, CwBoxTree *tree) {
   CW_TRY(cw_layers_crossing_make(work, &repair->crossing));
   repair->crossing.fixed = *tree;
   memset(tree, 0, sizeof *tree);
-  CW_TRY(
-      cw_parallel_for(repair->work->in->context, "layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
+  CW_TRY(cw_parallel_for(work->in->context, "layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
   memcpy(repair->thickness, work->t, (size_t)n * sizeof *repair->thickness);
   for (int32_t f = 0; f < triangles; f++) repair->stale[f] = f;
-  CW_TRY(cw_parallel_for(repair->work->in->context, "layers: prisms", triangles, sizeof *repair->quality, judge_stale,
-                         repair, repair->quality));
+  CW_TRY(cw_parallel_for(work->in->context, "layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair,
+                         repair->quality));
   for (int32_t f = 0; f < triangles; f++) {
     if (repair->quality[f] < cw_policy.prism_good) repair->bad[repair->bad_count++] = f;
   }
@@ -442,7 +432,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
     if (repair.bad_count) {
       CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
-      mark_thinned(&repair);
+      mark_bad(&repair, 1);
     } else {
       CW_TRY(find_crossings(&repair));
       if (repair.crossing.pair_count == 0) {

@@ -10,29 +10,12 @@
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
 
-static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
-  int32_t low = work->near_start[v], high = work->near_start[v + 1];
-  while (high - low > 1) {
-    int32_t middle = (low + high) / 2;
-    if (work->near[middle] <= w)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-static CwStatus check_triangles(const CwLayerInput *in) {
+static CwStatus check_triangles(const char *of, int32_t count, const int32_t (*triangle)[3], int32_t points) {
   CwStatus status = CW_OK;
-  for (int32_t f = 0; f < in->triangle_count; f++)
-    for (int i = 0; i < 3; i++)
-      CW_REQUIRE(in->triangle[f][i] >= 0 && in->triangle[f][i] < in->point_count, CW_ERR_INPUT,
-                 "layers: wall triangle %d names point %d of %d", f, in->triangle[f][i], in->point_count);
-  for (int32_t f = 0; f < in->obstacle_triangle_count; f++)
-    for (int i = 0; i < 3; i++)
-      CW_REQUIRE(in->obstacle_triangle[f][i] >= 0 && in->obstacle_triangle[f][i] < in->obstacle_point_count,
-                 CW_ERR_INPUT, "layers: obstacle triangle %d names point %d of %d", f, in->obstacle_triangle[f][i],
-                 in->obstacle_point_count);
+  for (int32_t f = 0; f < count; f++)
+    for (int k = 0; k < 3; k++)
+      CW_REQUIRE(triangle[f][k] >= 0 && triangle[f][k] < points, CW_ERR_INPUT,
+                 "layers: %s triangle %d names point %d of %d", of, f, triangle[f][k], points);
 done:
   return status;
 }
@@ -145,8 +128,15 @@ static double half_cotangent(const CwLayerInput *in, int32_t f, int i, double tw
   return 0.5 * fmin(fmax(cw_dot(e1, e2) / twice_area, 0.05), 5.0);
 }
 
+// The place of w in a list that holds it.
+static int32_t place_in(const int32_t *list, int32_t w) {
+  int32_t at = 0;
+  while (list[at] != w) at++;
+  return at;
+}
+
 void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, double *area) {
-  int32_t start = work->near_start[v];
+  const int32_t start = work->near_start[v], *near = work->near + start;
   memset(weight, 0, (size_t)(work->near_start[v + 1] - start) * sizeof *weight);
   *area = 0;
   for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
@@ -154,8 +144,8 @@ void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, doubl
     const int32_t *corner = work->in->triangle[f];
     int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2, next = (i + 1) % 3, last = (i + 2) % 3;
     double twice = twice_area(work->in, f);
-    weight[find_near(work, v, corner[next]) - start] += half_cotangent(work->in, f, last, twice);
-    weight[find_near(work, v, corner[last]) - start] += half_cotangent(work->in, f, next, twice);
+    weight[place_in(near, corner[next])] += half_cotangent(work->in, f, last, twice);
+    weight[place_in(near, corner[last])] += half_cotangent(work->in, f, next, twice);
     *area += twice / 6;
   }
 }
@@ -172,7 +162,9 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
   CwStatus status = CW_OK;
   work->in = input;
   work->n = input->point_count;
-  CW_TRY(check_triangles(input));
+  CW_TRY(check_triangles("wall", input->triangle_count, input->triangle, input->point_count));
+  CW_TRY(check_triangles("obstacle", input->obstacle_triangle_count, input->obstacle_triangle,
+                         input->obstacle_point_count));
   CW_TRY(lists(work));
   CW_NEW_UNSET(work->face_normal, input->triangle_count);
   CW_TRY(cw_parallel_for(work->in->context, "layers: normals", input->triangle_count, sizeof *work->face_normal,

@@ -2,7 +2,6 @@
 #include "mesher/layers/layers_turn.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers_normal.h"

@@ -32,11 +32,8 @@ static double openness(const Wall *wall, int32_t v) {
       const int32_t *c = wall->mesh.triangle[t];
       int k = cw_flip_corner(&wall->mesh, t, v);
       if (way == 0 || t != wall->around[v]) {
-        double a[3], b[3];
         if (count == CW_LAYER_NORMALS) return 2;
-        cw_sub(wall->x[c[1]], wall->x[c[0]], a);
-        cw_sub(wall->x[c[2]], wall->x[c[0]], b);
-        cw_cross(b, a, normal[count]);
+        cw_normal(wall->x[c[0]], wall->x[c[2]], wall->x[c[1]], normal[count]); // into the fluid
         cw_unit(normal[count++]);
       }
       t = wall->mesh.near[t][way ? k : (k + 2) % 3];

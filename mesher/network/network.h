@@ -87,11 +87,14 @@ double cw_face_onto_planes(const CwCad *cad, int32_t face, const CwPlane *a, con
 // Of the model's unit: corners nearer to one another, on the same things, are one.
 static const double cw_same_corner = 1e-8;
 
-// Adds a corner unless one with the same CAD entity and planes lies within `tolerance` m; returns its number, or -1
-// where memory ran out.
-int32_t cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance);
+// Adds a corner unless one with the same CAD entity and planes lies within `tolerance` m; *number: of that one.
+CwStatus cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance, int32_t *number);
 
-// Adds a curve (taking over its arrays); CW_ERR_MEMORY frees them.
+// Room for a fine polyline of `count` points, whatever stood in the curve before.
+CwStatus cw_curve_fine_make(int32_t count, CwCurve *curve);
+void cw_curve_fine_free(CwCurve *curve);
+
+// Adds a curve, whose arrays it takes over, and sets its lengths; CW_ERR_MEMORY frees them.
 CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve);
 
 // Steps of cw_network_make: traces the plane of `node` on every CAD face and adds the pieces within its cell; and the

@@ -90,10 +90,7 @@ double cw_curve_end_gap(const CwNetwork *network, const CwCurve *curve, int end)
 double cw_curve_nearest(const CwCurve *curve, const double x[3]) {
   double best = INFINITY, length = 0;
   for (int32_t i = 0; i + 1 < curve->fine_count; i++) {
-    double d[3], r[3], p[3];
-    cw_sub(curve->fine_x[i + 1], curve->fine_x[i], d);
-    cw_sub(x, curve->fine_x[i], r);
-    double square = cw_dot(d, d), s = square > 0 ? fmin(fmax(cw_dot(r, d) / square, 0), 1) : 0;
+    double s = cw_nearest_share(curve->fine_x[i], curve->fine_x[i + 1], x), p[3];
     cw_lerp(curve->fine_x[i], curve->fine_x[i + 1], s, p);
     double distance = cw_distance(p, x);
     if (distance < best) {
@@ -104,26 +101,36 @@ double cw_curve_nearest(const CwCurve *curve, const double x[3]) {
   return length;
 }
 
-int32_t cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance) {
-  for (int32_t i = 0; i < network->corner_count; i++) {
-    const CwCorner *old = &network->corner[i];
+CwStatus cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance, int32_t *number) {
+  CwStatus status = CW_OK;
+  for (*number = 0; *number < network->corner_count; ++*number) {
+    const CwCorner *old = &network->corner[*number];
     if (old->face == corner->face && old->edge == corner->edge && old->vertex == corner->vertex &&
         !memcmp(old->plane, corner->plane, sizeof old->plane) && cw_distance(old->x, corner->x) <= tolerance) {
-      return i;
+      goto done;
     }
   }
-  if (network->corner_count == network->corner_capacity) {
-    int32_t capacity = network->corner_capacity ? 2 * network->corner_capacity : 256;
-    CwCorner *grown = realloc(network->corner, (size_t)capacity * sizeof *grown);
-    if (!grown) return -1;
-    network->corner = grown;
-    network->corner_capacity = capacity;
-  }
-  network->corner[network->corner_count] = *corner;
-  return network->corner_count++;
+  CW_GROW(network->corner, network->corner_capacity, network->corner_count + 1);
+  network->corner[network->corner_count++] = *corner;
+done:
+  return status;
 }
 
-static void curve_free(CwCurve *curve) {
+CwStatus cw_curve_fine_make(int32_t count, CwCurve *curve) {
+  CwStatus status = CW_OK;
+  curve->fine_count = count;
+  curve->fine_x = NULL;
+  curve->fine_parameter = NULL;
+  curve->fine_length = NULL;
+  CW_NEW(curve->fine_x, count);
+  CW_NEW(curve->fine_parameter, count);
+  CW_NEW(curve->fine_length, count);
+done:
+  if (status != CW_OK) cw_curve_fine_free(curve);
+  return status;
+}
+
+void cw_curve_fine_free(CwCurve *curve) {
   free(curve->fine_x);
   free(curve->fine_parameter);
   free(curve->fine_length);
@@ -132,20 +139,17 @@ static void curve_free(CwCurve *curve) {
 CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve) {
   CwStatus status = CW_OK;
   CW_GROW(network->curve, network->curve_capacity, network->curve_count + 1);
-  if (!curve->fine_length) {
-    CW_NEW(curve->fine_length, curve->fine_count);
-    for (int32_t i = 1; i < curve->fine_count; i++) {
-      curve->fine_length[i] = curve->fine_length[i - 1] + cw_distance(curve->fine_x[i - 1], curve->fine_x[i]);
-    }
+  for (int32_t i = 1; i < curve->fine_count; i++) {
+    curve->fine_length[i] = curve->fine_length[i - 1] + cw_distance(curve->fine_x[i - 1], curve->fine_x[i]);
   }
   network->curve[network->curve_count++] = *curve;
 done:
-  if (status != CW_OK) curve_free(curve);
+  if (status != CW_OK) cw_curve_fine_free(curve);
   return status;
 }
 
 void cw_network_free(CwNetwork *network) {
-  for (int32_t i = 0; i < network->curve_count; i++) curve_free(&network->curve[i]);
+  for (int32_t i = 0; i < network->curve_count; i++) cw_curve_fine_free(&network->curve[i]);
   free(network->curve);
   free(network->corner);
   memset(network, 0, sizeof *network);

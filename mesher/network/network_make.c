@@ -21,16 +21,6 @@ static int compare_places(const void *p, const void *q) {
   return (a->corner > b->corner) - (a->corner < b->corner);
 }
 
-static CwStatus fine_new(CwCurve *curve, int32_t count) {
-  CwStatus status = CW_OK;
-  curve->fine_count = count;
-  CW_NEW(curve->fine_x, count);
-  CW_NEW(curve->fine_parameter, count);
-done:
-  if (status != CW_OK) free(curve->fine_x);
-  return status;
-}
-
 // The pieces of one CAD edge between its ends and the planes that cross it.
 static CwStatus add_edge(CwNetwork *network, int32_t edge, Place *place) {
   CwStatus status = CW_OK;
@@ -54,7 +44,7 @@ static CwStatus add_edge(CwNetwork *network, int32_t edge, Place *place) {
                      .face = {face[0], face[1]},
                      .plane = {-1, -1},
                      .wall = cw_cad_face_is_wall(cad, face[0]) || cw_cad_face_is_wall(cad, face[1])};
-    CW_TRY(fine_new(&curve, EDGE_FINE));
+    CW_TRY(cw_curve_fine_make(EDGE_FINE, &curve));
     for (int i = 0; i < EDGE_FINE; i++) {
       double t = place[p].t + (place[p + 1].t - place[p].t) * i / (EDGE_FINE - 1);
       curve.fine_parameter[i][0] = t;
@@ -112,7 +102,7 @@ static CwStatus add_line(CwNetwork *network, const CwVerticals *inside, int32_t 
                      .edge = -1,
                      .face = {-1, -1},
                      .plane = {above, below}};
-    CW_TRY(fine_new(&curve, LINE_FINE));
+    CW_TRY(cw_curve_fine_make(LINE_FINE, &curve));
     for (int i = 0; i < LINE_FINE; i++) cw_lerp(a, b, (double)i / (LINE_FINE - 1), curve.fine_x[i]);
     CW_TRY(cw_network_add_curve(network, &curve));
   }
@@ -152,14 +142,14 @@ CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBac
                          const CwVerticals *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Place *place = NULL;
-  int32_t *below = NULL;
+  int32_t *below = NULL, number;
   memset(network, 0, sizeof *network);
   network->cad = cad;
   network->plan = plan;
   for (int v = 0; v < cw_cad_vertex_count(cad); v++) {
     CwCorner corner = {{0}, -1, -1, 0, v, {-1, -1, -1}, 0};
     cw_cad_vertex_point(cad, v, corner.x);
-    CW_REQUIRE(cw_network_corner(network, &corner, 0) == v, CW_ERR_MEMORY, "out of memory: %d corners", v);
+    CW_TRY(cw_network_corner(network, &corner, 0, &number)); // v: no other has that vertex
   }
   CW_TRY_STAGE(cw_network_trace_all(context, network, background, outcome), outcome);
   CW_TRY_STAGE(check_both_sides(network, outcome), outcome);
@@ -175,8 +165,7 @@ CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBac
       for (int32_t c = b + 1; c < count; c++) {
         CwCorner corner = {{0}, -1, -1, 0, -1, {a, below[b], below[c]}, 0};
         if (!triple_point(network, inside, corner.plane, corner.x)) continue;
-        CW_REQUIRE(cw_network_corner(network, &corner, cw_same_corner) >= 0, CW_ERR_MEMORY, "out of memory: %d corners",
-                   network->corner_count);
+        CW_TRY(cw_network_corner(network, &corner, cw_same_corner, &number));
       }
     }
   }

@@ -7,7 +7,7 @@
 #include "mesher/network/network.h"
 #include "mesher/parallel/schedule.h"
 
-enum { DOUBLES = 6 }; // of a fine point: place, two parameters, length
+enum { DOUBLES = 5 }; // of a fine point: place, two parameters
 
 // Corners, curves and then the arrays of each curve follow it, aligned as numbers need it.
 typedef struct {
@@ -40,8 +40,6 @@ static CwStatus pack(const CwNetwork *network, const CwOutcome *outcome, void **
     at += count * sizeof *curve->fine_x;
     memcpy(at, curve->fine_parameter, count * sizeof *curve->fine_parameter);
     at += count * sizeof *curve->fine_parameter;
-    memcpy(at, curve->fine_length, count * sizeof *curve->fine_length);
-    at += count * sizeof *curve->fine_length;
   }
   *bytes = block;
   *size = (int64_t)all;
@@ -66,23 +64,13 @@ static CwStatus join_curve(CwNetwork *network, const CwCurve *packed, const int3
   CwStatus status = CW_OK;
   CwCurve curve = *packed;
   size_t count = (size_t)curve.fine_count;
-  curve.fine_x = NULL; // addresses mean nothing elsewhere
-  curve.fine_parameter = NULL;
-  curve.fine_length = NULL;
   for (int k = 0; k < 2; k++) curve.corner[k] = corner[packed->corner[k]];
-  CW_NEW(curve.fine_x, count);
-  CW_NEW(curve.fine_parameter, count);
-  CW_NEW(curve.fine_length, count);
+  CW_TRY(cw_curve_fine_make(packed->fine_count, &curve)); // the packed addresses mean nothing here
   memcpy(curve.fine_x, at, count * sizeof *curve.fine_x);
   at += count * sizeof *curve.fine_x;
   memcpy(curve.fine_parameter, at, count * sizeof *curve.fine_parameter);
-  at += count * sizeof *curve.fine_parameter;
-  memcpy(curve.fine_length, at, count * sizeof *curve.fine_length);
-  return cw_network_add_curve(network, &curve);
+  CW_TRY(cw_network_add_curve(network, &curve));
 done:
-  free(curve.fine_x);
-  free(curve.fine_parameter);
-  free(curve.fine_length);
   return status;
 }
 
@@ -99,8 +87,7 @@ static CwStatus join(CwNetwork *network, const void *bytes, CwOutcome *outcome) 
   const char *at = (const char *)(curves + head.curves);
   CW_NEW(corner, head.corners);
   for (int32_t i = 0; i < head.corners; i++) {
-    corner[i] = cw_network_corner(network, &corners[i], cw_same_corner);
-    CW_REQUIRE(corner[i] >= 0, CW_ERR_MEMORY, "out of memory: %d corners", network->corner_count);
+    CW_TRY(cw_network_corner(network, &corners[i], cw_same_corner, &corner[i]));
   }
   for (int32_t i = 0; i < head.curves; i++) {
     CW_TRY(join_curve(network, &curves[i], corner, at));

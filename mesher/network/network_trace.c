@@ -29,17 +29,21 @@ typedef struct {
   int32_t (*keys_of)[2]; // of each background triangle, -1: not crossed
 } Crossings;
 
+typedef struct {
+  double x[3], uv[2];
+} Point;
+
 // One trace on one face.
 typedef struct {
-  int32_t face, count, closed;
-  double (*x)[3], (*uv)[2];
+  int32_t face, count, space, closed;
+  Point *point;
   CwCorner end[2]; // on the CAD edges where an open trace begins and ends
 } Trace;
 
 // Where another plane divides a trace.
 typedef struct {
   double place; // segment number + fraction
-  double x[3], uv[2];
+  Point at;
   int32_t plane;
 } Split;
 
@@ -182,20 +186,11 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
                      uint8_t *seen, Trace *trace, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwCad *cad = network->cad;
-  int32_t face = found->background->face[triangle], capacity = 64, first = key;
+  int32_t face = found->background->face[triangle], first = key;
   *trace = (Trace){.face = face, .closed = !on_face_border(found, key)};
-  CW_NEW(trace->x, capacity);
-  CW_NEW(trace->uv, capacity);
   for (;;) {
-    if (trace->count == capacity) {
-      capacity *= 2;
-      void *x = realloc(trace->x, (size_t)capacity * sizeof *trace->x);
-      if (x) trace->x = x;
-      void *uv = realloc(trace->uv, (size_t)capacity * sizeof *trace->uv);
-      if (uv) trace->uv = uv;
-      CW_REQUIRE(x && uv, CW_ERR_MEMORY, "out of memory: a cut curve of %d points", capacity);
-    }
-    double *x = trace->x[trace->count], *uv = trace->uv[trace->count];
+    CW_GROW(trace->point, trace->space, trace->count + 1);
+    double *x = trace->point[trace->count].x, *uv = trace->point[trace->count].uv;
     if (on_face_border(found, key)) {
       CwCorner *end = &trace->end[trace->count > 0];
       CW_TRY_STAGE(corner_on_edge(network, found, key, node, end, outcome), outcome);
@@ -213,9 +208,7 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
     key = found->keys_of[triangle][found->keys_of[triangle][0] == key];
     if (!on_face_border(found, key) && key != first) {
       const Crossing *pair = &found->crossing[2 * key];
-      int32_t next = pair[0].triangle == triangle ? pair[1].triangle : pair[0].triangle;
-      // The crossing of `key` is reckoned in the triangle just left; then on to the next one.
-      triangle = next;
+      triangle = pair[0].triangle == triangle ? pair[1].triangle : pair[0].triangle;
     }
   }
 done:
@@ -235,17 +228,19 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
     if (!below && !cw_plan_is_ancestor(plan, q, node)) continue;
     const CwPlane *other = &plan->node[q].plane;
     for (int32_t i = 0; i + 1 < trace->count; i++) {
-      double d0 = cw_plane_distance(other, trace->x[i]), d1 = cw_plane_distance(other, trace->x[i + 1]);
+      const Point *from = &trace->point[i], *to = from + 1;
+      double d0 = cw_plane_distance(other, from->x), d1 = cw_plane_distance(other, to->x);
       if ((d0 > 0) == (d1 > 0)) continue;
       double s = d0 / (d0 - d1);
       Split split = {.place = i + s, .plane = q};
-      for (int k = 0; k < 2; k++) split.uv[k] = trace->uv[i][k] + s * (trace->uv[i + 1][k] - trace->uv[i][k]);
-      double left = cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.uv, split.x);
-      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, trace->x[i],
+      for (int k = 0; k < 2; k++) split.at.uv[k] = from->uv[k] + s * (to->uv[k] - from->uv[k]);
+      double left =
+          cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.at.uv, split.at.x);
+      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, from->x,
                     "partition planes %d and %d meet too flatly on face %s", node, q,
                     cw_cad_face_name(network->cad, trace->face));
       int32_t skip[1] = {node};
-      if (below && !cw_plan_in_cell(plan, q, split.x, 1e-9, skip, 1)) continue;
+      if (below && !cw_plan_in_cell(plan, q, split.at.x, 1e-9, skip, 1)) continue;
       CW_GROW(*splits, capacity, *count + 1);
       (*splits)[(*count)++] = split;
     }
@@ -256,37 +251,37 @@ done:
 }
 
 static CwCorner split_corner(int32_t face, int32_t node, const Split *split) {
-  CwCorner corner = {{split->x[0], split->x[1], split->x[2]}, face, -1, 0, -1, {node, -1, -1}, 0};
+  CwCorner corner = {{split->at.x[0], split->at.x[1], split->at.x[2]}, face, -1, 0, -1, {node, -1, -1}, 0};
   corner.plane[0] = node < split->plane ? node : split->plane;
   corner.plane[1] = node < split->plane ? split->plane : node;
   return corner;
+}
+
+static void add_point(const Point *point, int32_t i, CwCurve *curve) {
+  cw_copy(point->x, curve->fine_x[i]);
+  memcpy(curve->fine_parameter[i], point->uv, sizeof point->uv);
 }
 
 // Adds the piece of the trace between two places as a curve, where it lies in the cell of `node`. NULL splits: the
 // ends of the trace. On a closed trace `to` may lie before `from`.
 static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, const Split *from, const Split *to) {
   CwStatus status = CW_OK;
-  CwCurve curve = {.kind = CW_CURVE_CUT, .edge = -1, .face = {trace->face, -1}, .plane = {node, -1}};
+  CwCurve curve = {.kind = CW_CURVE_CUT,
+                   .edge = -1,
+                   .face = {trace->face, -1},
+                   .plane = {node, -1},
+                   .wall = cw_cad_face_is_wall(network->cad, trace->face)};
   int32_t segments = trace->count - 1; // a closed trace repeats its first point at its end
   int32_t first = from ? (int32_t)floor(from->place) + 1 : 0;
   int32_t last = to ? (int32_t)floor(to->place) : segments;
   if (trace->closed && from && to && to->place <= from->place) last += segments;
-  CW_NEW(curve.fine_x, last - first + 3);
-  CW_NEW(curve.fine_parameter, last - first + 3);
-  if (from) {
-    cw_copy(from->x, curve.fine_x[0]);
-    memcpy(curve.fine_parameter[0], from->uv, sizeof from->uv);
-    curve.fine_count = 1;
-  }
+  CW_TRY(cw_curve_fine_make(last - first + 1 + (from != NULL) + (to != NULL), &curve));
+  int32_t count = 0;
+  if (from) add_point(&from->at, count++, &curve);
   for (int32_t i = first; i <= last; i++) {
-    int32_t k = i >= segments && trace->closed && from ? i - segments : i;
-    cw_copy(trace->x[k], curve.fine_x[curve.fine_count]);
-    memcpy(curve.fine_parameter[curve.fine_count++], trace->uv[k], sizeof trace->uv[k]);
+    add_point(&trace->point[i >= segments && trace->closed && from ? i - segments : i], count++, &curve);
   }
-  if (to) {
-    cw_copy(to->x, curve.fine_x[curve.fine_count]);
-    memcpy(curve.fine_parameter[curve.fine_count++], to->uv, sizeof to->uv);
-  }
+  if (to) add_point(&to->at, count++, &curve);
   double middle[3];
   int32_t half = curve.fine_count / 2;
   cw_lerp(curve.fine_x[half - 1], curve.fine_x[half], 0.5, middle);
@@ -295,21 +290,17 @@ static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, 
   CwCorner ends[2] = {trace->end[0], trace->end[1]};
   if (trace->closed && !from) {
     ends[0] = (CwCorner){{0}, trace->face, -1, 0, -1, {node, -1, -1}, 0};
-    cw_copy(trace->x[0], ends[0].x);
+    cw_copy(trace->point[0].x, ends[0].x);
     ends[1] = ends[0];
   }
   if (from) ends[0] = split_corner(trace->face, node, from);
   if (to) ends[1] = split_corner(trace->face, node, to);
   for (int k = 0; k < 2; k++) {
-    curve.corner[k] = cw_network_corner(network, &ends[k], cw_same_corner);
-    CW_REQUIRE(curve.corner[k] >= 0, CW_ERR_MEMORY, "out of memory: %d corners", network->corner_count);
+    CW_TRY(cw_network_corner(network, &ends[k], cw_same_corner, &curve.corner[k]));
   }
-  curve.wall = cw_cad_face_is_wall(network->cad, trace->face);
-  status = cw_network_add_curve(network, &curve);
-  return status;
+  return cw_network_add_curve(network, &curve);
 done:
-  free(curve.fine_x);
-  free(curve.fine_parameter);
+  cw_curve_fine_free(&curve);
   return status;
 }
 
@@ -346,14 +337,12 @@ CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, in
       if (seen[triangle] || (pass == 0 && !on_face_border(&found, i / 2))) continue;
       CW_TRY_STAGE(walk(network, &found, node, i / 2, triangle, seen, &trace, outcome), outcome);
       CW_TRY_STAGE(add_trace(network, node, &trace, outcome), outcome);
-      free(trace.x);
-      free(trace.uv);
+      free(trace.point);
       trace = (Trace){0};
     }
   }
 done:
-  free(trace.x);
-  free(trace.uv);
+  free(trace.point);
   free(found.crossing);
   free(found.keys_of);
   free(seen);

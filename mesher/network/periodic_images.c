@@ -176,16 +176,10 @@ static int32_t find_curve(const CwNetwork *network, const CwSymmetry *symmetry, 
 static CwStatus copy_curve(const CwPeriodicImages *images, const CwCurve *first, int32_t turns, CwCurve *curve) {
   CwStatus status = CW_OK;
   size_t n = (size_t)first->fine_count;
-  free(curve->fine_x);
-  free(curve->fine_parameter);
-  free(curve->fine_length);
-  curve->fine_x = NULL;
-  curve->fine_parameter = NULL;
-  curve->fine_length = NULL;
-  curve->fine_count = first->fine_count;
-  CW_NEW(curve->fine_x, n);
-  CW_NEW(curve->fine_parameter, n);
-  CW_NEW(curve->fine_length, n);
+  CwCurve made = *curve;
+  CW_TRY(cw_curve_fine_make(first->fine_count, &made));
+  cw_curve_fine_free(curve);
+  *curve = made;
   for (size_t i = 0; i < n; i++) cw_image_point(images, turns, first->fine_x[i], curve->fine_x[i]);
   memcpy(curve->fine_parameter, first->fine_parameter, n * sizeof *first->fine_parameter);
   memcpy(curve->fine_length, first->fine_length, n * sizeof *first->fine_length);
@@ -208,9 +202,7 @@ CwStatus cw_periodic_images_make(CwNetwork *network, CwPeriodicImages *images, C
     CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, network->corner[i].x,
                   "a corner of planes and edges has no periodic image");
   }
-  status = cw_images_make(network->corner_count, next, symmetry->count, 1, &images->corner, &whole);
-  next = NULL;
-  CW_TRY(status);
+  CW_TRY(cw_images_make(network->corner_count, &next, symmetry->count, 1, &images->corner, &whole));
   CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, UNCLOSED);
   CW_NEW(next, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
@@ -218,9 +210,7 @@ CwStatus cw_periodic_images_make(CwNetwork *network, CwPeriodicImages *images, C
     next[i] = find_curve(network, symmetry, &images->corner, &network->curve[i]);
     CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, x, "a curve has no periodic image, from its end");
   }
-  status = cw_images_make(network->curve_count, next, symmetry->count, 0, &images->curve, &whole);
-  next = NULL;
-  CW_TRY(status);
+  CW_TRY(cw_images_make(network->curve_count, &next, symmetry->count, 0, &images->curve, &whole));
   CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, UNCLOSED);
   for (int32_t i = 0; i < network->corner_count; i++) {
     const CwCorner *first = &network->corner[images->corner.first[i]];

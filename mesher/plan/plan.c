@@ -7,19 +7,27 @@
 
 #include "mesher/common/vec.h"
 
+CwStatus cw_plan_new(size_t room, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  memset(plan, 0, sizeof *plan);
+  CW_NEW(plan->node, room);
+  CW_NEW(plan->predicted_cells, room);
+done:
+  return status;
+}
+
 CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
-  size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
+  size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, cells = n * sizeof *plan->predicted_cells;
   const int32_t count[6] = {plan->node_count,   plan->region_count,  plan->sector_first,
                             plan->sector_count, plan->sector_region, plan->sector_turns};
   char *block;
-  CW_NEW(block, sizeof count + nodes + 2 * numbers);
+  CW_NEW(block, sizeof count + nodes + cells);
   memcpy(block, count, sizeof count);
   memcpy(block + sizeof count, plan->node, nodes);
-  memcpy(block + sizeof count + nodes, plan->predicted_cells, numbers);
-  memcpy(block + sizeof count + nodes + numbers, plan->worst_angle, numbers);
+  memcpy(block + sizeof count + nodes, plan->predicted_cells, cells);
   *bytes = block;
-  *byte_count = (int64_t)(sizeof count + nodes + 2 * numbers);
+  *byte_count = (int64_t)(sizeof count + nodes + cells);
 done:
   return status;
 }
@@ -29,20 +37,16 @@ CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
   int32_t count[6];
   const char *at = (const char *)bytes + sizeof count;
   memcpy(count, bytes, sizeof count);
-  memset(plan, 0, sizeof *plan);
+  size_t n = (size_t)count[1];
+  CW_TRY(cw_plan_new(n, plan));
   plan->node_count = count[0];
   plan->region_count = count[1];
   plan->sector_first = count[2];
   plan->sector_count = count[3];
   plan->sector_region = count[4];
   plan->sector_turns = count[5];
-  size_t n = (size_t)plan->region_count;
-  CW_NEW(plan->node, n);
-  CW_NEW(plan->predicted_cells, n);
-  CW_NEW(plan->worst_angle, n);
   memcpy(plan->node, at, n * sizeof *plan->node);
-  memcpy(plan->predicted_cells, at + n * sizeof *plan->node, n * sizeof(double));
-  memcpy(plan->worst_angle, at + n * (sizeof *plan->node + sizeof(double)), n * sizeof(double));
+  memcpy(plan->predicted_cells, at + n * sizeof *plan->node, n * sizeof *plan->predicted_cells);
 done:
   if (status != CW_OK) cw_plan_free(plan);
   return status;
@@ -51,7 +55,6 @@ done:
 void cw_plan_free(CwPlan *plan) {
   free(plan->node);
   free(plan->predicted_cells);
-  free(plan->worst_angle);
   memset(plan, 0, sizeof *plan);
 }
 
@@ -64,12 +67,9 @@ CwPlane cw_sector_end(const CwPlan *plan, int32_t node) {
   return (CwPlane){{n[1], -n[0], 0}, 0}; // normal x z
 }
 
-double cw_sector_reach(const CwPlan *plan, int32_t node, const double x[3]) {
-  CwPlane end = cw_sector_end(plan, node);
-  return cw_plane_distance(&end, x);
-}
-
-int32_t cw_sector_wedge(const CwPlan *plan, const double x[3]) {
+// The half-plane that opens the wedge of a point on the sector side of node 0; a point on a half-plane belongs to the
+// wedge before it.
+static int32_t wedge_of(const CwPlan *plan, const double x[3]) {
   const CwPlanNode *node = &plan->node[plan->sector_first];
   int after = cw_plane_distance(&node[plan->sector_count - 1].plane, x) > 0;
   for (int32_t j = plan->sector_count - 1; j >= 0; j--) { // the last wedge ends at half-plane 0
@@ -106,7 +106,7 @@ int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {
   int32_t node = 0;
   while (node >= 0) {
     int32_t child = plan->node[node].child[cw_plane_distance(&plan->node[node].plane, x) > 0];
-    node = child >= 0 && cw_sector_holds(plan, child) ? plan->node[cw_sector_wedge(plan, x)].child[1] : child;
+    node = child >= 0 && cw_sector_holds(plan, child) ? plan->node[wedge_of(plan, x)].child[1] : child;
   }
   return -1 - node;
 }
@@ -148,7 +148,8 @@ static int within(const CwPlan *plan, CwPlanBound bound, const double x[3], doub
 
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count) {
-  if (cw_sector_holds(plan, node) && cw_sector_reach(plan, node, x) < -tolerance) return 0;
+  CwPlane end = cw_sector_end(plan, node);
+  if (cw_sector_holds(plan, node) && cw_plane_distance(&end, x) < -tolerance) return 0;
   return within(plan, cw_plan_bound(plan, node), x, tolerance, skip, skip_count);
 }
 

@@ -28,6 +28,7 @@ typedef struct {
   CwPlane plane;    // child[0] lies on the negative side
   int32_t parent;   // -1 for the root; of a half-plane the plane above the sectors
   int32_t child[2]; // node, or -1 - region for a leaf
+  double worst;     // least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
 } CwPlanNode;
 
 typedef struct {
@@ -35,7 +36,6 @@ typedef struct {
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
-  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
   int32_t sector_first, sector_count,
       sector_region;    // half-planes and the first region of a wedge; sector_count 0: none
   int32_t sector_turns; // that bring the plan's wedges to themselves
@@ -61,6 +61,8 @@ int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
 // The part of the line plane(a) . x, plane(b) . x as point and unit direction; 0 where the planes are nearly parallel.
 int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]);
 
+// Empties a plan, with room for so many nodes and regions.
+CwStatus cw_plan_new(size_t room, CwPlan *plan);
 void cw_plan_free(CwPlan *plan);
 
 // The plan in one block of bytes (malloc'd), to travel between ranks, and back.
@@ -75,15 +77,11 @@ int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count);
 
-// True where `node` is a half-plane. Its plane acts only where cw_sector_reach is not negative.
+// True where `node` is a half-plane. Its plane acts only on the positive side of cw_sector_end.
 int cw_sector_holds(const CwPlan *plan, int32_t node);
 // Where it ends: the plane that holds the axis and stands across it; the distance to it is the way from the axis along
 // the half-plane.
 CwPlane cw_sector_end(const CwPlan *plan, int32_t node);
-double cw_sector_reach(const CwPlan *plan, int32_t node, const double x[3]);
-// The half-plane that opens the wedge of a point on the sector side of node 0 (a point on a half-plane belongs to the
-// wedge before it).
-int32_t cw_sector_wedge(const CwPlan *plan, const double x[3]);
 
 // Where `turns` turns of a symmetry of `count` turns take a node or region of the plan.
 int32_t cw_sector_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node);

@@ -162,7 +162,7 @@ typedef struct {
   const CwPlanModel *model;
   const CwPlan *plan;
   const CwPlanPart *part;
-  int32_t node, regions, count;
+  int32_t node, regions, count, space;
   Candidate *candidate; // best first
   uint8_t looked[CW_DIRECTIONS];
   int32_t tried_count;
@@ -217,10 +217,7 @@ static CwStatus look_further(Choice *choice, Directions *directions, Best *best)
   directions->model = choice->model;
   directions->part = choice->part;
   directions->regions = choice->regions;
-  size_t most = (size_t)(choice->count + directions->count * OF_DIRECTION);
-  void *grown = realloc(choice->candidate, most * sizeof *choice->candidate);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d directions", directions->count);
-  choice->candidate = grown;
+  CW_GROW(choice->candidate, choice->space, choice->count + directions->count * OF_DIRECTION);
   CW_TRY(look(directions, choice->candidate + choice->count, &added));
   choice->count += added;
   qsort(choice->candidate, (size_t)choice->count, sizeof *choice->candidate, by_score);
@@ -275,7 +272,7 @@ done:
 typedef struct {
   int32_t nodes, regions;
   CwPlanNode *node;
-  double *worst_angle, *predicted_cells;
+  double *predicted_cells;
 } Kept;
 
 static CwStatus keep(const CwPlan *plan, int32_t node, int32_t region, Kept *kept) {
@@ -285,11 +282,9 @@ static CwStatus keep(const CwPlan *plan, int32_t node, int32_t region, Kept *kep
   if (!kept->node) {
     // Room for all that any division of the part can take.
     CW_NEW(kept->node, SMALL_PART);
-    CW_NEW(kept->worst_angle, SMALL_PART);
     CW_NEW(kept->predicted_cells, SMALL_PART);
   }
   memcpy(kept->node, plan->node + node, (size_t)kept->nodes * sizeof *kept->node);
-  memcpy(kept->worst_angle, plan->worst_angle + node, (size_t)kept->nodes * sizeof *kept->worst_angle);
   memcpy(kept->predicted_cells, plan->predicted_cells + region, (size_t)kept->regions * sizeof *kept->predicted_cells);
 done:
   return status;
@@ -297,7 +292,6 @@ done:
 
 static void put_back(const Kept *kept, int32_t node, int32_t region, CwPlan *plan) {
   memcpy(plan->node + node, kept->node, (size_t)kept->nodes * sizeof *kept->node);
-  memcpy(plan->worst_angle + node, kept->worst_angle, (size_t)kept->nodes * sizeof *kept->worst_angle);
   memcpy(plan->predicted_cells + region, kept->predicted_cells, (size_t)kept->regions * sizeof *kept->predicted_cells);
   plan->node_count = node + kept->nodes;
   plan->region_count = region + kept->regions;
@@ -305,7 +299,6 @@ static void put_back(const Kept *kept, int32_t node, int32_t region, CwPlan *pla
 
 static void kept_free(Kept *kept) {
   free(kept->node);
-  free(kept->worst_angle);
   free(kept->predicted_cells);
 }
 
@@ -322,7 +315,7 @@ static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPa
   *bad = fmax(by->score - BAD, 0);
   plan->node[node].plane = by->plane;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
-  plan->worst_angle[node] = cw_plan_place(model, part, &by->plane, NULL).worst;
+  plan->node[node].worst = cw_plan_place(model, part, &by->plane, NULL).worst;
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
   for (int s = 0; s < 2 && *bad < limit; s++) {
     double further;

@@ -42,7 +42,7 @@ static CwStatus weigh_plane(const CwPlanModel *model, CwPlan *plan, const CwPlan
   CwPlanLines lines = {0, 1};
   const CwPlane *plane = &plan->node[node].plane;
   CwPlanPlace place = cw_plan_place(model, part, plane, NULL);
-  plan->worst_angle[node] = place.worst;
+  plan->node[node].worst = place.worst;
   double cost = cw_plan_place_cost(place) + cw_plan_touch_cost(cw_plan_touch(model, part, plane, NULL));
   if (cost < most) CW_TRY(cw_plan_lines(model, plan, node, part, plane, most - cost, &lines));
   *worth = (Worth){cost + lines.cost + LEANING_COST * fmax(0, UPRIGHT - lines.cosine),
@@ -84,9 +84,9 @@ static void find_cut(const CwPlanModel *model, const CwPlanPart *part, const CwP
   double sum[3] = {0, 0, 0}, square = 0, all = 0;
   for (int pass = 0; pass < 2; pass++) {
     for (int32_t i = 0; i < part->sample_count; i++) {
-      const double *x = model->sample_x[part->sample[i]];
+      const double *x = model->sample[part->sample[i]].x;
       if (fabs(cw_plane_distance(plane, x)) > model->sample_spacing) continue;
-      double volume = model->sample_volume[part->sample[i]], d[3];
+      double volume = model->sample[part->sample[i]].volume, d[3];
       if (pass == 0) {
         for (int k = 0; k < 3; k++) sum[k] += volume * x[k];
         all += volume;

@@ -143,7 +143,7 @@ static double near_an_edge(const Line *line, const CwPlanPart *part, const doubl
   double worst = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double room = model->edge_room[e], distance = cw_distance(model->edge_x[e], x);
+    double room = model->edge[e].room, distance = cw_distance(model->edge[e].x, x);
     if (distance < room) worst = fmax(worst, shortage(distance, room / 2, room));
   }
   return worst;
@@ -183,9 +183,9 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end, Line
   double x[3];
   if (end->triangle < 0) return 0; // left to the crossings
   at(line, end->place, x);
-  double thickness = model->thickness[end->triangle], cramped = near_an_edge(line, part, x);
+  double thickness = model->triangle[end->triangle].thickness, cramped = near_an_edge(line, part, x);
   // Columns keep the height normal to the wall, but for those that lean too much.
-  end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
+  end->cosine = fabs(cw_dot(line->direction, model->triangle[end->triangle].normal));
   end->layers = thickness / fmax(end->cosine, cw_policy.upright_cosine);
   if (thickness == 0) return cramped;
   lines->cosine = fmin(lines->cosine, end->cosine);
@@ -199,7 +199,7 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end, Line
 static int is_at_end(const Line *line, const End *end, double place, int32_t triangle) {
   const CwPlanModel *model = line->model;
   if (end->triangle < 0 || fabs(place - end->place) > 2 * cw_policy.plan_room * end->layers) return 0;
-  return cw_dot(model->normal[end->triangle], model->normal[triangle]) >= cw_policy.crease_cosine;
+  return cw_dot(model->triangle[end->triangle].normal, model->triangle[triangle].normal) >= cw_policy.crease_cosine;
 }
 
 // A run of the line through the domain.
@@ -245,12 +245,12 @@ static double judge_outside(const Line *line, const CwPlanPart *part, double fro
   double run = to - from, cramped = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double x[3], d[3], h = model->edge_touch[e] / cw_policy.boundary_distance;
-    if (model->edge_room[e] == 0 || !both_cross(line, e)) continue;
-    cw_sub(model->edge_x[e], line->point, d);
+    double x[3], d[3], h = model->edge[e].touch / cw_policy.boundary_distance;
+    if (model->edge[e].room == 0 || !both_cross(line, e)) continue;
+    cw_sub(model->edge[e].x, line->point, d);
     at(line, fmin(fmax(cw_dot(d, line->direction), from), to), x);
-    double least = fmax(model->edge_room[e] / cw_policy.plan_room, SAME_LINE * h);
-    cramped = fmax(cramped, shortage(cw_distance(model->edge_x[e], x), least, cw_policy.plan_room * least));
+    double least = fmax(model->edge[e].room / cw_policy.plan_room, SAME_LINE * h);
+    cramped = fmax(cramped, shortage(cw_distance(model->edge[e].x, x), least, cw_policy.plan_room * least));
   }
   int samples = samples_along(line, run);
   for (int i = 0; i < samples && cramped < 1; i++) {
@@ -259,7 +259,7 @@ static double judge_outside(const Line *line, const CwPlanPart *part, double fro
     double h = cw_size_at(model->size, x);
     CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * h);
     if (wall.triangle < 0) continue;
-    if (fabs(cw_dot(line->direction, model->normal[wall.triangle])) > cw_policy.column_least_cosine) continue;
+    if (fabs(cw_dot(line->direction, model->triangle[wall.triangle].normal)) > cw_policy.column_least_cosine) continue;
     cramped = fmax(cramped, shortage(wall.distance, SAME_LINE * h, cw_policy.plan_room * h));
   }
   return cramped;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/plan/plan_make.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "mesher/plan/plan_divide.h"
 
 CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
@@ -11,14 +8,10 @@ CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackgr
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
-  memset(plan, 0, sizeof *plan);
-  CW_NEW(plan->node, options->region_count);
-  CW_NEW(plan->worst_angle, options->region_count);
-  CW_NEW(plan->predicted_cells, options->region_count);
+  CW_TRY(cw_plan_new((size_t)options->region_count, plan));
   CW_TRY(cw_plan_model_make(context, cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
   model.mean_work = whole.work / options->region_count;
-  plan->region_count = 0;
   CW_TRY(cw_plan_divide(&model, plan, &whole, options->region_count, -1, 0));
 done:
   cw_plan_part_free(&whole);

@@ -57,11 +57,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     cw_cad_edge_range(cad, e, range);
     most += points_of_edge(cad, e, range, step);
   }
-  CW_NEW(model->edge_x, most);
-  CW_NEW(model->edge_tangent, most);
-  CW_NEW(model->edge_room, most);
-  CW_NEW(model->edge_touch, most);
-  CW_NEW(model->edge_end, most);
+  CW_NEW(model->edge, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     double thickness = 0;
     int faces[2];
@@ -74,14 +70,13 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     double layers = smooth ? 0 : cw_policy.plan_room;
     int32_t points = points_of_edge(cad, e, range, step);
     for (int32_t i = 0; i < points; i++) {
-      int32_t at = model->edge_count++;
-      cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
-                        model->edge_tangent[at]);
-      cw_unit(model->edge_tangent[at]);
-      model->edge_touch[at] = cw_policy.boundary_distance * cw_size_at(model->size, model->edge_x[at]);
-      CwPlanWall wall = cw_plan_wall_near(model, model->edge_x[at], thickness);
-      model->edge_room[at] = layers * (wall.thickness > 0 ? wall.thickness : thickness);
-      model->edge_end[at] = i == 0 || i == points - 1;
+      CwPlanEdgePoint *made = &model->edge[model->edge_count++];
+      cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), made->x, made->tangent);
+      cw_unit(made->tangent);
+      made->touch = cw_policy.boundary_distance * cw_size_at(model->size, made->x);
+      CwPlanWall wall = cw_plan_wall_near(model, made->x, thickness);
+      made->room = layers * (wall.thickness > 0 ? wall.thickness : thickness);
+      made->end = i == 0 || i == points - 1;
     }
   }
 done:
@@ -153,7 +148,7 @@ static CwStatus sample_walls(CwPlanModel *model) {
   start[0] = 0;
   for (int32_t t = 0; t < triangles; t++) {
     start[t + 1] = start[t] + count[t];
-    model->thickest = fmax(model->thickest, model->thickness[t]);
+    model->thickest = fmax(model->thickest, model->triangle[t].thickness);
   }
   model->wall_count = start[triangles];
   CW_NEW_UNSET(model->wall_triangle, model->wall_count);
@@ -202,18 +197,13 @@ CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double
   }
   if (nearest < 0) return (CwPlanWall){-1, INFINITY, 0};
   CwPlanWall wall = {model->wall_triangle[nearest], sqrt(square), 0};
-  wall.thickness = model->thickness[wall.triangle];
+  wall.thickness = model->triangle[wall.triangle].thickness;
   // Beside a point the wall goes on: then its plane is what counts.
   cw_sub(x, model->wall_x[nearest], d);
-  double off = fabs(cw_dot(d, model->normal[wall.triangle]));
+  double off = fabs(cw_dot(d, model->triangle[wall.triangle].normal));
   if (square - off * off < step * step) wall.distance = off;
   return wall;
 }
-
-// Of a background triangle.
-typedef struct {
-  double normal[3], density, thickness;
-} Measured;
 
 typedef struct {
   const CwCad *cad;
@@ -221,11 +211,23 @@ typedef struct {
   const CwPlanModel *model;
 } Walls;
 
+// A column takes no more than its share of the way to a wall that faces it, as layers/ has it.
+static double limited_by_gap(const CwPlanModel *model, int32_t t, const double normal[3], double thickness) {
+  const CwBackground *background = model->background;
+  const double inward[3] = {-normal[0], -normal[1], -normal[2]}, far = thickness / cw_policy.gap_share;
+  double centre[3], opposite[3], distance;
+  cw_background_area(background, t, centre);
+  int32_t met = cw_rays_exit(background->rays, centre, inward, HAIR * far, far, &distance);
+  if (met < 0 || !model->wall[met]) return thickness;
+  cw_background_normal(background, met, opposite);
+  return cw_dot(inward, opposite) >= cw_policy.size_facing ? cw_policy.gap_share * distance : thickness;
+}
+
 static CwStatus measure(void *context, int32_t t, void *out) {
   const Walls *walls = context;
   const CwPlanOptions *options = walls->options;
   const CwBackground *background = walls->model->background;
-  Measured *made = out;
+  CwPlanTriangle *made = out;
   double centre[3] = {0, 0, 0};
   cw_background_normal(background, t, made->normal);
   if (!walls->model->wall[t]) return CW_OK;
@@ -237,58 +239,21 @@ static CwStatus measure(void *context, int32_t t, void *out) {
   if (options->least_thickness) {
     made->thickness = fmin(made->thickness, fmax(options->least_thickness[patch], options->tallest * h));
   }
+  if (made->thickness > 0) made->thickness = limited_by_gap(walls->model, t, made->normal, made->thickness);
   return CW_OK;
-}
-
-// A column takes no more than its share of the way to a wall that faces it, as layers/ has it.
-static CwStatus limit_by_gap(void *context, int32_t t, void *out) {
-  const CwPlanModel *model = context;
-  const CwBackground *background = model->background;
-  double *thickness = out, centre[3], inward[3], distance;
-  *thickness = model->thickness[t];
-  if (*thickness == 0) return CW_OK;
-  cw_background_area(background, t, centre);
-  for (int k = 0; k < 3; k++) inward[k] = -model->normal[t][k];
-  double far = *thickness / cw_policy.gap_share;
-  int32_t met = cw_rays_exit(background->rays, centre, inward, HAIR * far, far, &distance);
-  if (met >= 0 && model->wall[met] && cw_dot(inward, model->normal[met]) >= cw_policy.size_facing)
-    *thickness = cw_policy.gap_share * distance;
-  return CW_OK;
-}
-
-static CwStatus limit_layers(CwPlanModel *model) {
-  CwStatus status = CW_OK;
-  int32_t count = model->background->triangle_count;
-  double *limited = NULL;
-  CW_NEW_UNSET(limited, count);
-  CW_TRY(cw_parallel_for(model->context, "decomposition", count, sizeof *limited, limit_by_gap, model, limited));
-  memcpy(model->thickness, limited, (size_t)count * sizeof *limited);
-done:
-  free(limited);
-  return status;
 }
 
 static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   const CwBackground *background = model->background;
-  Measured *made = NULL;
-  CW_NEW_UNSET(made, background->triangle_count);
   CW_NEW_UNSET(model->wall, background->triangle_count);
-  CW_NEW_UNSET(model->density, background->triangle_count);
-  CW_NEW_UNSET(model->thickness, background->triangle_count);
-  CW_NEW_UNSET(model->normal, background->triangle_count);
+  CW_NEW_UNSET(model->triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     model->wall[t] = cw_cad_face_is_meshed_wall(cad, background->face[t]);
   }
-  CW_TRY(cw_parallel_for(model->context, "decomposition", background->triangle_count, sizeof *made, measure,
-                         &(Walls){cad, options, model}, made));
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    cw_copy(made[t].normal, model->normal[t]);
-    model->density[t] = made[t].density;
-    model->thickness[t] = made[t].thickness;
-  }
+  CW_TRY(cw_parallel_for(model->context, "decomposition", background->triangle_count, sizeof *model->triangle, measure,
+                         &(Walls){cad, options, model}, model->triangle));
 done:
-  free(made);
   return status;
 }
 
@@ -310,19 +275,16 @@ static CwStatus find_work(void *context, int32_t i, void *out) {
 // samples are coarser than layers.
 static CwStatus find_work_outside_layers(void *context, int32_t i, void *out) {
   const CwPlanModel *model = context;
-  double side = cbrt(model->sample_volume[i]);
-  CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest + side / 2);
+  double side = cbrt(model->sample[i].volume);
+  CwPlanWall wall = cw_plan_wall_near(model, model->sample[i].x, model->thickest + side / 2);
   double outside = fmin(fmax((wall.distance - wall.thickness) / side + 0.5, 0), 1);
-  *(double *)out = outside * model->sample_work[i];
+  *(double *)out = outside * model->sample[i].work;
   return CW_OK;
 }
 
 static void add_sample(CwPlanModel *model, const double x[3], double volume, double work) {
-  int32_t at = model->sample_count++;
-  if (!model->sample_x) return;
-  cw_copy(x, model->sample_x[at]);
-  model->sample_volume[at] = volume;
-  model->sample_work[at] = work;
+  if (model->sample) model->sample[model->sample_count] = (CwPlanSample){{x[0], x[1], x[2]}, volume, work};
+  model->sample_count++;
 }
 
 // The parts of a place, so many along each side of the cube that it stands for.
@@ -363,18 +325,16 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
                          places.work));
   for (int32_t i = 0; i < places.count; i++) even += places.work[i] / SAMPLES_OF_REGION / options->region_count;
   visit_samples(&places, even, model);
-  CW_NEW(model->sample_volume, model->sample_count);
-  CW_NEW(model->sample_work, model->sample_count);
+  CW_NEW(model->sample, model->sample_count);
   CW_NEW(outside, model->sample_count);
-  CW_NEW(model->sample_x, model->sample_count);
   visit_samples(&places, even, model);
   for (int32_t i = 0; i < model->sample_count; i++) {
-    if (model->sample_volume[i] > model->sample_spacing) model->sample_spacing = model->sample_volume[i];
+    model->sample_spacing = fmax(model->sample_spacing, model->sample[i].volume);
   }
   model->sample_spacing = cbrt(model->sample_spacing);
   CW_TRY(cw_parallel_for(model->context, "decomposition", model->sample_count, sizeof *outside,
                          find_work_outside_layers, model, outside));
-  memcpy(model->sample_work, outside, (size_t)model->sample_count * sizeof *outside);
+  for (int32_t i = 0; i < model->sample_count; i++) model->sample[i].work = outside[i];
 done:
   free(places.x);
   free(places.volume);
@@ -395,7 +355,6 @@ CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const Cw
   model->region_count = options->region_count;
   model->base_size = options->base_size;
   CW_TRY(measure_walls(cad, options, model));
-  CW_TRY(limit_layers(model));
   CW_TRY(sample_walls(model));
   CW_TRY(sample_volume(options, model));
   CW_TRY(sample_edges(cad, options, model));
@@ -405,18 +364,10 @@ done:
 }
 
 void cw_plan_model_free(CwPlanModel *model) {
-  free(model->sample_x);
-  free(model->sample_volume);
-  free(model->sample_work);
+  free(model->sample);
   free(model->wall);
-  free(model->density);
-  free(model->thickness);
-  free(model->normal);
-  free(model->edge_x);
-  free(model->edge_tangent);
-  free(model->edge_room);
-  free(model->edge_touch);
-  free(model->edge_end);
+  free(model->triangle);
+  free(model->edge);
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);

@@ -26,6 +26,24 @@ typedef struct {
   double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 
+// A place in the domain that stands for some of its volume.
+typedef struct {
+  double x[3], volume, work; // m3; predicted tetrahedra, none within the layers
+} CwPlanSample;
+
+// Of a background triangle; but for the normal zero off the walls.
+typedef struct {
+  double normal[3], density, thickness; // predicted prisms per m2; of the layers, m
+} CwPlanTriangle;
+
+// A point of a CAD edge.
+typedef struct {
+  double x[3], tangent[3];
+  double room;  // m: how near a plane may come to it; 0 of an edge that is no feature
+  double touch; // m: nearer than that a cut and the edge leave room for flat triangles alone
+  int end;      // at a CAD vertex
+} CwPlanEdgePoint;
+
 // What cuts are judged by. The fields are points with their attributes: samples of the volume, background triangles,
 // CAD edges and walls.
 typedef struct {
@@ -34,18 +52,13 @@ typedef struct {
   const CwBackground *background;
   const CwSize *size;
   int32_t sample_count;
-  double (*sample_x)[3];
-  double *sample_volume, *sample_work; // m3; predicted tetrahedra, none within the layers
-  double sample_spacing;               // m
-  double base_size;                    // see CwPlanOptions
-  uint8_t *wall;                       // of each background triangle: on a wall
-  double *density, *thickness;         // of each: predicted prisms per m2; of the layers, m
-  double (*normal)[3];                 // of each background triangle
-  int32_t edge_count;                  // points along CAD edges
-  double (*edge_x)[3], (*edge_tangent)[3];
-  double *edge_room;  // m: how near a plane may come to each of them; 0 of an edge that is no feature
-  double *edge_touch; // m: nearer than that a cut and the edge leave room for flat triangles alone
-  uint8_t *edge_end;  // at a CAD vertex
+  CwPlanSample *sample;
+  double sample_spacing;    // m
+  double base_size;         // see CwPlanOptions
+  uint8_t *wall;            // of each background triangle: on a wall
+  CwPlanTriangle *triangle; // of each background triangle
+  int32_t edge_count;       // points along CAD edges
+  CwPlanEdgePoint *edge;
   int32_t wall_count; // points all over the walls
   double (*wall_x)[3];
   int32_t *wall_triangle; // of each, the background triangle

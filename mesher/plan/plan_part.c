@@ -10,10 +10,8 @@
 static double polygon_area(int32_t corners, const double (*corner)[3]) {
   double sum[3] = {0, 0, 0};
   for (int32_t i = 2; i < corners; i++) {
-    double u[3], v[3], n[3];
-    cw_sub(corner[i - 1], corner[0], u);
-    cw_sub(corner[i], corner[0], v);
-    cw_cross(u, v, n);
+    double n[3];
+    cw_normal(corner[0], corner[i - 1], corner[i], n);
     for (int k = 0; k < 3; k++) sum[k] += n[k];
   }
   return cw_norm(sum) / 2;
@@ -34,7 +32,7 @@ static void piece_add(const CwPlanModel *model, CwPieces *pieces, int32_t triang
                       const double (*corner)[3]) {
   int32_t used = pieces->start[pieces->count];
   pieces->triangle[pieces->count] = triangle;
-  pieces->work[pieces->count] = model->density[triangle] * polygon_area(corners, corner);
+  pieces->work[pieces->count] = model->triangle[triangle].density * polygon_area(corners, corner);
   memcpy(pieces->corner + used, corner, (size_t)corners * sizeof *corner);
   pieces->start[++pieces->count] = used + corners;
 }
@@ -61,9 +59,9 @@ static void part_measure(const CwPlanModel *model, CwPlanPart *part) {
   part->box = cw_box_empty();
   for (int32_t i = 0; i < part->sample_count; i++) {
     int32_t s = part->sample[i];
-    part->work += model->sample_work[s];
-    part->volume += model->sample_volume[s];
-    cw_box_add_point(&part->box, model->sample_x[s]);
+    part->work += model->sample[s].work;
+    part->volume += model->sample[s].volume;
+    cw_box_add_point(&part->box, model->sample[s].x);
   }
   for (int32_t i = 0; i < part->pieces.count; i++) part->work += part->pieces.work[i];
 }
@@ -99,14 +97,14 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
   CW_TRY(pieces_clip(model, &whole->pieces, &side, &part->pieces));
   CW_NEW_UNSET(part->sample, whole->sample_count);
   for (int32_t i = 0; i < whole->sample_count; i++) {
-    int positive = cw_plane_distance(plane, model->sample_x[whole->sample[i]]) > 0;
+    int positive = cw_plane_distance(plane, model->sample[whole->sample[i]].x) > 0;
     if (positive == other) part->sample[part->sample_count++] = whole->sample[i];
   }
   CW_NEW_UNSET(part->edge, whole->edge_count);
   for (int32_t i = 0; i < whole->edge_count; i++) {
     int32_t e = whole->edge[i];
-    double room = fmax(model->edge_room[e], model->edge_touch[e]);
-    if (cw_plane_distance(&side, model->edge_x[e]) <= room) part->edge[part->edge_count++] = e;
+    double room = fmax(model->edge[e].room, model->edge[e].touch);
+    if (cw_plane_distance(&side, model->edge[e].x) <= room) part->edge[part->edge_count++] = e;
   }
   part_measure(model, part);
 done:

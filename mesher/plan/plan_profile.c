@@ -73,9 +73,9 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
     } else {
       spread(work, low, high, pieces->work[i]);
     }
-    int32_t t = pieces->triangle[i];
-    double dot = cw_dot(n, model->normal[t]), square = dot * dot;
-    double layers = CW_LAYER_ROOM * model->thickness[t] * dot * scale; // the layer top lies behind the wall by so much
+    const CwPlanTriangle *wall = &model->triangle[pieces->triangle[i]];
+    double dot = cw_dot(n, wall->normal), square = dot * dot;
+    double layers = CW_LAYER_ROOM * wall->thickness * dot * scale; // the layer top lies behind the wall by so much
     low = layers > 0 ? fmax(low - layers, 0) : low;
     high = layers < 0 ? fmin(high - layers, end) : high;
     for (int b = (int)low; b <= (int)high; b++) {
@@ -87,7 +87,7 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
 
 // Whether a plane with normal n runs along the edge at one of its points, or comes near its end.
 static int may_graze(const CwPlanModel *model, int32_t e, const double n[3]) {
-  return model->edge_end[e] || fabs(cw_dot(n, model->edge_tangent[e])) < sin(cw_policy.wanted_angle * CW_DEGREE);
+  return model->edge[e].end || fabs(cw_dot(n, model->edge[e].tangent)) < sin(cw_policy.wanted_angle * CW_DEGREE);
 }
 
 // Full weight within half of the room, then less and less.
@@ -99,7 +99,7 @@ static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const do
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
     if (!may_graze(model, e, n)) continue;
-    double place = cw_dot(n, model->edge_x[e]), room = model->edge_room[e];
+    double place = cw_dot(n, model->edge[e].x), room = model->edge[e].room;
     if (place + room < profile->low || place - room > profile->low + CW_PROFILE_BINS * profile->width) continue;
     int last = cw_profile_bin(profile, place + room);
     for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
@@ -127,9 +127,9 @@ static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const 
   double volume = 0, cells = 0, all = part->work, scale = 1 / profile->width;
   for (int32_t i = 0; i < part->sample_count; i += stride) {
     int32_t s = part->sample[i];
-    int bin = (int)((cw_dot(n, model->sample_x[s]) - profile->low) * scale); // the margin keeps it within the bins
-    work[bin] += model->sample_work[s];
-    profile->area[bin] += model->sample_volume[s];
+    int bin = (int)((cw_dot(n, model->sample[s].x) - profile->low) * scale); // the margin keeps it within the bins
+    work[bin] += model->sample[s].work;
+    profile->area[bin] += model->sample[s].volume;
   }
   int width = (int)(model->sample_spacing * cbrt(stride) / profile->width);
   smooth(profile->area, width);
@@ -147,7 +147,7 @@ void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const dou
   double low = INFINITY, high = -INFINITY, work[CW_PROFILE_BINS] = {0}, margin = model->sample_spacing;
   memset(profile, 0, sizeof *profile);
   for (int32_t i = 0; i < part->sample_count; i++) {
-    double place = cw_dot(direction, model->sample_x[part->sample[i]]);
+    double place = cw_dot(direction, model->sample[part->sample[i]].x);
     low = place < low ? place : low;
     high = place > high ? place : high;
   }
@@ -170,8 +170,8 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   double steepest = 0;
   for (int32_t i = 0; i < pieces->count; i++) {
     Extent extent = extent_of(pieces, i, plane->normal);
-    int32_t t = pieces->triangle[i];
-    double dot = cw_dot(plane->normal, model->normal[t]), layers = CW_LAYER_ROOM * model->thickness[t] * dot;
+    const CwPlanTriangle *wall = &model->triangle[pieces->triangle[i]];
+    double dot = cw_dot(plane->normal, wall->normal), layers = CW_LAYER_ROOM * wall->thickness * dot;
     double low = extent.low - plane->offset, high = extent.high - plane->offset;
     if (low - fmax(layers, 0) > 0 || high - fmin(layers, 0) <= 0 || dot * dot <= steepest) continue;
     int within = end == NULL;
@@ -183,9 +183,9 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   place.worst = sqrt(fmax(0, 1 - steepest));
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double room = model->edge_room[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
+    double room = model->edge[e].room, near = nearness(fabs(cw_plane_distance(plane, model->edge[e].x)), room);
     if (near == 0 || !may_graze(model, e, plane->normal)) continue;
-    if (end && cw_plane_distance(end, model->edge_x[e]) < -room) continue;
+    if (end && cw_plane_distance(end, model->edge[e].x) < -room) continue;
     place.grazed += near;
     place.cut = fmax(place.cut, near);
   }
@@ -193,15 +193,15 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
 }
 
 double cw_plan_along_edge(const CwPlanModel *model, int32_t e, const double n[3]) {
-  return fmax(0, 1 - fabs(cw_dot(n, model->edge_tangent[e])) / sin(cw_policy.wanted_angle * CW_DEGREE));
+  return fmax(0, 1 - fabs(cw_dot(n, model->edge[e].tangent)) / sin(cw_policy.wanted_angle * CW_DEGREE));
 }
 
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
   double most = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double room = model->edge_touch[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
-    if (near <= most || (end && cw_plane_distance(end, model->edge_x[e]) < -room)) continue;
+    double room = model->edge[e].touch, near = nearness(fabs(cw_plane_distance(plane, model->edge[e].x)), room);
+    if (near <= most || (end && cw_plane_distance(end, model->edge[e].x) < -room)) continue;
     most = fmax(most, near * cw_plan_along_edge(model, e, plane->normal));
   }
   return most;
@@ -212,7 +212,7 @@ void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const dou
   for (int32_t i = 0; i < count; i++) touch[i] = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double place = cw_dot(n, model->edge_x[e]), room = model->edge_touch[e], along = cw_plan_along_edge(model, e, n);
+    double place = cw_dot(n, model->edge[e].x), room = model->edge[e].touch, along = cw_plan_along_edge(model, e, n);
     if (along == 0) continue;
     int32_t first = (int32_t)fmax(ceil((place - room - low) / step), 0);
     for (int32_t p = first; p < count && low + step * p <= place + room; p++)

@@ -132,9 +132,9 @@ static CwStatus place_slices(Sectors *sectors, int32_t slices, double mean, doub
     plan->predicted_cells[slices - i] = all * (step[i] - step[i - 1]) / (slices * STEPS);
     if (i == slices) break;
     CwPlane plane = across(sectors, step_place(sectors, slices, step[i]));
-    plan->node[i] = (CwPlanNode){plane, i - 1, {-1, -1 - (slices - i)}};
+    plan->node[i] = (CwPlanNode){plane, i - 1, {-1, -1 - (slices - i)}, 0};
     plan->node[i - 1].child[0] = i;
-    judge_across(sectors, plane.offset, &plan->worst_angle[i]);
+    judge_across(sectors, plane.offset, &plan->node[i].worst);
   }
   plan->node_count = plan->region_count = slices;
 done:
@@ -158,8 +158,8 @@ static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, C
     double place = station_place(sectors, i);
     double before = cw_profile_below(&sectors->along, place), alone = before * (sectors->count - 1) / all;
     if (!(before > 0 && before < all) || alone >= best || sectors->refused[i]) continue;
-    plan->node[0] = (CwPlanNode){across(sectors, place), -1, {-1, 1}};
-    alone += judge_across(sectors, place, &plan->worst_angle[0]);
+    plan->node[0] = (CwPlanNode){across(sectors, place), -1, {-1, 1}, 0};
+    alone += judge_across(sectors, place, &plan->node[0].worst);
     if (regions == 0 && alone < best) best = alone, chosen = place, sectors->station = i;
     double pitch = (all - before) / sectors->count;
     int32_t few = (int32_t)fmax(1, floor(before / pitch * regions));
@@ -171,8 +171,8 @@ static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, C
     }
   }
   CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no plane across the axis fits");
-  plan->node[0] = (CwPlanNode){across(sectors, chosen), -1, {-1, 1}};
-  judge_across(sectors, chosen, &plan->worst_angle[0]);
+  plan->node[0] = (CwPlanNode){across(sectors, chosen), -1, {-1, 1}, 0};
+  judge_across(sectors, chosen, &plan->node[0].worst);
   double before = cw_profile_below(&sectors->along, chosen);
   CW_TRY(place_slices(sectors, *slices, regions > 0 ? all / (*slices + sectors->count * regions) : before, &cost));
 done:
@@ -238,9 +238,8 @@ static CwStatus place_sectors(Sectors *sectors, const CwPlanPart *wheel, int wed
     int at = chosen + j % wedges * apart;
     CwPlanNode *node = &plan->node[plan->sector_first + j];
     CwPlane first = half_plane(pitch * (at + 0.5) / ANGLES);
-    *node = (CwPlanNode){first, 0, {INT32_MIN, INT32_MIN}}; // children not known yet
+    *node = (CwPlanNode){first, 0, {INT32_MIN, INT32_MIN}, judged[at].worst}; // children not known yet
     cw_symmetry_turn(sectors->count, j / wedges, first.normal, node->plane.normal);
-    plan->worst_angle[plan->sector_first + j] = judged[at].worst;
   }
 done:
   return status;
@@ -276,12 +275,11 @@ static void turn_wedges(const Sectors *sectors, int wedges) {
   for (int32_t turns = 1; turns < sectors->count; turns++) {
     for (int32_t i = 0; i < nodes; i++) {
       const CwPlanNode *source = &plan->node[first + i];
-      CwPlanNode *copy = &plan->node[plan->node_count];
+      CwPlanNode *copy = &plan->node[plan->node_count++];
       int32_t parent = source->parent + turns * (source->parent < first ? wedges : nodes);
-      *copy = (CwPlanNode){.plane.offset = source->plane.offset, .parent = parent};
+      *copy = (CwPlanNode){.plane.offset = source->plane.offset, .parent = parent, .worst = source->worst};
       cw_symmetry_turn(sectors->count, turns, source->plane.normal, copy->plane.normal);
       for (int s = 0; s < 2; s++) copy->child[s] = turned_child(source->child[s], turns * nodes, turns * regions);
-      plan->worst_angle[plan->node_count++] = plan->worst_angle[first + i];
     }
     for (int w = 0; w < wedges; w++) {
       int32_t source = plan->sector_first + w;
@@ -360,18 +358,8 @@ static double badness(const CwPlan *plan) {
     double off = plan->predicted_cells[r] / sum * plan->region_count - 1;
     most = fmax(most, r < plan->sector_region ? off : fabs(off)); // a small slice keeps nobody waiting
   }
-  for (int32_t n = plan->sector_first; n < plan->node_count; n++) worst = fmin(worst, plan->worst_angle[n]);
+  for (int32_t n = plan->sector_first; n < plan->node_count; n++) worst = fmin(worst, plan->node[n].worst);
   return most + (worst < SHARP ? EVEN + SHARP - worst : 0);
-}
-
-static CwStatus new_plan(size_t room, CwPlan *plan) {
-  CwStatus status = CW_OK;
-  memset(plan, 0, sizeof *plan);
-  CW_NEW(plan->node, room);
-  CW_NEW(plan->worst_angle, room);
-  CW_NEW(plan->predicted_cells, room);
-done:
-  return status;
 }
 
 // A number of regions in one pitch, and what it costs.
@@ -391,7 +379,7 @@ static double pipe_cost(const Sectors *sectors, int32_t slices, double mean) {
   double off = 0, worst = 1;
   for (int32_t i = 0; i < slices; i++) {
     off = fmax(off, plan->predicted_cells[i] / mean - 1);
-    worst = fmin(worst, plan->worst_angle[i]);
+    worst = fmin(worst, plan->node[i].worst);
   }
   return 30 * fmax(0, off - EVEN) + (worst < SHARP ? 4 + 30 * (SHARP - worst) : 0);
 }
@@ -439,8 +427,8 @@ CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const C
   size_t room = 3 * (size_t)options->region_count + 4 * (size_t)count;
   double least = INFINITY;
   int32_t slices, numbers = 0;
-  CW_TRY(new_plan(room, plan));
-  CW_TRY(new_plan(room, &tried));
+  CW_TRY(cw_plan_new(room, plan));
+  CW_TRY(cw_plan_new(room, &tried));
   CW_TRY(cw_plan_model_make(context, cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
   CW_END_UNLESS(cw_plan_axis_find(background, inside, &sectors.axis), outcome, CW_OUTCOME_ASYMMETRIC, NULL,

@@ -9,17 +9,10 @@
 #include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan_model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Plans a domain that `count` turns bring to itself. Outcome: CW_OUTCOME_ASYMMETRIC where it has no fluid on the axis
 // on one side only, or no plane fits.
 CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
                              const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options, int32_t count,
                              CwPlan *plan, CwOutcome *outcome);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -351,11 +351,11 @@ static void log_plan(const CwMeshRun *run, int d) {
   double worst = 1;
   for (int32_t n = 0; n < domain->plan.node_count; n++) {
     const CwPlane *plane = &domain->plan.node[n].plane;
-    worst = fmin(worst, domain->plan.worst_angle[n]);
+    worst = fmin(worst, domain->plan.node[n].worst);
     cw_log_debug(run->context.log,
                  "%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
                  n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
-                 cw_mm(plane->offset), asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+                 cw_mm(plane->offset), asin(domain->plan.node[n].worst) * 180 / M_PI);
   }
   cw_log(run->context.log, "%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls",
          domain->name, domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);

@@ -68,8 +68,7 @@ double cw_size_scale_fine(void);
 void cw_size_set_scale(CwSize *size, double scale);
 double cw_size_scale(const CwSize *size);
 
-// Edge length at x, m. Fast (trilinear); any x. Signature fits CwSizeAt of patch_mesh.h and fill.h, with the
-// field as context.
+// Edge length at x, m. Fast (trilinear); any x. A CwSizeAt, with the field as context.
 double cw_size_at(const void *size, const double x[3]);
 
 // The integral of h^-3 over the domain is that over the neighbourhoods of so many lines.

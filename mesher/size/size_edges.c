@@ -53,13 +53,8 @@ done:
 }
 
 static double distance_to_part(const double p[3], const double a[3], const double b[3]) {
-  double ab = 0, ap = 0, nearest[3];
-  for (int k = 0; k < 3; k++) {
-    ab += (b[k] - a[k]) * (b[k] - a[k]);
-    ap += (b[k] - a[k]) * (p[k] - a[k]);
-  }
-  double s = ab > 0 ? fmin(fmax(ap / ab, 0), 1) : 0;
-  cw_lerp(a, b, s, nearest);
+  double nearest[3];
+  cw_lerp(a, b, cw_nearest_share(a, b, p), nearest);
   return cw_distance(p, nearest);
 }
 
@@ -86,8 +81,8 @@ static void seed_line(const CwSizeInput *input, const Polyline *line, CwSizeGrid
     double size = fmax(fmin(line->length, fmin(line->width[i], line->width[i + 1])), floor_size);
     int parts = (int)ceil(cw_distance(line->x[i], line->x[i + 1]) / grid->spacing) + 1;
     for (int j = 0; j <= parts; j++) {
-      double s = (double)j / parts, x[3];
-      for (int k = 0; k < 3; k++) x[k] = line->x[i][k] + s * (line->x[i + 1][k] - line->x[i][k]);
+      double x[3];
+      cw_lerp(line->x[i], line->x[i + 1], (double)j / parts, x);
       cw_size_grid_seed(grid, x, size);
     }
   }
@@ -135,12 +130,12 @@ static double walk_open_edges(const CwSizeInput *input, const CwSizeGrid *wanted
       int parts = (int)ceil(cw_distance(from, to) / (grid ? grid : wanted)->spacing);
       for (int j = 0; j <= parts; j++) {
         double x[3];
-        for (int k = 0; k < 3; k++) x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
+        cw_lerp(from, to, parts > 0 ? (double)j / parts : 0, x);
         if (grid) cw_size_grid_seed(grid, x, size);
         if (wanted) shares += size / cw_size_grid_at(wanted, x);
         count++;
       }
-      for (int k = 0; k < 3; k++) from[k] = to[k];
+      cw_copy(to, from);
     }
   }
   return count > 0 ? shares / count : 0;

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float unset = 1e30f;
-
 static double node_count(const double extent[3], double spacing, int32_t count[3]) {
   double nodes = 1;
   for (int k = 0; k < 3; k++) {
@@ -38,7 +36,7 @@ done:
 
 void cw_size_grid_clear(CwSizeGrid *grid) {
   size_t nodes = cw_size_grid_nodes(grid);
-  for (size_t i = 0; i < nodes; i++) grid->value[i] = unset;
+  for (size_t i = 0; i < nodes; i++) grid->value[i] = cw_size_unset;
 }
 
 void cw_size_grid_free(CwSizeGrid *grid) {
@@ -46,25 +44,17 @@ void cw_size_grid_free(CwSizeGrid *grid) {
   memset(grid, 0, sizeof *grid);
 }
 
-int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node) {
-  return grid->value[node] < unset;
-}
-
 int cw_size_grid_any_set(const CwSizeGrid *grid, int64_t first, int64_t last) {
   int any = 0;
-  for (int64_t i = first; i <= last; i++) any |= grid->value[i] < unset;
+  for (int64_t i = first; i <= last; i++) any |= grid->value[i] < cw_size_unset;
   return any;
-}
-
-void cw_size_grid_unset(CwSizeGrid *grid, int64_t node) {
-  grid->value[node] = unset;
 }
 
 void cw_size_grid_mark_set(const CwSizeGrid *grid, uint8_t *mark) {
   const float *restrict value = grid->value;
   uint8_t *restrict to = mark;
   size_t nodes = cw_size_grid_nodes(grid);
-  for (size_t i = 0; i < nodes; i++) to[i] |= value[i] < unset;
+  for (size_t i = 0; i < nodes; i++) to[i] |= value[i] < cw_size_unset;
 }
 
 // Cell of x and the place in it, 0..1.
@@ -229,7 +219,7 @@ static int64_t sweep_run(float *line, int32_t along, int32_t begin, int32_t end,
     int32_t i = back ? begin + end - ii : ii;
     if (!beside->low[i] && !lowered_last) continue;
     lowered_last = 0;
-    float before = i > 0 ? line[i - 1] : unset, after = i + 1 < along ? line[i + 1] : unset;
+    float before = i > 0 ? line[i - 1] : cw_size_unset, after = i + 1 < along ? line[i + 1] : cw_size_unset;
     float x = least(before, after), y = beside->y[i], z = beside->z[i];
     if (!is_under(line[i] - slope->sure, x, y, z, slope->square)) continue;
     double f = upwind(x, y, z, slope->step);
@@ -322,7 +312,7 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
   CW_NEW(beside.z, grid->count[0]);
   CW_NEW(beside.low, grid->count[0]);
   CW_NEW(nothing, grid->count[0]);
-  for (int32_t i = 0; i < grid->count[0]; i++) nothing[i] = unset;
+  for (int32_t i = 0; i < grid->count[0]; i++) nothing[i] = cw_size_unset;
   CW_TRY(runs_make(grid, within, &runs));
   CW_NEW(clock.seen, (size_t)grid->count[1] * (size_t)grid->count[2]);
   CW_NEW(clock.lowered, (size_t)grid->count[1] * (size_t)grid->count[2]);

@@ -16,12 +16,14 @@ typedef struct {
   float *value;     // x fastest
 } CwSizeGrid;
 
+static const float cw_size_unset = 1e30f; // of a node without a value: any that it has is less
+
 static inline size_t cw_size_grid_nodes(const CwSizeGrid *grid) {
   return (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
 }
 
 // Covers the box low..high and one spacing around it. Where that takes more than `node_limit` nodes, the
-// spacing becomes as coarse as needed. All values begin at 1e30.
+// spacing becomes as coarse as needed. All values begin at cw_size_unset.
 CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
                            CwSizeGrid *grid);
 // The same grid without values, for those that have a place of their own.
@@ -33,10 +35,8 @@ void cw_size_grid_free(CwSizeGrid *grid);
 // Lowers the eight nodes around x to `value`, so that the field at x is at most that.
 void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value);
 
-// Whether a node has a value yet; and back to having none.
-int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node);
-int cw_size_grid_any_set(const CwSizeGrid *grid, int64_t first, int64_t last); // of these
-void cw_size_grid_unset(CwSizeGrid *grid, int64_t node);
+// Whether any of these nodes has a value yet.
+int cw_size_grid_any_set(const CwSizeGrid *grid, int64_t first, int64_t last);
 
 // Sets a byte of `mark` (one for each node) where a node has a value; leaves the others as they are.
 void cw_size_grid_mark_set(const CwSizeGrid *grid, uint8_t *mark);

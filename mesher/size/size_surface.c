@@ -23,8 +23,8 @@ typedef struct {
 
 struct CwSizeSurface {
   CwSizeInput input;
-  CwSizeGrid grid;  // of the face in hand; unset in between
-  float *curvature; // of each background point on that face, 1/m; below 0: not known yet
+  CwSizeGrid grid;     // of the face in hand; unset in between
+  float *curvature;    // of each background point on that face, 1/m; below 0: not known yet
   int32_t *face_start; // triangles of face f: face_triangle[face_start[f] .. face_start[f + 1])
   int32_t *face_triangle;
   double (*crease)[3]; // points along creases where walls meet at less than 160 degrees of fluid
@@ -50,14 +50,9 @@ static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3])
 
 static CwStatus add_crease(Surface *surface, const double a[3], const double b[3]) {
   CwStatus status = CW_OK;
-  double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  int count = (int)ceil(cw_norm(d) / surface->grid.spacing) + 1;
+  int count = (int)ceil(cw_distance(a, b) / surface->grid.spacing) + 1;
   CW_GROW(surface->crease, surface->crease_capacity, surface->crease_count + count + 1);
-  for (int i = 0; i <= count; i++) {
-    double s = (double)i / count;
-    for (int k = 0; k < 3; k++) surface->crease[surface->crease_count][k] = a[k] + s * d[k];
-    surface->crease_count++;
-  }
+  for (int i = 0; i <= count; i++) cw_lerp(a, b, (double)i / count, surface->crease[surface->crease_count++]);
 done:
   return status;
 }
@@ -78,7 +73,7 @@ static CwStatus find_creases(Surface *surface) {
       if (cw_dot(n, m) > cw_policy.crease_cosine) continue;
       cw_background_normal(b, t, facet);
       const double *from = b->x[b->triangle[t][k]], *apex = b->x[b->triangle[other][(side + 2) % 3]];
-      for (int i = 0; i < 3; i++) away[i] = apex[i] - from[i];
+      cw_sub(apex, from, away);
       if (cw_dot(facet, away) >= 0) continue; // the walls turn away from each other: no wedge of fluid
       CW_TRY(add_crease(surface, from, b->x[b->triangle[t][(k + 1) % 3]]));
     }
@@ -142,8 +137,7 @@ static int halve(Piece *piece, double limit, Piece *other) {
   int longest = 0;
   double most = -1;
   for (int k = 0; k < 3; k++) {
-    const double *p = piece->x[k], *q = piece->x[(k + 1) % 3];
-    double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, size = cw_norm(d);
+    double size = cw_distance(piece->x[k], piece->x[(k + 1) % 3]);
     if (size > most) {
       most = size;
       longest = k;
@@ -283,10 +277,10 @@ static CwStatus pack_seeds(CwSizeGrid *grid, const int32_t from[3], const int32_
         int64_t line = ((int64_t)k * grid->count[1] + j) * grid->count[0];
         if (!cw_size_grid_any_set(grid, line + from[0], line + to[0])) continue; // most lines
         for (int64_t node = line + from[0]; node <= line + to[0]; node++) {
-          if (!cw_size_grid_is_set(grid, node)) continue;
+          if (grid->value[node] >= cw_size_unset) continue;
           if (store) {
             seed[count] = (Seed){.node = (int32_t)node, .value = grid->value[node]};
-            cw_size_grid_unset(grid, node);
+            grid->value[node] = cw_size_unset;
           }
           count++;
         }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/vec.h"
+
 // Of the square of a chord: twice the area under which a point lies on it. Rounding of (u,v) that was found by
 // projection.
 static const double ON_CHORD = 1e-7;
@@ -30,14 +32,10 @@ static Lens lens_of(const CwChord *chord, int32_t number) {
   return lens;
 }
 
-static double cross(const double a[2], const double b[2], const double c[2]) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
 static int on_chord(const double a[2], const double b[2], const double p[2]) {
   double d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1];
   double along = (p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1];
-  return along > 0 && along < square && fabs(cross(a, b, p)) < ON_CHORD * square;
+  return along > 0 && along < square && fabs(cw_twice_area(a, b, p)) < ON_CHORD * square;
 }
 
 // By the parity of a ray.
@@ -65,7 +63,8 @@ static int cross_or_coincide(const CwChord *a, const CwChord *b) {
   for (int k = 0; k < 2; k++) common += a->point[k] == b->point[0] || a->point[k] == b->point[1];
   if (common) return common == 2;
   const double *a0 = a->uv[0], *a1 = a->uv[CW_CHORD_SAMPLES - 1], *b0 = b->uv[0], *b1 = b->uv[CW_CHORD_SAMPLES - 1];
-  return (cross(a0, a1, b0) > 0) != (cross(a0, a1, b1) > 0) && (cross(b0, b1, a0) > 0) != (cross(b0, b1, a1) > 0);
+  return (cw_twice_area(a0, a1, b0) > 0) != (cw_twice_area(a0, a1, b1) > 0) &&
+         (cw_twice_area(b0, b1, a0) > 0) != (cw_twice_area(b0, b1, a1) > 0);
 }
 
 static void judge_pair(const CwChord *chord, int32_t i, int32_t j, uint8_t *halve) {

@@ -18,29 +18,17 @@ typedef struct {
 typedef struct {
   Entry *entry;
   int32_t count, room;
-  int32_t (*queue)[2]; // first and last entry, -1: empty
-  int32_t queue_count, current;
+  int32_t (*queue)[2]; // first and last entry; first -1: empty
+  int32_t queue_count, queue_room, current;
   int32_t *row; // of each point
   int32_t row_room;
 } Front;
 
-static CwStatus open_queues(Front *front, int32_t count) {
-  CwStatus status = CW_OK;
-  if (count <= front->queue_count) goto done;
-  count *= 2;
-  int32_t(*grown)[2] = realloc(front->queue, (size_t)count * sizeof *grown);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: a front of %d rows", count);
-  front->queue = grown;
-  for (; front->queue_count < count; front->queue_count++)
-    grown[front->queue_count][0] = grown[front->queue_count][1] = -1;
-done:
-  return status;
-}
-
 static CwStatus push(Front *front, int32_t t, int32_t a, int32_t b) {
   CwStatus status = CW_OK;
   int32_t rows = front->row[a] + front->row[b], n = front->count;
-  CW_TRY(open_queues(front, rows + 1));
+  CW_GROW(front->queue, front->queue_room, rows + 1);
+  for (; front->queue_count <= rows; front->queue_count++) front->queue[front->queue_count][0] = -1;
   CW_GROW(front->entry, front->room, n + 1);
   front->entry[n] = (Entry){t, a, b, -1};
   front->count++;

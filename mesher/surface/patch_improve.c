@@ -27,7 +27,7 @@ static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, co
   double worst = 1;
   for (int k = 0; k < r->count; k++) {
     int32_t a = r->ring[k], b = r->ring[(k + 1) % r->count], t = r->triangle[k];
-    if (!(cw_patch_cross(work->uv[a], work->uv[b], uv) > 0)) return -1;
+    if (!(cw_twice_area(work->uv[a], work->uv[b], uv) > 0)) return -1;
     double quality = cw_patch_quality_at(x, work->x[a], work->x[b], normal);
     if (quality < worst) worst = quality;
     if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1) {
@@ -54,20 +54,15 @@ static int try_move(CwPatchWork *work, const Ring *r, int32_t p, const double st
   uv[0] = work->uv[p][0] + (m[2] * f[0] - m[1] * f[1]) / det;
   uv[1] = work->uv[p][1] + (m[0] * f[1] - m[1] * f[0]) / det;
   for (int k = 0; k < r->count; k++)
-    if (!(cw_patch_cross(work->uv[r->ring[k]], work->uv[r->ring[(k + 1) % r->count]], uv) > 0)) return 0;
+    if (!(cw_twice_area(work->uv[r->ring[k]], work->uv[r->ring[(k + 1) % r->count]], uv) > 0)) return 0;
   work->input->surface(work->input->surface_context, uv, x, xu, xv);
-  n[0] = xu[1] * xv[2] - xu[2] * xv[1];
-  n[1] = xu[2] * xv[0] - xu[0] * xv[2];
-  n[2] = xu[0] * xv[1] - xu[1] * xv[0];
+  cw_cross(xu, xv, n);
   if (ring_quality(work, r, p, uv, x, n) <= least) return 0;
   memcpy(work->uv[p], uv, sizeof uv);
   memcpy(work->x[p], x, sizeof x);
   memcpy(work->xu[p], xu, sizeof xu);
   memcpy(work->xv[p], xv, sizeof xv);
-  double *g = work->metric[p];
-  g[0] = xu[0] * xu[0] + xu[1] * xu[1] + xu[2] * xu[2];
-  g[1] = xu[0] * xv[0] + xu[1] * xv[1] + xu[2] * xv[2];
-  g[2] = xv[0] * xv[0] + xv[1] * xv[1] + xv[2] * xv[2];
+  cw_patch_set_metric(work, p);
   double size = work->input->size(work->input->size_context, x);
   for (int k = 0; k < r->count; k++)
     size = fmin(size, work->size[r->ring[k]] + 0.3 * sqrt(cw_patch_distance2(x, work->x[r->ring[k]])));
@@ -85,7 +80,7 @@ static void smooth_point(CwPatchWork *work, int32_t p) {
     for (int c = 0; c < 3; c++) step[c] += (work->x[r.ring[k]][c] - work->x[p][c]) / r.count;
   // A point that stands well is left alone: most do, and evaluating the surface is what costs.
   double still = 0.01 * work->size[p];
-  if (step[0] * step[0] + step[1] * step[1] + step[2] * step[2] < still * still) return;
+  if (cw_dot(step, step) < still * still) return;
   cw_patch_normal(work, p, n);
   // A loss of the worst triangle is allowed where it stays good.
   double least = fmin(ring_quality(work, &r, p, work->uv[p], work->x[p], n), 0.7);
@@ -248,20 +243,11 @@ static int climb(CwPatchWork *work, int32_t p) {
   if (!r.count) return 0;
   for (double step = 0.2 * work->size[p]; step > 0.02 * work->size[p]; step *= 0.5)
     for (int k = 0; k < 6; k++) {
-      double n[3], first[3], second[3], move[3], nn = 0, ff = 0;
+      double n[3], first[3], second[3], move[3];
       cw_patch_normal(work, p, n);
-      for (int c = 0; c < 3; c++) {
-        nn += n[c] * n[c];
-        ff += work->xu[p][c] * work->xu[p][c];
-      }
-      if (!(nn > 0 && ff > 0)) return moved;
-      for (int c = 0; c < 3; c++) {
-        first[c] = work->xu[p][c] / sqrt(ff);
-        n[c] /= sqrt(nn);
-      }
-      second[0] = n[1] * first[2] - n[2] * first[1];
-      second[1] = n[2] * first[0] - n[0] * first[2];
-      second[2] = n[0] * first[1] - n[1] * first[0];
+      cw_copy(work->xu[p], first);
+      if (!(cw_unit(n) > 0 && cw_unit(first) > 0)) return moved;
+      cw_cross(n, first, second);
       for (int c = 0; c < 3; c++) move[c] = step * (direction[k][0] * first[c] + direction[k][1] * second[c]);
       cw_patch_normal(work, p, n);
       moved += try_move(work, &r, p, move, ring_quality(work, &r, p, work->uv[p], work->x[p], n) + 1e-3);
@@ -296,10 +282,8 @@ static int64_t mend_worst(CwPatchWork *work, double bound) {
 // The least cosine between the normal of a triangle and those of the surface at its corners.
 static double cosine_of(const CwPatchWork *work, int32_t a, int32_t b, int32_t c) {
   const int32_t corner[3] = {a, b, c};
-  double e[3], f[3], n[3], least = 1;
-  cw_sub(work->x[b], work->x[a], e);
-  cw_sub(work->x[c], work->x[a], f);
-  cw_cross(e, f, n);
+  double n[3], least = 1;
+  cw_normal(work->x[a], work->x[b], work->x[c], n);
   cw_unit(n);
   for (int i = 0; i < 3; i++) {
     double m[3];
@@ -307,10 +291,6 @@ static double cosine_of(const CwPatchWork *work, int32_t a, int32_t b, int32_t c
     if (cw_unit(m) > 0) least = fmin(least, cw_dot(n, m)); // no normal at a pole of the map
   }
   return least;
-}
-
-static double least_cosine(const CwPatchWork *work, int32_t t) {
-  return cosine_of(work, work->corner[t][0], work->corner[t][1], work->corner[t][2]);
 }
 
 // How well a triangle fits the surface: its least cosine; below all of them where it lies in a cut.
@@ -337,13 +317,11 @@ static int flip_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int32_t t) {
 // Whether a triangle is larger than it may be where smaller ones are wanted.
 static int is_too_large(const CwPatchWork *work, int32_t t) {
   const int32_t *c = work->corner[t];
-  double most = work->input->largest, e[3], f[3], n[3];
+  double most = work->input->largest, n[3];
   if (most == 0 ||
       (work->size[c[0]] + work->size[c[1]] + work->size[c[2]]) / 3 >= cw_policy.surface_clearly_less * most)
     return 0;
-  cw_sub(work->x[c[1]], work->x[c[0]], e);
-  cw_sub(work->x[c[2]], work->x[c[0]], f);
-  cw_cross(e, f, n);
+  cw_normal(work->x[c[0]], work->x[c[1]], work->x[c[2]], n);
   return cw_norm(n) > 0.5 * sqrt(3) * most * most;
 }
 
@@ -355,8 +333,9 @@ static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *
   int32_t count = work->triangle_count;
   int inserted;
   for (int32_t t = 0; t < count; t++) {
-    if (work->corner[t][0] < 0) continue;
-    int steep = cw_patch_cuts_hold(cuts, work->corner[t]) || least_cosine(work, t) < cw_policy.upright_cosine;
+    const int32_t *c = work->corner[t];
+    if (c[0] < 0) continue;
+    int steep = cw_patch_cuts_hold(cuts, c) || cosine_of(work, c[0], c[1], c[2]) < cw_policy.upright_cosine;
     if (steep && flip_unfit(work, cuts, t)) {
       ++*changes;
       continue;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/surface/patch_mesh.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,8 +16,7 @@ static void find_scale(const CwPatchInput *input, double scale[2]) {
   for (int32_t p = 0; p < input->point_count; p++) {
     double x[3], d[2][3];
     input->surface(input->surface_context, input->uv[p], x, d[0], d[1]);
-    for (int k = 0; k < 2; k++)
-      scale[k] += sqrt(d[k][0] * d[k][0] + d[k][1] * d[k][1] + d[k][2] * d[k][2]) / input->point_count;
+    for (int k = 0; k < 2; k++) scale[k] += cw_norm(d[k]) / input->point_count;
   }
 }
 

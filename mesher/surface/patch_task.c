@@ -9,7 +9,6 @@
 CwStatus cw_outline_start(CwPatchOutline *outline, int32_t node_count) {
   CwStatus status = CW_OK;
   memset(outline, 0, sizeof *outline);
-  outline->node_count = node_count;
   CW_NEW_UNSET(outline->local, node_count);
   for (int32_t i = 0; i < node_count; i++) outline->local[i] = -1;
 done:
@@ -25,18 +24,11 @@ CwStatus cw_outline_point(CwPatchOutline *outline, int32_t node, const double uv
                           int32_t *local) {
   CwStatus status = CW_OK;
   if (outline->local[node] < 0) {
-    if (outline->point_count == outline->point_capacity) {
-      int32_t capacity = outline->point_capacity ? 2 * outline->point_capacity : 256;
-      void *nodes = realloc(outline->node, (size_t)capacity * sizeof *outline->node);
-      if (nodes) outline->node = nodes;
-      void *uvs = realloc(outline->uv, (size_t)capacity * sizeof *outline->uv);
-      if (uvs) outline->uv = uvs;
-      void *xs = realloc(outline->x, (size_t)capacity * sizeof *outline->x);
-      if (xs) outline->x = xs;
-      CW_REQUIRE(nodes && uvs && xs, CW_ERR_MEMORY, "out of memory: an outline of %d points", capacity);
-      outline->point_capacity = capacity;
-    }
-    int32_t k = outline->local[node] = outline->point_count++;
+    int32_t k = outline->point_count;
+    CW_GROW(outline->node, outline->node_space, k + 1);
+    CW_GROW(outline->uv, outline->uv_space, k + 1);
+    CW_GROW(outline->x, outline->x_space, k + 1);
+    outline->local[node] = outline->point_count++;
     outline->node[k] = node;
     memcpy(outline->uv[k], uv, sizeof outline->uv[k]);
     cw_copy(x, outline->x[k]);
@@ -48,15 +40,8 @@ done:
 
 CwStatus cw_outline_edge(CwPatchOutline *outline, int32_t a, int32_t b, int boundary) {
   CwStatus status = CW_OK;
-  if (outline->edge_count == outline->edge_capacity) {
-    int32_t capacity = outline->edge_capacity ? 2 * outline->edge_capacity : 256;
-    void *edges = realloc(outline->edge, (size_t)capacity * sizeof *outline->edge);
-    if (edges) outline->edge = edges;
-    void *flags = realloc(outline->boundary, (size_t)capacity);
-    if (flags) outline->boundary = flags;
-    CW_REQUIRE(edges && flags, CW_ERR_MEMORY, "out of memory: an outline of %d edges", capacity);
-    outline->edge_capacity = capacity;
-  }
+  CW_GROW(outline->edge, outline->edge_space, outline->edge_count + 1);
+  CW_GROW(outline->boundary, outline->boundary_space, outline->edge_count + 1);
   outline->edge[outline->edge_count][0] = a;
   outline->edge[outline->edge_count][1] = b;
   outline->boundary[outline->edge_count++] = (uint8_t)boundary;
@@ -86,10 +71,8 @@ static CwStatus component_labels(const CwPatchMesh *mesh, CwSurfaceAt surface, c
   CW_NEW(largest, mesh->component_count);
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     const int32_t *corner = mesh->triangle[t];
-    double u[3], v[3], n[3], uv[2], middle[3];
-    cw_sub(mesh->x[corner[1]], mesh->x[corner[0]], u);
-    cw_sub(mesh->x[corner[2]], mesh->x[corner[0]], v);
-    cw_cross(u, v, n);
+    double n[3], uv[2], middle[3];
+    cw_normal(mesh->x[corner[0]], mesh->x[corner[1]], mesh->x[corner[2]], n);
     double area = cw_norm(n);
     int32_t component = mesh->component[t];
     if (area <= largest[component]) continue;

@@ -8,13 +8,14 @@
 
 // Points and edges of a patch, gathered curve by curve; `node` maps local points to the numbers of the caller.
 typedef struct {
-  int32_t point_count, edge_count, point_capacity, edge_capacity;
-  int32_t *node;
+  int32_t point_count, edge_count;
+  int32_t *node, node_space;
   double (*uv)[2], (*x)[3];
-  int32_t (*edge)[2];
+  int32_t uv_space, x_space;
+  int32_t (*edge)[2], edge_space;
   uint8_t *boundary;
-  int32_t *local;     // of each node of the caller, -1: not in the patch
-  int32_t node_count; // of the caller
+  int32_t boundary_space;
+  int32_t *local; // of each node of the caller, -1: not in the patch
 } CwPatchOutline;
 
 CwStatus cw_outline_start(CwPatchOutline *outline, int32_t node_count);

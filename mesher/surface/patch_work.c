@@ -58,13 +58,6 @@ done:
   return status;
 }
 
-static void set_metric(CwPatchWork *work, int32_t p) {
-  const double *a = work->xu[p], *b = work->xv[p];
-  work->metric[p][0] = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-  work->metric[p][1] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  work->metric[p][2] = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
-}
-
 CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatchWork *work) {
   CwStatus status = CW_OK;
   int32_t *edges = NULL;
@@ -78,7 +71,7 @@ CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatch
     memcpy(work->uv[p], input->uv[p], sizeof work->uv[p]);
     input->surface(input->surface_context, work->uv[p], work->x[p], work->xu[p], work->xv[p]);
     memcpy(work->x[p], input->x[p], sizeof work->x[p]);
-    set_metric(work, p);
+    cw_patch_set_metric(work, p);
     work->size[p] = 0;
     work->point_triangle[p] = -1;
   }
@@ -127,18 +120,14 @@ void cw_patch_work_close(CwPatchWork *work) {
 }
 
 double cw_patch_quality_at(const double a[3], const double b[3], const double c[3], const double normal[3]) {
-  double e[3], f[3], n[3], l = 0;
+  double n[3], l = 0;
   for (int k = 0; k < 3; k++) {
-    e[k] = b[k] - a[k];
-    f[k] = c[k] - a[k];
-    double g = c[k] - b[k];
-    l += e[k] * e[k] + f[k] * f[k] + g * g;
+    double e = b[k] - a[k], f = c[k] - a[k], g = c[k] - b[k];
+    l += e * e + f * f + g * g;
   }
-  n[0] = e[1] * f[2] - e[2] * f[1];
-  n[1] = e[2] * f[0] - e[0] * f[2];
-  n[2] = e[0] * f[1] - e[1] * f[0];
-  double area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] < 0) area = -area;
+  cw_normal(a, b, c, n);
+  double area = cw_norm(n);
+  if (cw_dot(n, normal) < 0) area = -area;
   return l > 0 ? 2 * sqrt(3) * area / l : 0;
 }
 
@@ -174,7 +163,7 @@ int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t t) {
     double worst = 0;
     for (int i = 0; i < 3; i++) {
       if (work->neighbour[t][i] == from && from >= 0) continue;
-      double cross = cw_patch_cross(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], uv);
+      double cross = cw_twice_area(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], uv);
       if (cross < worst) {
         worst = cross;
         out = i;
@@ -256,7 +245,7 @@ static int cavity_is_star(const CwPatchWork *work, const double p[2], const doub
   for (int32_t k = 0; k < work->border_count; k++) {
     const double *a = work->uv[work->border[k][0]], *b = work->uv[work->border[k][1]];
     double u = b[0] - a[0], v = b[1] - a[1];
-    if (!(root * cw_patch_cross(a, b, p) > 1e-6 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v))) return 0;
+    if (!(root * cw_twice_area(a, b, p) > 1e-6 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v))) return 0;
   }
   return 1;
 }
@@ -273,7 +262,7 @@ static int cavity_has_room(const CwPatchWork *work, const double uv[2], const do
     u = b[0] - a[0];
     v = b[1] - a[1];
     double length = sqrt(m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v);
-    if (root * cw_patch_cross(a, b, uv) < 0.4 * near * length) return 0;
+    if (root * cw_twice_area(a, b, uv) < 0.4 * near * length) return 0;
   }
   return 1;
 }
@@ -318,7 +307,7 @@ static CwStatus collect_least_cavity(CwPatchWork *work, const double p[2], const
   double cross[3];
   int flat = 0, seeds = 1;
   for (int i = 0; i < 3; i++) {
-    cross[i] = cw_patch_cross(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], p);
+    cross[i] = cw_twice_area(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], p);
     if (cross[i] < cross[flat]) flat = i;
   }
   work->cavity[0] = t;
@@ -336,7 +325,7 @@ CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, do
   CW_TRY(grow_points(work, p + 1));
   memcpy(work->uv[p], uv, sizeof work->uv[p]);
   work->input->surface(work->input->surface_context, uv, work->x[p], work->xu[p], work->xv[p]);
-  set_metric(work, p);
+  cw_patch_set_metric(work, p);
   work->size[p] = fmin(size_cap, work->input->size(work->input->size_context, work->x[p]));
   const double *m = work->metric[p];
   work->cavity[0] = t;
@@ -356,8 +345,8 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
   int j = cw_patch_edge_from(work, n, c, b);
   int32_t d = work->corner[n][j];
-  double left = cw_patch_cross(work->uv[a], work->uv[b], work->uv[d]);
-  double right = cw_patch_cross(work->uv[a], work->uv[d], work->uv[c]);
+  double left = cw_twice_area(work->uv[a], work->uv[b], work->uv[d]);
+  double right = cw_twice_area(work->uv[a], work->uv[d], work->uv[c]);
   if (!(left > 1e-9 * (left + right)) || !(right > 1e-9 * (left + right))) return 0;
   // Corners a b c and d c b become a b d and a d c.
   int32_t ab = work->neighbour[t][(i + 2) % 3], ca = work->neighbour[t][(i + 1) % 3];
@@ -399,7 +388,7 @@ static double quality_drawn(const CwPatchWork *work, int count, const int32_t *r
     int32_t a = ring[(w + k) % count], b = ring[(w + k + 1) % count];
     double u = work->uv[b][0] - work->uv[a][0], v = work->uv[b][1] - work->uv[a][1];
     const double *m = work->metric[q];
-    double area = cw_patch_cross(work->uv[q], work->uv[a], work->uv[b]);
+    double area = cw_twice_area(work->uv[q], work->uv[a], work->uv[b]);
     if (!(area * sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0)) > 1e-4 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v)))
       return -1;
     double limit = 0.5 * most * (work->size[q] + work->size[a]);

@@ -12,6 +12,7 @@
 
 #include <stdint.h>
 
+#include "mesher/common/vec.h"
 #include "mesher/surface/cdt.h"
 #include "mesher/surface/patch_input.h"
 #include "pipeline/status.h"
@@ -56,7 +57,7 @@ int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t from)
 // Puts a point at uv, looked for from triangle `from` on without crossing a given edge. Refuses (*inserted 0) a point
 // that is outside, nearer than `least` times its size to another point, or nearer than 0.4 of its size to a given edge
 // of the cavity. `size_cap` bounds the size of the new point. Where *inserted is 1 the new point is the last one and
-// fresh[0 .. rim_count) are its triangles.
+// fresh[0 .. border_count) are its triangles.
 CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap,
                          int *inserted);
 
@@ -78,17 +79,16 @@ int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double m
 double cw_patch_quality(const CwPatchWork *work, int32_t a, int32_t b, int32_t c);
 double cw_patch_quality_at(const double a[3], const double b[3], const double c[3], const double normal[3]);
 
-// The normal of the surface at point p, not of unit length.
-static inline void cw_patch_normal(const CwPatchWork *work, int32_t p, double n[3]) {
-  const double *a = work->xu[p], *b = work->xv[p];
-  n[0] = a[1] * b[2] - a[2] * b[1];
-  n[1] = a[2] * b[0] - a[0] * b[2];
-  n[2] = a[0] * b[1] - a[1] * b[0];
+// The metric at p, from the derivatives there.
+static inline void cw_patch_set_metric(CwPatchWork *work, int32_t p) {
+  work->metric[p][0] = cw_dot(work->xu[p], work->xu[p]);
+  work->metric[p][1] = cw_dot(work->xu[p], work->xv[p]);
+  work->metric[p][2] = cw_dot(work->xv[p], work->xv[p]);
 }
 
-// Twice the signed area of a, b, c in (u,v).
-static inline double cw_patch_cross(const double a[2], const double b[2], const double c[2]) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+// The normal of the surface at point p, not of unit length.
+static inline void cw_patch_normal(const CwPatchWork *work, int32_t p, double n[3]) {
+  cw_cross(work->xu[p], work->xv[p], n);
 }
 
 static inline double cw_patch_distance2(const double a[3], const double b[3]) {

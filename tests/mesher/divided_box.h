@@ -41,12 +41,12 @@ struct Box {
           return "out,outlet";
         })) {
     double tilt = 0.1, c = std::cos(tilt), s = std::sin(tilt);
-    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, -2}};
-    node[1] = {{{s, c, 0}, 0.014 * c + 0.030 * s}, 0, {-2, -3}};
-    node[2] = {{{0, 0, 1}, across}, 0, {-1, -4}};
+    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, -2}, 0};
+    node[1] = {{{s, c, 0}, 0.014 * c + 0.030 * s}, 0, {-2, -3}, 0};
+    node[2] = {{{0, 0, 1}, across}, 0, {-1, -4}, 0};
     if (nodes >= 2) node[0].child[1] = 1;
     if (nodes >= 3) node[0].child[0] = 2;
-    plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
+    plan = {nodes, nodes + 1, node, none, 0, 0, 0, 0};
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
     assert_int_equal(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside), CW_OK);
     boundary.input.cad = cad;

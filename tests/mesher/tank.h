@@ -120,17 +120,17 @@ struct Tank {
     check(cw_symmetry_find(cad, &background, &symmetry));
     const int count = n * wedges, first = 1 + count, each = divided ? 2 : 1;
     const auto wedge = [=](int j) { return divided ? first + j : -2 - j; };
-    node.push_back({{{0, 0, -1}, -0.008}, -1, {-1, 1}});
+    node.push_back({{{0, 0, -1}, -0.008}, -1, {-1, 1}, 0});
     for (int j = 0; j < count; j++) {
       const double angle = 0.3 * 2 * M_PI / n + j * 2 * M_PI / count;
-      node.push_back({{{-std::sin(angle), std::cos(angle), 0}, 0}, 0, {wedge((j + count - 1) % count), wedge(j)}});
+      node.push_back({{{-std::sin(angle), std::cos(angle), 0}, 0}, 0, {wedge((j + count - 1) % count), wedge(j)}, 0});
     }
     for (int j = 0; divided && j < count; j++) {
       const double angle = 0.3 * 2 * M_PI / n + (j + 0.5) * 2 * M_PI / count + 0.05;
-      node.push_back({{{std::cos(angle), std::sin(angle), 0}, 0.024}, 1 + j, {-2 - 2 * j, -3 - 2 * j}});
+      node.push_back({{{std::cos(angle), std::sin(angle), 0}, 0.024}, 1 + j, {-2 - 2 * j, -3 - 2 * j}, 0});
     }
     none.assign(node.size(), 0);
-    plan = {(int)node.size(), 1 + each * count, node.data(), none.data(), none.data(), 1, count, 1, n};
+    plan = {(int)node.size(), 1 + each * count, node.data(), none.data(), 1, count, 1, n};
     boundary.input.cad = cad;
     boundary.input.plan = &plan;
     boundary.input.size_at = even_size;

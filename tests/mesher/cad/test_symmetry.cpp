@@ -54,7 +54,7 @@ static void images_of_odd_lengths_are_refused(void **) {
     int32_t *copy = (int32_t *)malloc(next.size() * sizeof *copy);
     memcpy(copy, next.data(), next.size() * sizeof *copy);
     int whole;
-    assert_int_equal(cw_images_make((int32_t)next.size(), copy, count, allow_fixed, &images, &whole), CW_OK);
+    assert_int_equal(cw_images_make((int32_t)next.size(), &copy, count, allow_fixed, &images, &whole), CW_OK);
     if (whole) cw_images_free(&images);
     return whole;
   };

@@ -32,8 +32,8 @@ struct Half {
     cw_cad_close(&cad);
   }
   CwOutcomeKind divide(const CwPlane &plane) {
-    node = {plane, -1, {-1, -2}};
-    CwPlan plan = {1, 2, &node, none, none, 0, 0, 0, 0};
+    node = {plane, -1, {-1, -2}, 0};
+    CwPlan plan = {1, 2, &node, none, 0, 0, 0, 0};
     outcome = {};
     assert_int_equal(cw_network_make(NULL, cad, &background, inside, &plan, &network, &outcome), CW_OK);
     if (outcome.kind == CW_OUTCOME_DONE) cw_network_free(&network);

@@ -21,7 +21,7 @@ typedef struct {
 } Lines;
 
 static void make(Lines *made) {
-  static const Lines plain = {.node = {{{1, 0, 0}, 0.4}, -1, {-1, -2}},
+  static const Lines plain = {.node = {{{1, 0, 0}, 0.4}, -1, {-1, -2}, 0},
                               .corner = {{.on_wall = 1}, {.x = {0.4, 0, 0}, .on_wall = 1}, {.x = {0.4, 0.3, 0}}},
                               .x = {{{0, 0, 0}, {0.1, 0, 0}, {0.4, 0, 0}}, {{0.4, 0, 0}, {0.4, 0.1, 0}, {0.4, 0.3, 0}}},
                               .length = {{0, 0.1, 0.4}, {0, 0.1, 0.3}}};

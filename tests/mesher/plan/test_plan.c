@@ -142,7 +142,7 @@ static Figures figures_of(const CwPlan *plan) {
     figures.off += plan->sector_count > 0 && r < plan->sector_region ? share > 1.15 : fabs(share - 1) > 0.15;
   }
   for (int32_t n = 0; n < plan->node_count; n++) {
-    double angle = asin(plan->worst_angle[n]) * 180 / M_PI;
+    double angle = asin(plan->node[n].worst) * 180 / M_PI;
     figures.angle = fmin(figures.angle, angle);
     figures.sharp += angle < 40 && !is_copy(plan, n);
   }
@@ -267,7 +267,6 @@ static void packed_plans_come_back_whole(void **state) {
   check(cw_plan_unpack(bytes, &copy));
   assert_int_equal(copy.region_count, plan.region_count);
   assert_memory_equal(copy.node, plan.node, (size_t)plan.node_count * sizeof *plan.node);
-  assert_memory_equal(copy.worst_angle, plan.worst_angle, (size_t)plan.node_count * sizeof *plan.worst_angle);
   assert_memory_equal(copy.predicted_cells, plan.predicted_cells, 5 * sizeof *plan.predicted_cells);
   const double x[3] = {0.05, 0.1, 0.001};
   assert_int_equal(cw_plan_locate(&copy, x), cw_plan_locate(&plan, x));

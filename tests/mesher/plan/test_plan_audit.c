@@ -15,20 +15,20 @@ typedef struct {
 // x = 0; before it y = 0, behind it z = 0.
 static void make_box(Made *made) {
   memset(made, 0, sizeof *made);
-  made->node[0] = (CwPlanNode){{{1, 0, 0}, 0}, -1, {1, 2}};
-  made->node[1] = (CwPlanNode){{{0, 1, 0}, 0}, 0, {-1, -2}};
-  made->node[2] = (CwPlanNode){{{0, 0, 1}, 0}, 0, {-3, -4}};
+  made->node[0] = (CwPlanNode){{{1, 0, 0}, 0}, -1, {1, 2}, 0};
+  made->node[1] = (CwPlanNode){{{0, 1, 0}, 0}, 0, {-1, -2}, 0};
+  made->node[2] = (CwPlanNode){{{0, 0, 1}, 0}, 0, {-3, -4}, 0};
   made->plan = (CwPlan){.node_count = 3, .region_count = 4, .node = made->node};
 }
 
 // Node 0 across the axis, half-planes 1 to 3, and a plane that divides the wedge behind the second.
 static void make_wheel(Made *made) {
   memset(made, 0, sizeof *made);
-  made->node[0] = (CwPlanNode){{{0, 0, -1}, 0}, -1, {-1, 1}};
-  made->node[1] = (CwPlanNode){{{0, 1, 0}, 0}, 0, {-3, -2}};
-  made->node[2] = (CwPlanNode){{{-0.6, -0.8, 0}, 0}, 0, {-2, 4}};
-  made->node[3] = (CwPlanNode){{{0.8, -0.6, 0}, 0}, 0, {4, -3}};
-  made->node[4] = (CwPlanNode){{{1, 0, 0}, 0.2}, 2, {-4, -5}};
+  made->node[0] = (CwPlanNode){{{0, 0, -1}, 0}, -1, {-1, 1}, 0};
+  made->node[1] = (CwPlanNode){{{0, 1, 0}, 0}, 0, {-3, -2}, 0};
+  made->node[2] = (CwPlanNode){{{-0.6, -0.8, 0}, 0}, 0, {-2, 4}, 0};
+  made->node[3] = (CwPlanNode){{{0.8, -0.6, 0}, 0}, 0, {4, -3}, 0};
+  made->node[4] = (CwPlanNode){{{1, 0, 0}, 0.2}, 2, {-4, -5}, 0};
   made->plan = (CwPlan){.node_count = 5,
                         .region_count = 5,
                         .node = made->node,

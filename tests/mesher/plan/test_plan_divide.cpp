@@ -13,8 +13,8 @@ extern "C" {
 // A bar with layers of 1 mm, which planes across it divide.
 struct Bar : PlannedSolid {
   std::vector<CwPlanNode> node = std::vector<CwPlanNode>(8);
-  std::vector<double> angle = std::vector<double>(8), cells = std::vector<double>(8);
-  CwPlan plan = {0, 0, node.data(), cells.data(), angle.data(), 0, 0, 0, 0};
+  std::vector<double> cells = std::vector<double>(8);
+  CwPlan plan = {0, 0, node.data(), cells.data(), 0, 0, 0, 0};
 
   Bar() : PlannedSolid(BRepPrimAPI_MakeBox(60, 20, 20).Shape()) {}
   void divide(int32_t regions) {
@@ -31,7 +31,7 @@ static void a_bar_is_divided_across(void **) {
   double sum = 0;
   for (int32_t n = 0; n < 2; n++) {
     assert_near(std::fabs(bar.node[n].plane.normal[0]), 1, 1e-3);
-    assert_near(bar.angle[n], 1, 1e-3);
+    assert_near(bar.node[n].worst, 1, 1e-3);
   }
   for (int32_t r = 0; r < 3; r++) {
     sum += bar.cells[r];

@@ -15,13 +15,13 @@ extern "C" {
 // on its negative side, x = `place` mm.
 struct Wedge : PlannedSolid {
   CwPlanNode node[2] = {};
-  double angle[2] = {0, 0}, cells[3] = {0, 0, 0};
-  CwPlan plan = {2, 3, node, cells, angle, 0, 0, 0, 0};
+  double cells[3] = {0, 0, 0};
+  CwPlan plan = {2, 3, node, cells, 0, 0, 0, 0};
   CwPlanPart half = {};
 
   Wedge(double run, double place) : PlannedSolid(BRepPrimAPI_MakeWedge(50, 40, 40, run, 0, 50, 40).Shape()) {
-    node[0] = {{{0, 0, 1}, 0.020}, -1, {1, -3}};
-    node[1] = {{{1, 0, 0}, 1e-3 * place}, 0, {-1, -2}};
+    node[0] = {{{0, 0, 1}, 0.020}, -1, {1, -3}, 0};
+    node[1] = {{{1, 0, 0}, 1e-3 * place}, 0, {-1, -2}, 0};
     check(cw_plan_part_clip(&model, &whole, &node[0].plane, 0, &half));
     model.mean_work = half.work / 2;
   }
@@ -51,7 +51,7 @@ static void slantwise_planes_are_turned(void **) {
   Wedge wedge(30, 25);
   assert_true(wedge.cosine() > cw_policy.upright_cosine);
   wedge.check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
-  assert_false(cw_plan_is_sharp(wedge.angle[1]));
+  assert_false(cw_plan_is_sharp(wedge.node[1].worst));
 }
 
 static void planes_that_stand_well_are_left(void **) {
@@ -62,8 +62,7 @@ static void planes_that_stand_well_are_left(void **) {
 }
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(leaning_lines_are_raised),
-                              cmocka_unit_test(slantwise_planes_are_turned),
+  const CMUnitTest tests[] = {cmocka_unit_test(leaning_lines_are_raised), cmocka_unit_test(slantwise_planes_are_turned),
                               cmocka_unit_test(planes_that_stand_well_are_left)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -15,10 +15,10 @@ extern "C" {
 struct Box : PlannedSolid {
   CwPlanNode node[2] = {};
   double none[3] = {0, 0, 0};
-  CwPlan plan = {1, 2, node, none, none, 0, 0, 0, 0};
+  CwPlan plan = {1, 2, node, none, 0, 0, 0, 0};
 
   explicit Box(const TopoDS_Shape &shape = BRepPrimAPI_MakeBox(40, 30, 20).Shape()) : PlannedSolid(shape) {
-    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, 1}};
+    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, 1}, 0};
     node[1].parent = 0;
   }
   // Of the plane with this normal through a point, in mm.
@@ -103,13 +103,13 @@ static void the_last_of_many_planes_is_seen(void **) {
   const int32_t many = 200;
   std::vector<CwPlanNode> node(many + 1, box.node[0]);
   for (int32_t n = 1; n < many; n++) {
-    node[n] = {{{0, 1, 0}, 0.024 - 1e-6 * n}, n - 1, {n + 1, -1 - n}};
+    node[n] = {{{0, 1, 0}, 0.024 - 1e-6 * n}, n - 1, {n + 1, -1 - n}, 0};
     node[n - 1].child[0] = n;
   }
   node[many - 1].plane.offset = 0.014;
   node[many - 1].child[0] = -1;
   node[0].child[1] = many;
-  node[many] = {{}, 0, {INT32_MIN, INT32_MIN}};
+  node[many] = {{}, 0, {INT32_MIN, INT32_MIN}, 0};
   box.plan.node = node.data();
   box.plan.node_count = many;
   auto cost = [&](double y) {

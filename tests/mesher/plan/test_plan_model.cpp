@@ -21,19 +21,19 @@ static void samples_stand_for_the_volume(void **) {
   Box box;
   double total = 0, outside = 0;
   for (int32_t i = 0; i < box.model.sample_count; i++) {
-    const double *x = box.model.sample_x[i], h = cw_size_at(box.size, x);
-    total += box.model.sample_volume[i];
-    outside += box.model.sample_work[i] * h * h * h;
+    const double *x = box.model.sample[i].x, h = cw_size_at(box.size, x);
+    total += box.model.sample[i].volume;
+    outside += box.model.sample[i].work * h * h * h;
   }
   assert_near(total / volume, 1, 0.03);
   // So many tetrahedra for each volume of h^3, whatever it is.
   const double middle[] = {0.02, 0.015, 0.01};
   double of_volume = 0;
   for (int32_t i = 0; i < box.model.sample_count; i++) {
-    const double *x = box.model.sample_x[i], h = cw_size_at(box.size, x);
+    const double *x = box.model.sample[i].x, h = cw_size_at(box.size, x);
     if (std::fabs(x[0] - middle[0]) > 5e-3 || std::fabs(x[1] - middle[1]) > 5e-3 || std::fabs(x[2] - middle[2]) > 3e-3)
       continue;
-    of_volume = box.model.sample_work[i] * h * h * h / box.model.sample_volume[i];
+    of_volume = box.model.sample[i].work * h * h * h / box.model.sample[i].volume;
   }
   assert_true(of_volume > 5 && of_volume < 12);
   assert_near(outside / of_volume, 38e-3 * 28e-3 * 18e-3, 0.1 * volume);
@@ -51,16 +51,17 @@ static void walls_have_their_layers_and_prisms(void **) {
     for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
     all += 0.5 * std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     assert_int_equal(box.model.wall[t], 1);
-    assert_near(box.model.thickness[t], layers, 1e-12);
+    assert_near(box.model.triangle[t].thickness, layers, 1e-12);
     double outward = 0;
-    for (int k = 0; k < 3; k++) outward += box.model.normal[t][k] * (a[k] - (k == 0 ? 0.02 : k == 1 ? 0.015 : 0.01));
+    for (int k = 0; k < 3; k++)
+      outward += box.model.triangle[t].normal[k] * (a[k] - (k == 0 ? 0.02 : k == 1 ? 0.015 : 0.01));
     assert_true(outward > 0);
   }
   assert_near(all, area, 1e-9);
   assert_near(box.model.thickest, layers, 1e-12);
   double work = 0, samples = 0;
   for (int32_t i = 0; i < box.whole.pieces.count; i++) work += box.whole.pieces.work[i];
-  for (int32_t i = 0; i < box.model.sample_count; i++) samples += box.model.sample_work[i];
+  for (int32_t i = 0; i < box.model.sample_count; i++) samples += box.model.sample[i].work;
   assert_near(box.whole.work / (work + samples), 1, 1e-9);
 }
 
@@ -68,12 +69,12 @@ static void walls_have_their_layers_and_prisms(void **) {
 static void layers_give_way_to_a_wall_opposite(void **) {
   Box box(9e-3);
   for (int32_t t = 0; t < box.background.triangle_count; t++) {
-    const bool level = std::fabs(box.model.normal[t][2]) > 0.5;
-    assert_near(box.model.thickness[t], level ? cw_policy.gap_share * 20e-3 : 9e-3, 1e-9);
+    const bool level = std::fabs(box.model.triangle[t].normal[2]) > 0.5;
+    assert_near(box.model.triangle[t].thickness, level ? cw_policy.gap_share * 20e-3 : 9e-3, 1e-9);
   }
   assert_near(box.model.thickest, 9e-3, 1e-12);
   for (int32_t i = 0; i < box.model.edge_count; i++) {
-    const double room = box.model.edge_room[i] / cw_policy.plan_room;
+    const double room = box.model.edge[i].room / cw_policy.plan_room;
     assert_true(room > cw_policy.gap_share * 20e-3 - 1e-9 && room < 9e-3 + 1e-9);
   }
 }
@@ -85,7 +86,7 @@ static void the_nearest_wall_is_found(void **) {
   assert_true(wall.triangle >= 0);
   assert_near(wall.distance, 0.003, 1e-9);
   assert_near(wall.thickness, layers, 1e-12);
-  assert_near(box.model.normal[wall.triangle][1], -1, 1e-9);
+  assert_near(box.model.triangle[wall.triangle].normal[1], -1, 1e-9);
   // None so near.
   const double middle[] = {0.02, 0.015, 0.01};
   wall = cw_plan_wall_near(&box.model, middle, 0.005);
@@ -101,7 +102,7 @@ static void halves_make_the_whole(void **) {
   for (int side = 0; side < 2; side++) {
     Box::check(cw_plan_part_clip(&box.model, &box.whole, &plane, side, &half[side]));
     for (int32_t i = 0; i < half[side].sample_count; i++) {
-      assert_int_equal(box.model.sample_x[half[side].sample[i]][0] > 0.013, side);
+      assert_int_equal(box.model.sample[half[side].sample[i]].x[0] > 0.013, side);
     }
   }
   assert_near((half[0].work + half[1].work) / box.whole.work, 1, 1e-9);
@@ -116,8 +117,8 @@ static void edges_keep_planes_off(void **) {
   int32_t ends = 0;
   assert_true(box.model.edge_count >= 12 * 17);
   for (int32_t i = 0; i < box.model.edge_count; i++) {
-    assert_near(box.model.edge_room[i], 2 * layers, 1e-12);
-    ends += box.model.edge_end[i];
+    assert_near(box.model.edge[i].room, 2 * layers, 1e-12);
+    ends += box.model.edge[i].end;
   }
   assert_int_equal(ends, 24);
 }
