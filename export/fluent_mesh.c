@@ -9,6 +9,7 @@
 
 // Bytes of a point, of the type of a cell, and of a face: "3 node node node cell cell", eight digits each.
 enum { POINT_SIZE = 72, TYPE_SIZE = 2, TRIANGLE_SIZE = 47, QUAD_SIZE = 56, TEXT_SIZE = 200 };
+enum { POINTS_AT_ONCE = 1 << 16 };
 
 // Codes of the format: types of cells, and of zones of faces.
 enum { TETRAHEDRON = 2, PYRAMID = 5, WEDGE = 6, INTERIOR = 2, FACES_MIXED = 0, CELLS_FLUID = 1, CELLS_MIXED = 0 };
@@ -119,11 +120,15 @@ done:
 static CwStatus put_points(const CwFluentMesh *mesh, const double (*points)[3], int64_t count, int64_t first) {
   CwStatus status = CW_OK;
   char *text = NULL;
-  CW_NEW_UNSET(text, POINT_SIZE * count + 1);
-  for (int64_t i = 0; i < count; ++i)
-    snprintf(text + POINT_SIZE * i, POINT_SIZE + 1, "%23.16e %23.16e %23.16e\n", points[i][0], points[i][1],
-             points[i][2]);
-  CW_TRY(cw_place_file_put(&mesh->file, text, POINT_SIZE * count, mesh->point_start + POINT_SIZE * first));
+  CW_NEW_UNSET(text, POINT_SIZE * POINTS_AT_ONCE + 1);
+  for (int64_t put = 0, now; put < count; put += now) {
+    now = count - put < POINTS_AT_ONCE ? count - put : POINTS_AT_ONCE;
+    for (int64_t i = 0; i < now; ++i) {
+      const double *x = points[put + i];
+      snprintf(text + POINT_SIZE * i, POINT_SIZE + 1, "%23.16e %23.16e %23.16e\n", x[0], x[1], x[2]);
+    }
+    CW_TRY(cw_place_file_put(&mesh->file, text, POINT_SIZE * now, mesh->point_start + POINT_SIZE * (first + put)));
+  }
 done:
   free(text);
   return status;

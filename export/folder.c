@@ -70,7 +70,11 @@ CwStatus cw_folder_replace(const char *from, const char *to) {
   CW_TRY(cw_path_set(&old, "%s.old", to));
   CW_TRY(cw_folder_remove(old));
   CW_REQUIRE(rename(to, old) == 0 || errno == ENOENT, CW_ERR_IO, "%s: cannot be moved aside: %s", to, strerror(errno));
-  CW_REQUIRE(rename(from, to) == 0, CW_ERR_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));
+  if (rename(from, to)) {
+    status = CW_FAIL(CW_ERR_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));
+    rename(old, to);
+    goto done;
+  }
   CW_TRY(cw_sync_folder_of(to));
   CW_TRY(cw_folder_remove(old));
 done:

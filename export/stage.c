@@ -313,8 +313,9 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
   }
 done:
   if (status != CW_OK && ranks->rank == 0 && part) {
-    // Keeps the message of the failure: removing a folder that is not there is none.
+    const CwFailure failure = *cw_failure(); // that is what is told, not what becomes of the folder
     cw_folder_remove(part);
+    *cw_failure() = failure;
     rmdir(folder); // only if nothing is in it
   }
   cw_output_free(&output);

@@ -74,8 +74,8 @@ done:
 
 CwStatus cw_model_add_patch(CwModel *model, const char *name, CwPatchKind kind, CwModelPatch **patch) {
   CwStatus status = CW_OK;
-  CwModelDomain *domain = &model->domain[model->domain_count - 1];
   CW_REQUIRE(model->domain_count > 0, CW_ERR_INPUT, "patch '%s' stands before the first domain", name);
+  CwModelDomain *domain = &model->domain[model->domain_count - 1];
   CW_TRY(check_name("patch name", name, CW_PATCH_NAME_MOST, SMALL CAPITALS DIGITS, "letters"));
   CW_REQUIRE(cw_model_patch_find(model, name) < 0, CW_ERR_INPUT, "patch '%s' is named twice", name);
   CW_REQUIRE(domain->patch_count < CW_PATCHES_MOST, CW_ERR_INPUT, "domain '%s' has more than %d patches", domain->name,
@@ -158,16 +158,15 @@ done:
 }
 
 static json_t *patch_json(const CwModelPatch *patch) {
-  json_t *object = json_pack("{s:s, s:s, s:s}", "name", patch->name, "kind", kinds[patch->kind], "size",
-                             groups[patch->size]);
+  json_t *object =
+      json_pack("{s:s, s:s, s:s}", "name", patch->name, "kind", kinds[patch->kind], "size", groups[patch->size]);
   if (patch->kind == CW_PATCH_WALL) {
     json_t *flow = numbers_json(&patch->flow, wall_flow, COUNT(wall_flow));
     if (patch->flow.before > 0) json_object_set_new(flow, "before_m", json_real(patch->flow.before));
     json_object_set_new(object, "group", json_string(groups[patch->group]));
     json_object_set_new(object, "turns", json_boolean(patch->turns));
     if (patch->monitored) json_object_set_new(object, "monitored", json_true());
-    if (cw_case_given(patch->y_plus_asked))
-      json_object_set_new(object, "y_plus_asked", json_real(patch->y_plus_asked));
+    if (cw_case_given(patch->y_plus_asked)) json_object_set_new(object, "y_plus_asked", json_real(patch->y_plus_asked));
     if (cw_case_given(patch->y_plus)) json_object_set_new(object, "y_plus", json_real(patch->y_plus));
     json_object_set_new(object, "flow", flow);
   }
@@ -185,8 +184,8 @@ CwStatus cw_model_pack(const CwModel *model, json_t **root) {
     json_t *patches = json_array();
     for (int p = 0; p < domain->patch_count; p++)
       json_array_append_new(patches, patch_json(&model->patch[domain->first_patch + p]));
-    json_array_append_new(domains, json_pack("{s:s, s:b, s:o}", "name", domain->name, "rotating", domain->rotating,
-                                             "patches", patches));
+    json_array_append_new(
+        domains, json_pack("{s:s, s:b, s:o}", "name", domain->name, "rotating", domain->rotating, "patches", patches));
   }
   for (int i = 0; i < model->interface_count; i++) {
     const CwModelInterface *of = &model->interface[i];

@@ -241,6 +241,9 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
                     cw_cad_face_name(network->cad, trace->face));
       int32_t skip[1] = {node};
       if (below && !cw_plan_in_cell(plan, q, split.at.x, 1e-9, skip, 1)) continue;
+      CW_END_UNLESS(trace->closed || (split.place > 0 && split.place < trace->count - 1), outcome, CW_OUTCOME_REPLAN,
+                    split.at.x, "partition planes %d and %d meet on the border of face %s", node, q,
+                    cw_cad_face_name(network->cad, trace->face));
       CW_GROW(*splits, capacity, *count + 1);
       (*splits)[(*count)++] = split;
     }

@@ -137,7 +137,7 @@ void cw_start_layers(CwMeshRun *run) {
 // The number of layers that each domain needs at the present scale.
 static void find_needed(const CwMeshRun *run, int *needed) {
   for (int d = 0; d < run->model.domain_count; d++) {
-    double needing[CW_LAYER_COUNT_MOST + 1] = {0};
+    double needing[CW_LAYERS_MOST + 1] = {0};
     cw_domain_layers_needed(&run->domain[d], run->scale, needing);
     needed[d] = cw_layer_count_for(needing);
   }

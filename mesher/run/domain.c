@@ -168,7 +168,7 @@ CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
     thickness[p] = domain->patch_layers[p].thickness;
-    least[p] = cw_column_thickness_least(domain->patch_layers[p].first_height, domain->layer_count);
+    least[p] = domain->layer_count * domain->patch_layers[p].first_height;
   }
   CwPlanOptions options = {.region_count =
                                domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + domain->more_regions,

@@ -29,7 +29,7 @@ void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, d
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
 // Adds the wall faces at a scale of the size field to needing[n] by the number of layers that they need, from 1 to
-// CW_LAYER_COUNT_MOST, to lead to the tetrahedra, but no more than fit the passage.
+// CW_LAYERS_MOST, to lead to the tetrahedra, but no more than fit the passage.
 void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needing);
 
 #endif

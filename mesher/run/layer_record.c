@@ -319,7 +319,7 @@ void cw_warn_of_layers(CwLog *log, const char *domain, int layers, int automatic
   if (jumps.where.length == 0) return;
   if (jumps.thin > jumps.thick)
     snprintf(remedy, sizeof remedy, "last layers are thin: %swalls.layer_count %.0f instead of %d%s",
-             automatic ? "more mesh.cells, or " : "", fmin(layers + jumps.missing_layers, CW_LAYER_COUNT_MOST), layers,
+             automatic ? "more mesh.cells, or " : "", fmin(layers + jumps.missing_layers, CW_LAYERS_MOST), layers,
              automatic ? "" : ", or auto");
   else if (jumps.thick > 0)
     snprintf(remedy, sizeof remedy, "last layers are thick: a lower walls.y_plus of these walls%s",

@@ -23,15 +23,11 @@ typedef struct {
   double rise;      // greatest, of the edges against it, over their lengths: above 0 in a concave place
 } Bend;
 
-double cw_column_thickness_least(double first, int layer_count) {
-  return layer_count * first;
-}
-
 // The column whose last layer is `last` times as tall as a regular tetrahedron on edges of `size`, or the tallest with
 // no layer that grows by more than `growth`. Columns give up growth for it, never the first height.
 static double fair_thickness(double first, int count, double growth, double size, double last) {
   if (count > 1) growth = fmin(growth, pow(fmax(last * CW_REGULAR_HEIGHT * size / first, 1), 1.0 / (count - 1)));
-  return fmax(cw_column_thickness_least(first, count), cw_layer_thickness(first, count, growth));
+  return fmax(count * first, cw_layer_thickness(first, count, growth));
 }
 
 double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, double size) {

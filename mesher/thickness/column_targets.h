@@ -24,9 +24,6 @@ typedef struct {
   CwHostMemory *memory; // where its arrays lie; NULL: they are this rank's
 } CwColumnTargets;
 
-// Thickness below which layers of `first` (m) hardly grow any more: columns are asked to be no shorter.
-double cw_column_thickness_least(double first, int layer_count);
-
 // Thickness of a column over a flat wall where edges are `size` long, m.
 double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, double size);
 

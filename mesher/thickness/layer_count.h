@@ -7,6 +7,8 @@
 #ifndef CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
 #define CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
 
+#include "mesher/thickness/layer_thickness.h"
+
 // Of the tetrahedron's thickness, that of the last layer: what columns grow to, what is enough, and the most where the
 // case gives the growth.
 #define CW_LAST_LAYER (1.0 / 6)
@@ -14,9 +16,7 @@
 #define CW_LAST_LAYER_GIVEN 1.0
 #define CW_REGULAR_HEIGHT 0.81649658092772603273 // of a regular tetrahedron over its edge: sqrt(2/3)
 
-enum { CW_LAYER_COUNT_MOST = 40 }; // that the case file allows
-
-// The least number of layers, from 1 to CW_LAYER_COUNT_MOST, of which the last is tall enough where edges are `size`
+// The least number of layers, from 1 to CW_LAYERS_MOST, of which the last is tall enough where edges are `size`
 // long; the first is `first` tall (m) and each of the others up to `growth` times as tall as the one before.
 int cw_layer_count(double first, double growth, double size);
 
@@ -24,5 +24,5 @@ int cw_layer_count(double first, double growth, double size);
 int cw_layer_count_fitting(double first, double growth, double thickness);
 
 // The least number of layers that is enough for layer_count_share of the faces; needing[n]: faces that need n.
-int cw_layer_count_for(const double needing[CW_LAYER_COUNT_MOST + 1]);
+int cw_layer_count_for(const double needing[CW_LAYERS_MOST + 1]);
 #endif

@@ -11,7 +11,7 @@ double cw_first_height(double y_plus, double velocity, double length, double kin
 // Total thickness of `count` layers from `first` with growth ratio `growth`, m.
 double cw_layer_thickness(double first, int count, double growth);
 
-enum { CW_LAYERS_MOST = 200 }; // count of layers
+enum { CW_LAYERS_MOST = 40 }; // that the case file allows
 // Policy: of an automatic y+ and an automatic number of layers the number grows first, up to this, then y+ up to the
 // end of the log layer, then the number again.
 enum { CW_LAYER_COUNT_USUAL = 6 };

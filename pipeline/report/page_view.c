@@ -22,7 +22,10 @@ static double lattice_of(const CwView *view, double least[3]) {
       }
     }
   }
-  for (int i = 0; i < 3; i++) side = fmax(side, most[i] - least[i]);
+  for (int i = 0; i < 3; i++) {
+    side = fmax(side, most[i] - least[i]);
+    if (!isfinite(least[i])) least[i] = 0; // parts without points
+  }
   return side / LATTICE;
 }
 

@@ -318,7 +318,7 @@ static void plans_that_do_not_fit_give_way(void **state) {
 
 // The number of layers that enough faces of a domain need at the scale of a run.
 static int layers_needed(const CwMeshRun *run, int d) {
-  double needing[CW_LAYER_COUNT_MOST + 1] = {0};
+  double needing[CW_LAYERS_MOST + 1] = {0};
   cw_domain_layers_needed(&run->domain[d], run->scale, needing);
   return cw_layer_count_for(needing);
 }

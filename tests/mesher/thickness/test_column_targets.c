@@ -62,7 +62,6 @@ static void a_flat_wall(void **state) {
   assert_near(cw_column_thickness_flat(&DOUBLING, 3, edge_below(5)), 7, 1e-9);
   assert_near(cw_column_thickness_flat(&DOUBLING, 3, edge_below(2.25)), 4.75, 1e-9); // layers of 1, 1.5 and 2.25
   assert_near(cw_column_thickness_flat(&DOUBLING, 3, edge_below(0.5)), 3, 1e-9);     // three even layers
-  assert_near(cw_column_thickness_least(1, 3), 3, 1e-9);
   CwLayerTarget thin = DOUBLING;
   thin.thickness = 4;
   assert_near(cw_column_thickness_flat(&thin, 3, edge_below(5)), 4, 1e-9);

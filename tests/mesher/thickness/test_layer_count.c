@@ -14,14 +14,14 @@ static void layers_by_hand(void **state) {
   assert_int_equal(cw_layer_count(1, 2, 2 * edge), 2);
   assert_int_equal(cw_layer_count(1, 2, 8 * edge), 4);
   assert_int_equal(cw_layer_count(1, 2, 8.1 * edge), 5);
-  assert_int_equal(cw_layer_count(1, 1, 2 * edge), CW_LAYER_COUNT_MOST); // even layers never come to it
+  assert_int_equal(cw_layer_count(1, 1, 2 * edge), CW_LAYERS_MOST); // even layers never come to it
 }
 
 static void layers_that_fit(void **state) {
   assert_int_equal(cw_layer_count_fitting(1, 2, 0.5), 1);
   assert_int_equal(cw_layer_count_fitting(1, 2, 6.9), 2); // 1 + 2 + 4
   assert_int_equal(cw_layer_count_fitting(1, 2, 7), 3);
-  assert_int_equal(cw_layer_count_fitting(1, 1, 1000), CW_LAYER_COUNT_MOST);
+  assert_int_equal(cw_layer_count_fitting(1, 1, 1000), CW_LAYERS_MOST);
 }
 
 // The volumes that the last prism of so many layers and a regular tetrahedron on it have are as 3 or less, and one
@@ -32,14 +32,14 @@ static void last_volumes_of_random_walls(void **state) {
     double size = pow(10, 6.0 * rand() / RAND_MAX - 5), first = size * pow(10, -4.0 * rand() / RAND_MAX);
     double growth = 1.05 + 0.5 * rand() / RAND_MAX, regular = sqrt(2.0 / 3) / 3 * size; // its volume over the face
     int count = cw_layer_count(first, growth, size);
-    assert_in_range(count, 1, CW_LAYER_COUNT_MOST);
-    if (count < CW_LAYER_COUNT_MOST) assert_true(first * pow(growth, count - 1) >= regular / 3 * (1 - 1e-6));
+    assert_in_range(count, 1, CW_LAYERS_MOST);
+    if (count < CW_LAYERS_MOST) assert_true(first * pow(growth, count - 1) >= regular / 3 * (1 - 1e-6));
     if (count > 1) assert_true(first * pow(growth, count - 2) < regular / 3 * (1 + 1e-6));
   }
 }
 
 static void enough_for_most_faces(void **state) {
-  double needing[CW_LAYER_COUNT_MOST + 1] = {0};
+  double needing[CW_LAYERS_MOST + 1] = {0};
   needing[4] = 90;
   needing[7] = 5;
   needing[20] = 5;
