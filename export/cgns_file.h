@@ -16,7 +16,7 @@ typedef struct {
   CwFileSum sum;   // of what this rank has written; on rank 0 also of the nodes
   int64_t size;    // of the file, bytes
   int64_t *starts; // bytes of the arrays, domain by domain: three of coordinates, then those of its sections
-  CwSection *sections[CW_DOMAINS_MOST];
+  CwSection *sections[CW_DOMAINS_MOST]; // of each domain, as they lie in the file; freed by cw_cgns_close()
   int section_count[CW_DOMAINS_MOST];
   int first_array[CW_DOMAINS_MOST + 1]; // of each domain
 } CwCgnsFile;

@@ -130,7 +130,8 @@ CwStatus cw_foam_layout_parts(CwFoamMesh *mesh) {
     most = corners > most ? corners : most;
   }
   CW_REQUIRE(most <= INT32_MAX || mesh->labels != CW_INTEGERS_32, CW_ERR_EXPORT,
-             "%lld face corners in one part; OpenFOAM with 32-bit labels allows %d (openfoam.labels: 64 holds them)",
+             "%lld face corners in one part; OpenFOAM with 32-bit labels allows %d (openfoam.labels: 64 or more "
+             "openfoam.processors hold them)",
              (long long)most, INT32_MAX);
   if (most > INT32_MAX) mesh->label_size = 8;
   for (int p = 0; p < mesh->division.part_count; ++p) place_values(mesh, p, &mesh->parts[p]);

@@ -53,6 +53,13 @@ static CwStatus plan_one(CwOutput *o, CwFormat format) {
   }
 }
 
+// What cannot hold the mesh, as the last failure tells.
+static void leave_out(CwOutput *o, CwFormat format) {
+  snprintf(o->left_out[format], sizeof o->left_out[format], "%s is left out: %s", cw_output_names[format],
+           cw_fail_message());
+  o->formats &= ~(1 << format | (format == CW_FORMAT_CGNS ? ON_CGNS : 0));
+}
+
 CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const char *folder, CwOutput *o) {
   CwStatus status = CW_OK;
   o->table = table;
@@ -65,9 +72,7 @@ CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const c
     if (!cw_output_has(o, (CwFormat)f)) continue;
     status = plan_one(o, (CwFormat)f);
     if (status != CW_ERR_EXPORT) CW_TRY(status);
-    if (status == CW_OK) continue;
-    snprintf(o->left_out[f], sizeof o->left_out[f], "%s is left out: %s", cw_output_names[f], cw_fail_message());
-    o->formats &= ~(1 << f | (f == CW_FORMAT_CGNS ? ON_CGNS : 0));
+    if (status != CW_OK) leave_out(o, (CwFormat)f);
   }
   CW_REQUIRE(o->formats, CW_ERR_EXPORT, "%s", cw_fail_message());
   status = CW_OK;
@@ -92,7 +97,12 @@ CwStatus cw_output_open(CwOutput *o, const CwRanks *ranks) {
   if (cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_open(o->folder, o->assembly, ranks, &o->cgns));
   if (cw_output_has(o, CW_FORMAT_FLUENT)) status = cw_fluent_mesh_open(o->paths[CW_FORMAT_FLUENT], &o->fluent);
   CW_TRY(cw_ranks_agree(ranks, status));
-  if (cw_output_has(o, CW_FORMAT_OPENFOAM)) CW_TRY(cw_foam_mesh_create(&o->foam, ranks));
+  if (cw_output_has(o, CW_FORMAT_OPENFOAM)) {
+    status = cw_foam_mesh_create(&o->foam, ranks);
+    if (status != CW_ERR_EXPORT) CW_TRY(status);
+    if (status != CW_OK) leave_out(o, CW_FORMAT_OPENFOAM); // on all ranks: parts are counted alike
+    status = CW_OK;
+  }
   if (ranks->rank == 0 && cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_write_shared(&o->cgns));
 done:
   return status;

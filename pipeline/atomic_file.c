@@ -54,8 +54,11 @@ CwStatus cw_atomic_file_open(const char *path, CwAtomicFile *file) {
   memset(file, 0, sizeof *file);
   CW_TRY(make_temporary(path, file, &handle));
   file->stream = fdopen(handle, "w");
-  if (!file->stream) close(handle), unlink(file->temporary_path);
-  CW_REQUIRE(file->stream, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  if (!file->stream) {
+    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+    close(handle);
+    unlink(file->temporary_path);
+  }
 done:
   if (status != CW_OK) forget(file);
   return status;

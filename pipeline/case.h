@@ -183,6 +183,8 @@ typedef struct {
   CwIntegers foam_labels; // bits of OpenFOAM's labels
 } CwExportTable;
 
+enum { CW_CASE_KEYS_MOST = 256 };
+
 typedef struct {
   char name[CW_NAME_SIZE];
   CwOperatingPoint operating_point;
@@ -195,6 +197,7 @@ typedef struct {
   CwMeshTable mesh;
   CwExportTable output;
   struct CwCaseCad *cad; // case_cad.h; NULL: the pump is designed. Copies of the case share it
+  unsigned char given[CW_CASE_KEYS_MOST]; // of each of cw_case_keys (case_schema.h): 1: the case file has it
 } CwCase;
 
 #ifdef __cplusplus

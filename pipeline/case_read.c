@@ -87,6 +87,7 @@ static CwStatus read_pair(Reader *reader, const char *section, const CwEvent *ke
                wrong);
   }
   CW_TRY(require_once(reader, path, &reader->places[index], key->place, value->place));
+  reader->table.given[index] = 1;
   const CwCaseKey *known = &cw_case_keys[index];
   if (known->type == CW_KEY_CHOICES) cw_case_key_set(known, 0, &reader->table);
   const int many = known->type == CW_KEY_LIST || known->type == CW_KEY_CHOICES;

@@ -261,6 +261,7 @@ const CwCaseKey cw_case_keys[] = {
            "bits of the labels; auto: 64 where a count of the mesh is 2^31 or more, else 32"),
 };
 const size_t cw_case_key_count = sizeof cw_case_keys / sizeof *cw_case_keys;
+_Static_assert(sizeof cw_case_keys / sizeof *cw_case_keys <= CW_CASE_KEYS_MOST, "a case has no room for its keys");
 
 int cw_case_key_find(const char *section, const char *key) {
   for (size_t i = 0; i < cw_case_key_count; ++i)
@@ -307,6 +308,7 @@ static const char *unit_text(const CwCaseKey *key) {
 
 void cw_case_words(const char *const *words, char *text, size_t size) {
   size_t used = 0;
+  if (size > 0) text[0] = '\0';
   for (int i = 0; words[i] && used < size; ++i) {
     const char *between = i == 0 ? "" : words[i + 1] ? ", " : " or ";
     used += (size_t)snprintf(text + used, size - used, "%s%s", between, words[i]);

@@ -23,6 +23,8 @@ static const CwUnit units[] = {
     {"rpm", "rpm", "speed", M_PI, 30},
     {"rad_per_s", "rad/s", "speed", 1, 1},
     {"hz", "Hz", "speed", 2 * M_PI, 1},
+    {"m_per_s", "m/s", "velocity", 1, 1},
+    {"ft_per_s", "ft/s", "velocity", 3048, 10000},
     {"m3_per_h", "m3/h", "flow rate", 1, 3600},
     {"m3_per_s", "m3/s", "flow rate", 1, 1},
     {"l_per_s", "l/s", "flow rate", 1, 1000},

@@ -32,15 +32,15 @@ static int has_row(const CwCaseKey *key, const CwCase *table) {
   return key->presence != CW_KEY_COMPUTED || !(isnan(value) || value == key->fallback);
 }
 
-static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
+static void input_row(FILE *page, size_t index, const CwCase *table) {
+  const CwCaseKey *key = &cw_case_keys[index];
   char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
   size_t length;
-  const char *origin = "case file";
   cw_unit_of_key(key->key, &length);
   snprintf(stem, sizeof stem, "%.*s", (int)length, key->key);
   double value = cw_case_key_value(key, table);
   int automatic = key->presence == CW_KEY_AUTO && (isnan(value) || value == key->fallback);
-  if (automatic || (key->presence == CW_KEY_DEFAULT && value == key->fallback)) origin = "default";
+  const char *origin = table->given[index] ? "case file" : automatic || value == key->fallback ? "default" : "computed";
   cw_quantity_start(page, stem, NULL);
   if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES) {
     char chosen[CW_KEY_ALLOWED_SIZE];
@@ -69,7 +69,7 @@ CwStatus cw_page_input(FILE *page, const CwReportData *data) {
       section = key->section;
       cw_html_label(page, "<table><tr class=\"s\"><td colspan=\"5\">", section, "</td></tr>\n");
     }
-    input_row(page, key, data->table);
+    input_row(page, k, data->table);
   }
   fputs("</table>\n</div>\n", page);
   return CW_OK;

@@ -70,7 +70,7 @@ static CwStatus write_part(FILE *page, const CwMesh *mesh, const CwView *view, i
   CwStatus status = CW_OK;
   const CwViewPart *part = &view->part[index];
   int wide = part->point_count > LATTICE + 1;
-  fprintf(page, "%s{\"lines\":0,\"shown\":%d,\"colour\":%u,\"wide\":%d,\n\"points\":\"", index ? "," : "",
+  fprintf(page, "%s{\"shown\":%d,\"colour\":%u,\"wide\":%d,\n\"points\":\"", index ? "," : "",
           cw_view_shown(mesh, part), colour_of(mesh, part), wide);
   CW_TRY(write_points(page, part, least, step));
   fputs("\",\n\"corners\":\"", page);

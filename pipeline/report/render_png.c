@@ -30,7 +30,7 @@ static void ink(cairo_t *cr) {
   cairo_set_source_rgb(cr, 0.16, 0.19, 0.23);
 }
 
-// A light ground under the path, so that it is legible over any picture.
+// A light ground under the path, so that it stands out over any picture.
 static void ground(cairo_t *cr, double width, double opacity) {
   cairo_set_source_rgba(cr, 1, 1, 1, opacity);
   cairo_set_line_width(cr, width);
@@ -125,8 +125,8 @@ static CwStatus streamlines(cairo_t *cr, const CwCanvas *canvas, double apart) {
   CW_NEW(group, (size_t)canvas->width * (size_t)canvas->height);
   for (int j = 0; j < canvas->height; j++)
     for (int i = 0; i < canvas->width; i++)
-      group[j * canvas->width + i] = canvas->group[(size_t)j * CW_RENDER_SAMPLES * (size_t)canvas->columns +
-                                                   (size_t)i * CW_RENDER_SAMPLES];
+      group[j * canvas->width + i] =
+          canvas->group[(size_t)j * CW_RENDER_SAMPLES * (size_t)canvas->columns + (size_t)i * CW_RENDER_SAMPLES];
   const CwPixelFlow flow = {canvas->width, canvas->height, (const float(*)[2])canvas->velocity, group};
   CW_TRY(cw_streamlines_make(&flow, apart, &lines));
   cairo_set_source_rgba(cr, 1, 1, 1, 0.7);

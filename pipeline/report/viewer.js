@@ -27,12 +27,12 @@
   const FRAGMENT = `
     precision highp float;
     varying vec3 at, away; varying float amount;
-    uniform vec3 colour; uniform vec4 cut; uniform sampler2D scale; uniform float scaled, lit;
+    uniform vec3 colour; uniform vec4 cut; uniform sampler2D scale; uniform float scaled;
     void main() {
       if (dot(cut.xyz, at) > cut.w) discard;
       vec3 n = normalize(away + vec3(0., 0., 1e-6));
       if (n.z < 0.) n = -n;
-      float light = mix(1., .5 + .56 * max(dot(n, vec3(-.37, .46, .81)), 0.), lit);
+      float light = .5 + .56 * max(dot(n, vec3(-.37, .46, .81)), 0.);
       vec3 base = mix(colour, texture2D(scale, vec2(amount * .996 + .002, .5)).rgb, scaled);
       gl_FragColor = vec4(min(base * light, 1.), 1.);
     }`;
@@ -51,7 +51,7 @@
   gl.useProgram(program);
   const uniform = (name) => gl.getUniformLocation(program, name);
   const uniforms = Object.fromEntries(
-    ["turn", "look", "middle", "colour", "cut", "scale", "scaled", "lit"].map((name) => [name, uniform(name)]));
+    ["turn", "look", "middle", "colour", "cut", "scale", "scaled"].map((name) => [name, uniform(name)]));
 
   // Points of a part as lengths in m.
   function pointsOf(part) {
@@ -113,7 +113,7 @@
     part.count = index.length;
     part.box = [least, most];
     part.places = buffer(places);
-    part.normals = part.lines ? null : buffer(cornersOf(points, index));
+    part.normals = buffer(cornersOf(points, index));
     part.amounts = part.values.map((text) => {
       if (!text) return null;
       const value = bytes(text), amounts = new Uint8Array(index.length);
@@ -218,14 +218,13 @@
     gl.uniform1i(uniforms.scale, 0);
     for (const part of data.parts) {
       if (!part.shown) continue;
-      const amounts = part.lines ? part.amounts[0] : part.amounts[state.quantity];
+      const amounts = part.amounts[state.quantity];
       gl.uniform3fv(uniforms.colour, [16, 8, 0].map((bits) => ((part.colour >> bits) & 255) / 255));
       gl.uniform1f(uniforms.scaled, amounts ? 1 : 0);
-      gl.uniform1f(uniforms.lit, part.lines ? 0 : 1);
       attribute("place", part.places, 3, gl.FLOAT, false);
       attribute("normal", part.normals, 4, gl.BYTE, true);
       attribute("value", amounts, 1, gl.UNSIGNED_BYTE, false);
-      gl.drawArrays(part.lines ? gl.LINES : gl.TRIANGLES, 0, part.count);
+      gl.drawArrays(gl.TRIANGLES, 0, part.count);
     }
     figure.dataset.drawn = Number(figure.dataset.drawn || 0) + 1;
   }

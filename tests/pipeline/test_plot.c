@@ -126,7 +126,7 @@ static void an_empty_plot_is_a_plot(void **state) {
       .axis = "s", .count = 0, .series = series, .series_count = 1, .width = 300, .caption = "a <b>caption</b>"};
   for (int k = 0; k < 2; k++) {
     char *text = drawn(k ? cw_plot_bars : cw_plot_columns, &plot);
-    assert_int_equal(strncmp(text, "<svg ", 5), 0);
+    assert_int_equal(strncmp(text, "<figure><svg ", 13), 0);
     assert_non_null(strstr(text, "</svg>"));
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
