@@ -30,8 +30,8 @@ CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ..
     __attribute__((format(printf, 3, 4)));
 
 // Sets a value to "", to which texts (printf style) are then appended, or built-in files without their first line (the
-// licence), filled with the values: blocks of which a case has as many as its mesh has domains, patches or interfaces. What is
-// appended to must be started. CW_ERR_EXPORT where there is no such file, or a key in it has no value.
+// licence), filled with the values: blocks of which a case has as many as its mesh has domains, patches or interfaces.
+// What is appended to must be started. CW_ERR_EXPORT where there is no such file, or a key in it has no value.
 CwStatus cw_values_start(CwValues *values, const char *key);
 CwStatus cw_values_append(CwValues *values, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -149,6 +149,8 @@ typedef struct {
   double total_thickness; // m, the target of a column; NAN: that of all walls
 } CwWallGroup;
 
+enum { CW_LAYERS_MOST = 40 }; // that a case may ask for
+
 // Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one
 // for all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
 typedef struct {

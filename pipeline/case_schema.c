@@ -212,7 +212,7 @@ const CwCaseKey cw_case_keys[] = {
     WALL_GROUP("hub_shroud", hub_shroud, "on hub and shroud"),
     WALL_GROUP("volute", volute, "in the volute, on the tongue and in the neck"),
     WALL_GROUP("pipe", pipe, "in the suction and discharge pipes and in the diffuser"),
-    {"walls", "layer_count", CW_KEY_INT, CW_KEY_AUTO, "", 1, 40, 0, NULL, AT(walls.layer_count),
+    {"walls", "layer_count", CW_KEY_INT, CW_KEY_AUTO, "", 1, CW_LAYERS_MOST, 0, NULL, AT(walls.layer_count),
      "number of prism layers, on all walls; auto: as many as lead from the first height to the size of the "
      "tetrahedra, as far as mesh.cells has room for them"},
     REAL_AUTO("walls", "growth_ratio", "", 1, 2, walls.growth_ratio,

@@ -54,7 +54,7 @@ CwStatus cw_wall_curves_make(const CwContext *context, const CwBoundaryInput *in
                              CwWallCurves *curves);
 
 // Meshes the wall face `face` (any rank); the result is a byte buffer for cw_surface_mesh_make. Triangles larger than
-// with edges of `largest` (m; 0: none) are halved where shorter edges are wanted (patch_input.h).
+// an equilateral one on edges of `largest` (m; 0: none) are halved where shorter edges are wanted.
 CwStatus cw_surface_mesh_face(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face, double largest,
                               void **bytes, int64_t *size);
 // Joins the meshes of all wall faces (bytes[face]; NULL for open patches). Collective. Outcome: that of the first face

@@ -15,14 +15,6 @@ CwStatus cw_image_outlines(const CwBoundaryInput *in, CwFreeCurves *free_curves,
 CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *input,
                          CwLayers *layers, CwOutcome *outcome);
 
-// The member of the image set of v that comes after `at`, which is v or another; -1 after the last. Over all of them:
-//
-//   for (int32_t at = v, turns = 0; at >= 0; at = cw_image_after(images, at, v), turns++)
-static inline int32_t cw_image_after(const CwNodeImages *images, int32_t at, int32_t v) {
-  int32_t next = cw_image_node(images, at, 1);
-  return next == v ? -1 : next;
-}
-
 // The least of the members of the image set of wall vertex v that are on first faces (is_first), -1 where none is.
 int32_t cw_image_first_member(const CwNodeImages *images, const uint8_t *is_first, int32_t v);
 

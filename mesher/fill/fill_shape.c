@@ -8,7 +8,7 @@
 #include "mesher/common/tet.h"
 #include "mesher/fill/tet_topology.h"
 
-// By the least point, the middle one, the greatest and the owner.
+// By the least point, the middle one, the greatest and the owner: messages name the first face in this order.
 static int compare(const void *p, const void *q) {
   const CwTetSide *a = p, *b = q;
   if (a->ends >> 32 != b->ends >> 32) return a->ends < b->ends ? -1 : 1;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/fill/kernel.h"
 
-#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/give_back.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/delaunay.h"
@@ -169,7 +169,7 @@ static CwStatus finish(const CwFillInput *input, const CwKernelCore *core, CwTet
   if (facets.missing_count) goto done;
   CW_TRY(keep_inside(input, &facets, mesh));
   cw_facets_free(&facets);
-  malloc_trim(0); // what comes next is of other sizes, and would stand beside what has been freed at the peak
+  cw_give_back();
   CW_TRY(cw_tet_improve_mesh(mesh, core->fixed_count, &count, &changes));
   CW_TRY(cw_fill_from_mesh(mesh, core->fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(core, fill));
@@ -196,7 +196,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
   *outcome = CW_KERNEL_NOT_RECOVERED;
   CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &core, &count, &mesh));
-  malloc_trim(0); // as in finish()
+  cw_give_back();
   CW_TRY(cw_delaunay_connect(&mesh));
   CW_TRY(cw_kernel_core_carve(&core, &mesh));
   CW_TRY(finish(input, &core, &mesh, count, fill, outcome));

@@ -49,6 +49,8 @@ CwStatus cw_kernel_core_make(const CwFillInput *input, int32_t inner_count, cons
   for (int32_t f = 0; f < lattice->face_count; f++) {
     for (int i = 0; i < 3; i++) lattice->face[f][i] = number[lattice->face[f][i]];
   }
+  free(lattice->role); // it has told which points lie where
+  lattice->role = NULL;
 done:
   free(number);
   if (status != CW_OK) {

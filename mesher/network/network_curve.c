@@ -134,6 +134,9 @@ void cw_curve_fine_free(CwCurve *curve) {
   free(curve->fine_x);
   free(curve->fine_parameter);
   free(curve->fine_length);
+  curve->fine_x = NULL;
+  curve->fine_parameter = NULL;
+  curve->fine_length = NULL;
 }
 
 CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve) {

@@ -149,7 +149,7 @@ CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBac
   for (int v = 0; v < cw_cad_vertex_count(cad); v++) {
     CwCorner corner = {{0}, -1, -1, 0, v, {-1, -1, -1}, 0};
     cw_cad_vertex_point(cad, v, corner.x);
-    CW_TRY(cw_network_corner(network, &corner, 0, &number)); // v: no other has that vertex
+    CW_TRY(cw_network_corner(network, &corner, 0, &number)); // number: v
   }
   CW_TRY_STAGE(cw_network_trace_all(context, network, background, outcome), outcome);
   CW_TRY_STAGE(check_both_sides(network, outcome), outcome);

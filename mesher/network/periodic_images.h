@@ -33,6 +33,15 @@ CwStatus cw_image_link(CwNodeImages *images, int32_t node, int32_t next, int32_t
 CwStatus cw_image_link_copy(CwNodeImages *images, int32_t node, int32_t count, int32_t turns, int32_t copies);
 int32_t cw_image_node(const CwNodeImages *images, int32_t node, int32_t turns);
 int32_t cw_image_node_turns(const CwNodeImages *images, int32_t node);
+
+// The member of the image set of v that comes after `at`, which is v or another; -1 after the last. Over all of them:
+//
+//   for (int32_t at = v, turns = 0; at >= 0; at = cw_image_after(images, at, v), turns++)
+static inline int32_t cw_image_after(const CwNodeImages *images, int32_t at, int32_t v) {
+  int32_t next = cw_image_node(images, at, 1);
+  return next == v ? -1 : next;
+}
+
 CwStatus cw_node_images_copy(const CwNodeImages *images, CwNodeImages *copy);
 void cw_node_images_arrays(CwNodeImages *images, CwArrayVisit visit, void *given);
 void cw_node_images_free(CwNodeImages *images);

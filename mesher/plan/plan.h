@@ -28,7 +28,7 @@ typedef struct {
   CwPlane plane;    // child[0] lies on the negative side
   int32_t parent;   // -1 for the root; of a half-plane the plane above the sectors
   int32_t child[2]; // node, or -1 - region for a leaf
-  double worst;     // least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
+  double worst;     // sine of the sharpest angle with the walls crossed or their layers; 1: normal
 } CwPlanNode;
 
 typedef struct {
@@ -61,7 +61,7 @@ int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
 // The part of the line plane(a) . x, plane(b) . x as point and unit direction; 0 where the planes are nearly parallel.
 int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]);
 
-// Empties a plan, with room for so many nodes and regions.
+// Begins a plan, with room for so many nodes and regions.
 CwStatus cw_plan_new(size_t room, CwPlan *plan);
 void cw_plan_free(CwPlan *plan);
 

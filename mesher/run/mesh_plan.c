@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/common/give_back.h"
 #include "mesher/run/mesh_plan.h"
 
-#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -441,9 +441,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     log_plan(run, d);
   }
-#ifdef __GLIBC__
-  malloc_trim(0); // what planning has left free lies between what stays
-#endif
+  cw_give_back(); // it lies between what stays
   if (run->rank == 0) {
     CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->model.domain_count, "domains"));
   }

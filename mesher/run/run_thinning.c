@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/boundary/periodic_boundary.h"
+#include "mesher/network/periodic_images.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/policy.h"
 #include "pipeline/log.h"

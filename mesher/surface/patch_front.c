@@ -19,7 +19,7 @@ typedef struct {
   Entry *entry;
   int32_t count, room;
   int32_t (*queue)[2]; // first and last entry; first -1: empty
-  int32_t queue_count, queue_room, current;
+  int32_t queue_count, queue_space, current;
   int32_t *row; // of each point
   int32_t row_room;
 } Front;
@@ -27,7 +27,7 @@ typedef struct {
 static CwStatus push(Front *front, int32_t t, int32_t a, int32_t b) {
   CwStatus status = CW_OK;
   int32_t rows = front->row[a] + front->row[b], n = front->count;
-  CW_GROW(front->queue, front->queue_room, rows + 1);
+  CW_GROW(front->queue, front->queue_space, rows + 1);
   for (; front->queue_count <= rows; front->queue_count++) front->queue[front->queue_count][0] = -1;
   CW_GROW(front->entry, front->room, n + 1);
   front->entry[n] = (Entry){t, a, b, -1};

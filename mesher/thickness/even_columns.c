@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/boundary/periodic_boundary.h"
+#include "mesher/network/periodic_images.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/parallel_for.h"

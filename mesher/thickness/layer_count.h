@@ -7,7 +7,7 @@
 #ifndef CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
 #define CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
 
-#include "mesher/thickness/layer_thickness.h"
+#include "pipeline/case.h"
 
 // Of the tetrahedron's thickness, that of the last layer: what columns grow to, what is enough, and the most where the
 // case gives the growth.

@@ -4,6 +4,8 @@
 #ifndef CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
 #define CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
 
+#include "pipeline/case.h"
+
 // First height of a layer for a y+ target (m): y = y+ nu / u_tau, u_tau = U sqrt(Cf/2), Cf = 0.026 Re^(-1/7),
 // Re = U L / nu; twice that where y+ is counted at the cell centre (`at_centre`).
 double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre);
@@ -11,7 +13,6 @@ double cw_first_height(double y_plus, double velocity, double length, double kin
 // Total thickness of `count` layers from `first` with growth ratio `growth`, m.
 double cw_layer_thickness(double first, int count, double growth);
 
-enum { CW_LAYERS_MOST = 40 }; // that the case file allows
 // Policy: of an automatic y+ and an automatic number of layers the number grows first, up to this, then y+ up to the
 // end of the log layer, then the number again.
 enum { CW_LAYER_COUNT_USUAL = 6 };
