@@ -25,14 +25,15 @@ Handle(Geom_BSplineCurve) cw_bspline_curve_3d(const std::vector<double> &paramet
 Handle(Geom_BSplineSurface)
     cw_bspline_surface(const std::vector<double> &u, const std::vector<double> &v, const std::vector<gp_Pnt> &points);
 
-// Curve over [a, b] through f at `count` even parameters.
+// Curve over [a, b] through f at `count` even parameters, at least 4.
 Handle(Geom2d_BSplineCurve)
     cw_bspline_curve_2d(int count, double a, double b, const std::function<gp_Pnt2d(double)> &f);
 
 // Straight from p at the parameter a to q at b.
 Handle(Geom2d_BSplineCurve) cw_bspline_line_2d(double a, double b, const gp_Pnt2d &p, const gp_Pnt2d &q);
 
-// Surface over [0,1] x [0,1] through f at u_count even parameters and, along v, at as many or at the given places.
+// Surface over [0,1] x [0,1] through f at u_count even parameters and, along v, at v_count or at the given places: at
+// least 4 each way.
 using CwPointOfTwo = std::function<gp_Pnt(double, double)>;
 Handle(Geom_BSplineSurface) cw_bspline_surface(int u_count, int v_count, const CwPointOfTwo &f);
 Handle(Geom_BSplineSurface) cw_bspline_surface(int u_count, const std::vector<double> &v, const CwPointOfTwo &f);

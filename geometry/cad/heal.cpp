@@ -174,7 +174,7 @@ CwStatus heal_part(double tolerance, const CwCadFrame &frame, CwLog *log, double
     BRepLib::OrientClosedSolid(turned);
     solid = turned;
   }
-  if (solid.IsSame(given)) { // but perhaps turned inside out
+  if (solid.IsSame(given)) { // the same faces, perhaps reversed
     part.solid = solid;
     return CW_OK;
   }

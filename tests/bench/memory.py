@@ -83,7 +83,8 @@ def main():
             for ranks in options.ranks:
                 run = Path(folder) / "run"
                 shutil.copytree(geometry, run)
-                row = [watch(stage_line(programs, stage, case, run, cells, ranks), programs / f"cutwater-{stage}")
+                row = [watch(stage_line(programs, stage, case, run, cells, ranks),
+                             (programs / f"cutwater-{stage}").resolve())
                        for stage in ("mesh", "export")]
                 made = record(run)["results"]
                 count = sum(domain[kind] for domain in made["domains"] for kind in ("tetrahedra", "prisms"))

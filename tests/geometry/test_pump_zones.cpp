@@ -86,6 +86,7 @@ static void check_zones(CwCase table) {
         for (const CwSolidFace &face : zones.solid[d]->faces)
           if (face.patch == between->patch[s]) found[s] = d;
     assert_true(found[0] >= 0 && found[1] >= 0);
+    assert_int_not_equal(found[0], found[1]);
     if (i > 0) same_outline(zones.solid[found[0]], between->patch[0], zones.solid[found[1]], between->patch[1]);
   }
   outline(zones.solid[2], "inlet", "inlet");

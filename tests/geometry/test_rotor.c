@@ -14,7 +14,6 @@
 
 static const double degree = M_PI / 180;
 
-// The B-rep's volume and that of the sections.
 static void paper_rotor(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);

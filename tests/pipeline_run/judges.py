@@ -23,8 +23,10 @@ def failed_checks(told):
 
 
 def interfaces_are_covered(test, told, least=0.98):
-    """checkMesh tells of interfaces whose faces meet the other side; which sides, a side an interface."""
+    """checkMesh tells of interfaces, and their faces meet those of the other side. Returns "source" or "target" of each
+    side told of."""
     weights = re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", told)
+    test.assertTrue(weights, told[-2000:])
     for side, low, high in weights:
         test.assertGreater(float(low), least, side)
         test.assertLess(float(high), 1.02, side)
