@@ -12,6 +12,7 @@ from pathlib import Path
 from cutwater import ENVIRONMENT, command, digests, done, error_lines, execute, fresh, regions
 
 COUNT, CELLS = 3, 150000
+SHARED = 1500000  # cells of which the surfaces are worth memory that a host shares
 ONE_PASS = 300000  # cells that come in one pass: no region that is whole is made again
 SLOWER, PAIRS = 1.5, 6  # at most, in the best of so many runs each
 HOSTS = Path(__file__).with_name("hosts.sh")
@@ -75,14 +76,17 @@ class Hosts(unittest.TestCase):
                 self.assertEqual(digests(run / "mesh"), digests(self.one / "mesh"))
 
     def test_hosts_of_other_numbers_of_ranks(self):
+        whole = self.with_geometry("even")
+        for stage in ("mesh", "export"):
+            done(self, stage, whole, cells=SHARED, ranks=2)
         for slots in ((2, 1), (1, 2), (1, 3, 2)):
             with self.subTest(slots):
                 run = self.with_geometry("uneven")
                 hosts = ",".join(f"10.77.0.{k + 1}:{slots_of}" for k, slots_of in enumerate(slots))
                 for stage in ("mesh", "export"):
-                    result = on_hosts(*without_launcher(stage, run), where=("--host", hosts))
+                    result = on_hosts(*without_launcher(stage, run, SHARED), where=("--host", hosts))
                     self.assertEqual(result.returncode, 0, result.stdout)
-                    self.assertEqual(digests(run / stage), digests(self.one / stage))
+                    self.assertEqual(digests(run / stage), digests(whole / stage))
 
     def test_not_much_slower_than_one_host(self):
         seconds = {"one": [], "several": []}
