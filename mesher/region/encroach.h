@@ -23,9 +23,8 @@ CwStatus cw_beside_make(const double origin[3], const double axis[3][3], double 
                         const double (*x)[3], CwBeside *beside);
 void cw_beside_free(CwBeside *beside);
 
-// Centre and radius of the circle that stands for the triangle's sphere: 5 % larger than the circumscribed one, so that
-// a Delaunay mesh of what lies outside holds the triangle surely. That of a needle reaches no further than its longest
-// edge. Returns 0 for a triangle without area.
+// Centre and radius of the circle that stands for the triangle's sphere: the circumscribed one times the policy's
+// interface_sphere; that of a needle reaches no further than its longest edge. Returns 0 for a triangle without area.
 int cw_encroach_circle(const double a[2], const double b[2], const double c[2], double centre[2], double *radius);
 
 // Calls candidates in the sphere over a circle: sets mark[candidate] where `mark` is given. Returns how many there are.
@@ -43,8 +42,9 @@ typedef struct {
 
 // Constrained Delaunay triangulation of the patch (points without edges are free), with the centre of the circumscribed
 // circle of each triangle inserted that holds a candidate in its sphere, again and again until no more can be. A centre
-// is refused where the size field asks for no point: nearer than LEAST_DISTANCE times the wanted length to another
-// point, or LEAST_HEIGHT times to an edge of the outline, or outside. The patch's map must be an isometry.
+// is refused where the size field asks for no point: nearer to another point than the policy's
+// surface_least_distance times the wanted length, or than boundary_distance times it to an edge of the outline, or
+// outside. The patch's map must be an isometry.
 // Deterministic.
 CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, CwEncroachRefined *refined);
 void cw_encroach_refined_free(CwEncroachRefined *refined);
