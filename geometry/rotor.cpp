@@ -100,8 +100,8 @@ CwSolid *RotorMaker::build() {
     if (!blade[i].shape->seam) blade_faces(i);
   }
   if (!has_shaft) {
-    disk(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", CW_PATCH_WALL, "hub_nut_end");
-    disk(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", CW_PATCH_INLET, "inlet");
+    disk_face(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", CW_PATCH_WALL, "hub_nut_end");
+    disk_face(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", CW_PATCH_INLET, "inlet");
   }
   return shell.finish("rotor", unit);
 }

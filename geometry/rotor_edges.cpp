@@ -12,7 +12,7 @@
 #include "geometry/bspline_fit.hpp"
 
 // Axes whose x axis is the zero of the parameter planes of the passage behind blade i.
-gp_Ax3 RotorMaker::frame(int i, double z) const {
+gp_Ax3 RotorMaker::blade_axes(int i, double z) const {
   const double angle = zero_of(i);
   return gp_Ax3(gp_Pnt(0, 0, scale * z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
 }
@@ -154,21 +154,22 @@ void RotorMaker::arcs(int i) {
   RotorBlade &b = blade[i];
   const RotorBlade &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
-  const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
-    return shell.edge(new Geom_Circle(frame(i, height).Ax2(), scale * r), from + near_of(i), to + far_of(i), begin,
+  const auto arc_to_next = [&](double r, double height, double from, double to, int begin, int end) {
+    return shell.edge(new Geom_Circle(blade_axes(i, height).Ax2(), scale * r), from + near_of(i), to + far_of(i), begin,
                       end);
   };
   for (int w : {CW_HUB, CW_SHROUD}) {
-    b.a_out[w] = arc(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w], b.out[w],
-                     next.out[w]);
-    b.a_up[w] = arc(curve[w]->pole[0][0], curve[w]->pole[0][1], s.theta_up[w], f.theta_up[w], b.up[w], next.up[w]);
+    b.a_out[w] = arc_to_next(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w],
+                             b.out[w], next.out[w]);
+    b.a_up[w] =
+        arc_to_next(curve[w]->pole[0][0], curve[w]->pole[0][1], s.theta_up[w], f.theta_up[w], b.up[w], next.up[w]);
   }
-  b.a_end[CW_SHROUD] = arc(design->inlet_diameter / 2, meridian.inlet_z, s.theta_up[CW_SHROUD], f.theta_up[CW_SHROUD],
-                           b.inlet, next.inlet);
-  b.a_end[CW_HUB] = has_nut ? arc(meridian.nut_disk_radius, meridian.nut_end_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB],
-                                  b.disk, next.disk)
+  b.a_end[CW_SHROUD] = arc_to_next(design->inlet_diameter / 2, meridian.inlet_z, s.theta_up[CW_SHROUD],
+                                   f.theta_up[CW_SHROUD], b.inlet, next.inlet);
+  b.a_end[CW_HUB] = has_nut ? arc_to_next(meridian.nut_disk_radius, meridian.nut_end_z, s.theta_up[CW_HUB],
+                                          f.theta_up[CW_HUB], b.disk, next.disk)
                             : b.a_up[CW_HUB];
   if (has_shaft)
-    b.a_shaft =
-        arc(meridian.shaft_radius, meridian.inlet_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB], b.shaft, next.shaft);
+    b.a_shaft = arc_to_next(meridian.shaft_radius, meridian.inlet_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB], b.shaft,
+                            next.shaft);
 }

@@ -16,16 +16,16 @@
 
 namespace {
 
-Handle(Geom2d_Curve) line(double u, double v, double du, double dv) {
+Handle(Geom2d_Curve) line_in_plane(double u, double v, double du, double dv) {
   return new Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv));
 }
 
 // Line u = t or v = t of a B-spline surface whose edge has the same parameter.
 Handle(Geom2d_Curve) along_u(double v) {
-  return line(0, v, 1, 0);
+  return line_in_plane(0, v, 1, 0);
 }
 Handle(Geom2d_Curve) along_v(double u) {
-  return line(u, 0, 0, 1);
+  return line_in_plane(u, 0, 0, 1);
 }
 
 Handle(Geom2d_Curve) moved(const Handle(Geom2d_BSplineCurve) & curve, double du) {
@@ -54,7 +54,7 @@ Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
 
 // Axes and parameter plane are those of the passage behind blade i.
 Handle(Geom_Surface) RotorMaker::cylinder(int i, double r) const {
-  return new Geom_CylindricalSurface(frame(i), scale * r);
+  return new Geom_CylindricalSurface(blade_axes(i), scale * r);
 }
 
 // Hub or shroud between a blade and the next.
@@ -119,7 +119,7 @@ void RotorMaker::inlet_ring_face(int i) {
   const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
     return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), scale * r);
   };
-  shell.face(new Geom_Plane(frame(i, meridian.inlet_z)),
+  shell.face(new Geom_Plane(blade_axes(i, meridian.inlet_z)),
              {{b.e_inlet, true, spoke(*b.shape, near_of(i))},
               {b.a_end[CW_SHROUD], true, circle(design->inlet_diameter / 2)},
               {next.e_inlet, false, spoke(*next.shape, far_of(i))},
@@ -133,7 +133,7 @@ void RotorMaker::interface_face(int i) {
   // An axial line has its length as its parameter, a helix 0 to 1.
   const auto across = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
     if (shape.theta_corner[CW_HUB] == shape.theta_corner[CW_SHROUD])
-      return line(shape.theta_corner[CW_HUB] + offset, -half, 0, 1);
+      return line_in_plane(shape.theta_corner[CW_HUB] + offset, -half, 0, 1);
     TColgp_Array1OfPnt2d poles(1, 2);
     poles.SetValue(1, gp_Pnt2d(shape.theta_corner[CW_SHROUD] + offset, -half));
     poles.SetValue(2, gp_Pnt2d(shape.theta_corner[CW_HUB] + offset, half));
@@ -183,8 +183,8 @@ void RotorMaker::blade_faces(int i) {
 
 // A flat end: one disk, bounded by the arcs of the passages. The plane's axes are those of passage 0, the
 // arcs' those of their own passage.
-void RotorMaker::disk(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind,
-                      const char *name) {
+void RotorMaker::disk_face(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind,
+                           const char *name) {
   std::vector<CwEdgeUse> loop;
   for (size_t i = 0; i < blade.size(); i++) {
     const double angle = zero_of((int)i);

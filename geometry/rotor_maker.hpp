@@ -61,7 +61,7 @@ private:
   gp_Pnt at(double r, double theta, double z) const {
     return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
   }
-  gp_Ax3 frame(int i, double z = 0) const;
+  gp_Ax3 blade_axes(int i, double z = 0) const;
   Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
   Handle(Geom_Curve) nut_curve(double theta) const;
   Handle(Geom_Surface) cylinder(int i, double r) const;
@@ -77,7 +77,7 @@ private:
   void inlet_ring_face(int i);
   void interface_face(int i);
   void blade_faces(int i);
-  void disk(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind, const char *name);
+  void disk_face(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind, const char *name);
   CwStatus seams(double last);
   // The parameter planes of the passage behind blade i: the angle where they begin, and what is added in them to the
   // angles of blade i and of the next blade, which may be the first of its pitch.

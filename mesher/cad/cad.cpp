@@ -209,7 +209,7 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
   const CwCadFace &f = cad->face[face];
   const gp_Pnt target(x[0] / cad->unit, x[1] / cad->unit, x[2] / cad->unit);
   double at[2] = {uv[0], uv[1]};
-  f.clamp(at);
+  f.keep_in_ranges(at);
   gp_Pnt p;
   gp_Vec first[2];
   CwCadSecond second;
@@ -226,7 +226,7 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
     bool nearer = false;
     for (int halving = 0; halving < 12 && !nearer; halving++, step[0] /= 2, step[1] /= 2) {
       double next[2] = {at[0] + step[0], at[1] + step[1]};
-      f.clamp(next);
+      f.keep_in_ranges(next);
       if (f.point(next).Distance(target) >= distance) continue;
       nearer = true;
       std::copy(next, next + 2, at);

@@ -45,7 +45,7 @@ void CwCadFace::derive(const double uv[2], gp_Pnt &p, gp_Vec first[2], CwCadSeco
   p = point(uv);
 }
 
-void CwCadFace::clamp(double uv[2]) const {
+void CwCadFace::keep_in_ranges(double uv[2]) const {
   if (pole.is) pole.to_surface(uv);
   uv[0] = std::clamp(uv[0], u_range[0], u_range[1]);
   uv[1] = std::clamp(uv[1], v_range[0], v_range[1]);

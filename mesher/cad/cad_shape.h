@@ -38,7 +38,7 @@ struct CwCadFace {
 
   gp_Pnt point(const double uv[2]) const;
   void derive(const double uv[2], gp_Pnt &p, gp_Vec first[2], CwCadSecond *second) const; // second: may be null
-  void clamp(double uv[2]) const;                                                         // into the ranges
+  void keep_in_ranges(double uv[2]) const;
 };
 
 struct CwCadEdge;
