@@ -9,8 +9,8 @@
 #   make check-long                          the long ones
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
 #   make -C cases NAME                       another case; `make -C cases` lists them
-#   make measurements [SECTIONS="scale cases"]  the benches, for docs/measurements.md (hours)
-#   make verify [PARTS="heads ubaldi"]      solved flows beside published ones, for docs/verification.md (hours)
+#   make measurements [SECTIONS="scale cases"]  the benches; writes docs/measurements.md (hours)
+#   make verify [PARTS="heads ubaldi"]      solved flows beside published ones; writes docs/verification.md (hours)
 #   make dist                                an archive of the last commit that builds without git, in build/
 #   make clean                               removes build/ (runs/ stays)
 #
