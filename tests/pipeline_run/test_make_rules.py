@@ -174,6 +174,10 @@ class FrontDoor(unittest.TestCase):
         self.assertIn(f"-n 3 {SOURCE}/build/bin/cutwater-mesh --case {SOURCE}/cases/paper/case.yaml --run /nowhere/run "
                       "--cells 2M", told)
 
+    def test_parts_and_sections_reach_the_benches(self):
+        self.assertIn("tests/bench/verify.py heads ubaldi\n", self.make("verify", "PARTS=heads ubaldi").stdout)
+        self.assertIn("tests/bench/measurements.py scale\n", self.make("measurements", "SECTIONS=scale").stdout)
+
     def test_the_flow_is_solved_by_the_ranks_of_this_machine(self):
         told = self.make("solve", "LAUNCHER=srun -n 64", "NP=6").stdout
         self.assertIn(f"srun -n 64 {SOURCE}/build/bin/cutwater-mesh", told)
