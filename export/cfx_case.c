@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/cfx_case.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
+#include "export/case_values.h"
 #include "export/folder.h"
+#include "export/interface.h"
 #include "export/patch_role.h"
-#include "export/template.h"
-#include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
 
-// What names the two sides of an interface: its name, "ROTOR STATOR", zones and patches.
+// What names the two sides of an interface: its name, "ROTOR STATOR", "ROTOR STATOR 2", ..., zones and patches.
 static CwStatus set_interface(const CwMesh *mesh, int interface, CwValues *values) {
   CwStatus status = CW_OK;
   const CwModelPatch *side[2];
+  const int before = cw_interfaces_before(mesh, interface, 0);
   for (int s = 0; s < 2; ++s) side[s] = &mesh->patches[mesh->interfaces[interface].patch[s]];
   CW_TRY(cw_values_set(values, "zone_a", "%s", mesh->domains[side[0]->domain].zone));
   CW_TRY(cw_values_set(values, "zone_b", "%s", mesh->domains[side[1]->domain].zone));
   CW_TRY(cw_values_set(values, "between", "%s %s", mesh->domains[side[0]->domain].zone,
                        mesh->domains[side[1]->domain].zone));
+  if (before) CW_TRY(cw_values_append(values, "between", " %d", before + 1));
   CW_TRY(cw_values_set(values, "patch_a", "%s", side[0]->name));
   CW_TRY(cw_values_set(values, "patch_b", "%s", side[1]->name));
 done:
@@ -70,31 +70,25 @@ static int is_first(const CwMesh *mesh, int domain, int turning) {
   return 1;
 }
 
-enum { WALL_NAME_SIZE = CW_MESH_NAME_SIZE + 20 };
-
-// What the boundary of a domain's walls is called that turn, or do not. The first ones have names of their own.
-static void wall_name(const CwMesh *mesh, int domain, int turning, char name[WALL_NAME_SIZE]) {
+// Sets "wall_name", what the boundary of a domain's walls is called that turn, or do not. The first ones have names of
+// their own.
+static CwStatus set_wall_name(const CwMesh *mesh, int domain, int turning, CwValues *values) {
   const CwMeshDomain *of = &mesh->domains[domain];
-  const int first = is_first(mesh, domain, turning);
-  if (!turning && !of->rotating && first)
-    snprintf(name, WALL_NAME_SIZE, "casing");
-  else if (!turning)
-    snprintf(name, WALL_NAME_SIZE, of->rotating ? "%s fixed walls" : "%s walls", of->name);
-  else if (of->rotating)
-    snprintf(name, WALL_NAME_SIZE, first ? "impeller" : "%s impeller", of->name);
-  else
-    snprintf(name, WALL_NAME_SIZE, first ? "shaft" : "%s shaft", of->name);
+  const int first = is_first(mesh, domain, turning), alone = first && (turning || !of->rotating);
+  const char *what = turning        ? (of->rotating ? "impeller" : "shaft")
+                     : of->rotating ? "fixed walls"
+                     : first        ? "casing"
+                                    : "walls";
+  return cw_values_set(values, "wall_name", "%s%s%s", alone ? "" : of->name, alone ? "" : " ", what);
 }
 
 // Adds the walls of a domain that turn, or do not, as one boundary; none where it has none.
 static CwStatus add_walls(const CwAssembly *a, int domain, int turning, CwValues *values) {
   CwStatus status = CW_OK;
   const int rotating = a->mesh->domains[domain].rotating != 0;
-  char name[WALL_NAME_SIZE];
   if (!cw_patch_count(a, domain, walls_that(turning))) return CW_OK;
   CW_TRY(cw_patch_names_set(a, domain, walls_that(turning), ",", "wall_patches", values));
-  wall_name(a->mesh, domain, turning, name);
-  CW_TRY(cw_values_set(values, "wall_name", "%s", name));
+  CW_TRY(set_wall_name(a->mesh, domain, turning, values));
   CW_TRY(cw_values_set(values, "frame_type", "%s", rotating ? "      Frame Type = Rotating\n" : ""));
   CW_TRY(cw_values_start(values, "wall_velocity"));
   if (rotating != turning)
@@ -117,9 +111,8 @@ static CwStatus set_domains(const CwAssembly *a, double mass_flow, CwValues *val
     CW_TRY(add_walls(a, d, !rotating, values));
     CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
     CW_TRY(set_boundaries(mesh, d, mass_flow, values));
-    CW_TRY(cw_values_start(values, "domain_motion"));
-    CW_TRY(cw_values_append_file(values, "domain_motion",
-                                 rotating ? "cfx_parts/motion_rotating.ccl" : "cfx_parts/motion_stationary.ccl"));
+    CW_TRY(cw_values_set_file(values, "domain_motion",
+                              rotating ? "cfx_parts/motion_rotating.ccl" : "cfx_parts/motion_stationary.ccl"));
     CW_TRY(cw_values_append_file(values, "domains", "cfx_parts/domain.ccl"));
     CW_TRY(cw_values_append_file(values, "domains_les", "cfx_parts/transient_domain.ccl"));
   }
@@ -154,13 +147,13 @@ done:
 // Of the water on all boundaries that turn.
 static CwStatus set_torque(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  char name[WALL_NAME_SIZE];
   int count = 0;
   CW_TRY(cw_values_start(values, "torque"));
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     if (!cw_patch_count(a, d, cw_patch_turns)) continue;
-    wall_name(a->mesh, d, 1, name);
-    CW_TRY(cw_values_append(values, "torque", "%s-torque_z()@%s", count++ ? " " : "", name));
+    CW_TRY(set_wall_name(a->mesh, d, 1, values));
+    CW_TRY(
+        cw_values_append(values, "torque", "%s-torque_z()@%s", count++ ? " " : "", cw_values_get(values, "wall_name")));
   }
   if (!count) CW_TRY(cw_values_set(values, "torque", "0 [N m]"));
 done:
@@ -170,20 +163,17 @@ done:
 // Mean and greatest y+ of each boundary of walls, as expressions and as monitors of these.
 static CwStatus set_y_plus(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  static const struct { const char *what, *function; } kinds[] = {{"mean", "areaAve"}, {"greatest", "maxVal"}};
-  char name[WALL_NAME_SIZE];
+  static const char *const kinds[][2] = {{"mean", "areaAve"}, {"greatest", "maxVal"}};
   CW_TRY(cw_values_start(values, "y_plus_expressions"));
   CW_TRY(cw_values_start(values, "y_plus_monitors"));
   for (int wall = 0; wall < 2 * a->mesh->domain_count; ++wall) {
     if (!cw_patch_count(a, wall / 2, walls_that(wall % 2))) continue;
-    wall_name(a->mesh, wall / 2, wall % 2, name);
+    CW_TRY(set_wall_name(a->mesh, wall / 2, wall % 2, values));
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k) {
-      CW_TRY(cw_values_append(values, "y_plus_expressions", "      %s y plus of %s = %s(Yplus)@%s\n", kinds[k].what,
-                              name, kinds[k].function, name));
-      CW_TRY(cw_values_append(values, "y_plus_monitors",
-                              "      MONITOR POINT: %s y plus of %s\n        Expression Value = %s y plus of %s\n"
-                              "        Option = Expression\n      END\n",
-                              kinds[k].what, name, kinds[k].what, name));
+      CW_TRY(cw_values_set(values, "y_plus", "%s", kinds[k][0]));
+      CW_TRY(cw_values_set(values, "function", "%s", kinds[k][1]));
+      CW_TRY(cw_values_append_file(values, "y_plus_expressions", "cfx_parts/y_plus_expression.ccl"));
+      CW_TRY(cw_values_append_file(values, "y_plus_monitors", "cfx_parts/y_plus_monitor.ccl"));
     }
   }
 done:
@@ -200,10 +190,8 @@ static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
       turning |= mesh->domains[mesh->patches[mesh->interfaces[i].patch[side]].domain].rotating;
     CW_TRY(set_interface(mesh, i, values));
     CW_TRY(cw_values_set(values, "frame_change", "%s", turning ? "Frozen Rotor" : "None"));
-    CW_TRY(cw_values_set(values, "pitch_change", "%s",
-                         turning ? "Specified Pitch Angles\n        Pitch Angle Side1 = 360 [degree]\n"
-                                   "        Pitch Angle Side2 = 360 [degree]"
-                                 : "None"));
+    CW_TRY(cw_values_set_file(values, "pitch_change",
+                              turning ? "cfx_parts/pitch_turning.ccl" : "cfx_parts/pitch_none.ccl"));
     CW_TRY(cw_values_append_file(values, "interfaces", "cfx_parts/interface.ccl"));
     if (turning)
       CW_TRY(cw_values_append_file(values, "transient_interfaces", "cfx_parts/transient_interface_turning.ccl"));
@@ -215,28 +203,16 @@ done:
 // The set-up at a flow rate (m3/s); its steady files are called `setup`.
 static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow, const char *setup, CwValues *values) {
   CwStatus status = CW_OK;
-  const CwOperatingPoint *point = &table->operating_point;
   const CwMesh *mesh = a->mesh;
-  CW_TRY(cw_values_set(values, "case", "%s", table->name));
+  CW_TRY(cw_case_values_set(table, values));
   CW_TRY(cw_values_set(values, "setup", "%s", setup));
-  CW_TRY(cw_values_set(values, "speed_rpm", "%.9g", point->speed * 30 / M_PI));
   CW_TRY(cw_values_set(values, "mass_flow", "%.9g", flow * table->fluid.density));
-  CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", point->inlet_pressure));
   CW_TRY(cw_values_set(values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
   // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of
   // OpenFOAM.
-  if (table->walls.roughness > 0)
-    CW_TRY(cw_values_set(values, "wall_roughness",
-                         "Option = Rough Wall\n          Sand Grain Roughness Height = %.9g [micron]",
-                         1e6 * table->walls.roughness));
-  else
-    CW_TRY(cw_values_set(values, "wall_roughness", "Option = Smooth Wall"));
-  CW_TRY(cw_values_set(values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
-  CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
-  CW_TRY(cw_values_set(values, "dynamic_viscosity", "%.9g", table->fluid.density * table->fluid.kinematic_viscosity));
-  CW_TRY(cw_values_set(values, "time_step", "%.9g", point->time_step_angle / point->speed));
-  CW_TRY(cw_values_set(values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
-  CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / point->speed));
+  CW_TRY(cw_values_set_file(values, "wall_roughness",
+                            table->walls.roughness > 0 ? "cfx_parts/wall_rough.ccl" : "cfx_parts/wall_smooth.ccl"));
+  CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
   CW_TRY(set_domains(a, flow * table->fluid.density, values));
   CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));
   CW_TRY(set_ends(mesh, CW_PATCH_OUTLET, "outlet_pressure", "outlet_mass_flow", values));
@@ -251,26 +227,20 @@ done:
 static CwStatus write_points(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  char *path = NULL, setup[16 + CW_POINT_NAME_SIZE];
+  char *path = NULL, *setup = NULL;
   CwCasePoint points[CW_LIST_MOST];
   const int count = cw_case_points(table, points);
-  const char *const kinds[] = {"pre", "ccl"};
-  CW_TRY(cw_path_set(&path, "%s/points", folder));
-  CW_TRY(cw_make_directory(path));
   for (int k = 0; k < count; ++k) {
-    snprintf(setup, sizeof setup, "points/%.*s", CW_POINT_NAME_SIZE - 1, points[k].name);
+    CW_TRY(cw_path_set(&setup, "points/%s", points[k].name));
     CW_TRY(set_values(table, a, points[k].flow, setup, &values));
-    for (size_t kind = 0; kind < 2; ++kind) {
-      char built_in[32];
-      snprintf(built_in, sizeof built_in, "cfx/steady.%s", kinds[kind]);
-      CW_TRY(cw_path_set(&path, "%s/%s.%s", folder, setup, kinds[kind]));
-      CW_TRY(cw_template_write(cw_template_find(built_in), path, &values));
-    }
+    CW_TRY(cw_path_set(&path, "%s/%s", folder, setup));
+    CW_TRY(cw_templates_write("cfx/steady", path, NULL, &values));
     cw_values_free(&values);
   }
 done:
   cw_values_free(&values);
   free(path);
+  free(setup);
   return status;
 }
 
@@ -278,7 +248,7 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAsse
   CwStatus status = CW_OK;
   CwValues values = {0};
   CW_TRY(set_values(table, a, table->operating_point.flow_rate, "steady", &values));
-  CW_TRY(cw_templates_write("cfx/", folder, NULL, &values));
+  CW_TRY(cw_templates_write("cfx", folder, NULL, &values));
   CW_TRY(write_points(folder, table, a));
 done:
   cw_values_free(&values);

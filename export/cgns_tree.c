@@ -115,17 +115,6 @@ done:
   return status;
 }
 
-// Interfaces before this one from the same domain to the same other one: two zones may meet in several surfaces.
-static int connections_before(const CwMesh *mesh, int number, int side) {
-  int count = 0;
-  const CwModelPatch *patch = mesh->patches;
-  for (int i = 0; i < number; ++i)
-    for (int s = 0; s < 2; ++s)
-      count += patch[mesh->interfaces[i].patch[s]].domain == patch[mesh->interfaces[number].patch[side]].domain &&
-               patch[mesh->interfaces[i].patch[1 - s]].domain == patch[mesh->interfaces[number].patch[1 - side]].domain;
-  return count;
-}
-
 // The connection of one side of an interface, in the ZoneGridConnectivity of its zone.
 static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const CwInterface *interface, int side,
                                int wide) {
@@ -140,7 +129,7 @@ static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const
   char name[48]; // no more than CGNS's 32 are used
   CW_NEW(donors, count);
   for (int64_t i = 0; i < count; ++i) donors[i] = donor_first + interface->donor[side][i];
-  int again = connections_before(mesh, number, side);
+  int again = cw_interfaces_before(mesh, number, side);
   snprintf(name, sizeof name, "%.14s_to_%.14s", here->name, there->name);
   if (again) snprintf(name, sizeof name, "%.12s_to_%.12s_%d", here->name, there->name, again + 1);
   CW_TRY(cw_cgns_text(all, name, "GridConnectivity_t", there->zone, &one));

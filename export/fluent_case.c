@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/fluent_case.h"
 
+#include "export/case_values.h"
 #include "export/patch_role.h"
 
 static CwStatus add_patch(const CwCase *table, const CwMesh *mesh, const CwModelPatch *patch, CwValues *values) {
@@ -53,16 +54,11 @@ done:
 CwStatus cw_fluent_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  CW_TRY(cw_values_set(&values, "case", "%s", table->name));
-  CW_TRY(cw_values_set(&values, "density", "%.9g", table->fluid.density));
-  CW_TRY(cw_values_set(&values, "dynamic_viscosity", "%.9g", table->fluid.density * table->fluid.kinematic_viscosity));
+  CW_TRY(cw_case_values_set(table, &values));
   CW_TRY(cw_values_set(&values, "turbulence", "%s", cw_walls_resolved(a->mesh) ? "k-omega SST" : "standard k-epsilon"));
-  CW_TRY(cw_values_set(&values, "roughness", "%.9g",
-                       table->walls.treatment == CW_WALL_FUNCTION_ROUGH ? table->walls.roughness : 0.0));
-  CW_TRY(cw_values_set(&values, "time_step", "%.9g",
-                       table->operating_point.time_step_angle / table->operating_point.speed));
+  CW_TRY(cw_values_set(&values, "roughness", "%.9g", cw_wall_roughness(&table->walls)));
   CW_TRY(set_zones(table, a, &values));
-  CW_TRY(cw_templates_write("fluent/", folder, NULL, &values));
+  CW_TRY(cw_templates_write("fluent", folder, NULL, &values));
 done:
   cw_values_free(&values);
   return status;

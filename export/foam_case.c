@@ -6,20 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "export/case_values.h"
 #include "export/foam_zones.h"
 #include "export/folder.h"
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
-
-CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length) {
-  const double cmu = 0.09;
-  CwTurbulence t;
-  t.k = 1.5 * (intensity * speed) * (intensity * speed);
-  t.epsilon = pow(cmu, 0.75) * pow(t.k, 1.5) / mixing_length;
-  t.omega = t.epsilon / (cmu * t.k);
-  return t;
-}
 
 typedef enum { FIELD_U, FIELD_P, FIELD_K, FIELD_EPSILON, FIELD_OMEGA, FIELD_NUT } Field;
 
@@ -190,33 +182,17 @@ static CwStatus set_release(const CwCase *table, CwValues *values) {
   CW_TRY(
       cw_values_set(values, "project_folder", "%s", is_old ? "/usr/share/openfoam" : "/usr/lib/openfoam/openfoam2406"));
   CW_TRY(cw_values_set(values, "processors", "%d", processors));
-  if (is_old)
-    CW_TRY(cw_values_set(values, "decomposition",
-                         "method              hierarchical;\ncoeffs\n{\n    n               (%d 1 1);\n"
-                         "    order           xyz;\n}\n",
-                         processors));
-  else
-    CW_TRY(cw_values_set(values, "decomposition", "method              scotch;\n"));
+  CW_TRY(cw_values_set_file(values, "decomposition", is_old ? "openfoam_parts/hierarchical" : "openfoam_parts/scotch"));
 done:
   return status;
 }
 
 static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  const CwOperatingPoint *point = &table->operating_point;
   int resolved = cw_walls_resolved(a->mesh);
+  CW_TRY(cw_case_values_set(table, values));
   CW_TRY(cw_values_set(values, "usual_ranks", "%s", cw_foam_usual_ranks(cw_assembly_cells(a))));
   CW_TRY(cw_patch_names_set(a, -1, cw_patch_turns, " ", "rotating_walls", values));
-  CW_TRY(cw_values_set(values, "case", "%s", table->name));
-  CW_TRY(cw_values_set(values, "speed", "%.9g", point->speed));
-  CW_TRY(cw_values_set(values, "flow_rate", "%.9g", point->flow_rate));
-  CW_TRY(cw_values_set(values, "head", "%.9g", point->head));
-  CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", point->inlet_pressure));
-  CW_TRY(cw_values_set(values, "time_step", "%.9g", point->time_step_angle / point->speed));
-  CW_TRY(cw_values_set(values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
-  CW_TRY(cw_values_set(values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
-  CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
-  CW_TRY(cw_values_set(values, "viscosity", "%.9g", table->fluid.kinematic_viscosity));
   CW_TRY(cw_values_set(values, "turbulence_model", "%s", resolved ? "kOmegaSST" : "kEpsilon"));
   CW_TRY(cw_values_set(values, "dissipation", "%s", resolved ? "omega" : "epsilon"));
   CW_TRY(cw_values_set(values, "report_interval", "10"));
@@ -235,10 +211,9 @@ static CwStatus set_monitored(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   CW_TRY(cw_values_start(values, "monitored_pressures"));
   for (int p = 0; p < a->mesh->patch_count; ++p) {
-    const char *name = a->mesh->patches[p].name;
-    if (a->mesh->patches[p].monitored && cw_patch_is_there(a, p))
-      CW_TRY(cw_values_append(values, "monitored_pressures",
-                              "pressure_%s\n{\n    $pressure_outlet;\n    name            %s;\n}\n", name, name));
+    if (!a->mesh->patches[p].monitored || !cw_patch_is_there(a, p)) continue;
+    CW_TRY(cw_values_set(values, "patch", "%s", a->mesh->patches[p].name));
+    CW_TRY(cw_values_append_file(values, "monitored_pressures", "openfoam_parts/monitored_pressure"));
   }
 done:
   return status;
@@ -280,16 +255,15 @@ done:
   return status;
 }
 
-// What the fields start from at a flow rate (m3/s). Mixing lengths: 7 % of the suction pipe's diameter, and of the
-// width of the channels inside.
+// What the fields start from at a flow rate (m3/s).
 static Start start_at(double flow, const CwCase *table, const CwAssembly *a) {
-  const double intensity = 0.05, share = flow / table->operating_point.flow_rate;
+  const double share = flow / table->operating_point.flow_rate;
   const CwModelFlow *of = &a->mesh->flow;
   Start start = {.table = table,
                  .assembly = a,
                  .flow_rate = flow,
-                 .inlet = cw_turbulence(share * of->inlet_speed, intensity, 0.07 * of->inlet_diameter),
-                 .inside = cw_turbulence(of->passage_speed, intensity, 0.07 * of->passage_width)};
+                 .inlet = cw_turbulence(share * of->inlet_speed, of->inlet_diameter),
+                 .inside = cw_turbulence(of->passage_speed, of->passage_width)};
   return start;
 }
 
@@ -363,7 +337,7 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAss
   Start start = start_at(table->operating_point.flow_rate, table, a);
   CW_TRY(set_values(table, a, &values));
   CW_TRY(set_eddy_values(table, a, &values));
-  CW_TRY(cw_templates_write("openfoam/", folder, set_head, &values));
+  CW_TRY(cw_templates_write("openfoam", folder, set_head, &values));
   CW_TRY(write_fields(folder, ".", &start));
   start.moving = 1;
   CW_TRY(write_fields(folder, "transient", &start));

@@ -14,13 +14,4 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAss
 // on large meshes as many as the machine has cores.
 const char *cw_foam_usual_ranks(int64_t cells);
 
-// Turbulence at the inlet and inside at the start.
-typedef struct {
-  double k, epsilon, omega; // m2/s2, m2/s3, 1/s
-} CwTurbulence;
-
-// From a speed (m/s), an intensity and a mixing length (m): k = 3/2 (I U)^2, epsilon = Cmu^(3/4) k^(3/2) / l,
-// omega = epsilon / (Cmu k), with Cmu = 0.09.
-CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length);
-
 #endif

@@ -30,6 +30,16 @@ void cw_interface_free(CwInterface *interface) {
   memset(interface, 0, sizeof *interface);
 }
 
+int cw_interfaces_before(const CwMesh *mesh, int number, int side) {
+  int count = 0;
+  const CwModelPatch *patch = mesh->patches;
+  for (int i = 0; i < number; ++i)
+    for (int s = 0; s < 2; ++s)
+      count += patch[mesh->interfaces[i].patch[s]].domain == patch[mesh->interfaces[number].patch[side]].domain &&
+               patch[mesh->interfaces[i].patch[1 - s]].domain == patch[mesh->interfaces[number].patch[1 - side]].domain;
+  return count;
+}
+
 // `angle` brought within half a turn of `near`.
 static double unwrap(double angle, double near) {
   return near + remainder(angle - near, 2 * M_PI);

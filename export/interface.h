@@ -31,4 +31,8 @@ typedef struct {
 CwStatus cw_interface_make(const CwAssembly *assembly, int number, CwInterface *interface);
 void cw_interface_free(CwInterface *interface);
 
+// Interfaces before interface `number` from the domain of its side to the other one: two domains may meet in several
+// surfaces.
+int cw_interfaces_before(const CwMesh *mesh, int number, int side);
+
 #endif

@@ -53,11 +53,12 @@ static CwStatus plan_one(CwOutput *o, CwFormat format) {
   }
 }
 
-// What cannot hold the mesh, as the last failure tells.
-static void leave_out(CwOutput *o, CwFormat format) {
+// What cannot hold the mesh, as the last failure tells; that failure where no format is left.
+static CwStatus leave_out(CwOutput *o, CwFormat format) {
   snprintf(o->left_out[format], sizeof o->left_out[format], "%s is left out: %s", cw_output_names[format],
            cw_fail_message());
   o->formats &= ~(1 << format | (format == CW_FORMAT_CGNS ? ON_CGNS : 0));
+  return o->formats ? CW_OK : CW_ERR_EXPORT;
 }
 
 CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const char *folder, CwOutput *o) {
@@ -71,11 +72,9 @@ CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const c
   for (int f = 0; f < CW_FORMATS; ++f) {
     if (!cw_output_has(o, (CwFormat)f)) continue;
     status = plan_one(o, (CwFormat)f);
-    if (status != CW_ERR_EXPORT) CW_TRY(status);
-    if (status != CW_OK) leave_out(o, (CwFormat)f);
+    if (status == CW_ERR_EXPORT) status = leave_out(o, (CwFormat)f);
+    CW_TRY(status);
   }
-  CW_REQUIRE(o->formats, CW_ERR_EXPORT, "%s", cw_fail_message());
-  status = CW_OK;
 done:
   return status;
 }
@@ -99,9 +98,8 @@ CwStatus cw_output_open(CwOutput *o, const CwRanks *ranks) {
   CW_TRY(cw_ranks_agree(ranks, status));
   if (cw_output_has(o, CW_FORMAT_OPENFOAM)) {
     status = cw_foam_mesh_create(&o->foam, ranks);
-    if (status != CW_ERR_EXPORT) CW_TRY(status);
-    if (status != CW_OK) leave_out(o, CW_FORMAT_OPENFOAM); // on all ranks: parts are counted alike
-    status = CW_OK;
+    if (status == CW_ERR_EXPORT) status = leave_out(o, CW_FORMAT_OPENFOAM); // on all ranks: parts are counted alike
+    CW_TRY(status);
   }
   if (ranks->rank == 0 && cw_output_has(o, CW_FORMAT_CGNS)) CW_TRY(cw_cgns_write_shared(&o->cgns));
 done:

@@ -37,7 +37,7 @@ CwStatus cw_output_plan(const CwCase *table, const CwAssembly *assembly, const c
 // Makes what one rank alone makes of the files. One rank calls it.
 CwStatus cw_output_begin(CwOutput *output, const CwInterface *interfaces);
 
-// Opens them on all ranks, with space for the values of the regions. Collective.
+// Opens them on all ranks, with space for the values of the regions. CW_ERR_EXPORT where no format is left. Collective.
 CwStatus cw_output_open(CwOutput *output, const CwRanks *ranks);
 
 // Writes a region of this rank. Collective are opening and closing alone.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/saturne_case.h"
 
-#include "export/foam_case.h"
+#include "export/case_values.h"
 #include "export/patch_role.h"
 
 // Selects nothing: every face has a group.
@@ -62,23 +62,14 @@ done:
   return status;
 }
 
-// The roughness length whose law has the velocity that OpenFOAM's rough wall function has: E / Cs = 9.8 / 0.5 in it.
-static double roughness_length(const CwWalls *walls) {
-  return walls->treatment == CW_WALL_FUNCTION_ROUGH ? walls->roughness * 0.5 / 9.8 : 0;
-}
-
 static CwStatus set_numbers(const CwCase *table, const CwMesh *mesh, CwValues *values) {
   CwStatus status = CW_OK;
   const CwModelFlow *flow = &mesh->flow;
-  const CwTurbulence inlet = cw_turbulence(flow->inlet_speed, 0.05, 0.07 * flow->inlet_diameter);
-  CW_TRY(cw_values_set(values, "case", "%s", table->name));
+  const CwTurbulence inlet = cw_turbulence(flow->inlet_speed, flow->inlet_diameter);
+  CW_TRY(cw_case_values_set(table, values));
   CW_TRY(cw_values_set(values, "turbulence", "%s", cw_walls_resolved(mesh) ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
-  CW_TRY(cw_values_set(values, "speed", "%.9g", table->operating_point.speed));
-  CW_TRY(cw_values_set(values, "flow_rate", "%.9g", table->operating_point.flow_rate));
-  CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
-  CW_TRY(cw_values_set(values, "viscosity", "%.9g", table->fluid.kinematic_viscosity));
-  CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", table->operating_point.inlet_pressure));
-  CW_TRY(cw_values_set(values, "roughness_length", "%.9g", roughness_length(&table->walls)));
+  // The length whose law has the velocity that OpenFOAM's rough wall function has: E / Cs = 9.8 / 0.5 in it.
+  CW_TRY(cw_values_set(values, "roughness_length", "%.9g", cw_wall_roughness(&table->walls) * 0.5 / 9.8));
   CW_TRY(cw_values_set(values, "passage_speed", "%.9g", flow->passage_speed));
   CW_TRY(cw_values_set(values, "passage_width", "%.9g", flow->passage_width));
   CW_TRY(cw_values_set(values, "inlet_k", "%.9g", inlet.k));
@@ -99,7 +90,7 @@ CwStatus cw_saturne_case_write(const char *folder, const CwCase *table, const Cw
   CW_TRY(set_groups(a, "inlets", is_inlet, &values));
   CW_TRY(set_groups(a, "outlets", is_outlet, &values));
   CW_TRY(set_ends(a, &values));
-  CW_TRY(cw_templates_write("code_saturne/", folder, NULL, &values));
+  CW_TRY(cw_templates_write("code_saturne", folder, NULL, &values));
 done:
   cw_values_free(&values);
   return status;

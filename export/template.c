@@ -62,16 +62,27 @@ done:
   return status;
 }
 
+static const CwTemplate *find_template(const char *path) {
+  for (int i = 0; i < cw_template_count; ++i)
+    if (strcmp(cw_templates[i].path, path) == 0) return &cw_templates[i];
+  return NULL;
+}
+
 CwStatus cw_values_append_file(CwValues *values, const char *key, const char *path) {
   CwStatus status = CW_OK;
   char *filled = NULL;
-  const CwTemplate *file = cw_template_find(path);
+  const CwTemplate *file = find_template(path);
   CW_REQUIRE(file, CW_ERR_EXPORT, "no template %s", path);
   CW_TRY(cw_template_fill(path, strchr(file->text, '\n') + 1, values, &filled));
   CW_TRY(cw_values_append(values, key, "%s", filled));
 done:
   free(filled);
   return status;
+}
+
+CwStatus cw_values_set_file(CwValues *values, const char *key, const char *path) {
+  const CwStatus status = cw_values_start(values, key);
+  return status == CW_OK ? cw_values_append_file(values, key, path) : status;
 }
 
 void cw_values_free(CwValues *values) {
@@ -123,13 +134,7 @@ done:
   return status;
 }
 
-const CwTemplate *cw_template_find(const char *path) {
-  for (int i = 0; i < cw_template_count; ++i)
-    if (strcmp(cw_templates[i].path, path) == 0) return &cw_templates[i];
-  return NULL;
-}
-
-CwStatus cw_template_write(const CwTemplate *built_in, const char *path, const CwValues *values) {
+static CwStatus write_filled(const CwTemplate *built_in, const char *path, const CwValues *values) {
   CwStatus status = CW_OK;
   char *text = NULL;
   CW_TRY(cw_template_fill(built_in->path, built_in->text, values, &text));
@@ -139,19 +144,20 @@ done:
   return status;
 }
 
-CwStatus cw_templates_write(const char *prefix, const char *folder, CwValuesOfFile of_file, CwValues *values) {
+CwStatus cw_templates_write(const char *prefix, const char *to, CwValuesOfFile of_file, CwValues *values) {
   CwStatus status = CW_OK;
+  const size_t length = strlen(prefix);
   char *path = NULL;
   for (int i = 0; i < cw_template_count; ++i) {
     const CwTemplate *t = &cw_templates[i];
-    if (strncmp(t->path, prefix, strlen(prefix)) != 0) continue;
-    CW_TRY(cw_path_set(&path, "%s/%s", folder, t->path + strlen(prefix)));
+    if (strncmp(t->path, prefix, length) != 0 || strspn(t->path + length, "/.") == 0) continue;
+    CW_TRY(cw_path_set(&path, "%s%s", to, t->path + length));
     char *slash = strrchr(path, '/');
     *slash = '\0';
     CW_TRY(cw_make_directory(path));
     *slash = '/';
     if (of_file) CW_TRY(of_file(slash + 1, values));
-    CW_TRY(cw_template_write(t, path, values));
+    CW_TRY(write_filled(t, path, values));
   }
 done:
   free(path);

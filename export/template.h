@@ -31,11 +31,13 @@ CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ..
 
 // Sets a value to "", to which texts (printf style) are then appended, or built-in files without their first line (the
 // licence), filled with the values: blocks of which a case has as many as its mesh has domains, patches or interfaces.
-// What is appended to must be started. CW_ERR_EXPORT where there is no such file, or a key in it has no value.
+// What is appended to must be started; cw_values_set_file() starts it. CW_ERR_EXPORT where there is no such file, or a
+// key in it has no value.
 CwStatus cw_values_start(CwValues *values, const char *key);
 CwStatus cw_values_append(CwValues *values, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 CwStatus cw_values_append_file(CwValues *values, const char *key, const char *path);
+CwStatus cw_values_set_file(CwValues *values, const char *key, const char *path);
 
 // The value of a key, or NULL.
 const char *cw_values_get(const CwValues *values, const char *key);
@@ -45,18 +47,13 @@ void cw_values_free(CwValues *values);
 // whose text it is.
 CwStatus cw_template_fill(const char *name, const char *text, const CwValues *values, char **filled);
 
-// The built-in file of that path, or NULL.
-const CwTemplate *cw_template_find(const char *path);
-
-// Writes a built-in file, filled, to `path`, whose folder is there. CW_ERR_EXPORT, CW_ERR_IO.
-CwStatus cw_template_write(const CwTemplate *built_in, const char *path, const CwValues *values);
-
 // Sets the values that follow from the name of a file.
 typedef CwStatus (*CwValuesOfFile)(const char *name, CwValues *values);
 
-// Writes every built-in file below `prefix` ("openfoam/") to `folder`, making folders where needed. `of_file`: NULL: no
-// such values.
-CwStatus cw_templates_write(const char *prefix, const char *folder, CwValuesOfFile of_file, CwValues *values);
+// Writes, filled, every built-in file whose path goes on behind `prefix` by a '/' or a '.', with `to` in the place of
+// that: "openfoam" is a folder, "cfx/steady" a name with several endings. Makes folders where needed. `of_file`: NULL:
+// no such values. CW_ERR_EXPORT, CW_ERR_IO.
+CwStatus cw_templates_write(const char *prefix, const char *to, CwValuesOfFile of_file, CwValues *values);
 
 // Writes a text to a new file. CW_ERR_IO.
 CwStatus cw_text_write(const char *path, const char *text, int executable);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "export/case_values.h"
 #include "export/cfx_case.h"
 #include "export/foam_case.h"
 #include "pipeline/atomic_file.h"
@@ -151,20 +152,23 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
                             {.name = "suction_pipe", .kind = CW_PATCH_WALL, .domain = ROTOR},
                             {.name = "rotor_interface", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
                             {.name = "rotor_to_suction", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                            {.name = "rotor_gap", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
                             {.name = "stator_interface", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
+                            {.name = "stator_gap", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
                             {.name = "volute", .kind = CW_PATCH_WALL, .domain = STATOR},
                             {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 1},
                             {.name = "suction_to_rotor", .kind = CW_PATCH_INTERFACE, .domain = SUCTION},
                             {.name = "inlet_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION},
                             {.name = "hub_shaft_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION, .turns = 1},
                             {.name = "inlet", .kind = CW_PATCH_INLET, .domain = SUCTION}};
-  CwModelInterface interfaces[] = {{{3, 5}, CW_SURFACE_CYLINDER, 0.1}, {{4, 8}, CW_SURFACE_PLANE, 0}};
+  CwModelInterface interfaces[] = {
+      {{3, 6}, CW_SURFACE_CYLINDER, 0.1}, {{4, 10}, CW_SURFACE_PLANE, 0}, {{7, 5}, CW_SURFACE_PLANE, 0}};
   enum { PATCHES = sizeof patches / sizeof *patches };
   CwMesh mesh = {.domain_count = 3,
-                 .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 5},
-                             {.name = "stator", .zone = "STATOR", .first_patch = 5, .patch_count = 3},
-                             {.name = "suction", .zone = "SUCTION", .first_patch = 8, .patch_count = 4}},
-                 .interface_count = 2,
+                 .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 6},
+                             {.name = "stator", .zone = "STATOR", .first_patch = 6, .patch_count = 4},
+                             {.name = "suction", .zone = "SUCTION", .first_patch = 10, .patch_count = 4}},
+                 .interface_count = 3,
                  .interfaces = interfaces,
                  .patch_count = PATCHES,
                  .patches = patches,
@@ -188,9 +192,12 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   // The frame of the rotor turns already: there a shaft is one of the walls at rest in it.
   assert_int_equal(stage_shell(output, "grep -c 'Option = Rotating Wall' '%s/steady.ccl'", path), 0);
   assert_string_equal(output, "1\n");
-  // CFX finds a boundary by its name.
-  assert_int_equal(stage_shell(output, "grep BOUNDARY: '%s/steady.ccl' | sort | uniq -d", path), 0);
+  // CFX finds a boundary and an interface by its name, also where two zones meet twice.
+  assert_int_equal(stage_shell(output, "grep -E 'BOUNDARY:|INTERFACE:' '%s/steady.ccl' | sort | uniq -d", path), 0);
   assert_string_equal(output, "");
+  find_block("cfx/steady.ccl", "DOMAIN INTERFACE: STATOR ROTOR 2", "\n  END\n");
+  expect_in_block("Boundary List1 = STATOR ROTOR 2 Side 1\n");
+  expect_in_block("Interface Region List2 = rotor_gap\n");
 
   snprintf(path, sizeof path, "%s/run/export/openfoam", test_folder);
   assert_int_equal(stage_shell(output, "rm -rf '%s'", path), 0);
@@ -208,9 +215,9 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   }
 }
 
-// 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
+// 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 7 % of 1/7 m = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
 static void turbulence_follows_the_textbook(void **state) {
-  CwTurbulence t = cw_turbulence(2, 0.05, 0.01);
+  CwTurbulence t = cw_turbulence(2, 1.0 / 7);
   assert_float_equal(t.k, 0.015, 1e-15);
   assert_float_equal(t.epsilon, 0.164316767 * 0.00183711731 / 0.01, 1e-9);
   assert_float_equal(t.omega, t.epsilon / (0.09 * 0.015), 1e-12);
