@@ -170,14 +170,14 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
 CwStatus cw_each_region(const CwAssembly *a, const CwRanks *ranks, const char *title, CwDirection direction,
                         CwRegionWork work, void *context) {
   CwStatus status = CW_OK;
-  const int count = a->share.own_count, step = direction == CW_FORWARDS ? 1 : -1;
-  const int *own = direction == CW_FORWARDS ? a->share.own : a->share.own + count - 1;
+  const int *own = a->share.own, count = a->share.own_count, step = direction == CW_FORWARDS ? 1 : -1;
+  int place = direction == CW_FORWARDS ? 0 : count - 1;
   cw_progress_start(ranks->log, title, a->mesh->region_count, "regions");
-  for (int i = 0; i < count && status == CW_OK; ++i) {
+  for (int i = 0; i < count && status == CW_OK; ++i, place += step) {
     CwRegionData data = {0};
-    if (i + 1 < count) cw_mesh_region_ahead(a->mesh, own[(i + 1) * step]);
-    status = cw_mesh_region_read(a->mesh, own[i * step], CW_REGION_WHOLE, &data);
-    if (status == CW_OK) status = work(context, own[i * step], &data);
+    if (i + 1 < count) cw_mesh_region_ahead(a->mesh, own[place + step]);
+    status = cw_mesh_region_read(a->mesh, own[place], CW_REGION_WHOLE, &data);
+    if (status == CW_OK) status = work(context, own[place], &data);
     cw_mesh_region_free(&data);
     cw_progress(ranks->log, (int64_t)(i + 1) * a->mesh->region_count / count);
   }
@@ -254,9 +254,10 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
                  (long long)(i / 3));
       // Regions that are copies of one another, turned, differ by rounding: the least coordinates are taken.
       CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING * greatest, CW_ERR_INPUT,
-                 "domain %s: shared point %lld near (%.6g, %.6g, %.6g) mm differs between regions by %.3g mm",
+                 "domain %s: shared point %lld near (%.6g, %.6g, %.6g) mm differs between regions by %.3g mm; allowed: "
+                 "%.3g mm",
                  domain->name, (long long)(i / 3), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
-                 1e3 * (c->most[d][i] - c->least[d][i]));
+                 1e3 * (c->most[d][i] - c->least[d][i]), 1e3 * ROUNDING * greatest);
     }
     a->shared[d] = (double(*)[3])c->least[d];
     c->least[d] = NULL;
@@ -375,14 +376,14 @@ static CwStatus check_surface(const CwAssembly *a) {
     for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p) {
       const CwPatchPart *sum = &a->patches[p];
       CW_REQUIRE(cw_face_count(sum->faces) > 0 || mesh->patches[p].kind == CW_PATCH_WALL, CW_ERR_INPUT,
-                 "domain %s: patch '%s' has no face", domain->name, mesh->patches[p].name);
+                 "domain %s: patch '%s' has no face; allowed: only walls without", domain->name, mesh->patches[p].name);
       area += sum->area;
       for (int k = 0; k < 3; ++k) vector[k] += sum->vector[k];
     }
     double open = cw_norm(vector);
     CW_REQUIRE(open <= 1e-9 * area, CW_ERR_INPUT,
-               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name, area,
-               open);
+               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2; allowed: %.3g m2",
+               domain->name, area, open, 1e-9 * area);
   }
 done:
   return status;

@@ -10,15 +10,15 @@
 enum { COORDINATES = 3, NODE_SIZE = 100, PATH_SIZE = 2 * NODE_SIZE };
 
 // Where an array begins in the file.
-static CwStatus find_start(hid_t file, const char *zone, const char *node, int64_t *start) {
+static CwStatus find_start(const CwCgnsFile *f, hid_t file, const char *zone, const char *node, int64_t *start) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "/pump/%s/%s/ data", zone, node);
   hid_t set = H5Dopen2(file, path, H5P_DEFAULT);
-  CW_REQUIRE(set >= 0, CW_ERR_LIBRARY, "the CGNS file has no '%s'", path);
+  CW_REQUIRE(set >= 0, CW_ERR_LIBRARY, "%s: has no '%s'", f->file.path, path);
   const haddr_t place = H5Dget_offset(set);
   H5Dclose(set);
-  CW_REQUIRE(place != HADDR_UNDEF, CW_ERR_LIBRARY, "HDF5 has no place for '%s' of the CGNS file", path);
+  CW_REQUIRE(place != HADDR_UNDEF, CW_ERR_LIBRARY, "%s: HDF5 has no place for '%s'", f->file.path, path);
   *start = (int64_t)place;
 done:
   return status;
@@ -29,16 +29,16 @@ static CwStatus find_starts(const CwCgnsFile *f) {
   char node[NODE_SIZE];
   int64_t *starts = f->starts;
   hid_t file = H5Fopen(f->file.path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be opened", f->file.path);
+  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be read by HDF5", f->file.path);
   for (int d = 0; d < f->assembly->mesh->domain_count; ++d) {
     const char *zone = f->assembly->mesh->domains[d].zone;
     for (int k = 0; k < COORDINATES; ++k) {
       snprintf(node, sizeof node, "GridCoordinates/Coordinate%c", "XYZ"[k]);
-      CW_TRY(find_start(file, zone, node, starts++));
+      CW_TRY(find_start(f, file, zone, node, starts++));
     }
     for (int s = 0; s < f->section_count[d]; ++s) {
       snprintf(node, sizeof node, "%s/ElementConnectivity", f->sections[d][s].name);
-      CW_TRY(find_start(file, zone, node, starts++));
+      CW_TRY(find_start(f, file, zone, node, starts++));
     }
   }
 done:

@@ -64,7 +64,7 @@ CwStatus cw_cgns_create(const char *path, hid_t *file) {
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   *file = H5Fcreate(path, H5F_ACC_TRUNC, create, access);
-  CW_REQUIRE(*file >= 0, CW_ERR_IO, "%s: cannot be written", path);
+  CW_REQUIRE(*file >= 0, CW_ERR_IO, "HDF5 cannot make the file");
   CW_TRY(put_attributes(*file, "HDF5 MotherNode", "Root Node of HDF5 File", "MT"));
   CW_TRY(put_data(*file, " format", H5T_STD_I8LE, 1, (hsize_t[]){sizeof format}, format));
   CW_TRY(put_data(*file, " hdf5version", H5T_STD_I8LE, 1, (hsize_t[]){sizeof version}, version));
@@ -80,7 +80,8 @@ CwStatus cw_cgns_node(hid_t parent, const char *name, const char *label, const c
   CwStatus status = CW_OK;
   const int one = 1;
   hid_t plan = H5Pcreate(H5P_GROUP_CREATE), group = -1, space = -1, attribute = -1;
-  CW_REQUIRE(strlen(name) < NAME_SIZE, CW_ERR_EXPORT, "CGNS name '%s' is longer than 32 characters", name);
+  CW_REQUIRE(strlen(name) < NAME_SIZE, CW_ERR_EXPORT, "the CGNS name '%s' has %zu characters; allowed: %d", name,
+             strlen(name), NAME_SIZE - 1);
   H5Pset_obj_track_times(plan, 0);
   H5Pset_link_creation_order(plan, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   group = H5Gcreate2(parent, name, H5P_DEFAULT, plan, H5P_DEFAULT);

@@ -10,7 +10,7 @@
 #include "pipeline/status.h"
 
 // Creates the file with its root and CGNSLibraryVersion nodes. Without time stamps: the same calls give the
-// same bytes. Fails with CW_ERR_IO.
+// same bytes. Fails with CW_ERR_IO; the message does not name the file.
 CwStatus cw_cgns_create(const char *path, hid_t *file);
 
 // Adds a node to `parent` and gives its group in *node (NULL: closes it). `type` is MT, C1, I4, I8, R4 or R8.

@@ -240,11 +240,11 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d, wide));
 done:
   if (base >= 0) H5Gclose(base);
+  if (status == CW_ERR_LIBRARY) cw_fail_place(path);
   if (status == CW_ERR_IO) status = CW_FAIL(status, "%s: %s (is the disk full?)", path, cw_fail_message());
-  if (file >= 0) stuck |= H5Fclose(file) < 0;
-  if (file >= 0 && stuck) {
-    const CwStatus closed = CW_FAIL(CW_ERR_IO, "the CGNS file cannot be written to its end (is the disk full?)");
-    if (status == CW_OK) status = closed;
+  if (file >= 0 && H5Fclose(file) < 0) {
+    stuck = 1;
+    if (status == CW_OK) status = CW_FAIL(CW_ERR_IO, "%s: cannot be written to its end (is the disk full?)", path);
   }
   return status;
 }

@@ -53,8 +53,8 @@ CwStatus cw_division_plan(const CwAssembly *a, int parts, CwDivision *v) {
   CwStatus status = CW_OK;
   const int64_t cells = cw_assembly_cells(a);
   *v = (CwDivision){.assembly = a, .part_count = parts};
-  CW_REQUIRE(parts <= cells, CW_ERR_EXPORT, "%d parts of %lld cells; allowed: openfoam.processors from 1 to %lld",
-             parts, (long long)cells, (long long)cells);
+  CW_REQUIRE(parts <= cells, CW_ERR_EXPORT, "openfoam.processors: %d parts of %lld cells; allowed: 1 to %lld", parts,
+             (long long)cells, (long long)cells);
   CW_NEW(v->parts, parts);
   for (int p = 0; p < parts; ++p) {
     CW_NEW(v->parts[p].patch, a->mesh->patch_count);

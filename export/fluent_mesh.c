@@ -69,11 +69,14 @@ static int section_text(int kind, int zone, int64_t before, int64_t count, int c
 static const char section_end[] = "))\n";
 enum { END_SIZE = sizeof section_end - 1 };
 
+// Cells of the domains before.
+static int64_t cells_before(const CwAssembly *a, int domain) {
+  return a->places[a->mesh->domains[domain].first_region].cell;
+}
+
 static int cells_text(const CwFluentMesh *mesh, int domain, char text[TEXT_SIZE]) {
-  int64_t before = 0;
-  for (int d = 0; d < domain; ++d) before += mesh->assembly->totals[d].cells;
-  return section_text(12, zone_of_cells(domain), before, mesh->assembly->totals[domain].cells, CELLS_FLUID, CELLS_MIXED,
-                      text);
+  return section_text(12, zone_of_cells(domain), cells_before(mesh->assembly, domain),
+                      mesh->assembly->totals[domain].cells, CELLS_FLUID, CELLS_MIXED, text);
 }
 
 static int faces_text(const CwFluentMesh *mesh, int domain, char text[TEXT_SIZE]) {
@@ -94,7 +97,7 @@ CwStatus cw_fluent_mesh_plan(const CwAssembly *a, CwFluentMesh *mesh) {
   CW_TRY(cw_face_layout_make(a, &mesh->layout));
   CW_NEW(mesh->patch_start, a->mesh->patch_count);
   CW_REQUIRE(cw_face_count(mesh->layout.all) <= INT32_MAX && mesh->layout.points <= INT32_MAX, CW_ERR_EXPORT,
-             "%lld faces and %lld points; Fluent's mesh file allows %d of each",
+             "%lld faces and %lld points; Fluent's mesh file allows %d of each, which fewer mesh.cells keep to",
              (long long)cw_face_count(mesh->layout.all), (long long)mesh->layout.points, INT32_MAX);
   int64_t at = mesh->point_start = head_text(mesh, text);
   at += POINT_SIZE * mesh->layout.points + END_SIZE;
@@ -202,9 +205,8 @@ CwStatus cw_fluent_mesh_close(CwFluentMesh *mesh) {
 static CwStatus put_cells(const CwFluentMesh *mesh, int region, const CwRegionData *data) {
   CwStatus status = CW_OK;
   const int32_t count = cw_region_cell_count(data);
+  const int64_t before = mesh->assembly->places[region].cell - cells_before(mesh->assembly, data->domain); // in it
   char *text = NULL;
-  int64_t before = 0; // cells of other domains
-  for (int d = 0; d < data->domain; ++d) before += mesh->assembly->totals[d].cells;
   CW_NEW_UNSET(text, TYPE_SIZE * (int64_t)count);
   for (int32_t i = 0; i < count; ++i) {
     const int type = i < data->tetrahedron_count                         ? TETRAHEDRON
@@ -213,9 +215,8 @@ static CwStatus put_cells(const CwFluentMesh *mesh, int region, const CwRegionDa
     text[TYPE_SIZE * i] = (char)('0' + type);
     text[TYPE_SIZE * i + 1] = '\n';
   }
-  CW_TRY(
-      cw_place_file_put(&mesh->file, text, TYPE_SIZE * (int64_t)count,
-                        mesh->cell_start[data->domain] + TYPE_SIZE * (mesh->assembly->places[region].cell - before)));
+  CW_TRY(cw_place_file_put(&mesh->file, text, TYPE_SIZE * (int64_t)count,
+                           mesh->cell_start[data->domain] + TYPE_SIZE * before));
 done:
   free(text);
   return status;

@@ -239,8 +239,8 @@ static CwStatus measure_side(const CwAssembly *a, int number, int s, CwInterface
       double off = off_surface(in, x);
       *longest = fmax(*longest, hypot(hypot(next[0] - x[0], next[1] - x[1]), next[2] - x[2]));
       CW_REQUIRE(off <= tolerance || in->is_flat, CW_ERR_INPUT,
-                 "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.9g mm; the interface has %.9g mm, and "
-                 "%.3g mm more or less are allowed beside edges as short as there",
+                 "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.9g mm; the interface has %.9g mm; allowed "
+                 "beside edges as short as there: %.3g mm more or less",
                  a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * hypot(x[0], x[1]),
                  1e3 * in->radius, 1e3 * tolerance);
       CW_REQUIRE(off <= tolerance, CW_ERR_INPUT,
@@ -261,11 +261,13 @@ static CwStatus check_ends(const CwAssembly *a, int number, double tolerance, co
   const int *patch = a->mesh->interfaces[number].patch;
   const CwInterfaceSide *s = in->sides;
   for (int k = in->is_flat ? 0 : 1; k < 2; ++k)
-    CW_REQUIRE(
-        fabs(s[0].least[k] - s[1].least[k]) <= tolerance && fabs(s[0].most[k] - s[1].most[k]) <= tolerance,
-        CW_ERR_INPUT, "the interface reaches from %s = %.6g to %.6g mm on patch '%s', but from %.6g to %.6g mm on '%s'",
-        in->is_flat ? (k ? "v" : "u") : "z", 1e3 * s[0].least[k], 1e3 * s[0].most[k], a->mesh->patches[patch[0]].name,
-        1e3 * s[1].least[k], 1e3 * s[1].most[k], a->mesh->patches[patch[1]].name);
+    CW_REQUIRE(fabs(s[0].least[k] - s[1].least[k]) <= tolerance && fabs(s[0].most[k] - s[1].most[k]) <= tolerance,
+               CW_ERR_INPUT,
+               "the interface reaches from %s = %.6g to %.6g mm on patch '%s', but from %.6g to %.6g mm on '%s'; "
+               "allowed: ends %.3g mm apart",
+               in->is_flat ? (k ? "v" : "u") : "z", 1e3 * s[0].least[k], 1e3 * s[0].most[k],
+               a->mesh->patches[patch[0]].name, 1e3 * s[1].least[k], 1e3 * s[1].most[k],
+               a->mesh->patches[patch[1]].name, 1e3 * tolerance);
 done:
   return status;
 }
@@ -273,6 +275,7 @@ done:
 static CwStatus find_donors(const CwAssembly *a, int number, int side, CwInterface *in) {
   CwStatus status = CW_OK;
   Bins bins = {0};
+  const int *patch = a->mesh->interfaces[number].patch;
   const CwInterfaceFace *mine = a->interface[number][side], *others = a->interface[number][1 - side];
   CW_TRY(make_bins(in, others, in->count[1 - side], &in->sides[1 - side], &bins));
   CW_NEW(in->donor[side], in->count[side]);
@@ -284,8 +287,11 @@ static CwStatus find_donors(const CwAssembly *a, int number, int side, CwInterfa
       for (int k = 0; k < 2; ++k) centre[k] += flat[n][k] / mine[i].count;
     if (!in->is_flat) centre[0] = remainder(centre[0], 2 * M_PI);
     in->donor[side][i] = find_donor(in, &bins, others, centre, in->place[side][i]);
-    CW_REQUIRE(in->donor[side][i] >= 0, CW_ERR_INPUT, "interface face %lld has no face on the other side",
-               (long long)i);
+    const double *x = mine[i].nodes[0];
+    CW_REQUIRE(in->donor[side][i] >= 0, CW_ERR_INPUT,
+               "patch '%s': no face of patch '%s' lies over its face at (%.6g, %.6g, %.6g) mm",
+               a->mesh->patches[patch[side]].name, a->mesh->patches[patch[1 - side]].name, 1e3 * x[0], 1e3 * x[1],
+               1e3 * x[2]);
   }
 done:
   free(bins.start);

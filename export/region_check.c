@@ -16,12 +16,11 @@ static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegi
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
     middle[cell] = cw_cell_middle(data, cell);
     const double one = middle[cell].volume;
-    if (!(one > 0)) {
-      double centre[3];
-      cw_cell_centre(data, cell, centre);
-      CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
-                 path, cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * one);
-    }
+    double centre[3] = {0};
+    if (!(one > 0)) cw_cell_centre(data, cell, centre);
+    CW_REQUIRE(one > 0, CW_ERR_INPUT,
+               "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0", path, cell,
+               1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * one);
     figures->volume += one;
     figures->least_volume = one < figures->least_volume ? one : figures->least_volume;
   }
@@ -92,7 +91,8 @@ static CwStatus check_counts(const CwAssembly *a, int region, const CwRegionFace
   int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
   CW_REQUIRE(faces->inner_triangles == place->inner.triangles && faces->inner_quads == place->inner.quads &&
                  faces->open_count == open,
-             CW_ERR_INPUT, "%s: has other faces than when it was first read", a->mesh->regions[region].path);
+             CW_ERR_INPUT, "%s: has other faces than when it was first read; another program has changed it",
+             a->mesh->regions[region].path);
 done:
   return status;
 }

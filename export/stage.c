@@ -17,8 +17,8 @@
 static CwStatus check_ends(const CwMesh *mesh) {
   CwStatus status = CW_OK;
   for (CwPatchKind kind = CW_PATCH_INLET; kind <= CW_PATCH_OUTLET; ++kind)
-    CW_REQUIRE(cw_patch_kind_count(mesh, kind) > 0, CW_ERR_EXPORT, "no patch is of kind %s; a case needs one at least",
-               cw_patch_kind_name(kind));
+    CW_REQUIRE(cw_patch_kind_count(mesh, kind) > 0, CW_ERR_EXPORT,
+               "mesh/manifest.json: no patch is of kind %s; allowed: one at least", cw_patch_kind_name(kind));
 done:
   return status;
 }
@@ -171,31 +171,29 @@ done:
 
 // Counts as checkMesh does what it calls a failed check.
 static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *faces) {
-  int64_t skew = faces->skew[CW_FACE_OF_PRISM], other_skew = faces->skew[CW_FACE_OTHER];
-  int64_t light = faces->light[CW_FACE_OF_PRISM], other_light = faces->light[CW_FACE_OTHER];
-  int64_t open = faces->open[CW_FACE_OF_PRISM], other_open = faces->open[CW_FACE_OTHER];
-  int64_t uneven = faces->uneven[CW_FACE_OF_PRISM], other_uneven = faces->uneven[CW_FACE_OTHER];
-  if (skew + other_skew > 0)
-    cw_log_warn(log,
-                "domain %s: %lld faces of prisms and %lld others have a skewness above %g: layers are thin for the "
-                "bend of their wall; less mesh.curvature_angle_deg, more mesh.cells or thicker layers make it less",
-                domain, (long long)skew, (long long)other_skew, CW_SKEWNESS_MOST);
-  if (light + other_light > 0)
-    cw_log_warn(log,
-                "domain %s: %lld faces of prisms and %lld others have an interpolation weight under %g: the last layer "
-                "is thin for the tetrahedra on it; more walls.layer_count or mesh.cells make it less",
-                domain, (long long)light, (long long)other_light, CW_WEIGHT_LEAST);
-  if (uneven + other_uneven > 0)
-    cw_log_warn(
-        log,
-        "domain %s: %lld faces of prisms and %lld others lie between cells of which one has more than %g times the "
-        "volume of the other; walls.layer_count auto leads layers to the size of the tetrahedra",
-        domain, (long long)uneven, (long long)other_uneven, 1 / CW_VOLUME_RATIO_LEAST);
+  const struct {
+    const int64_t *count; // by CwFaceKind
+    const char *are;
+    double limit;
+    const char *why;
+  } kinds[] = {{faces->skew, "have a skewness above", CW_SKEWNESS_MOST,
+                ": layers are thin for the bend of their wall; less mesh.curvature_angle_deg, more mesh.cells or "
+                "thicker layers lower it"},
+               {faces->light, "have an interpolation weight under", CW_WEIGHT_LEAST,
+                ": the last layer is thin for the tetrahedra on it; more walls.layer_count or mesh.cells raise it"},
+               {faces->uneven, "lie between cells of which one has more than", 1 / CW_VOLUME_RATIO_LEAST,
+                " times the volume of the other; walls.layer_count: auto brings layers to the size of the tetrahedra"}};
+  const int64_t open = faces->open[CW_FACE_OF_PRISM], other_open = faces->open[CW_FACE_OTHER];
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i)
+    if (kinds[i].count[CW_FACE_OF_PRISM] + kinds[i].count[CW_FACE_OTHER] > 0)
+      cw_log_warn(log, "domain %s: %lld faces of prisms and %lld others %s %g%s", domain,
+                  (long long)kinds[i].count[CW_FACE_OF_PRISM], (long long)kinds[i].count[CW_FACE_OTHER], kinds[i].are,
+                  kinds[i].limit, kinds[i].why);
   if (faces->slender + open > 0)
     cw_log_warn(
         log,
         "domain %s: %lld prisms have an aspect ratio above %g and %lld a determinant under %g, as thin as the case "
-        "asks or at edges of open patches; a greater y+ or more mesh.cells make it less",
+        "asks or at edges of open patches; a greater walls.y_plus_* or more mesh.cells make them fewer",
         domain, (long long)faces->slender, CW_ASPECT_MOST, (long long)open, CW_DETERMINANT_LEAST);
   if (other_open > 0)
     cw_log_warn(log,
@@ -210,15 +208,19 @@ static void warn(CwLog *log, const CwAssembly *a) {
     warn_of_faces(log, a->mesh->domains[d].name, &a->totals[d].faces);
     double solid = a->mesh->domains[d].solid_volume, off = a->totals[d].volume / solid - 1;
     if (fabs(off) > 0.02)
-      cw_log_warn(log, "domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%", a->mesh->domains[d].name,
-                  a->totals[d].volume, solid, 100 * off);
+      cw_log_warn(log,
+                  "domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%; more mesh.cells or less "
+                  "mesh.curvature_angle_deg bring them nearer",
+                  a->mesh->domains[d].name, a->totals[d].volume, solid, 100 * off);
   }
   for (int i = 0; i < a->mesh->interface_count; ++i) {
     const int *patch = a->mesh->interfaces[i].patch;
     const double area = a->patches[patch[0]].area, other = a->patches[patch[1]].area;
     if (fabs(area / other - 1) > 0.02)
-      cw_log_warn(log, "the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'", 1e6 * area,
-                  a->mesh->patches[patch[0]].name, 1e6 * other, a->mesh->patches[patch[1]].name);
+      cw_log_warn(log,
+                  "the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'; more mesh.cells or less "
+                  "mesh.size_interface bring them nearer",
+                  1e6 * area, a->mesh->patches[patch[0]].name, 1e6 * other, a->mesh->patches[patch[1]].name);
   }
   for (int p = 0; p < a->mesh->patch_count; ++p)
     if (!cw_patch_is_there(a, p)) cw_log_warn(log, "patch '%s' has no face and is left out", a->mesh->patches[p].name);

@@ -125,7 +125,7 @@ static void a_manifest_that_does_not_fit_is_told(void **state) {
       {"s/stator-0001.h5/rotor-0001.h5/", "rotor-0001.h5: attribute 'domain' is 'rotor'; it must be 'stator'"},
       {"s/\"format\": 3/\"format\": 9/", "'format' must be 3"},
       {"s/\"kind\": \"outlet\"/\"kind\": \"exit\"/", "patch 'outlet': kind 'exit'; allowed are wall, inlet"},
-      {"s/\"kind\": \"outlet\"/\"kind\": \"symmetry\"/", "no patch is of kind outlet; a case needs one at least"},
+      {"s/\"kind\": \"outlet\"/\"kind\": \"symmetry\"/", "no patch is of kind outlet; allowed: one at least"},
       {"s/^ *\"rotor_interface\",/\"hub\",/", "interface 1: 'hub' is no patch of kind interface"},
       {"s/\"interfaces\"/\"faces\"/", "'interfaces' must be there and an array"},
       {"s/\"name\": \"tongue\"/\"name\": \"volute\"/", "patch 'volute' is named twice"},
