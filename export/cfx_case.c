@@ -212,6 +212,8 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
   // OpenFOAM.
   CW_TRY(cw_values_set_file(values, "wall_roughness",
                             table->walls.roughness > 0 ? "cfx_parts/wall_rough.ccl" : "cfx_parts/wall_smooth.ccl"));
+  CW_TRY(cw_values_set(values, "temperature", "%.9g",
+                       cw_case_given(table->fluid.temperature) ? table->fluid.temperature : 20));
   CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
   CW_TRY(set_domains(a, flow * table->fluid.density, values));
   CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));

@@ -74,12 +74,18 @@ static inline CwStatus stretch_add(Stretch *s, const int32_t *corner, int sides,
   return s->faces == AT_ONCE ? stretch_write(s, neighbour >= 0) : CW_OK;
 }
 
+// The piece that a cell lies in.
+static inline const CwPiece *piece_at(const Writer *w, int64_t cell) {
+  const CwDivision *v = &w->mesh->division;
+  return &v->pieces[v->first_piece[w->region] + w->piece_of[cell]];
+}
+
 // The other cell of an inner face: its part and its number there.
 static int64_t other_cell(const Writer *w, const CwFaceStretch *s, int64_t f, int *part) {
   const CwDivision *v = &w->mesh->division;
   const int64_t local = s->across[f] - w->mesh->assembly->places[w->region].cell;
   if (s->open[f] < 0) {
-    *part = v->pieces[v->first_piece[w->region] + w->piece_of[local]].part;
+    *part = piece_at(w, local)->part;
     return w->cell[local];
   }
   const int64_t there = w->mesh->assembly->partner[s->open[f]];
@@ -110,14 +116,13 @@ static CwStatus write_inner(const Writer *w, const CwLink *link, CwFaceCount bef
   CwStatus status = CW_OK;
   Stretch *s = NULL;
   const CwFaceStretch *all = w->inner;
-  const CwDivision *v = &w->mesh->division;
   const int32_t *corner = all->corner;
   const int64_t number = cw_face_count(w->mesh->layout.region[w->region]) + 1;
   const int mine = w->files->part;
   CW_TRY(stretch_new(w, before, &s));
   for (int64_t f = 0; f < all->faces; corner += all->sides[f++]) {
     int there;
-    const int here = v->pieces[v->first_piece[w->region] + w->piece_of[all->cell[f]]].part;
+    const int here = piece_at(w, all->cell[f])->part;
     const int64_t own = w->cell[all->cell[f]], other = other_cell(w, all, f, &there);
     if (!link && here == mine && there == mine)
       CW_TRY(stretch_add(s, corner, all->sides[f], own, other, number + f));
@@ -160,7 +165,7 @@ static CwStatus write_patch(const Writer *w, const CwPiece *piece, int patch) {
   for (; cw_face_stretch_patch(a, patch, w->data, w->of, &faces); number += faces.faces) {
     const int32_t *corner = faces.corner;
     for (int64_t f = 0; f < faces.faces; corner += faces.sides[f++])
-      if (&w->mesh->division.pieces[w->mesh->division.first_piece[w->region] + w->piece_of[faces.cell[f]]] == piece)
+      if (piece_at(w, faces.cell[f]) == piece)
         CW_TRY(stretch_add(s, corner, faces.sides[f], w->cell[faces.cell[f]], -1, number + f));
   }
   CW_TRY(stretch_write(s, 0));
@@ -194,11 +199,10 @@ done:
 static CwStatus write_cells(const Writer *w, const CwPiece *piece) {
   CwStatus status = CW_OK;
   int64_t *numbers = NULL, count = 0;
-  const int own = (int)(piece - &w->mesh->division.pieces[w->mesh->division.first_piece[w->region]]);
   if (!cw_foam_is_divided(w->mesh)) goto done;
   CW_NEW(numbers, piece->cells);
   for (int32_t i = 0; i < cw_region_cell_count(w->data); ++i)
-    if (w->piece_of[i] == own) numbers[count++] = w->mesh->assembly->places[w->region].cell + i;
+    if (piece_at(w, i) == piece) numbers[count++] = w->mesh->assembly->places[w->region].cell + i;
   CW_TRY(cw_foam_put_labels(w->files, CW_FOAM_OF_CELLS, numbers, count, piece->first_cell));
 done:
   free(numbers);
