@@ -232,7 +232,6 @@ static CwStatus set_eddy_values(const CwCase *table, const CwAssembly *a, CwValu
   CW_TRY(cw_values_set(values, "les_step_deg", "%.9g", 360 / steps));
   CW_TRY(cw_values_set(values, "turn_time", "%.9g", turn / table->operating_point.speed));
   CW_TRY(cw_values_set(values, "phase_steps", "%.0f", pitch == floor(pitch) ? pitch : steps));
-  CW_TRY(cw_values_set(values, "les_model", "Smagorinsky"));
   CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh) ? "vanDriest" : "cubeRootVol"));
   CW_TRY(cw_patch_names_set(a, -1, is_blade, " ", "blades", values));
   CW_TRY(set_monitored(a, values));
