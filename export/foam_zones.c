@@ -12,27 +12,21 @@ static CwStatus set_motion(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   int count = 0;
-  for (int d = 0; d < mesh->domain_count; ++d) count += mesh->domains[d].rotating != 0;
   CW_TRY(cw_values_start(values, "mrf_zones"));
+  CW_TRY(cw_values_start(values, "motion_zones"));
   CW_TRY(cw_values_start(values, "rotating_zones"));
-  CW_TRY(cw_values_set(values, "mesh_motion", "%s",
-                       count ? "dynamicFvMesh   dynamicMotionSolverFvMesh;\nmotionSolverLibs (fvMotionSolvers);\n"
-                             : "dynamicFvMesh   staticFvMesh;\n"));
-  if (count > 1)
-    CW_TRY(cw_values_append(values, "mesh_motion",
-                            "motionSolver    multiSolidBodyMotionSolver;\n"
-                            "multiSolidBodyMotionSolverCoeffs\n{\n"));
-  for (int d = 0, first = 1; d < mesh->domain_count; ++d) {
+  for (int d = 0; d < mesh->domain_count; ++d) {
     if (!mesh->domains[d].rotating) continue;
     CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].name));
     CW_TRY(cw_patch_names_set(a, d, is_fixed, " ", "fixed_patches", values));
     CW_TRY(cw_values_append_file(values, "mrf_zones", "openfoam_parts/mrf_zone"));
-    CW_TRY(cw_values_append_file(values, "mesh_motion",
-                                 count > 1 ? "openfoam_parts/several_turn" : "openfoam_parts/one_turns"));
-    CW_TRY(cw_values_append(values, "rotating_zones", "%s`%s`", first ? "" : ", ", mesh->domains[d].name));
-    first = 0;
+    CW_TRY(cw_values_append_file(values, "motion_zones", "openfoam_parts/motion_zone"));
+    CW_TRY(cw_values_append(values, "rotating_zones", "%s`%s`", count++ ? ", " : "", mesh->domains[d].name));
   }
-  if (count > 1) CW_TRY(cw_values_append(values, "mesh_motion", "}\n"));
+  CW_TRY(cw_values_set_file(values, "mesh_motion",
+                            count > 1   ? "openfoam_parts/motion_several"
+                            : count > 0 ? "openfoam_parts/motion_one" // of the zone that was set last
+                                        : "openfoam_parts/motion_none"));
 done:
   return status;
 }
