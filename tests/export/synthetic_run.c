@@ -363,17 +363,7 @@ static json_t *write_region(const char *run, Domain *d, int region) {
                      r.data.prism_count, "triangles", r.data.triangle_count, "quads", r.data.quad_count);
   else
     fprintf(stderr, "%s: cannot be written\n", path);
-  free(r.data.points);
-  free(r.data.shared_id);
-  free(r.data.tetrahedra);
-  free(r.data.pyramids);
-  free(r.data.prisms);
-  free(r.data.triangles);
-  free(r.data.quads);
-  free(r.data.triangle_patch);
-  free(r.data.triangle_cell);
-  free(r.data.quad_patch);
-  free(r.data.quad_cell);
+  cw_mesh_region_free(&r.data);
   free(r.local);
   return line;
 }
