@@ -55,8 +55,9 @@ static CwStatus plan_one(CwOutput *o, CwFormat format) {
 
 // What cannot hold the mesh, as the last failure tells; that failure where no format is left.
 static CwStatus leave_out(CwOutput *o, CwFormat format) {
-  snprintf(o->left_out[format], sizeof o->left_out[format], "%s is left out: %s", cw_output_names[format],
-           cw_fail_message());
+  const int is_read = format == CW_FORMAT_CGNS && (o->formats & ON_CGNS);
+  snprintf(o->left_out[format], sizeof o->left_out[format], "%s is left out%s: %s", cw_output_names[format],
+           is_read ? ", and what reads it" : "", cw_fail_message());
   o->formats &= ~(1 << format | (format == CW_FORMAT_CGNS ? ON_CGNS : 0));
   return o->formats ? CW_OK : CW_ERR_EXPORT;
 }
