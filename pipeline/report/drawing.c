@@ -36,11 +36,12 @@ static void mark_parts(const CwMesh *mesh, CwDrawing *drawing) {
 
 void cw_drawing_start(const CwPictureSpec *spec, const CwMesh *mesh, const CwSurvey *survey, CwDrawing *drawing) {
   drawing->spec = spec;
+  drawing->suction = survey->sizes.suction;
   mark_parts(mesh, drawing);
   cw_drawing_aim(drawing, survey);
 }
 
-// From directions along radius, rotation and axis at `middle` to x, y, z.
+// From directions along radius, rotation and axis at `middle` to x, y, z; on the axis the same.
 static void turn_with(const double middle[3], const double local[3], double x[3]) {
   double radius = hypot(middle[0], middle[1]);
   double c = radius > 0 ? middle[0] / radius : 1, s = radius > 0 ? middle[1] / radius : 0;
@@ -52,26 +53,19 @@ static void turn_with(const double middle[3], const double local[3], double x[3]
 void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
   const CwPictureSpec *spec = drawing->spec;
   CwCamera *camera = &drawing->camera;
-  double towards[3], up[3], middle[3] = {0, 0, 0}, azimuth = cw_survey_meridional_azimuth(survey), z = 0;
+  const double suction = drawing->suction;
+  double towards[3] = {0, 0, suction}, up[3] = {1, 0, 0}, middle[3] = {0, 0, 0};
+  double azimuth = cw_survey_meridional_azimuth(survey), z = 0;
   double radius = 0.5 * (survey->sizes.interface_radius + survey->sizes.base_radius);
-  memcpy(towards, spec->towards, sizeof towards);
-  memcpy(up, spec->up, sizeof up);
-  if (spec->plane == CW_PLANE_MERIDIONAL) {
-    memcpy(towards, (double[3]){sin(azimuth), -cos(azimuth), 0}, sizeof towards);
-    memcpy(up, (double[3]){0, 0, 1}, sizeof up);
-  } else if (spec->plane != CW_PLANE_NONE) {
-    memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
-    memcpy(up, (double[3]){1, 0, 0}, sizeof up);
+  if (spec->plane == CW_PLANE_MERIDIONAL) { // the radius to the right
+    memcpy(towards, (double[3]){suction * sin(azimuth), -suction * cos(azimuth), 0}, sizeof towards);
+    memcpy(up, (double[3]){0, 0, suction}, sizeof up);
   }
   switch (spec->target) {
   case CW_TARGET_ALL:
     break;
   case CW_TARGET_PLACE:
     if (!cw_survey_place(survey, spec->place, middle)) drawing->lacking = "the mesh has no such patch";
-    if (spec->plane == CW_PLANE_NONE) {
-      turn_with(middle, spec->towards, towards);
-      turn_with(middle, spec->up, up);
-    }
     break;
   case CW_TARGET_SHROUD:
     radius = 0.43 * survey->sizes.outlet_radius;
@@ -83,6 +77,10 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
   }
   if (spec->plane == CW_PLANE_MID_SPAN && !cw_survey_has_mid_span(survey))
     drawing->lacking = "the mesh has no hub, or no shroud";
+  if (spec->plane == CW_PLANE_NONE) {
+    turn_with(middle, (double[3]){spec->towards[0], spec->towards[1], -suction * spec->towards[2]}, towards);
+    turn_with(middle, (double[3]){spec->up[0], spec->up[1], -suction * spec->up[2]}, up);
+  }
   cw_camera_turn(camera, towards, up);
   memcpy(camera->centre, middle, sizeof middle);
   camera->width = spec->width;
@@ -108,19 +106,21 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
 
 static int face_shown(const CwDrawing *drawing, int d, const CwSurfaceFace *face) {
   if (drawing->hidden[d][face->patch]) return 0;
-  if (!drawing->spec->upper_half || drawing->part[d] == CW_SEES_ROTOR) return 1;
-  double z = 0;
-  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
-  return z > 0;
+  if (!drawing->spec->drive_half || drawing->part[d] == CW_SEES_ROTOR) return 1;
+  for (int k = 0; k < face->count; k++)
+    if (drawing->suction * face->x[k][2] < 0) return 1;
+  return 0;
 }
 
-// Cuts off what lies at z < 0: the corners that are left, in order; at most one more than before.
-static int upper_part(const CwSurfaceFace *face, double part[5][3]) {
+// Cuts off what lies on the side of the suction from z = 0: the corners that are left, in order; at most one more than
+// before.
+static int drive_part(const CwSurfaceFace *face, int suction, double part[5][3]) {
   int count = 0;
   for (int k = 0; k < face->count; k++) {
     const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
-    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
-    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
+    const int kept = suction * a[2] <= 0;
+    if (kept) memcpy(part[count++], a, sizeof part[0]);
+    if (kept == (suction * b[2] <= 0) || count == 5) continue;
     for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
     count++;
   }
@@ -171,11 +171,11 @@ static uint32_t face_colour(const CwDrawing *drawing, int domain, int region, co
 static int face_polygon(const CwDrawing *drawing, int d, const CwSurfaceFace *face, const double (*pixel)[3],
                         double p[5][3]) {
   double part[5][3];
-  if (!drawing->spec->upper_half || drawing->part[d] != CW_SEES_STATOR) {
+  if (!drawing->spec->drive_half || drawing->part[d] != CW_SEES_STATOR) {
     for (int k = 0; k < face->count; k++) memcpy(p[k], pixel[face->corner[k]], sizeof p[k]);
     return face->count;
   }
-  const int corners = upper_part(face, part);
+  const int corners = drive_part(face, drawing->suction, part);
   for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
   return corners;
 }

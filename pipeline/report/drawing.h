@@ -17,6 +17,7 @@ extern const uint32_t cw_pyramid_colour;
 
 typedef struct {
   const CwPictureSpec *spec;
+  int suction; // CwPumpSizes
   CwCamera camera;
   CwCameraReach reach;
   CwCutPlane plane;

@@ -20,7 +20,11 @@ static const struct {
     {"input", "Design table", .part = cw_page_input, .of_design = 1},
     {"design", "Derived dimensions", .part = cw_page_design, .of_design = 1},
     {"drawings", "Design drawings", .part = cw_page_design_pictures, .of_design = 1},
-    {"geometry", "Geometry", .introduction = "Drawn from the boundary faces of the finished mesh, coloured by patch.",
+    {"geometry", "Geometry",
+     .introduction = "Drawn from the boundary faces of the finished mesh, coloured by patch. All pictures of this page "
+                     "are turned alike: along the axis or obliquely they look from the suction side with x up, so that "
+                     "the discharge leads to the right (to the left where the impeller turns clockwise, seen from the "
+                     "drive); across the axis and close by, the suction side is up.",
      .section = CW_SECTION_GEOMETRY},
     {"counts", "Mesh counts", .part = cw_page_counts},
     {"regions", "Regions", .part = cw_page_regions},

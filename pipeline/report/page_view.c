@@ -86,7 +86,7 @@ done:
   return status;
 }
 
-static CwStatus write_data(FILE *page, const CwMesh *mesh, const CwView *view) {
+static CwStatus write_data(FILE *page, const CwMesh *mesh, const CwView *view, int suction) {
   CwStatus status = CW_OK;
   unsigned char scale[3 * SCALE_COLOURS];
   double least[3], step = lattice_of(view, least);
@@ -95,8 +95,8 @@ static CwStatus write_data(FILE *page, const CwMesh *mesh, const CwView *view) {
     for (int c = 0; c < 3; c++) scale[3 * k + c] = (unsigned char)(colour >> (16 - 8 * c) & 255);
   }
   fputs("<script type=\"application/json\" id=\"view-data\">{", page);
-  fprintf(page, "\"step\":%.9g,\"least\":[%.9g,%.9g,%.9g],\"scale\":\"", isfinite(step) ? step : 0, least[0], least[1],
-          least[2]);
+  fprintf(page, "\"step\":%.9g,\"least\":[%.9g,%.9g,%.9g],\"suction\":%d,\"scale\":\"", isfinite(step) ? step : 0,
+          least[0], least[1], least[2], suction);
   cw_html_base64(page, scale, sizeof scale);
   fputs("\",\"parts\":[\n", page);
   for (int k = 0; k < view->part_count; k++) CW_TRY(write_part(page, mesh, view, k, least, step));
@@ -168,7 +168,7 @@ CwStatus cw_page_view(FILE *page, const CwReportData *data) {
           "zoom; with Shift, the right button or two fingers: shift. The walls, inlet and outlet of the mesh%s "
           "%d triangles.</figcaption>\n",
           view->decimated ? ", decimated to" : ":", (int)triangles);
-  CW_TRY(write_data(page, mesh, view));
+  CW_TRY(write_data(page, mesh, view, cw_report_suction(data)));
   fprintf(page, "<script>\n%s</script>\n</figure>\n", cw_page_viewer);
 done:
   return status;

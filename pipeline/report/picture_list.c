@@ -18,14 +18,20 @@
 #define Z0_CUT .colour = CW_COLOUR_CUT, .sees = CW_SEES_ALL, .plane = CW_PLANE_Z0
 #define INSET(whole, name) DETAIL, .inset_of = whole, .inset_name = name
 
+// One way for all: along the axis and obliquely from the suction side, x up, so that the discharge leads to the right;
+// across the axis and close by, the suction side up.
+#define ALONG_AXIS .towards = {0, 0, -1}, .up = {1, 0, 0}
+#define ALMOST_ALONG_AXIS .towards = {-0.35, 0, -1}, .up = {1, 0, 0}
+#define OBLIQUE .towards = {-0.95, 0.1, -1}, .up = {1, 0, 0}
+#define STEEP .towards = {-0.95, 0.1, -0.6}, .up = {1, 0, 0}
+
 // What lies before the blades is taken off.
 #define COVER "|shroud|suction_pipe|inlet|rotor_interface|"
 #define OPEN_ROTOR_AND(more) .sees = CW_SEES_ROTOR, .hidden = COVER more, .hollow_white = 1
 #define OPEN_ROTOR OPEN_ROTOR_AND("")
 #define OPEN_PUMP                                                                                                      \
-  .sees = CW_SEES_ROTOR | CW_SEES_STATOR, .hidden = COVER "stator_interface|", .upper_half = 1, .hollow_white = 1,     \
-  .towards = {-0.95, 0.1, -1}, .up = {1, 0, 0}
-#define OBLIQUE .towards = {0, -1, -0.75}, .up = {0, 0, -1}
+  .sees = CW_SEES_ROTOR | CW_SEES_STATOR, .hidden = COVER "stator_interface|", .drive_half = 1, .hollow_white = 1,     \
+  OBLIQUE
 
 enum { MERIDIONAL = 11, Z0 = 14 }; // indices of the whole cuts in the list
 
@@ -33,7 +39,7 @@ const CwPictureSpec cw_picture_list[] = {
     // 0
     {.section = CW_SECTION_TITLE,
      .title = "The pump as meshed",
-     .caption = "Seen from the suction side: the impeller's blades on the hub, shroud taken off, within the "
+     .caption = "Obliquely from the suction side, x up: the impeller's blades on the hub, shroud taken off, within the "
                 "hub's half of the volute.",
      WIDE,
      OPEN_PUMP},
@@ -43,17 +49,16 @@ const CwPictureSpec cw_picture_list[] = {
      .caption = "Along the axis; shroud, suction pipe, inlet and interface taken off. White: the metal of the blades.",
      OF_TWO,
      OPEN_ROTOR,
-     .towards = {0, 0, -1},
-     .up = {0, 1, 0}},
+     ALONG_AXIS},
     {.section = CW_SECTION_GEOMETRY,
-     .title = "Rotor from above",
-     .caption = "The same, obliquely: blade height, hub and nut.",
+     .title = "Rotor, obliquely",
+     .caption = "The same: blade height, hub and nut.",
      OF_TWO,
      OPEN_ROTOR,
      OBLIQUE},
     {.section = CW_SECTION_GEOMETRY,
      .title = "Rotor, the whole water body",
-     .caption = "All boundary patches of the rotating zone, inlet up.",
+     .caption = "All boundary patches of the rotating zone.",
      OF_TWO,
      .sees = CW_SEES_ROTOR,
      .hidden = "",
@@ -64,14 +69,14 @@ const CwPictureSpec cw_picture_list[] = {
      OF_TWO,
      .sees = CW_SEES_STATOR,
      .hidden = "",
-     .towards = {-0.95, 0.1, -1},
-     .up = {1, 0, 0}},
+     OBLIQUE},
     // 5
     {.section = CW_SECTION_SURFACE,
      .title = "Leading edge",
-     .caption = "One blade's leading edge and the hub under it, seen from the eye; shroud and shaft are taken off.",
+     .caption = "One blade's leading edge down to its root on the hub, seen from the eye; shroud, nut and shaft are "
+                "taken off.",
      DETAIL,
-     OPEN_ROTOR_AND("hub_shaft|"),
+     OPEN_ROTOR_AND("hub_nut|hub_shaft|"),
      .edges = 1,
      AROUND(CW_PLACE_LEADING_EDGE, 0.2),
      .towards = {-1, 0.35, -0.9},
@@ -91,7 +96,7 @@ const CwPictureSpec cw_picture_list[] = {
      DETAIL,
      .sees = CW_SEES_STATOR,
      .hidden = "|stator_interface|",
-     .upper_half = 1,
+     .drive_half = 1,
      .edges = 1,
      AROUND(CW_PLACE_TONGUE, 0.17),
      .towards = {-1, 0.2, -1.1},
@@ -112,8 +117,7 @@ const CwPictureSpec cw_picture_list[] = {
      OF_TWO,
      .colour = CW_COLOUR_REGION,
      OPEN_ROTOR,
-     .towards = {0, -0.35, -1},
-     .up = {0, 1, -0.35}},
+     ALMOST_ALONG_AXIS},
     {.section = CW_SECTION_DECOMPOSITION,
      .title = "Regions of the stator",
      .caption = "Boundary coloured by region.",
@@ -121,13 +125,12 @@ const CwPictureSpec cw_picture_list[] = {
      .colour = CW_COLOUR_REGION,
      .sees = CW_SEES_STATOR,
      .hidden = "",
-     .towards = {-0.35, 0, -1},
-     .up = {1, 0, 0}},
+     ALMOST_ALONG_AXIS},
     // 11
     {.section = CW_SECTION_CUT,
      .title = "Meridional cut",
      .caption = "Plane through the axis, midway between two blades at the outlet; horizontal the radius, vertical the "
-                "axis. Each cell that the plane cuts is drawn with its outline.",
+                "axis, the suction side up. Each cell that the plane cuts is drawn with its outline.",
      .wide = 1,
      .width = 1560,
      .height = 560,
@@ -175,8 +178,7 @@ const CwPictureSpec cw_picture_list[] = {
      .sees = CW_SEES_ALL,
      .needs_pipes = 1,
      .hidden = "",
-     .towards = {-0.95, 0.1, -0.6},
-     .up = {1, 0, 0}},
+     STEEP},
     {.section = CW_SECTION_DECOMPOSITION,
      .title = "Regions of the pipes",
      .caption = "Boundary of the pipes that are zones of their own, coloured by region.",
@@ -185,8 +187,7 @@ const CwPictureSpec cw_picture_list[] = {
      .sees = CW_SEES_PIPES,
      .needs_pipes = 1,
      .hidden = "",
-     .towards = {-0.95, 0.1, -0.6},
-     .up = {1, 0, 0}},
+     STEEP},
     // 19
     {.section = CW_SECTION_FLOW,
      .title = "Pressure on the walls",
@@ -195,14 +196,14 @@ const CwPictureSpec cw_picture_list[] = {
      WIDE,
      OPEN_PUMP},
     {.section = CW_SECTION_FLOW,
-     .title = "Pressure, rotor from above",
-     .caption = "Obliquely from the side, shroud taken off.",
+     .title = "Pressure, rotor obliquely",
+     .caption = "On hub and blades, shroud taken off.",
      .colour = CW_COLOUR_PRESSURE,
      OF_TWO,
      OPEN_ROTOR,
      OBLIQUE},
     {.section = CW_SECTION_FLOW,
-     .title = "y+, rotor from above",
+     .title = "y+, rotor obliquely",
      .caption = "Of the solution, on hub and blades.",
      .colour = CW_COLOUR_Y_PLUS,
      OF_TWO,
@@ -225,8 +226,8 @@ const CwPictureSpec cw_picture_list[] = {
      .sees = CW_SEES_ALL,
      .plane = CW_PLANE_Z0},
     {.section = CW_SECTION_FLOW,
-     .title = "Relative velocity from blade to blade",
-     .caption = "On the surface of revolution midway between hub and shroud, seen from the suction side; white: "
+     .title = "Relative velocity at mid-span",
+     .caption = "On the surface of revolution midway between hub and shroud, in plan from the suction side; white: "
                 "streamlines of the velocity across the axis.",
      .wide = 1,
      .colour = CW_COLOUR_SPEED,

@@ -27,7 +27,7 @@ typedef enum {
   CW_COLOUR_Y_PLUS,
   CW_COLOUR_SPEED,
 } CwPictureColour;
-// MID_SPAN: the surface of revolution midway between hub and shroud, seen along the axis.
+// MID_SPAN: the surface of revolution midway between hub and shroud, in plan.
 typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0, CW_PLANE_MID_SPAN } CwPicturePlane;
 
 typedef enum {
@@ -47,15 +47,15 @@ typedef struct {
   unsigned sees;
   const char *hidden; // names of patches that are left out, "|a|b|"
   int needs_pipes;    // only where pipes are zones of their own
-  int upper_half;     // of the stator, what lies at z < 0 is cut off
+  int drive_half;     // of the stator, what lies on the side of the suction from z = 0 is cut off
   int hollow_white;   // faces of the rotor seen from within the metal are left white
   int edges;          // with the edges of the faces
   CwPicturePlane plane;
   CwPictureTarget target;
   CwPlace place;
   double span; // width of the picture over the outlet diameter; 0: all
-  // Towards the viewer and upwards: x, y, z; of a place: along the radius, the direction of rotation, the
-  // axis.
+  // Towards the viewer and upwards: x, y, z; of a place: along the radius, the direction of rotation, the axis. Of a
+  // pump with its suction at z < 0; others are seen in the mirror z = 0, from their suction side too.
   double towards[3], up[3];
   const char *inset_name; // NULL: in no other picture
   int inset_of;           // index of the picture in which this one is framed

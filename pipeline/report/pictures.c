@@ -112,7 +112,7 @@ static void annotate(const CwDrawing *drawings, int index, CwAnnotation *annotat
   if (drawing->spec->plane == CW_PLANE_MERIDIONAL) {
     annotation->axis_count = 2;
     annotation->axis[0] = (CwTriadAxis){"r", {1, 0}};
-    annotation->axis[1] = (CwTriadAxis){"z", {0, -1}};
+    annotation->axis[1] = (CwTriadAxis){"z", {0, -camera->up[2]}};
   }
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwCamera *inset = &drawings[k].camera;

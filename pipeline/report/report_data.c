@@ -89,11 +89,16 @@ void cw_report_data_free(CwReportData *data) {
   *data = (CwReportData){0};
 }
 
+int cw_report_suction(const CwReportData *data) {
+  return data->table->impeller.rotation == CW_ROTATION_CLOCKWISE ? 1 : -1;
+}
+
 // Of a pump that no generator made: what the model says of it.
-static CwPumpSizes sizes_of_model(const CwMesh *mesh) {
+static CwPumpSizes sizes_of_model(const CwMesh *mesh, int suction) {
   CwPumpSizes sizes = {.blade_count = mesh->flow.blade_count,
                        .leading_radius = INFINITY,
-                       .outlet_radius = 0.5 * mesh->flow.reference_length};
+                       .outlet_radius = 0.5 * mesh->flow.reference_length,
+                       .suction = suction};
   sizes.interface_radius = sizes.outlet_radius;
   for (int i = mesh->interface_count - 1; i >= 0; i--)
     if (mesh->interfaces[i].surface == CW_SURFACE_CYLINDER) sizes.interface_radius = mesh->interfaces[i].radius;
@@ -105,7 +110,7 @@ static CwPumpSizes sizes_of_model(const CwMesh *mesh) {
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
   if (!data->design) {
-    *sizes = sizes_of_model(&data->mesh);
+    *sizes = sizes_of_model(&data->mesh, cw_report_suction(data));
     return CW_OK;
   }
   static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
@@ -119,7 +124,8 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
                          .leading_radius = leading > 0 ? 1.1 * leading : INFINITY,
                          .outlet_radius = 0.5 * value[1],
                          .interface_radius = value[2],
-                         .base_radius = 0.5 * value[3]};
+                         .base_radius = 0.5 * value[3],
+                         .suction = cw_report_suction(data)};
 done:
   return status;
 }

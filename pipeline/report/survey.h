@@ -20,6 +20,7 @@ typedef struct {
   int blade_count;       // at the outlet: blades and splitters
   double leading_radius; // no leading edge of a whole blade lies outside it; those of splitters do
   double outlet_radius, interface_radius, base_radius;
+  int suction; // -1 or 1: the sign of z on the suction side
 } CwPumpSizes;
 
 typedef struct {

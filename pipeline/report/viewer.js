@@ -154,8 +154,10 @@
     state.zoom = 1;
     state.shift = [0, 0];
   }
-  const views = {home: [[-0.95, 0.1, -1], [1, 0, 0]], suction: [[0, 0, -1], [1, 0, 0]],
-                 back: [[0, 0, 1], [1, 0, 0]], side: [[0, -1, 0], [1, 0, 0]]};
+  // As the other pictures are turned (picture_list.c); data.suction: the sign of z on the suction side.
+  const {suction} = data;
+  const views = {home: [[-0.95, 0.1, suction], [1, 0, 0]], suction: [[0, 0, suction], [1, 0, 0]],
+                 back: [[0, 0, -suction], [1, 0, 0]], side: [[0, -1, 0], [0, 0, suction]]};
 
   // Turns about the axes of the screen.
   function rotate(dx, dy) {

@@ -189,7 +189,7 @@ def walls(bench):
     return "\n".join([f"The case `paper-l` with {result['cells']:,} cells; {settled_word(result)} after "
                       f"{result['iterations']} iterations.", "",
                       table(("wall", "mean y+", *(f"area with y+ up to {limit}" for limit in LIMITS)), rows), "",
-                      bench.picture(run, bench.sizes.walls, "y+, rotor from above", "walls")])
+                      bench.picture(run, bench.sizes.walls, "y+, rotor obliquely", "walls")])
 
 
 def velocities(bench):
@@ -201,7 +201,7 @@ def velocities(bench):
     for share in SHARES:
         flow = bench.runs / f"velocities-{share:g}"
         eddies(bench, run, flow, share)
-        lines += [f"{share:g} Q:", "", bench.picture(flow, cells, "Relative velocity from blade to blade",
+        lines += [f"{share:g} Q:", "", bench.picture(flow, cells, "Relative velocity at mid-span",
                                                      f"velocities-{round(1000 * share):04d}"), ""]
     return "\n".join([f"{record(run, 'export')['results']['cells']:,} cells; k-omega SST for "
                       f"{bench.sizes.transient_turns:g} turns, then Smagorinsky's model for {bench.sizes.les_turns:g}.",

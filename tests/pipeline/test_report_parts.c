@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "pipeline/report/cut.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
 #include "pipeline/report/picture_list.h"
@@ -266,7 +267,7 @@ static void survey_finds_places(void **state) {
   CwMesh mesh = {.patch_count = 3, .patches = names};
   CwRegionData cells = {
       .point_count = 12, .triangle_count = 4, .points = x, .triangles = triangle, .triangle_patch = patch};
-  CwPumpSizes sizes = {2, 0.05, 0.1, 0.101, 0.102};
+  CwPumpSizes sizes = {2, 0.05, 0.1, 0.101, 0.102, -1};
   CwSurvey *survey = malloc(sizeof *survey);
   double middle[3], radius, z_least, z_most, z;
   cw_survey_start(survey, &sizes);
@@ -307,6 +308,33 @@ static void survey_finds_places(void **state) {
   free(survey);
 }
 
+// Along the axis and obliquely all pictures look from the suction side, wherever that lies, with x up; across the axis
+// and close by, that side is up.
+static void pictures_are_turned_alike(void **state) {
+  const CwMesh mesh = {0};
+  CwSurvey *survey = malloc(sizeof *survey);
+  for (int suction = -1; suction <= 1; suction += 2) {
+    const CwPumpSizes sizes = {6, 0.05, 0.1, 0.101, 0.102, suction};
+    cw_survey_start(survey, &sizes);
+    for (int k = 0; k < cw_picture_list_count; k++) {
+      const CwPictureSpec *spec = &cw_picture_list[k];
+      const int close = spec->target == CW_TARGET_PLACE && spec->plane == CW_PLANE_NONE;
+      CwDrawing *drawing = calloc(1, sizeof *drawing);
+      cw_drawing_start(spec, &mesh, survey, drawing);
+      const CwCamera *camera = &drawing->camera;
+      if (close || spec->plane == CW_PLANE_MERIDIONAL) {
+        assert_true(suction * camera->up[2] > 0.4);
+      } else {
+        assert_true(suction * camera->towards[2] > 0.4);
+        assert_true(camera->up[0] > 0.4);
+        assert_true(-suction * camera->right[1] > 0.9);
+      }
+      free(drawing);
+    }
+  }
+  free(survey);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(numbers_read_well),
@@ -319,6 +347,7 @@ int main(void) {
       cmocka_unit_test(corners_in_the_plane_stand_once),
       cmocka_unit_test(cut_cells_of_a_region_are_listed),
       cmocka_unit_test(survey_finds_places),
+      cmocka_unit_test(pictures_are_turned_alike),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
