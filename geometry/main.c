@@ -122,7 +122,7 @@ done:
 }
 
 static const char *const design_files[] = {
-    "design.json",     "meridional_section.svg", "blade_to_blade.svg", "velocity_triangles.svg",
+    "design.json",     "meridional_section.svg", "blade_plan.svg", "velocity_triangles.svg",
     "blade_angle.svg", "volute_sections.svg",    "volute_plan.svg"};
 
 typedef struct {
@@ -133,7 +133,7 @@ typedef struct {
 static CwStatus write_design_file(const void *given, int k, const char *path) {
   const Designed *of = given;
   CwStatus (*const picture[])(const CwDesign *, const char *) = {
-      cw_picture_meridional,  cw_picture_blade_to_blade,  cw_picture_velocity_triangles,
+      cw_picture_meridional,  cw_picture_blade_plan,  cw_picture_velocity_triangles,
       cw_picture_blade_angle, cw_picture_volute_sections, cw_picture_volute_plan};
   return k == 0 ? cw_design_file_write(of->design, of->measured, path) : picture[k - 1](of->design, path);
 }

@@ -33,7 +33,7 @@ void cw_picture_scale(CwPicture *picture, double x, double y, double pixels_per_
 
 // The pictures of the geometry stage.
 CwStatus cw_picture_meridional(const CwDesign *design, const char *path);         // section (z, r)
-CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path);     // plan view at mid-span
+CwStatus cw_picture_blade_plan(const CwDesign *design, const char *path);         // plan view at mid-span
 CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path); // inlet and outlet
 CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path);        // beta and area along the blade
 CwStatus cw_picture_volute_sections(const CwDesign *design, const char *path);    // areas and outlines

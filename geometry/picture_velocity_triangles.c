@@ -3,8 +3,11 @@
 
 #include "geometry/picture.h"
 
-// One triangle: u from left to right, c from its left end, w from its right end to the same apex. A steep
-// arrow has its name beside it, a flat one above it.
+static const double NAME = 60, ROOM = 24; // px: width of an arrow's name, height between two arrows that it fits into
+
+// One triangle: u from left to right, c from its left end, w from its right end to the same apex. The name of u stands
+// below, that of c before it. That of w stands above it; with swirl, where the line without slip runs there, between w
+// and u, or, where that is too flat, behind both.
 static void triangle(CwPicture *picture, double left, double base, double scale, const char *where,
                      const CwTriangle *t) {
   const double x1 = left + scale * t->u, xa = left + scale * t->c_u, ya = base - scale * t->c_m;
@@ -12,14 +15,15 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
   cw_picture_arrow(picture, CW_STROKE_WALL, left, base, x1, base);
   cw_picture_arrow(picture, CW_STROKE_FLOW, left, base, xa, ya);
   cw_picture_arrow(picture, CW_STROKE_BLADE, x1, base, xa, ya);
-  if (xa > left + 1) cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
   cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (left + x1), base + 20, "u = %.2f", t->u);
   cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (left + xa) - 8, 0.5 * (base + ya) - 4, "c = %.2f", t->c);
-  // Above w, or where the line without slip runs there, below u.
-  if (xa > left + 1)
-    cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (x1 + xa), base + 20, "w = %.2f", t->w);
-  else
-    cw_picture_text(picture, CW_TEXT_LEFT, 0.5 * (x1 + xa) + 8, 0.5 * (base + ya) - 8, "w = %.2f", t->w);
+  double x = 0.5 * (x1 + xa) + 8, y = 0.5 * (base + ya) - 8;
+  if (xa > left + 1) {
+    cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
+    x = (base - ya) * (1 - (6 + NAME) / (x1 - xa)) > ROOM ? xa + 6 : x1 + 12;
+    y = base - 8;
+  }
+  cw_picture_text(picture, CW_TEXT_LEFT, x, y, "w = %.2f", t->w);
 }
 
 // w along the blade, as it would be without slip, with the same u and c_m; the gap between both apexes is the slip.

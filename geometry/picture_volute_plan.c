@@ -11,15 +11,18 @@ enum { SPIRAL_POINTS = 181, NOSE_POINTS = 25, WALL_POINTS = 33, LINE_MOST = 512,
 static const double degree = M_PI / 180;
 static const double largest = 640; // px
 
-// From the tongue's frame to pixels: turned by minus the lean of the discharge, then scaled.
+// From the tongue's frame to pixels: turned by minus the lean of the discharge, then scaled. Seen from the suction
+// side, as the report's pictures are: y, along the discharge, points to the right (1), or to the left (-1) of a wheel
+// that has its suction at z > 0.
 typedef struct {
   double lean, scale, low[2], high[2], left, top;
+  int right;
 } Frame;
 
 static void turned(const Frame *frame, const double x[2], double out[2]) {
   const double c = cos(frame->lean), s = sin(frame->lean);
-  out[0] = c * x[0] + s * x[1];
-  out[1] = -s * x[0] + c * x[1];
+  out[0] = frame->right * (-s * x[0] + c * x[1]);
+  out[1] = c * x[0] + s * x[1];
 }
 
 static void reach(Frame *frame, const double x[2]) {
@@ -118,7 +121,8 @@ CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path) {
   const CwVolute *volute = &design->volute;
   const CwVoluteInput *in = &volute->input;
   Walls walls;
-  Frame frame = {volute->discharge_lean, 1, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 60, 70};
+  Frame frame = {volute->discharge_lean, 1, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 60, 70,
+                 design->rotation == CW_ROTATION_CLOCKWISE ? -1 : 1};
   make_walls(volute, &walls);
   for (int i = 0; i < walls.outer_count; i++) reach(&frame, walls.outer[i]);
   for (int i = 0; i < walls.inner_count; i++) reach(&frame, walls.inner[i]);
@@ -127,7 +131,8 @@ CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path) {
   const double bottom = frame.top + frame.scale * high;
   CW_TRY(cw_picture_begin(&picture, path, frame.left + fmax(frame.scale * wide + 60, 500), bottom + 150));
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Volute in plan at z = 0; angles from the start of the spiral, in the sense of rotation");
+                  "Volute in plan at z = 0, from the suction side; angles from the start of the spiral, in the sense "
+                  "of rotation");
   const double origin[2] = {0, 0}, pixels_per_mm = frame.scale * 1e-3;
   double p[2];
   to_pixels(&frame, origin, p);

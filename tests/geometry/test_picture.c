@@ -44,7 +44,7 @@ static void pictures(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
   check(cw_picture_meridional, &design, "D2 = 200.0 mm");
-  check(cw_picture_blade_to_blade, &design, "wrap 71.0, beta1");
+  check(cw_picture_blade_plan, &design, "wrap 71.0, beta1");
   check(cw_picture_velocity_triangles, &design, "u = 15.18");
   check(cw_picture_blade_angle, &design, "mid-span");
   check(cw_picture_volute_sections, &design, "360 deg: ");
@@ -57,7 +57,7 @@ static void blades_end_at_the_outlet_diameter(void **state) {
   const CwDesign design = design_of(&table);
   double centre[2], circle, x, y, most = 0;
   int used;
-  assert_int_equal(cw_picture_blade_to_blade(&design, "picture-test-blades.svg"), CW_OK);
+  assert_int_equal(cw_picture_blade_plan(&design, "picture-test-blades.svg"), CW_OK);
   char *text = read_whole("picture-test-blades.svg", NULL);
   unlink("picture-test-blades.svg");
   assert_int_equal(
@@ -66,6 +66,28 @@ static void blades_end_at_the_outlet_diameter(void **state) {
     for (list = strstr(list, "points=\"") + 8; sscanf(list, "%lf,%lf%n", &x, &y, &used) == 2; list += used)
       most = fmax(most, hypot(x - centre[0], y - centre[1]) / circle * design.interface_radius);
   assert_true(fabs(most / (design.outlet_diameter / 2) - 1) < 1e-3);
+  free(text);
+}
+
+// How far down the last text stands that begins so, px.
+static double height_of_text(const char *svg, const char *start) {
+  const char *found = NULL;
+  double y = NAN;
+  for (const char *at = svg; (at = strstr(at, start)); at++) found = at;
+  assert_non_null(found);
+  while (strncmp(found, "<text", 5)) found--;
+  assert_int_equal(sscanf(found, "<text x=\"%*f\" y=\"%lf", &y), 1);
+  return y;
+}
+
+// Of the outlet's triangle, the last: the name of w stands above u, below which that of u stands alone.
+static void names_of_arrows_stand_apart(void **state) {
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
+  assert_int_equal(cw_picture_velocity_triangles(&design, "picture-test-names.svg"), CW_OK);
+  char *text = read_whole("picture-test-names.svg", NULL);
+  unlink("picture-test-names.svg");
+  assert_true(height_of_text(text, ">w = ") < height_of_text(text, ">u = ") - 20);
   free(text);
 }
 
@@ -82,6 +104,6 @@ static void text_is_escaped(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(blades_end_at_the_outlet_diameter),
-                                     cmocka_unit_test(text_is_escaped)};
+                                     cmocka_unit_test(names_of_arrows_stand_apart), cmocka_unit_test(text_is_escaped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

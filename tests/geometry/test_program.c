@@ -33,7 +33,7 @@ static void files_are_written_and_the_same_each_time(void **state) {
                                       "faces.csv",
                                       "pump.step",
                                       "design.json",
-                                      "blade_to_blade.svg",
+                                      "blade_plan.svg",
                                       "meridional_section.svg",
                                       "blade_angle.svg",
                                       "velocity_triangles.svg",

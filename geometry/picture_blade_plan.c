@@ -35,57 +35,67 @@ static void outline(const CwDesign *design, const CwBladeSection *section, doubl
   }
 }
 
-CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
+// From polar coordinates to the sheet, seen from the suction side with x up, as the report's pictures are: y points to
+// the right, or to the left of a wheel that has its suction at z > 0.
+typedef struct {
+  double scale, x, y; // px/m; of the axis, px
+  int right;          // 1 or -1
+} Sheet;
+
+static void place(const Sheet *sheet, double r, double theta, double x[2]) {
+  x[0] = sheet->x + sheet->right * sheet->scale * r * sin(theta);
+  x[1] = sheet->y - sheet->scale * r * cos(theta);
+}
+
+// An arc about the axis.
+enum { ARC = 41 };
+static void arc(const Sheet *sheet, double r, double begin, double end, double x[ARC][2]) {
+  for (int i = 0; i < ARC; i++) place(sheet, r, begin + (end - begin) * i / (ARC - 1), x[i]);
+}
+
+// From the axis outwards.
+static void ray(CwPicture *picture, const Sheet *sheet, double r, double theta) {
+  double x[2];
+  place(sheet, r, theta, x);
+  cw_picture_segment(picture, CW_STROKE_THIN, sheet->x, sheet->y, x[0], x[1]);
+}
+
+CwStatus cw_picture_blade_plan(const CwDesign *design, const char *path) {
   CwStatus status = CW_OK;
   CwPicture picture = {0};
   CwMeridian m;
   CwBladeSection section, splitter;
-  double polar[OUTLINE][2], x[OUTLINE][2];
-  const double scale = 320 / design->interface_radius, centre = 360;
+  double polar[OUTLINE][2], x[OUTLINE][2], line[ARC][2];
+  const double scale = 320 / design->interface_radius, centre = 360, tip = design->outlet_diameter / 2;
+  const int right = design->rotation == CW_ROTATION_CLOCKWISE ? -1 : 1;
+  const Sheet sheet = {scale, centre, centre + 20, right};
   CW_TRY(cw_meridian_make(design, &m));
   CW_TRY(cw_blade_section(design, &m, 0.5, &section));
   CW_TRY(cw_picture_begin(&picture, path, 2 * centre, 2 * centre + 40));
-  cw_picture_text(
-      &picture, CW_TEXT_LEFT, 20, 28, "Blades at mid-span, seen %s (against +z); wrap %.1f, beta1 %.1f, beta2 %.1f deg",
-      design->rotation == CW_ROTATION_CLOCKWISE ? "from the suction side" : "from the drive",
-      design->wrap_angle * 180 / M_PI, design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
-  cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->interface_radius);
-  cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->inlet_diameter / 2);
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
+                  "Blades at mid-span in plan, from the suction side, x up; wrap %.1f, beta1 %.1f, beta2 %.1f deg",
+                  design->wrap_angle * 180 / M_PI, design->inlet_blade_angle * 180 / M_PI,
+                  design->outlet_blade_angle * 180 / M_PI);
+  cw_picture_circle(&picture, CW_STROKE_THIN, sheet.x, sheet.y, scale * design->interface_radius);
+  cw_picture_circle(&picture, CW_STROKE_THIN, sheet.x, sheet.y, scale * design->inlet_diameter / 2);
   for (int kind = 0; kind < (design->splitter_start > 0 ? 2 : 1); kind++) {
     splitter = kind ? cw_blade_splitter(design, &section) : section;
     outline(design, &splitter, polar);
     for (int k = 0; k < design->blade_count; k++) {
-      for (int i = 0; i < OUTLINE; i++) {
-        const double theta = polar[i][1] + 2 * M_PI * k / design->blade_count;
-        x[i][0] = centre + scale * polar[i][0] * cos(theta);
-        x[i][1] = centre + 20 - scale * polar[i][0] * sin(theta);
-      }
+      for (int i = 0; i < OUTLINE; i++)
+        place(&sheet, polar[i][0], polar[i][1] + 2 * M_PI * k / design->blade_count, x[i]);
       cw_picture_line(&picture, CW_STROKE_BLADE, (const double(*)[2])x, OUTLINE, 1);
     }
   }
   // The wrap of blade 1, between the rays to the ends of its mean line, and the sense of rotation.
-  const double r0 = scale * 0.16 * design->outlet_diameter / 2;
-  double arc[41][2];
-  for (int i = 0; i <= 40; i++) {
-    const double theta = section.theta[0] * i / 40;
-    arc[i][0] = centre + r0 * cos(theta);
-    arc[i][1] = centre + 20 - r0 * sin(theta);
-  }
-  cw_picture_line(&picture, CW_STROKE_THIN, (const double(*)[2])arc, 41, 0);
-  cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20, centre + scale * design->outlet_diameter / 2,
-                     centre + 20);
-  cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20,
-                     centre + scale * m.hub.pole[3][0] * 0.5 * cos(section.theta[0]),
-                     centre + 20 - scale * m.hub.pole[3][0] * 0.5 * sin(section.theta[0]));
-  const double ra = scale * 0.25 * design->outlet_diameter / 2;
-  for (int i = 0; i <= 40; i++) {
-    const double theta = M_PI * (0.75 + 0.5 * i / 40);
-    arc[i][0] = centre + ra * cos(theta);
-    arc[i][1] = centre + 20 - ra * sin(theta);
-  }
-  cw_picture_line(&picture, CW_STROKE_FLOW, (const double(*)[2])arc, 40, 0);
-  cw_picture_arrow(&picture, CW_STROKE_FLOW, arc[38][0], arc[38][1], arc[40][0] + 4, arc[40][1] + 4);
-  cw_picture_text(&picture, CW_TEXT_RIGHT, arc[20][0] - 4, arc[20][1] + 4, "n");
+  arc(&sheet, 0.16 * tip, 0, section.theta[0], line);
+  cw_picture_line(&picture, CW_STROKE_THIN, (const double(*)[2])line, ARC, 0);
+  ray(&picture, &sheet, tip, 0);
+  ray(&picture, &sheet, m.hub.pole[3][0] * 0.5, section.theta[0]);
+  arc(&sheet, 0.25 * tip, -M_PI / 2 * right - M_PI / 4, -M_PI / 2 * right + M_PI / 4, line); // on the left
+  cw_picture_line(&picture, CW_STROKE_FLOW, (const double(*)[2])line, ARC - 1, 0);
+  cw_picture_arrow(&picture, CW_STROKE_FLOW, line[38][0], line[38][1], line[40][0] + 4, line[40][1] - 4 * right);
+  cw_picture_text(&picture, CW_TEXT_RIGHT, line[20][0] - 4, line[20][1] + 4, "n");
   cw_picture_text(&picture, CW_TEXT_RIGHT, centre + 340, centre + 56 + scale * design->interface_radius,
                   "D2 = %.1f mm; circles: D1 = %.1f mm, interface r = %.1f mm", design->outlet_diameter * 1e3,
                   design->inlet_diameter * 1e3, design->interface_radius * 1e3);
