@@ -11,6 +11,7 @@
 #include "pipeline/report/html.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/plot.h"
+#include "pipeline/wall_group.h"
 
 enum { ASPECT_CLASSES = 8, DIHEDRAL_BINS = 18, JACOBIAN_BINS = 20, BINS_MOST = 20 };
 enum { DIHEDRAL_SHOWN = 8 }; // least dihedral angles end at that of the regular tetrahedron, 70.5 degrees
@@ -382,7 +383,7 @@ static void reason_cells(FILE *page, const json_t *patch, const char *what) {
 }
 
 // Thickness of the layers on a patch, and why columns are thinner.
-static void thickness_cells(FILE *page, json_t *patch, double faces) {
+static void thickness_cells(FILE *page, const CwReportData *data, json_t *patch, double faces) {
   count_cell(page, (long long)faces);
   share_cell(page, coverage(patch, CW_LAYER_FULL), faces);
   number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
@@ -390,8 +391,22 @@ static void thickness_cells(FILE *page, json_t *patch, double faces) {
   reason_cells(page, patch, "thinned");
 }
 
-// The first layer against its target, the last against the tetrahedra.
-static void height_cells(FILE *page, json_t *patch, double faces) {
+// What is asked of a wall; NAN: no y+.
+static double asked_y_plus(const CwReportData *data, const json_t *patch) {
+  const char *name = json_string_value(json_object_get(patch, "patch"));
+  const int p = name ? cw_mesh_patch_find(&data->mesh, name) : -1;
+  if (p < 0) return NAN;
+  const CwModelPatch *wall = &data->mesh.patches[p];
+  const CwWallGroup *group = cw_wall_group(&data->table->walls, wall->group);
+  if (cw_case_given(wall->y_plus_asked)) return wall->y_plus_asked;
+  return cw_case_given(group->first_height) ? NAN : group->y_plus;
+}
+
+// The first layer as asked and as made, the last against the tetrahedra.
+static void height_cells(FILE *page, const CwReportData *data, json_t *patch, double faces) {
+  number_cell(page, asked_y_plus(data, patch), 3);
+  number_cell(page, cw_json_real(patch, "y_plus"), 3);
+  number_cell(page, cw_json_real(patch, "first_height_asked_m") * 1e6, 4);
   number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
   share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
   reason_cells(page, patch, "first_height_missed");
@@ -402,7 +417,7 @@ static void height_cells(FILE *page, json_t *patch, double faces) {
 }
 
 static void layer_rows(FILE *page, const CwReportData *data, json_t *const *list, int columns,
-                       void (*cells)(FILE *, json_t *, double)) {
+                       void (*cells)(FILE *, const CwReportData *, json_t *, double)) {
   for (int d = 0; d < data->mesh.domain_count; d++) {
     size_t k;
     json_t *patch;
@@ -411,7 +426,7 @@ static void layer_rows(FILE *page, const CwReportData *data, json_t *const *list
     fputs("</td></tr>\n", page);
     json_array_foreach(list[d], k, patch) {
       cw_html_label(page, "<tr><td>", json_string_value(json_object_get(patch, "patch")), "</td>");
-      cells(page, patch, cw_json_real(patch, "wall_faces"));
+      cells(page, data, patch, cw_json_real(patch, "wall_faces"));
       fputs("</tr>\n", page);
     }
   }
@@ -434,10 +449,14 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   fputs("<p>Layers on every wall face: ", page);
   for (int d = 0; d < data->mesh.domain_count; d++)
     fprintf(page, "%s%s %d", d ? ", " : "", data->mesh.domains[d].name, (int)cw_json_real(domain[d], "layers"));
+  if (data->table->walls.layer_count > 0)
+    fprintf(page, "; %d asked", data->table->walls.layer_count);
+  else
+    fputs("; as many as lead to the size of the tetrahedra", page);
   fprintf(page,
-          "%s. The first height comes from the y<sup>+</sup> target of the wall; it is met within 10&#8239;%% on %s of "
+          ". The first height is asked itself or follows from the y<sup>+</sup> asked of the wall. Where it does not "
+          "fit the passage, or the flow is laminar, layers are made for another. Within 10&#8239;%% it is met on %s of "
           "the wall faces.</p>\n",
-          data->table->walls.layer_count > 0 ? "" : "; as many as lead to the size of the tetrahedra",
           cw_format_percent(met / all, text));
   CW_TRY(coverage_chart(page, data, list));
   fputs("<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
@@ -449,13 +468,15 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   fputs(
       "</table>\n<p>The volume ratio is that of the last prism of a column and the tetrahedron on it, the greater over "
       "the less.</p>\n"
-      "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
+      "<table><tr><th>Patch</th><th class=\"n p\">y<sup>+</sup><br>asked</th><th class=\"n p\"><br>made for</th>"
+      "<th class=\"n p\">First height, &micro;m<br>asked</th><th class=\"n p\"><br>made for</th>"
+      "<th class=\"n\"><br>met</th>"
       "<th class=\"n\">Missed by<br>sharp edge</th><th class=\"n\"><br>gap</th><th class=\"n\"><br>gradation</th><th "
       "class=\"n\"><br>repair</th>"
       "<th class=\"n\">Volume ratio<br>up to 4</th><th class=\"n p\"><br>95&#8239;% up to</th>"
       "<th class=\"n p\"><br>greatest</th></tr>\n",
       page);
-  layer_rows(page, data, list, 10, height_cells);
+  layer_rows(page, data, list, 13, height_cells);
   fputs("</table>\n", page);
 done:
   return status;

@@ -121,7 +121,8 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
   "\"least_dihedral_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]," \
   "\"prism_scaled_jacobian_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,2,0]," \
   "\"layer_coverage\":[{\"patch\":\"" patch "\",\"wall_faces\":40,\"full_thickness_faces\":30," \
-  "\"first_height_met_faces\":39,\"first_height_target_m\":2.2e-4,\"mean_thickness_m\":1.5e-3," \
+  "\"first_height_met_faces\":39,\"first_height_asked_m\":2.5e-4,\"first_height_target_m\":2.2e-4," \
+  "\"y_plus\":24,\"mean_thickness_m\":1.5e-3," \
   "\"least_thickness_m\":1e-3,\"thinned_by_gap_faces\":10,\"thinned_by_gradation_faces\":0," \
   "\"thinned_by_repair_faces\":0}],\"region_list\":[{\"region\":1,\"seconds\":0.5}]}"
 // clang-format on
@@ -238,7 +239,10 @@ static void page_tells_all_and_stands_alone(void **state) {
   assert_int_equal(count_of(page, "<figure"), count_of(page, "</figure>"));
   assert_int_equal(count_of(page, "<table"), count_of(page, "</table>"));
   holds(page, ">97.5 %<"); // first heights met
-  holds(page, "<p>Layers on every wall face: rotor 3, stator 3. ");
+  holds(page, "<p>Layers on every wall face: rotor 3, stator 3; 5 asked. ");
+  // y+ and first height, each as asked and as made.
+  holds(page, "<tr><td>Hub</td><td class=\"n\">30<span></span></td><td class=\"n\">24<span></span></td>"
+              "<td class=\"n\">250<span></span></td><td class=\"n\">220<span></span></td><td class=\"n\">97.5 %</td>");
   const char *headline = strstr(page, "laminar &lt;flow&gt;");
   assert_non_null(headline);
   assert_true(headline < strstr(page, "<h2"));
