@@ -25,6 +25,52 @@ static const char *unit_text(const char *suffix) {
   return unit ? unit->text : "";
 }
 
+// Keys of the case that do not read as words; NULL: others.
+static const char *plain_name(const char *key) {
+  static const struct {
+    const char *key, *name;
+  } plain[] = {{"time_step_deg", "turn in one time step of the transient run"},
+               {"correlations", "correlations by"},
+               {"slip", "slip model"},
+               {"warn_share", "difference from the correlations that is warned of, share"},
+               {"priority", "what goes first where the table asks too much"},
+               {"rotation", "rotation, seen from the drive"},
+               {"through_shaft_diameter_mm", "shaft through the inlet (0: none), diameter"},
+               {"leading_edge_ratio", "leading edge ellipse, along to across"},
+               {"thickest_at", "blade thickest at this share of its length"},
+               {"lean_deg", "lean of the trailing edge"},
+               {"splitter_start", "splitters begin at this share of the length"},
+               {"splitter_position", "splitters at this share of the pitch"},
+               {"suction_pipe_zone", "zone of the suction pipe"},
+               {"discharge_pipe_zone", "zone of the discharge pipe"},
+               {"area_law", "law by which sections grow"},
+               {"section", "shape of the sections"},
+               {"roughness_um", "sand grain roughness"},
+               {"treatment", "wall function"},
+               {"y_plus_at", "y+ is asked at"},
+               {"layer_count", "prism layers"},
+               {"growth_ratio", "growth of layers, at most"},
+               {"sweep", "layers with another number of cells"},
+               {"cells_per_region", "cells of a region, about"},
+               {"least_regions", "regions of a domain, at least"},
+               {"fill", "tetrahedra by"},
+               {"periodic_impeller", "one passage of the impeller for all"},
+               {"gradation", "growth of the cell size over distance, at most"},
+               {"curvature_angle_deg", "turn of a curved wall across an edge, at most"},
+               {"cells_across_gap", "cells across a gap, at least"},
+               {"size_blade", "cell size on blades over the base size"},
+               {"size_hub_shroud", "cell size on hub and shroud over the base size"},
+               {"size_volute", "cell size in the volute over the base size"},
+               {"size_pipe", "cell size in pipes over the base size"},
+               {"size_interface", "cell size on interfaces over the base size"},
+               {"integers", "bits of integers"},
+               {"processors", "folders that the mesh is divided into"},
+               {"labels", "bits of labels"}};
+  for (size_t k = 0; k < sizeof plain / sizeof *plain; k++)
+    if (!strcmp(key, plain[k].key)) return plain[k].name;
+  return NULL;
+}
+
 // What is left open stands among the derived dimensions, or follows from others.
 static int has_row(const CwCaseKey *key, const CwCase *table) {
   if (!*key->section || key->type == CW_KEY_NAME) return 0;
@@ -41,7 +87,7 @@ static void input_row(FILE *page, size_t index, const CwCase *table) {
   double value = cw_case_key_value(key, table);
   int automatic = key->presence == CW_KEY_AUTO && (isnan(value) || value == key->fallback);
   const char *origin = table->given[index] ? "case file" : automatic || value == key->fallback ? "default" : "computed";
-  cw_quantity_start(page, stem, NULL);
+  cw_quantity_start(page, stem, plain_name(key->key));
   if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES) {
     char chosen[CW_KEY_ALLOWED_SIZE];
     cw_case_key_chosen(key, value, chosen);

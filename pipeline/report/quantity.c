@@ -9,6 +9,7 @@
 // Longer ends first. One that does not begin with _ belongs to the name but for what follows its last _.
 static const CwQuantityUnit units[] = {
     {"_m3_per_s", "m&sup3;/h", 3600},
+    {"_m3_per_h", "m&sup3;/h", 1},
     {"_m2_per_s", "m&sup2;/s", 1},
     {"_rad_per_s", "rad/s", 1},
     {"_m_per_s", "m/s", 1},
@@ -24,6 +25,7 @@ static const CwQuantityUnit units[] = {
     {"_m3", "cm&sup3;", 1e6},
     {"_m", "mm", 1e3},
     {"_w", "W", 1},
+    {"_pa", "Pa", 1},
 };
 
 static const struct {

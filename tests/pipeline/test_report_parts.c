@@ -57,6 +57,7 @@ static void quantities_have_their_units(void **state) {
     const char *key, *stem, *unit;
     double shown; // of 1 in the unit of the key
   } wanted[] = {{"flow_rate_m3_per_s", "flow_rate", "m&sup3;/h", 3600},
+                {"flow_m3_per_h", "flow", "m&sup3;/h", 1},
                 {"kinematic_viscosity_m2_per_s", "kinematic_viscosity", "m&sup2;/s", 1},
                 {"angular_speed_rad_per_s", "angular_speed", "rad/s", 1},
                 {"inlet_blade_speed_m_per_s", "inlet_blade_speed", "m/s", 1},
@@ -67,6 +68,7 @@ static void quantities_have_their_units(void **state) {
                 {"solid_volume_m3", "solid_volume", "cm&sup3;", 1e6},
                 {"outlet_diameter_m", "outlet_diameter", "mm", 1e3},
                 {"shaft_power_w", "shaft_power", "W", 1},
+                {"vapour_pressure_pa", "vapour_pressure", "Pa", 1},
                 {"blade_count", "blade_count", "", 1}};
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
     char stem[CW_STEM_SIZE];
