@@ -13,6 +13,7 @@
 static const uint32_t background = 0xffffff, ink = 0x27313c;
 enum { FIT_MARGIN = 28, PLANES = CW_PLANE_MID_SPAN + 1 };
 static const double STREAMLINES = 14; // px apart
+static const double NUMBER_ROOM = 7;  // px from the middle of a region's number to the region's edge
 
 // What all ranks draw together: each its regions, which are neighbours in the order of the manifest.
 typedef struct {
@@ -125,6 +126,24 @@ static void annotate(const CwDrawing *drawings, int index, CwAnnotation *annotat
   }
 }
 
+// The number of each region where there is room for it.
+static CwStatus number_regions(const CwMesh *mesh, const CwCanvas *canvas, CwAnnotation *annotation) {
+  CwStatus status = CW_OK;
+  CwGroupMiddle *middle = NULL;
+  CW_NEW(middle, mesh->region_count);
+  CW_NEW(annotation->label, mesh->region_count);
+  CW_TRY(cw_render_middles(canvas, mesh->region_count, middle));
+  for (int r = 0; r < mesh->region_count; r++) {
+    if (middle[r].depth < NUMBER_ROOM) continue;
+    CwLabel *label = &annotation->label[annotation->label_count++];
+    *label = (CwLabel){.x = middle[r].x, .y = middle[r].y};
+    snprintf(label->text, sizeof label->text, "%d", mesh->regions[r].region);
+  }
+done:
+  free(middle);
+  return status;
+}
+
 static CwStatus finish(const Board *board, int index, CwPng *png) {
   CwStatus status = CW_OK;
   CwDrawing *drawing = &board->drawing[index];
@@ -135,8 +154,11 @@ static CwStatus finish(const Board *board, int index, CwPng *png) {
   cw_render_outline(&drawing->canvas, ink, 3 * drawing->camera.metres_per_pixel);
   cw_drawing_mark_seen(drawing);
   annotate(board->drawing, index, &annotation);
+  if (drawing->spec->colour == CW_COLOUR_REGION)
+    CW_TRY(number_regions(board->mesh, &drawing->canvas, &annotation));
   CW_TRY(cw_render_png(&drawing->canvas, &annotation, png));
 done:
+  free(annotation.label);
   cw_render_free(&drawing->canvas);
   return status;
 }

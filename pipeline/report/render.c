@@ -317,6 +317,36 @@ void cw_render_erase(CwCanvas *canvas, uint16_t group) {
     if (canvas->group[i] == group) canvas->group[i] = 0;
 }
 
+// How deep a sample lies in its group by the one `step` beside it, if there is one.
+static int depth_by(const CwCanvas *canvas, const int *depth, long place, int there, long step) {
+  return 1 + (there && canvas->group[place + step] == canvas->group[place] ? depth[place + step] : 0);
+}
+
+CwStatus cw_render_middles(const CwCanvas *canvas, int count, CwGroupMiddle *middle) {
+  CwStatus status = CW_OK;
+  const long columns = canvas->columns, samples = columns * canvas->rows;
+  int *depth = NULL; // samples to the nearest of another group, in two passes (A. Rosenfeld and J. L. Pfaltz, 1966)
+  CW_NEW_UNSET(depth, samples);
+  for (long i = 0; i < samples; i++) {
+    const int left = depth_by(canvas, depth, i, i % columns > 0, -1);
+    const int up = depth_by(canvas, depth, i, i >= columns, -columns);
+    depth[i] = left < up ? left : up;
+  }
+  for (long i = samples - 1; i >= 0; i--) {
+    const int right = depth_by(canvas, depth, i, (i + 1) % columns > 0, 1);
+    const int down = depth_by(canvas, depth, i, i + columns < samples, columns), group = canvas->group[i];
+    if (right < depth[i]) depth[i] = right;
+    if (down < depth[i]) depth[i] = down;
+    if (group < 1 || group > count || depth[i] <= CW_RENDER_SAMPLES * middle[group - 1].depth) continue;
+    middle[group - 1] = (CwGroupMiddle){((double)(i % columns) + 0.5) / CW_RENDER_SAMPLES,
+                                        ((double)(i / columns) + 0.5) / CW_RENDER_SAMPLES,
+                                        (double)depth[i] / CW_RENDER_SAMPLES};
+  }
+done:
+  free(depth);
+  return status;
+}
+
 double cw_render_round_length(double limit) {
   double power = pow(10, floor(log10(limit)));
   double factor = limit / power * (1 + 1e-12);

@@ -61,6 +61,15 @@ void cw_render_occlusion(CwCanvas *canvas, double radius, double unit);
 // Makes the samples of `group` background again.
 void cw_render_erase(CwCanvas *canvas, uint16_t group);
 
+// Where a group lies deepest within itself, for a text on it.
+typedef struct {
+  double x, y;  // px
+  double depth; // px to the nearest sample of another group, along rows and columns; 0: none of it is to be seen
+} CwGroupMiddle;
+
+// Of groups 1 to `count`, that of group k in middle[k - 1], zeroed on entry. CW_ERR_MEMORY.
+CwStatus cw_render_middles(const CwCanvas *canvas, int count, CwGroupMiddle *middle);
+
 // 0xRRGGBB times a factor, limited to white.
 uint32_t cw_render_shade(uint32_t colour, double factor);
 
@@ -76,11 +85,18 @@ typedef struct {
 } CwInsetFrame;
 
 typedef struct {
+  char text[16];
+  double x, y; // px, in the middle of it
+} CwLabel;
+
+typedef struct {
   double metres_per_pixel; // for the scale bar
   CwTriadAxis axis[3];
   int axis_count;
   CwInsetFrame frame[4];
   int frame_count;
+  CwLabel *label;
+  int label_count;
   double streamlines_apart; // px; 0: none. On a canvas that keeps velocities.
 } CwAnnotation;
 
@@ -89,8 +105,8 @@ typedef struct {
   size_t size;
 } CwPng;
 
-// Averages the samples and writes streamlines, scale bar, axes and frames. Free with cw_png_free. CW_ERR_LIBRARY,
-// CW_ERR_MEMORY.
+// Averages the samples and writes streamlines, labels, scale bar, axes and frames. Free with cw_png_free.
+// CW_ERR_LIBRARY, CW_ERR_MEMORY.
 CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, CwPng *png);
 void cw_png_free(CwPng *png);
 

@@ -107,6 +107,17 @@ static void frames(cairo_t *cr, const CwAnnotation *annotation) {
   }
 }
 
+static void labels(cairo_t *cr, const CwAnnotation *annotation) {
+  cairo_set_font_size(cr, 16);
+  for (int k = 0; k < annotation->label_count; k++) {
+    const CwLabel *label = &annotation->label[k];
+    cairo_text_extents_t box;
+    cairo_text_extents(cr, label->text, &box);
+    text_at(cr, label->x - box.x_bearing - 0.5 * box.width, label->y - box.y_bearing - 0.5 * box.height, label->text);
+  }
+  cairo_set_font_size(cr, 13);
+}
+
 static void arrow_head(cairo_t *cr, const double from[2], const double to[2]) {
   const double length = hypot(to[0] - from[0], to[1] - from[1]), size = 4.5;
   const double ux = (to[0] - from[0]) / length * size, uy = (to[1] - from[1]) / length * size;
@@ -170,6 +181,7 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   if (annotation) {
     if (annotation->streamlines_apart > 0 && canvas->velocity)
       CW_TRY(streamlines(cr, canvas, annotation->streamlines_apart));
+    labels(cr, annotation);
     if (annotation->metres_per_pixel > 0) scale_bar(cr, canvas, annotation->metres_per_pixel);
     triad(cr, canvas, annotation);
     frames(cr, annotation);

@@ -286,6 +286,26 @@ static void lengths_of_scale_bars_are_round(void **state) {
   assert_near(cw_render_round_length(3e-7), 2e-7, 1e-18);
 }
 
+// A square of 6 px, and beside it what is left of a rectangle that it covers in part.
+static void groups_have_their_middles(void **state) {
+  CwCanvas canvas;
+  CwGroupMiddle middle[3] = {{0}};
+  const double behind[4][3] = {{2, 2, 0}, {12, 2, 0}, {12, 8, 0}, {2, 8, 0}};
+  const double before[4][3] = {{2, 2, 0}, {8, 2, 0}, {8, 8, 0}, {2, 8, 0}};
+  assert_int_equal(cw_render_start(20, 12, WHITE, 0, &canvas), CW_OK);
+  cw_render_polygon(&canvas, behind, 4, &blue);
+  cw_render_polygon(&canvas, before, 4, &red);
+  assert_int_equal(cw_render_middles(&canvas, 3, middle), CW_OK);
+  assert_near(middle[0].depth, 3, 0);
+  assert_near(middle[0].x, 5, 0.3);
+  assert_near(middle[0].y, 5, 0.3);
+  assert_near(middle[1].depth, 2, 0);
+  assert_near(middle[1].x, 10, 0.3);
+  assert_near(middle[1].y, 5, 1.3);
+  assert_near(middle[2].depth, 0, 0);
+  cw_render_free(&canvas);
+}
+
 static void camera_projects_and_fits(void **state) {
   CwCamera camera = {.width = 200, .height = 100, .metres_per_pixel = 0.01};
   double pixel[3];
@@ -319,6 +339,7 @@ int main(void) {
       cmocka_unit_test(hollows_are_dark_and_slanted_planes_are_not),
       cmocka_unit_test(png_holds_the_averaged_picture),
       cmocka_unit_test(lengths_of_scale_bars_are_round),
+      cmocka_unit_test(groups_have_their_middles),
       cmocka_unit_test(camera_projects_and_fits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
