@@ -58,8 +58,8 @@ def circle(triangle):
     return centre, math.dist(triangle[0], centre)
 
 
-def view(place, title, triangles, circles, dots):
-    """One view: triangles by their colours, circles (centre, radius) and dots; place: of a point, px."""
+def view(place, title, triangles, circles, dots, letters):
+    """One view: triangles by their colours, circles (centre, radius), dots, letters by point; place: of a point, px."""
     drawn = [f'<text y="-10">{title}</text>',
              f'<svg width="{WIDTH}" height="{HEIGHT}"><g stroke="#444444" stroke-linejoin="round">']
     for triangle, colour in triangles:
@@ -71,7 +71,11 @@ def view(place, title, triangles, circles, dots):
         drawn.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{edge - x:.1f}"/>')
     drawn.append(f'</g><g fill="{RED}">')
     drawn += ['<circle cx="{:.1f}" cy="{:.1f}" r="3.5"/>'.format(*place(x)) for x in dots]
-    return [*drawn, "</g></svg>"]
+    drawn.append("</g>")
+    for x, letter in letters.items():
+        right, down = place(x)
+        drawn.append(f'<text x="{right + 6:.1f}" y="{down - 6:.1f}">{letter}</text>')
+    return [*drawn, "</svg>"]
 
 
 def picture(planned, refined):
@@ -93,6 +97,7 @@ def picture(planned, refined):
 
     dots = sorted(x for x in centres if near(x, 3 * half))
     shown = [x for x in dots if near(x, half)]
+    letters = dict(zip(shown, "PQRSTUVWXYZ"))
     middle = [sum(coordinates) / len(shown) for coordinates in zip(*shown)]
 
     def place(x, right=0):
@@ -107,8 +112,9 @@ def picture(planned, refined):
     factor = policy_numbers((SOURCE / "mesher/policy_table.h").read_text())["interface_sphere"][1]
     circles = [(centre, factor * radius) for centre, radius in divided if near(centre, 3 * half)]
     left = view(place, "planned, with the spheres that hold new points", coloured(planned, refined, "divided"),
-                circles, dots)
-    right = view(place, "by the rule, the same in both regions", coloured(refined, planned, "made"), [], dots)
+                circles, dots, letters)
+    right = view(place, "inserted by the lower number, taken by the higher", coloured(refined, planned, "made"), [],
+                 dots, letters)
     width, height = 2 * WIDTH + 3 * MARGIN, HEIGHT + HEAD + MARGIN
     return "\n".join([
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
