@@ -101,19 +101,45 @@ static void history_plots(FILE *page, const History *history, double asked) {
   fputs("</div>\n", page);
 }
 
-static void y_plus_table(FILE *page, json_t *walls) {
+// Ends of the ranges of y+: of resolved walls, of the viscous sublayer, of the buffer layer and of the logarithmic
+// layer (H. Schlichting and K. Gersten, Boundary-Layer Theory).
+static const double y_plus_end[] = {1, 5, 30, 300, INFINITY};
+enum { Y_PLUS_RANGES = sizeof y_plus_end / sizeof *y_plus_end };
+
+// The share of a wall's faces in each range.
+static void y_plus_shares(FILE *page, const CwFlow *flow, const char *patch) {
+  const CwFoamValues *values = flow->present ? cw_foam_field_patch(&flow->y_plus, patch) : NULL;
+  const int64_t count = !values ? 0 : values->bytes ? values->count : 1;
+  int64_t within[Y_PLUS_RANGES] = {0};
+  char text[CW_FORMAT_SIZE];
+  for (int64_t k = 0; k < count; k++) {
+    double value;
+    int range = 0;
+    cw_foam_field_value(&flow->y_plus, values, k, &value);
+    while (value > y_plus_end[range]) range++;
+    within[range]++;
+  }
+  for (int range = 0; range < Y_PLUS_RANGES; range++)
+    fprintf(page, "</td><td class=\"n\">%s",
+            cw_format_percent(count ? (double)within[range] / (double)count : NAN, text));
+}
+
+static void y_plus_table(FILE *page, const CwFlow *flow, json_t *walls) {
   const char *patch;
   json_t *wall;
   char text[CW_FORMAT_SIZE];
   if (json_object_size(walls) == 0) return;
   fputs("<h3>y+ of the solution</h3>\n<table class=\"plain\"><tr><th>Patch</th><th class=\"n\">least</th>"
-        "<th class=\"n\">mean</th><th class=\"n\">greatest</th></tr>\n",
+        "<th class=\"n\">mean</th><th class=\"n\">greatest</th><th class=\"n\">faces with<br>up to 1</th>"
+        "<th class=\"n\"><br>1 to 5</th><th class=\"n\"><br>5 to 30</th><th class=\"n\"><br>30 to 300</th>"
+        "<th class=\"n\"><br>over 300</th></tr>\n",
         page);
   json_object_foreach(walls, patch, wall) {
     cw_html_label(page, "<tr><td>", patch, "");
     static const char *const keys[] = {"least", "mean", "most"};
     for (int k = 0; k < 3; k++)
       fprintf(page, "</td><td class=\"n\">%s", cw_format_number(cw_json_real(wall, keys[k]), 3, text));
+    y_plus_shares(page, flow, patch);
     fputs("</td></tr>\n", page);
   }
   fputs("</table>\n", page);
@@ -147,7 +173,7 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
     fputs("<h3>Fields</h3>\n", page);
     cw_page_picture_list(page, data, CW_SECTION_FLOW);
   }
-  y_plus_table(page, json_object_get(results, "y_plus"));
+  y_plus_table(page, &data->flow, json_object_get(results, "y_plus"));
 done:
   for (int k = 0; k < COLUMNS; k++) free(history.column[k]);
   return status;

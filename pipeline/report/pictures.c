@@ -36,15 +36,17 @@ static int is_absent(const Board *board, const CwPictureSpec *spec) {
          (cw_picture_is_of_flow(spec) && !board->flow->present);
 }
 
-// The work on a region, in that on a cell, which is read, and looked at for the planes (measured at 100 million cells).
-// Of a face: survey and view, and each picture that shows the faces of its domain.
+// The work on a face in units of that on a cell, which is read, and looked at for the planes: in survey and view, and
+// in each picture that shows the faces of its domain. Ratios of times measured at 100 million cells. Ranks share the
+// regions by them; the page does not depend on them.
+static const double SURVEY_OF_FACE = 24, PICTURE_OF_FACE = 5;
+
 static double work_on(const Board *board, const CwMeshRegion *region) {
-  static const double FACE = 24, FACE_IN_PICTURE = 5;
-  double of_face = FACE;
+  double of_face = SURVEY_OF_FACE;
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwPictureSpec *spec = &cw_picture_list[k];
     if (spec->plane == CW_PLANE_NONE && spec->sees & board->drawing[k].part[region->domain] && !is_absent(board, spec))
-      of_face += FACE_IN_PICTURE;
+      of_face += PICTURE_OF_FACE;
   }
   return (double)cw_mesh_region_cells(region) + of_face * (double)(region->triangles + region->quads);
 }

@@ -4,6 +4,7 @@ asked to end, and a real flow on a small mesh: killed, gone on with, its result 
 and what is told where it cannot be solved."""
 import csv
 import math
+import re
 import shutil
 import signal
 import subprocess
@@ -199,6 +200,13 @@ class Flow(unittest.TestCase):
             done(self, "report", self.pump, case=self.case, cells=CELLS, ranks=ranks)
             pages.append((self.pump / "report/index.html").read_text())
         self.assertIn("Characteristic curve", pages[0])
+        # Of each wall the faces in all ranges of y+ are all faces.
+        rows = re.findall(r"<tr><td>[^<]*((?:</td><td class=\"n\">[^<]*){8})</td></tr>", pages[0].split("<h3>y+ of")[1])
+        self.assertGreater(len(rows), 5)
+        for row in rows:
+            shares = re.findall(r"([0-9.]+) %", row)
+            self.assertEqual(len(shares), 5, row)
+            self.assertAlmostEqual(sum(map(float, shares)), 100, delta=0.3, msg=row)
         self.assertTrue(pages[0] == pages[1], "1 rank and 3")
 
     def test_few_iterations_leave_whole_fields(self):
