@@ -2,7 +2,6 @@
 #include "pipeline/report/drawing.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,14 +21,12 @@ static unsigned part_of(const CwMesh *mesh, int d) {
 }
 
 static void mark_parts(const CwMesh *mesh, CwDrawing *drawing) {
-  char name[80];
   for (int d = 0; d < mesh->domain_count; d++) drawing->part[d] = part_of(mesh, d);
   if (!drawing->spec->hidden) return;
   for (int p = 0; p < mesh->patch_count; p++) {
     const CwModelPatch *patch = &mesh->patches[p];
-    snprintf(name, sizeof name, "|%s|", patch->name);
     const int index = p - mesh->domains[patch->domain].first_patch;
-    drawing->hidden[patch->domain][index] = strstr(drawing->spec->hidden, name) != NULL;
+    drawing->hidden[patch->domain][index] = cw_picture_hides(drawing->spec, patch->name);
     drawing->colour[patch->domain][index] = cw_patch_colour(patch->name, index);
   }
 }
@@ -142,6 +139,7 @@ void cw_drawing_reach(CwDrawing *drawing, const CwRegionData *surface) {
 // *outside becomes true where the viewer stands on the outer side of the face.
 static double light_of(const CwCamera *camera, const CwSurfaceFace *face, int *outside) {
   static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
+  const double *const axes[] = {camera->right, camera->up, camera->towards};
   double u[3], v[3], n[3], facing[3] = {0, 0, 0};
   cw_sub(face->x[face->count - 2], face->x[0], u);
   cw_sub(face->x[face->count - 1], face->x[face->count - 3], v);
@@ -149,11 +147,8 @@ static double light_of(const CwCamera *camera, const CwSurfaceFace *face, int *o
   double length = cw_norm(n);
   *outside = 0;
   if (!(length > 0)) return 1;
-  for (int i = 0; i < 3; i++) {
-    facing[0] += n[i] * camera->right[i] / length;
-    facing[1] += n[i] * camera->up[i] / length;
-    facing[2] += n[i] * camera->towards[i] / length;
-  }
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++) facing[k] += n[i] * axes[k][i] / length;
   *outside = facing[2] > 0;
   double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
   for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];

@@ -88,8 +88,8 @@ CwStatus cw_flow_open(const char *run, const CwMesh *mesh, const CwCase *table, 
   char folder[4000];
   int64_t cells = 0;
   snprintf(folder, sizeof folder, "%s/solve/steady", run);
-  flow->iteration = latest_iteration(folder);
-  if (flow->iteration == 0) goto done;
+  const int iteration = latest_iteration(folder);
+  if (iteration == 0) goto done;
   flow->density = table->fluid.density;
   flow->angular_speed = table->operating_point.speed;
   CW_NEW(flow->first_cell, mesh->region_count);
@@ -98,9 +98,9 @@ CwStatus cw_flow_open(const char *run, const CwMesh *mesh, const CwCase *table, 
     flow->first_cell[r] = cells;
     cells += cw_mesh_region_cells(&mesh->regions[r]);
   }
-  CW_TRY(open_field(folder, flow->iteration, "p", 1, cells, &flow->pressure));
-  CW_TRY(open_field(folder, flow->iteration, "U", 3, cells, &flow->velocity));
-  CW_TRY(open_field(folder, flow->iteration, "yPlus", 1, cells, &flow->y_plus));
+  CW_TRY(open_field(folder, iteration, "p", 1, cells, &flow->pressure));
+  CW_TRY(open_field(folder, iteration, "U", 3, cells, &flow->velocity));
+  CW_TRY(open_field(folder, iteration, "yPlus", 1, cells, &flow->y_plus));
   CW_TRY(find_spans(flow));
   flow->present = 1;
 done:

@@ -14,7 +14,6 @@ typedef enum { CW_FLOW_PRESSURE, CW_FLOW_Y_PLUS, CW_FLOW_SPEED, CW_FLOW_QUANTITI
 
 typedef struct {
   int present;                   // 0: the run has no solved fields; the rest is empty
-  int iteration;                 // of the fields
   double density, angular_speed; // kg/m3; rad/s about z, of turning zones
   CwFoamField pressure, velocity, y_plus;
   int64_t *first_cell; // of each region

@@ -8,26 +8,15 @@
 
 #include "pipeline/file_digest.h"
 
+// A character of a text, not its end.
 static void escaped(FILE *page, char c) {
-  switch (c) {
-  case '&':
-    fputs("&amp;", page);
-    break;
-  case '<':
-    fputs("&lt;", page);
-    break;
-  case '>':
-    fputs("&gt;", page);
-    break;
-  case '"':
-    fputs("&quot;", page);
-    break;
-  case '\'':
-    fputs("&#39;", page);
-    break;
-  default:
+  static const char signs[] = "&<>\"'";
+  static const char *const escapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+  const char *sign = strchr(signs, c);
+  if (sign)
+    fputs(escapes[sign - signs], page);
+  else
     fputc(c, page);
-  }
 }
 
 void cw_html_text(FILE *page, const char *before, const char *text, const char *after) {
@@ -37,14 +26,14 @@ void cw_html_text(FILE *page, const char *before, const char *text, const char *
 }
 
 static void label(FILE *page, const char *key) {
+  const char *c = key;
   if (!strncmp(key, "y_plus", 6)) {
     fputs("y<sup>+</sup>", page);
-    for (key += 6; *key; key++) escaped(page, *key == '_' ? ' ' : *key);
-    return;
+    c += 6;
   }
   // Names and abbreviations, which keys have in small letters.
   static const char *const words[] = {"NPSH", "Wiesner", "Pfleiderer", "Guelich", "CGNS", "OpenFOAM", "CFX"};
-  for (const char *c = key; *c; c++) {
+  for (; *c; c++) {
     int starts = c == key || c[-1] == '_';
     for (size_t k = 0; starts && k < sizeof words / sizeof *words; k++) {
       size_t length = strlen(words[k]);

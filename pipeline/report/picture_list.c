@@ -2,6 +2,7 @@
 #include "pipeline/report/picture_list.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 // Sizes: over the page, two beside one another, details.
@@ -238,6 +239,12 @@ const CwPictureSpec cw_picture_list[] = {
      .plane = CW_PLANE_MID_SPAN},
 };
 const int cw_picture_list_count = sizeof cw_picture_list / sizeof *cw_picture_list;
+
+int cw_picture_hides(const CwPictureSpec *spec, const char *patch) {
+  char name[CW_NAME_SIZE + 2];
+  snprintf(name, sizeof name, "|%s|", patch);
+  return strstr(spec->hidden, name) != NULL;
+}
 
 uint32_t cw_patch_colour(const char *name, int index) {
   static const struct {

@@ -65,6 +65,9 @@ static inline int cw_picture_is_of_flow(const CwPictureSpec *spec) {
   return spec->colour >= CW_COLOUR_PRESSURE;
 }
 
+// Whether the picture, which shows faces, leaves out the patch of that name.
+int cw_picture_hides(const CwPictureSpec *spec, const char *patch);
+
 extern const CwPictureSpec cw_picture_list[];
 extern const int cw_picture_list_count;
 

@@ -131,8 +131,8 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
     tick_text(k * step, step, words, sizeof words);
     text(page, x, top + body + 15, "middle", "t", words);
   }
-  if (plot->mark > 0)
-    line(page, left + width * plot->mark / limit, top - 2, left + width * plot->mark / limit, top + body, "m");
+  const double mark = left + width * plot->mark / limit;
+  if (plot->mark > 0) line(page, mark, top - 2, mark, top + body, "m");
   for (int c = 0; c < plot->count; c++) {
     double x = left, y = top + row * c + 0.5 * (row - thick);
     for (int s = 0; s < plot->series_count; s++) {
@@ -142,7 +142,6 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
       x += width * value / limit;
     }
     text(page, left - tick_gap, y + 11, "end", "c", plot->category[c].label);
-    const double mark = left + width * plot->mark / limit;
     if (mark > x - 5) x = fmax(x, mark); // so that the line does not cross the note
     if (*plot->category[c].note) text(page, x + 5, y + 11, "start", "v", plot->category[c].note);
   }

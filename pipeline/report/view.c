@@ -2,7 +2,6 @@
 #include "pipeline/report/view.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,10 +81,8 @@ done:
 }
 
 int cw_view_shown(const CwMesh *mesh, const CwViewPart *part) {
-  char name[CW_MESH_NAME_SIZE + 2];
   const CwModelPatch *patch = &mesh->patches[part->patch];
-  snprintf(name, sizeof name, "|%s|", patch->name);
-  return patch->kind == CW_PATCH_WALL && !strstr(cw_picture_list[0].hidden, name);
+  return patch->kind == CW_PATCH_WALL && !cw_picture_hides(&cw_picture_list[0], patch->name);
 }
 
 // The shares of a quantity at the points of a part, where it has them all.
