@@ -132,9 +132,9 @@ typedef struct {
 
 static CwStatus write_design_file(const void *given, int k, const char *path) {
   const Designed *of = given;
-  CwStatus (*const picture[])(const CwDesign *, const char *) = {
-      cw_picture_meridional,  cw_picture_blade_plan,  cw_picture_velocity_triangles,
-      cw_picture_blade_angle, cw_picture_volute_sections, cw_picture_volute_plan};
+  CwStatus (*const picture[])(const CwDesign *, const char *) = {cw_picture_meridional,         cw_picture_blade_plan,
+                                                                 cw_picture_velocity_triangles, cw_picture_blade_angle,
+                                                                 cw_picture_volute_sections,    cw_picture_volute_plan};
   return k == 0 ? cw_design_file_write(of->design, of->measured, path) : picture[k - 1](of->design, path);
 }
 

@@ -120,9 +120,9 @@ CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path) {
   CwPicture picture = {0};
   const CwVolute *volute = &design->volute;
   const CwVoluteInput *in = &volute->input;
+  const int right = design->rotation == CW_ROTATION_CLOCKWISE ? -1 : 1;
   Walls walls;
-  Frame frame = {volute->discharge_lean, 1, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 60, 70,
-                 design->rotation == CW_ROTATION_CLOCKWISE ? -1 : 1};
+  Frame frame = {volute->discharge_lean, 1, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 60, 70, right};
   make_walls(volute, &walls);
   for (int i = 0; i < walls.outer_count; i++) reach(&frame, walls.outer[i]);
   for (int i = 0; i < walls.inner_count; i++) reach(&frame, walls.inner[i]);

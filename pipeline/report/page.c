@@ -140,8 +140,7 @@ CwStatus cw_page_write(FILE *page, const CwReportData *data) {
   fprintf(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<nav><b>Cutwater report</b>\n", cw_page_style);
   fputs("<a href=\"#top\">Overview</a>\n", page);
   for (int k = 0; k < PARTS; k++)
-    if (data->design || !parts[k].of_design)
-      fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
+    if (data->design || !parts[k].of_design) fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
   fputs("</nav>\n<main id=\"top\">\n", page);
   CW_TRY(title(page, data));
   for (int k = 0; k < PARTS; k++) {

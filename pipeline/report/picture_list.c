@@ -14,8 +14,7 @@
 #define AROUND(where, over_diameter) .target = CW_TARGET_PLACE, .place = where, .span = over_diameter
 
 // Cuts, and details of them.
-#define MERIDIONAL_CUT                                                                                                 \
-  .colour = CW_COLOUR_CUT, .sees = CW_SEES_ROTOR | CW_SEES_STATOR, .plane = CW_PLANE_MERIDIONAL
+#define MERIDIONAL_CUT .colour = CW_COLOUR_CUT, .sees = CW_SEES_ROTOR | CW_SEES_STATOR, .plane = CW_PLANE_MERIDIONAL
 #define Z0_CUT .colour = CW_COLOUR_CUT, .sees = CW_SEES_ALL, .plane = CW_PLANE_Z0
 #define INSET(whole, name) DETAIL, .inset_of = whole, .inset_name = name
 

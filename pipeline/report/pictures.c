@@ -156,8 +156,7 @@ static CwStatus finish(const Board *board, int index, CwPng *png) {
   cw_render_outline(&drawing->canvas, ink, 3 * drawing->camera.metres_per_pixel);
   cw_drawing_mark_seen(drawing);
   annotate(board->drawing, index, &annotation);
-  if (drawing->spec->colour == CW_COLOUR_REGION)
-    CW_TRY(number_regions(board->mesh, &drawing->canvas, &annotation));
+  if (drawing->spec->colour == CW_COLOUR_REGION) CW_TRY(number_regions(board->mesh, &drawing->canvas, &annotation));
   CW_TRY(cw_render_png(&drawing->canvas, &annotation, png));
 done:
   free(annotation.label);
@@ -239,8 +238,7 @@ static CwStatus begin_canvases(const Board *board) {
       else
         drawing->lacking = "the mesh has no such faces";
     }
-    if (!drawing->lacking)
-      CW_TRY(start_canvas(spec, &drawing->canvas));
+    if (!drawing->lacking) CW_TRY(start_canvas(spec, &drawing->canvas));
   }
 done:
   return status;
@@ -322,8 +320,7 @@ static CwStatus join_canvas(const Board *board, int picture) {
   CwCanvas *canvas = &board->drawing[picture].canvas, other = {0};
   const int to = finisher(board, picture);
   if (ranks->size == 1) goto done;
-  if (ranks->rank == to)
-    status = start_canvas(board->drawing[picture].spec, &other);
+  if (ranks->rank == to) status = start_canvas(board->drawing[picture].spec, &other);
   CW_TRY(cw_ranks_agree(ranks, status));
   for (int step = 1; step < ranks->size; step++) {
     const int from = step <= to ? to - step : step;

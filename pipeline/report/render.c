@@ -338,9 +338,9 @@ CwStatus cw_render_middles(const CwCanvas *canvas, int count, CwGroupMiddle *mid
     if (right < depth[i]) depth[i] = right;
     if (down < depth[i]) depth[i] = down;
     if (group < 1 || group > count || depth[i] <= CW_RENDER_SAMPLES * middle[group - 1].depth) continue;
-    middle[group - 1] = (CwGroupMiddle){((double)(i % columns) + 0.5) / CW_RENDER_SAMPLES,
-                                        ((double)(i / columns) + 0.5) / CW_RENDER_SAMPLES,
-                                        (double)depth[i] / CW_RENDER_SAMPLES};
+    middle[group - 1] =
+        (CwGroupMiddle){((double)(i % columns) + 0.5) / CW_RENDER_SAMPLES,
+                        ((double)(i / columns) + 0.5) / CW_RENDER_SAMPLES, (double)depth[i] / CW_RENDER_SAMPLES};
   }
 done:
   free(depth);

@@ -17,9 +17,9 @@ typedef struct {
   int columns, rows; // samples
   int top, bottom;   // rows from `top` to `bottom` - 1 may have something on them
   uint32_t background;
-  uint16_t *group;  // what the sample shows; 0: background. An outline is drawn where it changes.
-  uint32_t *colour; // 0xRRGGBB, where there is a group: what was never drawn on takes no memory
-  float *depth;     // the same; NULL: none
+  uint16_t *group;      // what the sample shows; 0: background. An outline is drawn where it changes.
+  uint32_t *colour;     // 0xRRGGBB, where there is a group: what was never drawn on takes no memory
+  float *depth;         // the same; NULL: none
   float (*velocity)[2]; // of each pixel where there is a group, as the last paint there has it; NULL: none
 } CwCanvas;
 

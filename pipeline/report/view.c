@@ -16,8 +16,7 @@ CwStatus cw_view_start(const CwMesh *mesh, double size, CwView *view) {
   int turning = 0;
   for (int d = 0; d < mesh->domain_count; d++) turning += mesh->domains[d].rotating != 0;
   for (int d = 0; d < mesh->domain_count; d++) {
-    int64_t most =
-        mesh->domains[d].rotating ? TURNING_MOST / turning : STANDING_MOST / (mesh->domain_count - turning);
+    int64_t most = mesh->domains[d].rotating ? TURNING_MOST / turning : STANDING_MOST / (mesh->domain_count - turning);
     CW_TRY(cw_simplify_start(most, size / FINEST, &view->simplifier[d]));
   }
 done:
