@@ -92,11 +92,9 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
       drawing->lacking = "the mesh has no boundary near the plane";
       return;
     }
-    for (int side = -1; side <= 1; side += 2) {
-      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
-                      &drawing->reach);
-      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_most},
-                      &drawing->reach);
+    for (int corner = 0; corner < 4; corner++) {
+      const double r = corner % 2 ? radius : -radius, z_corner = corner / 2 ? z_most : z_least;
+      cw_camera_reach(camera, (double[3]){r * cos(azimuth), r * sin(azimuth), z_corner}, &drawing->reach);
     }
   }
 }
