@@ -105,7 +105,8 @@ class Prefix(unittest.TestCase):
         self.assertEqual(self.completed("cutwater-mesh", "--st"), {"--stop-after"})
         self.assertEqual(self.completed("cutwater-report", "--c"), {"--case", "--cells"})
         self.assertEqual(self.completed("cutwater-mesh", "--case", ""), set())
-        self.assertEqual(self.completed("cutwater", "nq24"), {"nq24", "nq24-solve", "nq24-curve", "nq24-sweep"})
+        self.assertEqual(self.completed("cutwater", "nq24"), {"nq24", "nq24-faces", "nq24-solve", "nq24-curve",
+                                                              "nq24-sweep"})
         self.assertEqual(self.completed("cutwater", "HO"), {"HOSTS="})
         options = re.findall(r"^  (--[a-z-]+)", self.run_here("cutwater-mesh", "--help").stdout, re.M)
         self.assertEqual(self.completed("cutwater-mesh", "--"), set(options))
