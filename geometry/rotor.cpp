@@ -2,19 +2,42 @@
 #include "geometry/rotor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include <BRepCheck_Analyzer.hxx>
 
 #include "geometry/blade.h"
 #include "geometry/blade_patches.hpp"
-#include "geometry/rotor_maker.hpp"
+#include "geometry/meridian.h"
+#include "geometry/rotor_faces.hpp"
+#include "geometry/solid.hpp"
+
+namespace {
 
 // Parameter planes of the surfaces of revolution begin a margin before a blade's trailing edge, so that a whole passage
 // has angles between 0 and 2 pi; half of it is left behind the leading edge. rad; bevels and leaning edges need the
 // least.
-static const double usual_margin = 0.5, least_margin = 0.15;
-static const int most_parts = 4; // of a passage between seams
+const double usual_margin = 0.5, least_margin = 0.15;
+const int most_parts = 4; // of a passage between seams
+
+// From the design to the solid: the sections of blade, splitter and seams, their patches, then edges and faces.
+class RotorMaker {
+public:
+  RotorMaker(const CwDesign *from, double model_unit) : design(from), unit(model_unit) {}
+  CwStatus sections();
+  CwSolid *build();
+
+private:
+  const CwDesign *design;
+  const double unit; // the model unit, m
+  CwMeridian meridian;
+  std::vector<CwBladeShape> shapes; // the blade and, behind its pressure side, the splitter or seams
+  double pitch, margin;
+
+  CwStatus seams(double last);
+};
 
 CwStatus RotorMaker::sections() {
   CwStatus status = CW_OK;
@@ -70,50 +93,24 @@ done:
 }
 
 CwSolid *RotorMaker::build() {
-  const int kinds = (int)shapes.size(), n = design->blade_count * kinds;
   for (CwBladeShape &shape : shapes)
     if (shape.seam)
-      cw_blade_seam(design, &meridian, unit, pitch / kinds, &shape);
+      cw_blade_seam(design, &meridian, unit, pitch / shapes.size(), &shape);
     else
       cw_blade_patches(design, &meridian, unit, shape.section[0].start > 0 ? pitch : std::min(pitch, margin), &shape);
-  curve[CW_HUB] = &meridian.hub;
-  curve[CW_SHROUD] = &meridian.shroud;
-  bands = (int)shapes[0].pressure.band.size();
-  has_shaft = meridian.shaft_radius > 0;
-  has_nut = meridian.nut_end_z < meridian.hub.pole[0][1];
-  blade.resize(n);
-  for (int i = 0; i < n; i++) {
-    RotorBlade &b = blade[i];
-    b.turns = i / kinds;
-    b.shape = &shapes[i % kinds];
-    for (int level = 0; level <= bands && !b.shape->seam; level++) level_edges(b, level);
-    for (int band = 0; band < bands && !b.shape->seam; band++) band_edges(b, band);
-    wall_edges(b);
-  }
-  for (int i = 0; i < n; i++) arcs(i);
-  for (int i = 0; i < n; i++) {
-    wall_face(i, CW_HUB);
-    wall_face(i, CW_SHROUD);
-    tube_faces(i);
-    if (has_shaft) inlet_ring_face(i);
-    interface_face(i);
-    if (!blade[i].shape->seam) blade_faces(i);
-  }
-  if (!has_shaft) {
-    disk_face(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", CW_PATCH_WALL, "hub_nut_end");
-    disk_face(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", CW_PATCH_INLET, "inlet");
-  }
-  return shell.finish("rotor", unit);
+  return RotorFaces(design, meridian, shapes, margin, unit).make();
 }
 
 // Name of the first face that OpenCASCADE finds fault with; "" if all is well.
-static std::string faulty_face(const CwSolid *solid) {
+std::string faulty_face(const CwSolid *solid) {
   BRepCheck_Analyzer check(solid->solid);
   if (check.IsValid()) return "";
   for (const CwSolidFace &face : solid->faces)
     if (!check.IsValid(face.face)) return face.name;
   return solid->faces.front().name;
 }
+
+} // namespace
 
 CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
   *rotor = nullptr;

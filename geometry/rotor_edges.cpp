@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "geometry/rotor_maker.hpp"
+#include "geometry/rotor_edges.hpp"
 
 #include <Geom_BezierCurve.hxx>
 #include <Geom_Circle.hxx>
@@ -11,20 +11,37 @@
 
 #include "geometry/bspline_fit.hpp"
 
+RotorEdges::RotorEdges(const CwDesign *from, const CwMeridian &section, const std::vector<CwBladeShape> &kinds,
+                       double before, double model_unit)
+    : design(from), meridian(section), shapes(kinds), curve{&section.hub, &section.shroud}, unit(model_unit),
+      scale(1 / model_unit), pitch(2 * M_PI / from->blade_count), margin(before),
+      bands((int)kinds[0].pressure.band.size()), has_nut(section.nut_end_z < section.hub.pole[0][1]),
+      has_shaft(section.shaft_radius > 0), blade(from->blade_count * kinds.size()) {
+  for (size_t i = 0; i < blade.size(); i++) {
+    RotorBlade &b = blade[i];
+    b.turns = (int)(i / shapes.size());
+    b.shape = &shapes[i % shapes.size()];
+    for (int level = 0; level <= bands && !b.shape->seam; level++) level_edges(b, level);
+    for (int band = 0; band < bands && !b.shape->seam; band++) band_edges(b, band);
+    wall_edges(b);
+  }
+  for (size_t i = 0; i < blade.size(); i++) arcs((int)i);
+}
+
 // Axes whose x axis is the zero of the parameter planes of the passage behind blade i.
-gp_Ax3 RotorMaker::blade_axes(int i, double z) const {
+gp_Ax3 RotorEdges::blade_axes(int i, double z) const {
   const double angle = zero_of(i);
   return gp_Ax3(gp_Pnt(0, 0, scale * z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
 }
 
-Handle(Geom_Curve) RotorMaker::meridian_curve(const CwMeridianCurve &curve, double theta) const {
+Handle(Geom_Curve) RotorEdges::meridian_curve(const CwMeridianCurve &curve, double theta) const {
   TColgp_Array1OfPnt poles(1, 4);
   for (int i = 0; i < 4; i++) poles.SetValue(i + 1, at(curve.pole[i][0], theta, curve.pole[i][1]));
   return new Geom_BezierCurve(poles);
 }
 
 // Quarter ellipse from the flat disk to the hub, exact as a rational Bezier.
-Handle(Geom_Curve) RotorMaker::nut_curve(double theta) const {
+Handle(Geom_Curve) RotorEdges::nut_curve(double theta) const {
   const double rn = meridian.hub.pole[0][0], z0 = meridian.hub.pole[0][1];
   TColgp_Array1OfPnt poles(1, 3);
   TColStd_Array1OfReal weights(1, 3);
@@ -43,16 +60,14 @@ static Handle(Geom_Curve) turned(const Handle(Geom_Curve) & curve, double angle)
   return copy;
 }
 
-static const int slanted_points = 33;
-
-int RotorMaker::slanted_line(const double from[3], const double to[3], int begin, int end) {
+int RotorEdges::slanted_line(const double from[3], const double to[3], int begin, int end) {
   const gp_Pnt first = at(from[0], from[1], from[2]), last = at(to[0], to[1], to[2]);
   if (from[1] == to[1])
     return shell.edge(new Geom_Line(first, gp_Dir(gp_Vec(first, last))), 0, first.Distance(last), begin, end);
   std::vector<double> u;
   std::vector<gp_Pnt> x;
-  for (int i = 0; i < slanted_points; i++) {
-    const double f = (double)i / (slanted_points - 1);
+  for (int i = 0; i < SLANTED_POINTS; i++) {
+    const double f = (double)i / (SLANTED_POINTS - 1);
     u.push_back(f);
     x.push_back(at(from[0] + f * (to[0] - from[0]), from[1] + f * (to[1] - from[1]), from[2] + f * (to[2] - from[2])));
   }
@@ -66,7 +81,7 @@ static Handle(Geom_Curve) along(const CwBladePatch &patch, int level) {
 }
 
 // Vertices and edges along the blade at a level.
-void RotorMaker::level_edges(RotorBlade &b, int level) {
+void RotorEdges::level_edges(RotorBlade &b, int level) {
   const CwBladeShape &s = *b.shape;
   const double turn = b.turns * pitch;
   const Handle(Geom_Curve) nose = turned(along(s.leading, level), turn);
@@ -96,7 +111,7 @@ void RotorMaker::level_edges(RotorBlade &b, int level) {
 }
 
 // Edges across the span, from a level to the next.
-void RotorMaker::band_edges(RotorBlade &b, int band) {
+void RotorEdges::band_edges(RotorBlade &b, int band) {
   const CwBladeShape &s = *b.shape;
   const auto across = [&](const CwBladePatch &patch, double u, const int *vertex) {
     return shell.edge(turned(patch.band[band]->UIso(u), b.turns * pitch), 0, 1, vertex[band], vertex[band + 1]);
@@ -109,7 +124,7 @@ void RotorMaker::band_edges(RotorBlade &b, int band) {
 }
 
 // Vertices and edges on hub, shroud, nut, shaft and pipe, along the flow.
-void RotorMaker::wall_edges(RotorBlade &b) {
+void RotorEdges::wall_edges(RotorBlade &b) {
   const CwBladeShape &s = *b.shape;
   const double turn = b.turns * pitch, r_pipe = design->inlet_diameter / 2;
   for (int w : {CW_HUB, CW_SHROUD}) {
@@ -150,7 +165,7 @@ void RotorMaker::wall_edges(RotorBlade &b) {
 }
 
 // Arcs to the next blade. They have the angle in the frame of their passage as parameter.
-void RotorMaker::arcs(int i) {
+void RotorEdges::arcs(int i) {
   RotorBlade &b = blade[i];
   const RotorBlade &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;

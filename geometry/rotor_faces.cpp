@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "geometry/rotor_maker.hpp"
+#include "geometry/rotor_faces.hpp"
 
 #include <string>
 
@@ -34,8 +34,6 @@ Handle(Geom2d_Curve) moved(const Handle(Geom2d_BSplineCurve) & curve, double du)
   return copy;
 }
 
-const int slanted_points = 33;
-
 // A line between (r, theta) in the parameters of a plane, in which both are linear.
 Handle(Geom2d_Curve) slanted_line_in_plane(double scale, double r, double theta, double to_r, double to_theta) {
   const auto in_plane = [&](double f) {
@@ -43,7 +41,7 @@ Handle(Geom2d_Curve) slanted_line_in_plane(double scale, double r, double theta,
     return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
   };
   if (theta == to_theta) return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
-  return cw_bspline_curve_2d(slanted_points, 0, 1, in_plane);
+  return cw_bspline_curve_2d(SLANTED_POINTS, 0, 1, in_plane);
 }
 
 Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
@@ -53,12 +51,12 @@ Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
 } // namespace
 
 // Axes and parameter plane are those of the passage behind blade i.
-Handle(Geom_Surface) RotorMaker::cylinder(int i, double r) const {
+Handle(Geom_Surface) RotorFaces::cylinder(int i, double r) const {
   return new Geom_CylindricalSurface(blade_axes(i), scale * r);
 }
 
 // Hub or shroud between a blade and the next.
-void RotorMaker::wall_face(int i, int w) {
+void RotorFaces::wall_face(int i, int w) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const double near = near_of(i), far = far_of(i);
@@ -86,7 +84,7 @@ void RotorMaker::wall_face(int i, int w) {
 
 // Nut, shaft and suction pipe between a blade and the next: faces of revolution between the lines of both and the arcs
 // below and above.
-void RotorMaker::tube_faces(int i) {
+void RotorFaces::tube_faces(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const double near = near_of(i), far = far_of(i), z_inlet = scale * meridian.inlet_z;
@@ -110,7 +108,7 @@ void RotorMaker::tube_faces(int i) {
 }
 
 // The inlet round a shaft between a blade and the next. The plane's axes are those of the passage.
-void RotorMaker::inlet_ring_face(int i) {
+void RotorFaces::inlet_ring_face(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const auto spoke = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
     return slanted_line_in_plane(scale, meridian.shaft_radius, shape.theta_up[CW_HUB] + offset,
@@ -127,7 +125,7 @@ void RotorMaker::inlet_ring_face(int i) {
              false, "inlet", CW_PATCH_INLET, "inlet_" + std::to_string(i + 1));
 }
 
-void RotorMaker::interface_face(int i) {
+void RotorFaces::interface_face(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const double half = scale * design->outlet_width / 2;
   // An axial line has its length as its parameter, a helix 0 to 1.
@@ -148,7 +146,7 @@ void RotorMaker::interface_face(int i) {
 }
 
 // All patches of a blade, band by band.
-void RotorMaker::blade_faces(int i) {
+void RotorFaces::blade_faces(int i) {
   const RotorBlade &b = blade[i];
   const CwBladeShape &s = *b.shape;
   const std::string number = "_" + std::to_string(b.turns + 1);
@@ -183,7 +181,7 @@ void RotorMaker::blade_faces(int i) {
 
 // A flat end: one disk, bounded by the arcs of the passages. The plane's axes are those of passage 0, the
 // arcs' those of their own passage.
-void RotorMaker::disk_face(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind,
+void RotorFaces::disk_face(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind,
                            const char *name) {
   std::vector<CwEdgeUse> loop;
   for (size_t i = 0; i < blade.size(); i++) {
@@ -193,4 +191,20 @@ void RotorMaker::disk_face(double height, double r, int w, bool outward, const c
   }
   shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, scale * height), gp::DZ(), gp::DX())), loop, outward, patch, kind,
              name);
+}
+
+CwSolid *RotorFaces::make() {
+  for (int i = 0; i < (int)blade.size(); i++) {
+    wall_face(i, CW_HUB);
+    wall_face(i, CW_SHROUD);
+    tube_faces(i);
+    if (has_shaft) inlet_ring_face(i);
+    interface_face(i);
+    if (!blade[i].shape->seam) blade_faces(i);
+  }
+  if (!has_shaft) {
+    disk_face(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", CW_PATCH_WALL, "hub_nut_end");
+    disk_face(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", CW_PATCH_INLET, "inlet");
+  }
+  return shell.finish("rotor", unit);
 }

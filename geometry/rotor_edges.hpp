@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The rotor in the making: vertices and edges of all blades first (rotor_edges.cpp), then the faces between them
-// (rotor_faces.cpp).
-#ifndef CUTWATER_GEOMETRY_ROTOR_MAKER_HPP
-#define CUTWATER_GEOMETRY_ROTOR_MAKER_HPP
+// The vertices and edges of the rotor's shell: along the blades at hub, shroud and the ends of root fillets, across the
+// span, along the flow on the walls, and arcs from each blade to the next.
+#ifndef CUTWATER_GEOMETRY_ROTOR_EDGES_HPP
+#define CUTWATER_GEOMETRY_ROTOR_EDGES_HPP
 
 #include <cmath>
 #include <vector>
 
 #include <Geom_Curve.hxx>
-#include <Geom_Surface.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Pnt.hxx>
 
@@ -16,10 +15,9 @@
 #include "geometry/design.h"
 #include "geometry/meridian.h"
 #include "geometry/shell_builder.hpp"
-#include "geometry/solid.hpp"
-#include "pipeline/status.h"
 
-enum { WALL_LEVELS = 4 }; // curves along the blade: hub, ends of both root fillets, shroud
+enum { SLANTED_POINTS = 33 }; // that a slanted line is interpolated at, in space and in a plane
+enum { WALL_LEVELS = 4 };     // curves along the blade: hub, ends of both root fillets, shroud
 
 // A blade in the shell. Levels run from the hub's (0) to the shroud's, one more than bands; inner levels are
 // where root fillets end. The fields are the vertices and edges of its faces, by the names of blade.h.
@@ -40,45 +38,29 @@ struct RotorBlade {
   int x_p[WALL_LEVELS], x_s[WALL_LEVELS], x_bevel0[WALL_LEVELS], x_bevel1[WALL_LEVELS], x_corner[WALL_LEVELS];
 };
 
-class RotorMaker {
+class RotorEdges {
 public:
-  RotorMaker(const CwDesign *from, double model_unit) : design(from), unit(model_unit), scale(1 / model_unit) {}
-  CwStatus sections();
-  CwSolid *build();
+  // Makes them all. [in] from, section, kinds: outlive this; the kinds are the blades of one pitch, by their angle,
+  // with patches and guide lines. `before`: by what angle the parameter planes of a passage begin before its blade,
+  // rad.
+  RotorEdges(const CwDesign *from, const CwMeridian &section, const std::vector<CwBladeShape> &kinds, double before,
+             double model_unit);
 
-private:
+protected:
   const CwDesign *design;
-  const double unit, scale; // the model unit, m; model units in a metre
-  CwMeridian meridian;
-  const CwMeridianCurve *curve[2];  // hub and shroud
-  std::vector<CwBladeShape> shapes; // the blade and, behind its pressure side, the splitter or seams
-  std::vector<RotorBlade> blade;    // those of all pitches
-  double pitch, margin;
-  int bands;
-  bool has_nut, has_shaft;
+  const CwMeridian &meridian;
+  const std::vector<CwBladeShape> &shapes; // the blade and, behind its pressure side, the splitter or seams
+  const CwMeridianCurve *curve[2];         // hub and shroud
+  const double unit, scale;                // the model unit, m; model units in a metre
+  const double pitch, margin;
+  const int bands;
+  const bool has_nut, has_shaft;
+  std::vector<RotorBlade> blade; // those of all pitches
   CwShellBuilder shell;
 
-  gp_Pnt at(double r, double theta, double z) const {
-    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
-  }
   gp_Ax3 blade_axes(int i, double z = 0) const;
   Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
   Handle(Geom_Curve) nut_curve(double theta) const;
-  Handle(Geom_Surface) cylinder(int i, double r) const;
-  // An edge between places (r, theta, z), in which it is linear: straight where both angles are the same, else part of
-  // a helix or spiral.
-  int slanted_line(const double from[3], const double to[3], int begin, int end);
-  void level_edges(RotorBlade &b, int level);
-  void band_edges(RotorBlade &b, int band);
-  void wall_edges(RotorBlade &b);
-  void arcs(int i);
-  void wall_face(int i, int w);
-  void tube_faces(int i);
-  void inlet_ring_face(int i);
-  void interface_face(int i);
-  void blade_faces(int i);
-  void disk_face(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind, const char *name);
-  CwStatus seams(double last);
   // The parameter planes of the passage behind blade i: the angle where they begin, and what is added in them to the
   // angles of blade i and of the next blade, which may be the first of its pitch.
   double zero_of(int i) const {
@@ -90,6 +72,18 @@ private:
   double far_of(int i) const {
     return ((i + 1) % (int)shapes.size() == 0 ? pitch : 0) + near_of(i);
   }
+
+private:
+  gp_Pnt at(double r, double theta, double z) const {
+    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
+  }
+  // An edge between places (r, theta, z), in which it is linear: straight where both angles are the same, else part of
+  // a helix or spiral.
+  int slanted_line(const double from[3], const double to[3], int begin, int end);
+  void level_edges(RotorBlade &b, int level);
+  void band_edges(RotorBlade &b, int band);
+  void wall_edges(RotorBlade &b);
+  void arcs(int i);
 };
 
 #endif
