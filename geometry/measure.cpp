@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
-#include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
@@ -175,20 +175,41 @@ Extent extent(const CwSolid *solid, const std::string &patch) {
   return extent;
 }
 
-bool is_closed(const CwSolid *solid) {
+// A face with an edge that does not lie on two faces in opposite senses; null: the solid is closed.
+const CwSolidFace *open_face(const CwSolid *solid) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   TopExp::MapShapesAndAncestors(solid->solid, TopAbs_EDGE, TopAbs_FACE, faces_of);
   for (int i = 1; i <= faces_of.Extent(); i++) {
     const TopoDS_Edge edge = TopoDS::Edge(faces_of.FindKey(i));
-    if (BRep_Tool::Degenerated(edge) || faces_of(i).Extent() != 2 || faces_of(i).First().IsSame(faces_of(i).Last()))
-      return false;
     int sense = 0;
     for (const TopoDS_Shape &face : faces_of(i))
       for (TopExp_Explorer explorer(face, TopAbs_EDGE); explorer.More(); explorer.Next())
         if (explorer.Current().IsSame(edge)) sense += explorer.Current().Orientation() == TopAbs_FORWARD ? 1 : -1;
-    if (sense != 0) return false;
+    if (!BRep_Tool::Degenerated(edge) && faces_of(i).Extent() == 2 && !faces_of(i).First().IsSame(faces_of(i).Last()) &&
+        sense == 0)
+      continue;
+    return &*std::find_if(solid->faces.begin(), solid->faces.end(),
+                          [&](const CwSolidFace &face) { return face.face.IsSame(faces_of(i).First()); });
   }
-  return true;
+  return nullptr;
+}
+
+// Whether the solid is sound, and what is wrong where it is not.
+void measure_soundness(const CwSolid *solid, CwMeasuredSolid *measured) {
+  const CwSolidFace *open = open_face(solid);
+  std::string fault = cw_solid_fault(*solid);
+  if (fault.empty() && !(measured->volume > 0)) fault = "it is inside out";
+  measured->valid = fault.empty();
+  measured->closed = !open;
+  if (fault.empty() && open) fault = "face " + open->name + " has an edge that no other face shares in the other sense";
+  snprintf(measured->fault, sizeof measured->fault, "%s", fault.c_str());
+  measured->largest_tolerance = 0;
+  for (size_t i = 0; i < solid->faces.size(); i++) {
+    const double tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->faces[i].face, 1) * solid->unit;
+    if (tolerance <= measured->largest_tolerance) continue;
+    measured->largest_tolerance = tolerance;
+    measured->loosest = (int)i;
+  }
 }
 
 } // namespace
@@ -197,11 +218,9 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
   return guarded(solid, [&] {
     GProp_GProps properties;
     BRepGProp::VolumeProperties(solid->solid, properties);
-    measured->valid = properties.Mass() > 0 && BRepCheck_Analyzer(solid->solid).IsValid();
-    measured->closed = is_closed(solid);
     measured->face_count = (int)solid->faces.size();
-    measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * solid->unit;
     measured->volume = properties.Mass() * solid->unit * solid->unit * solid->unit;
+    measure_soundness(solid, measured);
     measure_smallness(solid, measured);
     measure_sharpness(solid, measured);
   });

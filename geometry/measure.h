@@ -17,15 +17,17 @@ typedef struct {
   double at[3];
 } CwMeasuredAngle;
 
+// The fields are what files tell of a solid, and the faces that messages name.
 typedef struct {
-  int valid;  // BRepCheck finds no fault, and the volume is positive: not inside out
-  int closed; // each edge lies on two faces in opposite senses; no seam, no degenerate edge
+  int valid;       // BRepCheck finds no fault, and the volume is positive: not inside out
+  int closed;      // each edge lies on two faces in opposite senses; no seam, no degenerate edge
+  char fault[160]; // where it is not both: what is wrong, with the face; else ""
   int face_count;
   double largest_tolerance;              // of any vertex, edge or face, m
   double volume;                         // m3
   double shortest_edge;                  // m
   double narrowest_face;                 // vector area over half the circumference: at most a narrow face's width, m
-  int shortest_of, narrowest;            // a face of that edge, and that face
+  int loosest, shortest_of, narrowest;   // a face of that tolerance, one of that edge, and that face
   CwMeasuredAngle fluid_edge, wall_edge; // the sharpest edges: between two faces through the fluid, through the wall
   CwMeasuredAngle corner;                // the sharpest corner of a face, between two of its edges
   int fluid_edge_of[2], wall_edge_of[2], corner_of; // faces of these

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <BRepCheck_Analyzer.hxx>
-
 #include "geometry/blade.h"
 #include "geometry/blade_patches.hpp"
 #include "geometry/meridian.h"
@@ -56,10 +54,12 @@ CwStatus RotorMaker::sections() {
   for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
       last = std::max(last, cw_blade_theta(&s, 0));
-      CW_REQUIRE(s.nose < cw_blade_longest_nose(&s), CW_ERR_GEOMETRY,
-                 "the leading edge's ellipse takes %.0f %% of the %s at span %.2f: lower "
-                 "leading_edge_thickness_mm or leading_edge_ratio, or raise thickest_at",
-                 100 * s.nose, shape.name, s.span);
+      const double longest = cw_blade_longest_nose(&s), share = 0.99 * longest / s.nose;
+      CW_REQUIRE(s.nose < longest, CW_ERR_GEOMETRY,
+                 "the leading edge's ellipse takes %.0f %% of the %s at span %.2f; allowed: %.0f %%: lower "
+                 "leading_edge_thickness_mm to %.3g or leading_edge_ratio to %.3g, or raise thickest_at",
+                 100 * s.nose, shape.name, s.span, 100 * longest, share * 1e3 * design->leading_edge_thickness,
+                 share * design->leading_edge_ratio);
     }
   CW_TRY(seams(last));
 done:
@@ -101,15 +101,6 @@ CwSolid *RotorMaker::build() {
   return RotorFaces(design, meridian, shapes, margin, unit).make();
 }
 
-// Name of the first face that OpenCASCADE finds fault with; "" if all is well.
-std::string faulty_face(const CwSolid *solid) {
-  BRepCheck_Analyzer check(solid->solid);
-  if (check.IsValid()) return "";
-  for (const CwSolidFace &face : solid->faces)
-    if (!check.IsValid(face.face)) return face.name;
-  return solid->faces.front().name;
-}
-
 } // namespace
 
 CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
@@ -119,13 +110,13 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
     const CwStatus status = maker.sections();
     if (status != CW_OK) return status;
     *rotor = maker.build();
-    const std::string faulty = faulty_face(*rotor);
-    if (!faulty.empty()) {
+    const std::string fault = cw_solid_fault(**rotor);
+    if (!fault.empty()) {
       cw_solid_free(rotor);
       return CW_FAIL(CW_ERR_GEOMETRY,
-                     "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
+                     "rotor: %s; there are %d blades%s with a wrap of %.1f deg: lower blade_count or "
                      "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
-                     faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
+                     fault.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
                      design->wrap_angle * 180 / M_PI);
     }
     return CW_OK;

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepCheck_Analyzer.hxx>
 #include <BRepTools.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -28,6 +29,14 @@ CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *libr
   } catch (const std::exception &failure) {
     return CW_FAIL(code, "%s: %s", what.c_str(), failure.what());
   }
+}
+
+std::string cw_solid_fault(const CwSolid &solid) {
+  BRepCheck_Analyzer check(solid.solid);
+  if (check.IsValid()) return "";
+  for (const CwSolidFace &face : solid.faces)
+    if (!check.IsValid(face.face)) return "the edges of face " + face.name + " cross or do not fit";
+  return "its faces do not bound a volume";
 }
 
 double cw_solid_unit_of_pump(double outlet_diameter) {

@@ -26,6 +26,9 @@ struct CwSolid {
   std::vector<CwSolidFace> faces; // in the order of TopExp::MapShapes
 };
 
+// What BRepCheck finds fault with, in a few words that name the face; "": the solid is valid.
+std::string cw_solid_fault(const CwSolid &solid);
+
 // Runs what uses OpenCASCADE. Exceptions become `code`, with `what` before their text; before that of OpenCASCADE's own
 // stands `library` too.
 CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *library,

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include <BRepCheck_Analyzer.hxx>
 #include <BRep_Tool.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -57,9 +56,7 @@ void check_angles(const CwSolid &stator) {
 
 void cw_stator_check(const CwSolid &stator) {
   check_tolerances(stator);
-  for (const CwSolidFace &face : stator.faces)
-    if (!BRepCheck_Analyzer(face.face).IsValid())
-      throw std::runtime_error("face " + face.name + " crosses itself or its edges do not fit");
-  if (!BRepCheck_Analyzer(stator.solid).IsValid()) throw std::runtime_error("the solid is not valid");
+  const std::string fault = cw_solid_fault(stator);
+  if (!fault.empty()) throw std::runtime_error(fault);
   check_angles(stator);
 }
