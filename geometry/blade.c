@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-static const double degree = M_PI / 180;
 static const double least_beta = 12 * M_PI / 180, largest_beta = 60 * M_PI / 180;
 static const double offset_fades_at = 0.4;
 
@@ -128,7 +127,7 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
   beta[2] = design->outlet_blade_angle;
   Samples samples;
   sample(meridian, span, &samples);
-  double low = 1 * degree, high = 89 * degree;
+  double low = 1 * CW_DEGREE, high = 89 * CW_DEGREE;
   for (int i = 0; i < 60; i++) {
     beta[1] = 0.5 * (low + high);
     *(sampled_wrap(&samples, beta) > wrap ? &low : &high) = beta[1];
@@ -139,7 +138,7 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
     range[0] = fmin(range[0], b);
     range[1] = fmax(range[1], b);
   }
-  return range[0] >= least_beta && range[1] <= largest_beta && fabs(beta[1] - 45 * degree) < 43.9 * degree;
+  return range[0] >= least_beta && range[1] <= largest_beta && fabs(beta[1] - 45 * CW_DEGREE) < 43.9 * CW_DEGREE;
 }
 
 // Where the ellipse of the leading edge ends.
@@ -158,8 +157,8 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
              "a wrap of %.2f deg with beta1 %.2f and beta2 %.2f deg asks for blade angles of %.2f to %.2f "
              "deg at span "
              "%.2f; 12 to 60 deg are allowed: %s wrap_angle_deg or move the leading edge radii",
-             wrap / degree, beta[0] / degree, beta[2] / degree, range[0] / degree, range[1] / degree, place,
-             range[1] > largest_beta ? "raise" : "lower");
+             wrap / CW_DEGREE, beta[0] / CW_DEGREE, beta[2] / CW_DEGREE, range[0] / CW_DEGREE, range[1] / CW_DEGREE,
+             place, range[1] > largest_beta ? "raise" : "lower");
   *section = (CwBladeSection){.meridian = meridian, .span = span, .form = design->blade_form};
   for (int i = 0; i < 3; i++) section->beta[i] = beta[i];
   section->theta[CW_BLADE_STEPS] = 0;

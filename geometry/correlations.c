@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-static const double gravity = 9.80665;
-static const double degree = M_PI / 180;
 // A small pump of low efficiency needs a far larger D2 for its head; its width follows D2 up to so many times the
 // correlation's.
 static const double LARGEST_GROWTH = 1.2;
@@ -44,7 +42,7 @@ static double torsion_diameter(const CwDesign *d, double stress) {
 }
 
 static double guelich_diameter(const CwDesign *d) {
-  return 2 / d->angular_speed * sqrt(2 * gravity * d->water_head / (1.21 * exp(-0.77 * d->specific_speed_nq / 100)));
+  return 2 / d->angular_speed * sqrt(2 * CW_GRAVITY * d->water_head / (1.21 * exp(-0.77 * d->specific_speed_nq / 100)));
 }
 
 // A hub that the shaft asks for, within what stiffness needs and the eye leaves room for.
@@ -88,7 +86,7 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
     return 0.020 * d2;
   case CW_CORRELATED_INCIDENCE:
     *source = "Guelich: 0 to 4 deg";
-    return 4 * degree;
+    return 4 * CW_DEGREE;
   case CW_CORRELATED_BASE_DIAMETER:
     *source = "1.04 D2, within Guelich's distance of the tongue";
     return 1.04 * d2;
@@ -147,7 +145,7 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
   }
   case CW_CORRELATED_INCIDENCE:
     *source = "Guan: 3 to 10 deg";
-    return 6 * degree;
+    return 6 * CW_DEGREE;
   case CW_CORRELATED_BASE_DIAMETER:
     *source = "Guan: 1.03 to 1.08 D2";
     return 1.05 * d2;

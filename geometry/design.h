@@ -6,6 +6,7 @@
 
 #include "geometry/volute.h"
 #include "pipeline/case.h"
+#include "pipeline/vec.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -10,8 +10,6 @@
 #include "geometry/design_value.h"
 #include "geometry/viscous_correction.h"
 
-static const double degree = M_PI / 180;
-
 static void remark(CwDesignRemarks *remarks, int wanted, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 static void remark(CwDesignRemarks *remarks, int wanted, const char *format, ...) {
@@ -86,8 +84,8 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
 }
 
 static void of_wheel(const CwDesign *d, CwDesignRemarks *remarks) {
-  remark(remarks, d->incidence > 8 * degree || d->incidence < -2 * degree,
-         "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual", d->incidence / degree);
+  remark(remarks, d->incidence > 8 * CW_DEGREE || d->incidence < -2 * CW_DEGREE,
+         "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual", d->incidence / CW_DEGREE);
   remark(remarks, d->diffusion_ratio < 0.7, "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate",
          d->diffusion_ratio);
   remark(remarks, d->diffusion_ratio > 1.1, "w2 / w1 is %.2f; 0.7 to 1 are usual: the wheel accelerates its flow",
@@ -103,7 +101,7 @@ static void of_wheel(const CwDesign *d, CwDesignRemarks *remarks) {
          "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay "
          "within 12 to "
          "60 deg and the blades stand steep on the walls",
-         d->wrap_spread / degree);
+         d->wrap_spread / CW_DEGREE);
   remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
          "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);
   remark(remarks, d->passage_area_reversal > 1e-3,
@@ -129,9 +127,9 @@ static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
       remarks, v->input.section == CW_SECTION_CIRCLE && v->end_half_angle < touching - 1e-9,
       "section circle: the spiral has no room for circles that touch its side walls; its arcs end at %.0f instead of "
       "%.0f deg",
-      v->end_half_angle / degree, touching / degree);
-  remark(remarks, d->diffuser_angle > 10.05 * degree, "the diffuser opens by %.1f deg; at most 10 deg are usual",
-         d->diffuser_angle / degree);
+      v->end_half_angle / CW_DEGREE, touching / CW_DEGREE);
+  remark(remarks, d->diffuser_angle > 10.05 * CW_DEGREE, "the diffuser opens by %.1f deg; at most 10 deg are usual",
+         d->diffuser_angle / CW_DEGREE);
   remark(remarks, d->diffuser_area_ratio < 1.45 || d->diffuser_area_ratio > 3.05,
          "the diffuser has an area ratio of %.2f; 1.5 to 3 are usual: change outlet_diameter_mm",
          d->diffuser_area_ratio);
@@ -150,12 +148,12 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
       "the design predicts a head of %.4g m, the table asks for %.4g m: its dimensions, wrap and blade angles do not "
       "fit that head, and go before it unless impeller.priority is head",
       d->predicted_head, d->head);
-  remark(remarks, fabs(d->wrap_residual) > 0.1 * degree && isnan(d->asked[CW_DESIGN_wrap_angle]),
-         "the wrap is %.2f deg, the table asks for %.2f deg: the priority decides", d->wrap_angle / degree,
-         (d->wrap_angle - d->wrap_residual) / degree);
-  remark(remarks, fabs(d->outlet_angle_residual) > 0.1 * degree,
-         "beta2 is %.2f deg, the table asks for %.2f deg: the priority decides", d->outlet_blade_angle / degree,
-         (d->outlet_blade_angle - d->outlet_angle_residual) / degree);
+  remark(remarks, fabs(d->wrap_residual) > 0.1 * CW_DEGREE && isnan(d->asked[CW_DESIGN_wrap_angle]),
+         "the wrap is %.2f deg, the table asks for %.2f deg: the priority decides", d->wrap_angle / CW_DEGREE,
+         (d->wrap_angle - d->wrap_residual) / CW_DEGREE);
+  remark(remarks, fabs(d->outlet_angle_residual) > 0.1 * CW_DEGREE,
+         "beta2 is %.2f deg, the table asks for %.2f deg: the priority decides", d->outlet_blade_angle / CW_DEGREE,
+         (d->outlet_blade_angle - d->outlet_angle_residual) / CW_DEGREE);
   of_wheel(d, remarks);
   of_volute(d, remarks);
   reach_of_sources(d, remarks);

@@ -11,10 +11,8 @@
 #include "geometry/volute_section.h"
 #include "pipeline/record.h"
 
-static const double degree = M_PI / 180;
-
 static json_t *angle_json(const CwMeasuredAngle *angle) {
-  return json_pack("{s:f, s:[f,f,f]}", "angle_deg", angle->angle / degree, "at_m", angle->at[0], angle->at[1],
+  return json_pack("{s:f, s:[f,f,f]}", "angle_deg", angle->angle / CW_DEGREE, "at_m", angle->at[0], angle->at[1],
                    angle->at[2]);
 }
 
@@ -38,7 +36,7 @@ json_t *cw_measured_json(const CwMeasuredPump *measured) {
   return json_pack("{s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o}", //
                    "rotor", solid_json(&measured->solid[CW_PUMP_ROTOR]),                          //
                    "stator", solid_json(&measured->solid[CW_PUMP_STATOR]),                        //
-                   "wrap_angle_deg", rotor->wrap_angle / degree,                                  //
+                   "wrap_angle_deg", rotor->wrap_angle / CW_DEGREE,                               //
                    "inlet_diameter_m", rotor->inlet_diameter,                                     //
                    "outlet_diameter_m", rotor->outlet_diameter,                                   //
                    "outlet_width_m", rotor->outlet_width,                                         //
@@ -56,8 +54,9 @@ json_t *cw_measured_json(const CwMeasuredPump *measured) {
 static json_t *triangle_json(const char *station, double span, const CwTriangle *t) {
   return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "station", station, "span", span,
                    "radius_m", t->radius, "u_m_per_s", t->u, "c_m_m_per_s", t->c_m, "c_u_m_per_s", t->c_u, "c_m_per_s",
-                   t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / degree, "blade_angle_deg",
-                   t->blade_angle / degree, "incidence_or_deviation_deg", (t->blade_angle - t->flow_angle) / degree);
+                   t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / CW_DEGREE, "blade_angle_deg",
+                   t->blade_angle / CW_DEGREE, "incidence_or_deviation_deg",
+                   (t->blade_angle - t->flow_angle) / CW_DEGREE);
 }
 
 static json_t *triangles_json(const CwDesign *design) {
@@ -87,7 +86,7 @@ static json_t *correlations_json(const CwDesign *design) {
       const CwDesignValue value = cw_hydraulic_design_value(design, quantity);
       snprintf(key, sizeof key, "%s", value.key);
       used = value.stored;
-      scale = strstr(key, "_deg") ? 1 / degree : 1;
+      scale = strstr(key, "_deg") ? 1 / CW_DEGREE : 1;
     }
     json_t *row = json_pack("{s:o}", "used", cw_json_number(used));
     for (int family = 0; family < CW_CORRELATION_FAMILIES; family++) {

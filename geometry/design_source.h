@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// How the files of the hydraulic design set a quantity of `design` together with where it comes from, and the constants
-// that they share.
+// How the files of the hydraulic design set a quantity of `design` together with where it comes from.
 #ifndef CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 #define CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 
 #include <math.h>
 
 #include "geometry/design.h"
-
-static const double gravity = 9.80665; // m/s2
-static const double degree = M_PI / 180;
 
 // The family's value of a quantity with the design so far; its formula goes to `source`.
 #define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)

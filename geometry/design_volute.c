@@ -28,7 +28,7 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   // held against the chart.
   const double factor =
       cw_case_given(given->velocity_factor) ? given->velocity_factor : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
-  SET(section_speed, factor * sqrt(2 * gravity * design->water_head),
+  SET(section_speed, factor * sqrt(2 * CW_GRAVITY * design->water_head),
       cw_case_given(given->velocity_factor) ? "case: K3" : "Stepanoff: K3 = 0.42 (nq / 20)^-0.2");
   // A plain trapezoid is near enough to see how wide the throat will be.
   const int velocity = given->area_law == CW_AREA_LAW_VELOCITY;
@@ -88,7 +88,7 @@ static CwStatus widened(const CwVoluteTable *given, double tongue, int width_ope
   const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
   if (parallel && side_open) wider.section = CW_SECTION_TRAPEZOID;
   for (int i = 1; status == CW_ERR_DESIGN && i <= STEPS; i++) {
-    const double to = width + fmax(0, widest - width) * fmin(1, (double)i / WIDTH_STEPS), angle = (20 + i) * degree;
+    const double to = width + fmax(0, widest - width) * fmin(1, (double)i / WIDTH_STEPS), angle = (20 + i) * CW_DEGREE;
     cw_fail_clear();
     if (!cw_case_given(given->tongue_radius)) SET(tongue_radius, tongue, "0.0075 D2: casting");
     if (width_open && cw_case_given(given->inlet_width))
@@ -116,7 +116,7 @@ static CwStatus volute_that_fits(const CwVoluteTable *given, CwDesign *design) {
   const double tongue = 0.0075 * design->outlet_diameter;
   char first[1000];
   SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
-  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
+  TAKE(side_wall_angle, given->side_wall_angle, 20 * CW_DEGREE, "20 deg: full angle 40, usual 30 to 45");
   TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
   CwStatus status = volute_of(given, design);
   snprintf(first, sizeof first, "%s", cw_fail_message());
@@ -159,7 +159,7 @@ CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
     CW_TRY(volute_of(given, design));
   }
   while (side_open && flatness(&design->volute) > FLATTEST_THROAT && design->side_wall_angle > LEAST_SIDE_WALL) {
-    SET(side_wall_angle, fmax(LEAST_SIDE_WALL, design->side_wall_angle - 2 * degree),
+    SET(side_wall_angle, fmax(LEAST_SIDE_WALL, design->side_wall_angle - 2 * CW_DEGREE),
         "less open for a throat that is not too flat");
     CW_TRY(volute_of(given, design));
   }

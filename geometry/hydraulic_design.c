@@ -35,12 +35,12 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
   SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75 with water, rpm, m3/s, m");
   SET(specific_speed_ns, 3.65 * design->specific_speed_nq, "3.65 nq");
   SET(specific_speed_us, rpm * sqrt(q * 60e12 / 3785411784.0) / pow(h / 0.3048, 0.75), "n Q^0.5 / H^0.75");
-  SET(type_number, omega * sqrt(q) / pow(gravity * h, 0.75), "omega Q^0.5 / (g H)^0.75, ISO 2548");
+  SET(type_number, omega * sqrt(q) / pow(CW_GRAVITY * h, 0.75), "omega Q^0.5 / (g H)^0.75, ISO 2548");
   value = CORRELATED(CW_CORRELATED_EFFICIENCY);
   SET(efficiency, value * design->viscous_efficiency_factor, source);
   value = CORRELATED(CW_CORRELATED_HYDRAULIC_EFFICIENCY);
   SET(hydraulic_efficiency, value, source);
-  SET(shaft_power, table->fluid.density * gravity * design->flow_rate * design->head / design->efficiency,
+  SET(shaft_power, table->fluid.density * CW_GRAVITY * design->flow_rate * design->head / design->efficiency,
       "rho g Q H / efficiency");
   value = CORRELATED(CW_CORRELATED_SHAFT_DIAMETER);
   SET(shaft_diameter, value, source);
@@ -51,7 +51,7 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
 // steepest blades.
 static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *meridian, CwDesign *design) {
   CwBladeSection section;
-  const double step = 3 * degree, enough = 70 * degree;
+  const double step = 3 * CW_DEGREE, enough = 70 * CW_DEGREE;
   double best = -1, best_spread = 0;
   TAKE(wrap_spread, given->wrap_spread, 0, "none needed");
   if (cw_case_given(given->wrap_spread) || design->blade_form != CW_BLADE_TWISTED) return;

@@ -22,7 +22,7 @@ static double largest_outlet_diameter(const CwCase *table) {
 
 // Blades this thick at 30 degrees leave 0.3 of the circumference of D1.
 static double largest_leading_edge(const CwDesign *design) {
-  return 0.7 * M_PI * design->inlet_diameter * sin(30 * degree) / design->blade_count;
+  return 0.7 * M_PI * design->inlet_diameter * sin(30 * CW_DEGREE) / design->blade_count;
 }
 
 static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
@@ -47,7 +47,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   value = CORRELATED(CW_CORRELATED_OUTLET_WIDTH);
   TAKE(outlet_width, given->outlet_width, value, source);
   SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
-  SET(head_coefficient, 2 * gravity * design->water_head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
+  SET(head_coefficient, 2 * CW_GRAVITY * design->water_head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
   value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
   TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
@@ -178,16 +178,16 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
   source = incidence_source;
   // On the shroud, at a greater radius, the angle is less; 12 degrees are the least.
-  const double least = fmax(13 * degree, atan(tan(12.05 * degree) * design->leading_edge_radius_shroud / r));
-  double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
+  const double least = fmax(13 * CW_DEGREE, atan(tan(12.05 * CW_DEGREE) * design->leading_edge_radius_shroud / r));
+  double beta = cw_case_given(given) ? given : 25 * CW_DEGREE, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
     tau = cw_blockage(z, design->leading_edge_thickness, r, beta);
     flow = atan2(cm * tau, u);
     if (!cw_case_given(given)) beta = fmax(flow + incidence, least);
-    if (!cw_case_given(given) && wrapped) beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
+    if (!cw_case_given(given) && wrapped) beta = fmin(fmax(beta, spiral - 4 * CW_DEGREE), spiral + 2 * CW_DEGREE);
   }
-  if (wrapped && beta == spiral - 4 * degree) source = "4 deg under the logarithmic spiral of the wrap";
-  if (wrapped && beta == spiral + 2 * degree) source = "2 deg over the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral - 4 * CW_DEGREE) source = "4 deg under the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral + 2 * CW_DEGREE) source = "2 deg over the logarithmic spiral of the wrap";
   TAKE(inlet_blade_angle, given, beta, source);
   SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
   SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
@@ -208,10 +208,10 @@ static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
 static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
   CwStatus status = CW_OK;
   const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
-  const double table_wrap = table->impeller.wrap_angle, least = 12 * degree, largest = 60 * degree;
+  const double table_wrap = table->impeller.wrap_angle, least = 12 * CW_DEGREE, largest = 60 * CW_DEGREE;
   double low = least, high = largest;
   if (design->priority == CW_PRIORITY_BETA) {
-    TAKE(outlet_blade_angle, given, 25 * degree, "25 deg: middle of the usual 18 to 32");
+    TAKE(outlet_blade_angle, given, 25 * CW_DEGREE, "25 deg: middle of the usual 18 to 32");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else if (design->priority == CW_PRIORITY_HEAD) {
     for (int i = 0; i < 60; i++) {
@@ -234,7 +234,7 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
     CW_REQUIRE(cw_case_given(given) || (solved > least + 1e-6 && solved < largest - 1e-6), CW_ERR_DESIGN,
                "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 "
                "deg: change wrap_angle_deg, inlet_blade_angle_deg or the leading edge radii",
-               design->wrap_angle / degree, beta1 / degree);
+               design->wrap_angle / CW_DEGREE, beta1 / CW_DEGREE);
   }
   SET(wrap_residual, cw_case_given(table_wrap) ? design->wrap_angle - table_wrap : 0, "wrap - table's wrap");
   SET(outlet_angle_residual, cw_case_given(given) ? design->outlet_blade_angle - given : 0, "beta2 - table's beta2");
@@ -308,7 +308,8 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
              "no outlet diameter from 0.7 to 3 times the correlation's meets the head of %.3f m with beta2 "
              "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
-             design->head, design->outlet_blade_angle / degree, design->predicted_head, design->outlet_diameter * 1e3);
+             design->head, design->outlet_blade_angle / CW_DEGREE, design->predicted_head,
+             design->outlet_diameter * 1e3);
 done:
   return status;
 }
@@ -362,7 +363,8 @@ static CwStatus check_head(const CwCase *table, const CwDesign *design) {
   CW_REQUIRE(share >= least && share <= 1 / least, CW_ERR_DESIGN,
              "the table asks for a head of %.4g m; its dimensions give %.4g m with beta2 = %.2f deg (12 to 60 are "
              "allowed) and D2 = %.4g mm%s: change outlet_diameter_mm, outlet_width_mm, outlet_blade_angle_deg%s%s",
-             design->head, design->predicted_head, design->outlet_blade_angle / degree, design->outlet_diameter * 1e3,
+             design->head, design->predicted_head, design->outlet_blade_angle / CW_DEGREE,
+             design->outlet_diameter * 1e3,
              design->outlet_diameter > (1 - 1e-9) * largest_outlet_diameter(table) ? ", the most that D3 leaves" : "",
              cw_case_given(table->volute.base_diameter) ? ", base_diameter_mm" : "",
              strict ? " or the priority" : " or blade_count");

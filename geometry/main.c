@@ -27,7 +27,6 @@ static const CwStageUsage usage = {
                "a .brep file a domain, faces.csv, model.json, pump.step, design.json, record.json and pictures.\n",
 };
 
-static const double degree = M_PI / 180;
 static const double LEAST_CORNER = 15 * M_PI / 180; // of a face
 
 static void show_design(CwLog *log, const CwDesign *design) {
@@ -51,41 +50,42 @@ static void show_solid(CwLog *log, const CwSolid *solid, const CwMeasuredSolid *
   cw_log(log,
          "%s: least angles: %.1f deg through the fluid (%s, %s), %.1f deg through the wall (%s, %s), %.1f deg in a "
          "corner of %s",
-         cw_solid_domain(solid), measured->fluid_edge.angle / degree,
+         cw_solid_domain(solid), measured->fluid_edge.angle / CW_DEGREE,
          cw_solid_face_name(solid, measured->fluid_edge_of[0]), cw_solid_face_name(solid, measured->fluid_edge_of[1]),
-         measured->wall_edge.angle / degree, cw_solid_face_name(solid, measured->wall_edge_of[0]),
-         cw_solid_face_name(solid, measured->wall_edge_of[1]), measured->corner.angle / degree,
+         measured->wall_edge.angle / CW_DEGREE, cw_solid_face_name(solid, measured->wall_edge_of[0]),
+         cw_solid_face_name(solid, measured->wall_edge_of[1]), measured->corner.angle / CW_DEGREE,
          cw_solid_face_name(solid, measured->corner_of));
   if (measured->corner.angle < LEAST_CORNER)
     cw_log_warn(log,
                 "%s: %s has a corner of %.1f deg at (%.2f, %.2f, %.2f) mm, and so have triangles there; 15 deg are "
                 "usual: leave out root_fillet_radius_mm, or take trailing_edge bevelled",
-                cw_solid_domain(solid), cw_solid_face_name(solid, measured->corner_of), measured->corner.angle / degree,
-                measured->corner.at[0] * 1e3, measured->corner.at[1] * 1e3, measured->corner.at[2] * 1e3);
+                cw_solid_domain(solid), cw_solid_face_name(solid, measured->corner_of),
+                measured->corner.angle / CW_DEGREE, measured->corner.at[0] * 1e3, measured->corner.at[1] * 1e3,
+                measured->corner.at[2] * 1e3);
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
 static void show_rotor(CwLog *log, const CwDesign *design, const CwMeasuredRotor *rotor) {
-  const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
-  cw_log(log, "measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
+  const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / CW_DEGREE;
+  cw_log(log, "measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / CW_DEGREE,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
   if (design->root_fillet_radius > 0)
     cw_log(log, "measured: root fillets of %.2f mm meet hub and shroud within %.2f deg of tangency",
            design->root_fillet_radius * 1e3, fabs(180 - least));
   else
     cw_log(log, "measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least",
-           rotor->hub_crease.angle / degree, rotor->shroud_crease.angle / degree);
-  cw_log(log, "measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
+           rotor->hub_crease.angle / CW_DEGREE, rotor->shroud_crease.angle / CW_DEGREE);
+  cw_log(log, "measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / CW_DEGREE);
   if (least < 66)
     cw_log_warn(log, "blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: %s", least,
                 design->blade_form == CW_BLADE_CYLINDRICAL
                     ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
                     : "lower lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
-  if (360 - rotor->trailing_edge.angle / degree < 75)
+  if (360 - rotor->trailing_edge.angle / CW_DEGREE < 75)
     cw_log_warn(log,
                 "the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: take "
                 "trailing_edge bevelled, or raise trailing_edge_bevel_mm",
-                360 - rotor->trailing_edge.angle / degree);
+                360 - rotor->trailing_edge.angle / CW_DEGREE);
 }
 
 static void show_measured(CwLog *log, const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {
@@ -94,7 +94,7 @@ static void show_measured(CwLog *log, const CwDesign *design, const CwPump *pump
   for (int i = 0; i < pump->count; i++) show_solid(log, pump->solid[i], &measured->solid[i]);
   cw_log(log, "measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
          100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1),
-         rotor->kink.angle / degree);
+         rotor->kink.angle / CW_DEGREE);
   show_rotor(log, design, rotor);
   cw_log(log, "measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides", stator->base_diameter * 1e3,
          stator->inlet_width * 1e3, rotor->interface_radius * 1e3, rotor->interface_area * 1e6);

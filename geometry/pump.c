@@ -10,7 +10,6 @@
 #include "geometry/rotor_volume.h"
 #include "geometry/stator.h"
 
-static const double degree = M_PI / 180;
 static const double STUB = 0.25;       // of the diameter
 static const double LEAST_ZONE = 0.25; // of the diameter
 static const double OPEN_ZONE = 1;     // of the diameter, where the length is left open
@@ -146,8 +145,8 @@ static CwStatus check_rotor(const CwDesign *design, const CwPump *pump, CwMeasur
   CW_REQUIRE(kink->angle < CW_PUMP_LARGEST_KINK, CW_ERR_GEOMETRY,
              "rotor: faces that should be smooth meet with a kink of %.2f deg at (%.2f, %.2f, %.2f) mm; %.0f deg "
              "are allowed: lower root_fillet_radius_mm or leading_edge_ratio",
-             kink->angle / degree, kink->at[0] * 1e3, kink->at[1] * 1e3, kink->at[2] * 1e3,
-             CW_PUMP_LARGEST_KINK / degree);
+             kink->angle / CW_DEGREE, kink->at[0] * 1e3, kink->at[1] * 1e3, kink->at[2] * 1e3,
+             CW_PUMP_LARGEST_KINK / CW_DEGREE);
 done:
   return status;
 }

@@ -19,7 +19,7 @@ static double slip_wiesner(double count, double outlet_angle, double diameter_ra
 }
 
 double cw_slip_pfleiderer(double count, double outlet_angle, double outlet_radius, double static_moment) {
-  return 0.65 * (1 + outlet_angle / (60 * degree)) * outlet_radius * outlet_radius / (count * static_moment);
+  return 0.65 * (1 + outlet_angle / (60 * CW_DEGREE)) * outlet_radius * outlet_radius / (count * static_moment);
 }
 
 // Integral of r dm along the blade at mid-span, m2.
@@ -64,8 +64,8 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   SET(outlet_flow_angle, atan2(cm, u2 - cu), "outlet triangle");
   SET(outlet_absolute_angle, atan2(cm, cu), "outlet triangle");
   SET(diffusion_ratio, design->outlet_relative_speed / design->inlet_relative_speed, "w2 / w1");
-  const double euler = design->viscous_head_factor * design->hydraulic_efficiency * u2 / gravity;
-  SET(theoretical_head, u2 * cu / gravity, "Euler: u2 c_u2 / g");
+  const double euler = design->viscous_head_factor * design->hydraulic_efficiency * u2 / CW_GRAVITY;
+  SET(theoretical_head, u2 * cu / CW_GRAVITY, "Euler: u2 c_u2 / g");
   SET(predicted_head, euler * cu, "C_H eta_h u2 c_u2 / g");
   SET(predicted_head_wiesner, euler * (design->slip_factor_wiesner * u2 - turned), "C_H eta_h u2 c_u2 / g");
   SET(predicted_head_pfleiderer, euler * (design->slip_factor_pfleiderer * u2 - turned), "C_H eta_h u2 c_u2 / g");
@@ -147,9 +147,9 @@ CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure
   const CwTriangle *tip = &design->inlet_triangle[CW_TRIANGLE_SPANS - 1];
   const double cm = design->inlet_meridional_speed, w = hypot(tip->u, cm);
   const double lambda = 0.3 * pow(tan(tip->blade_angle), 0.57), rpm = omega * 30 / M_PI;
-  SET(npsh_required, (1.1 * cm * cm + lambda * w * w) / (2 * gravity),
+  SET(npsh_required, (1.1 * cm * cm + lambda * w * w) / (2 * CW_GRAVITY),
       "Guelich: 1.1 c_m1^2/2g + 0.3 tan(beta1)^0.57 w1^2/2g, shroud");
-  SET(npsh_available, fmax(0, inlet_pressure - design->vapour_pressure) / (design->density * gravity),
+  SET(npsh_available, fmax(0, inlet_pressure - design->vapour_pressure) / (design->density * CW_GRAVITY),
       "(inlet pressure - vapour pressure) / (rho g)");
   SET(suction_specific_speed, rpm * sqrt(design->water_flow_rate) / pow(design->npsh_required, 0.75),
       "rpm, m3/s, m; 160 to 260 are usual");

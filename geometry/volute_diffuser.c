@@ -9,7 +9,6 @@
 #include "geometry/volute_tongue.h"
 #include "pipeline/vec.h"
 
-static const double degree = M_PI / 180;
 static const double PIPE_SPEED = 4;            // m/s, economic in pipes
 static const double PIPE_LENGTH = 2;           // of the straight pipe behind, in outlet diameters
 static const double LARGEST_ANGLE = M_PI / 6;  // of the equivalent cone
@@ -104,7 +103,7 @@ static CwStatus set_bore_and_length(CwVolute *volute) {
   CW_REQUIRE(volute->diffuser_angle < LARGEST_ANGLE, CW_ERR_DESIGN,
              "volute: diffuser_length_mm %g mm opens the diffuser by %.1f deg; allowed: at most %.0f deg (at "
              "least %.1f mm)",
-             volute->diffuser_length * 1e3, volute->diffuser_angle / degree, LARGEST_ANGLE / degree,
+             volute->diffuser_length * 1e3, volute->diffuser_angle / CW_DEGREE, LARGEST_ANGLE / CW_DEGREE,
              1e3 * (radius - throat_radius) / tan(0.5 * LARGEST_ANGLE));
 done:
   return status;
@@ -203,7 +202,7 @@ static CwStatus end_radial(CwVolute *volute) {
   CW_REQUIRE(volute->diffuser_length >= least * bend, CW_ERR_DESIGN,
              "volute: diffuser_length_mm %g mm is too short for a radial discharge, which bends it by %.0f deg; "
              "allowed: at least %.1f mm",
-             volute->diffuser_length * 1e3, bend / degree, 1e3 * least * bend);
+             volute->diffuser_length * 1e3, bend / CW_DEGREE, 1e3 * least * bend);
   end_diffuser(volute, volute->outlet_x, volute->outlet_y, bend);
 done:
   return status;

@@ -16,6 +16,8 @@ extern "C" {
 enum { CW_NAME_SIZE = 33 }; // 32 characters: the limit of CGNS names
 enum { CW_LIST_MOST = 12 };
 
+#define CW_GRAVITY 9.80665 // m/s2, standard
+
 typedef enum { CW_PRIORITY_WRAP, CW_PRIORITY_HEAD, CW_PRIORITY_BETA, CW_PRIORITY_AUTO } CwPriority;
 typedef enum { CW_CORRELATIONS_GUELICH, CW_CORRELATIONS_GUAN } CwCorrelations;
 typedef enum { CW_SLIP_WIESNER, CW_SLIP_PFLEIDERER } CwSlip;

@@ -5,8 +5,6 @@
 
 #include "pipeline/case_points.h"
 
-static const double gravity = 9.80665; // m/s2
-
 typedef enum { ABOVE, AT_LEAST, BELOW, AT_MOST } Relation;
 static const char *const relation_texts[] = {"above", "at least", "below", "at most"};
 
@@ -98,7 +96,7 @@ static CwStatus check_operating_point(const char *path, const CwCase *table, con
              path, place->line, place->column, rpm, specific_speed);
   // Without swirl before the impeller no blade gives more than u2^2 / g (Euler).
   double tip_speed = point->speed * table->impeller.outlet_diameter / 2;
-  double most = cw_case_given(tip_speed) ? tip_speed * tip_speed / gravity : INFINITY;
+  double most = cw_case_given(tip_speed) ? tip_speed * tip_speed / CW_GRAVITY : INFINITY;
   place = &places[cw_case_key_find("operating_point", "head_m")];
   CW_REQUIRE(point->head < most, CW_ERR_INPUT,
              "%s:%d:%d: operating_point.head_m: %.6g contradicts speed_rpm and impeller.outlet_diameter_mm, which give "

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Vectors of three doubles.
+// Vectors of three doubles, and degrees.
 #ifndef CUTWATER_PIPELINE_VEC_H
 #define CUTWATER_PIPELINE_VEC_H
 
 #include <math.h>
+
+#define CW_DEGREE (M_PI / 180.0) // rad
 
 static inline double cw_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

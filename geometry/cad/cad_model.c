@@ -6,7 +6,6 @@
 
 #include "geometry/wall_flow.h"
 
-static const double gravity = 9.80665;           // m/s2
 static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medium pumps
 static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
 
@@ -175,7 +174,7 @@ static double diameter(double area) {
 static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int blade_count) {
   const double r2 = of->wheel_radius, r3 = of->interface_radius, u2 = point->speed * r2, width = of->interface_width;
   const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
-  const double swirl = fmin(gravity * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
+  const double swirl = fmin(CW_GRAVITY * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
   const double w2 = hypot(u2 - swirl, meridional), before = point->flow_rate / of->inlet_area;
   const double eye = diameter(of->inlet_area), w1 = hypot(point->speed * eye / 2, before);
   const double pitch = 2 * M_PI * r2 / blade_count * fmin(1, meridional / w2); // at the outlet, across w2
@@ -248,10 +247,10 @@ static CwStatus check(const CwCaseCad *cad, const CwOperatingPoint *point, const
              interface_count ? "" : " (there is no interface at all)");
   const double tip = point->speed * sizes->wheel_radius;
   CW_REQUIRE(
-      point->head < tip * tip / gravity, CW_ERR_INPUT,
+      point->head < tip * tip / CW_GRAVITY, CW_ERR_INPUT,
       "operating_point.head_m: %.6g contradicts speed_rpm and the wheel, whose radius of %.4g mm gives the tip speed "
       "%.4g m/s; allowed: below %.4g m (u2^2/g); is the unit of cad.files right?",
-      point->head, 1e3 * sizes->wheel_radius, tip, tip * tip / gravity);
+      point->head, 1e3 * sizes->wheel_radius, tip, tip * tip / CW_GRAVITY);
 done:
   return status;
 }

@@ -4,13 +4,11 @@
 #ifndef CUTWATER_MESHER_COMMON_QUALITY_H
 #define CUTWATER_MESHER_COMMON_QUALITY_H
 
-#include <math.h>
+#include "pipeline/vec.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#define CW_DEGREE (M_PI / 180.0) // rad
 
 typedef struct {
   double volume;                            // m3, signed
