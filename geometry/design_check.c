@@ -33,8 +33,9 @@ static void against_correlations(const CwDesign *d, CwDesignRemarks *remarks) {
     const int outside =
         value.shown < (1 - d->warn_share) * fmin(a, b) || value.shown > (1 + d->warn_share) * fmax(a, b);
     remark(remarks, outside && !strcmp(d->source[cw_correlated_quantity(checked[i])], "case"),
-           "%s is %.4g mm; Guelich's correlation gives %.4g, Guan's %.4g mm (more than %.0f %% apart)", value.text,
-           value.shown, a, b, 100 * d->warn_share);
+           "%s is %.4g mm; Guelich's correlation gives %.4g, Guan's %.4g mm (more than %.0f %% apart: "
+           "design.warn_share)",
+           value.text, value.shown, a, b, 100 * d->warn_share);
   }
 }
 
@@ -56,10 +57,12 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
       "%.3g m3/h lie below the %.0f m3/h to which Guelich's efficiencies reach; %.0f %% (hydraulic %.0f %%) continue "
       "his losses to this size",
       q, 3600 * CW_GUELICH_LEAST_FLOW, 100 * d->efficiency, 100 * d->hydraulic_efficiency);
-  remark(remarks, d->specific_speed_nq > 100, "nq is %.0f; the correlations are those of radial wheels, nq up to 100",
-         d->specific_speed_nq);
+  remark(remarks, d->specific_speed_nq > 100,
+         "nq is %.0f; the correlations are those of radial wheels, nq up to 100: speed_rpm of at most %.4g",
+         d->specific_speed_nq, rpm * 100 / d->specific_speed_nq);
   remark(remarks, d->correlations == CW_CORRELATIONS_GUAN && (d->specific_speed_ns < 30 || d->specific_speed_ns > 300),
-         "ns is %.0f; Guan's formulas are those of centrifugal pumps of ns 30 to 300", d->specific_speed_ns);
+         "ns is %.0f; Guan's formulas are those of centrifugal pumps of ns 30 to 300: take design.correlations guelich",
+         d->specific_speed_ns);
   remark(remarks,
          d->volute.input.area_law == CW_AREA_LAW_VELOCITY && strcmp(d->source[CW_DESIGN_section_speed], "case: K3") &&
              (d->specific_speed_nq < 10 || d->specific_speed_nq > 40),
@@ -69,8 +72,8 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(
       remarks, d->hub_diameter < 1.1 * d->shaft_diameter,
       "the hub of %.4g mm has no room for the shaft of %.4g mm that the torque at %.0f rpm asks for: a stronger shaft, "
-      "or give hub_diameter_mm",
-      1e3 * d->hub_diameter, 1e3 * d->shaft_diameter, rpm);
+      "or hub_diameter_mm of at least %.4g",
+      1e3 * d->hub_diameter, 1e3 * d->shaft_diameter, rpm, 1.1e3 * d->shaft_diameter);
   remark(remarks, corrected && d->viscous_parameter > CW_VISCOUS_LARGEST_B,
          "the viscosity of %.4g cSt gives B = %.0f; ANSI/HI 9.6.7 has factors up to B = %.0f, which are taken",
          1e6 * d->viscosity, d->viscous_parameter, CW_VISCOUS_LARGEST_B);
@@ -83,56 +86,76 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
       1e6 * CW_VISCOUS_LARGEST_NU, q, d->water_head);
 }
 
-static void of_wheel(const CwDesign *d, CwDesignRemarks *remarks) {
-  remark(remarks, d->incidence > 8 * CW_DEGREE || d->incidence < -2 * CW_DEGREE,
-         "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual", d->incidence / CW_DEGREE);
-  remark(remarks, d->diffusion_ratio < 0.7, "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate",
+static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
+  const double flow = d->inlet_flow_angle / CW_DEGREE;
+  remark(
+      remarks, d->incidence > 8 * CW_DEGREE || d->incidence < -2 * CW_DEGREE,
+      "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual: inlet_blade_angle_deg of about "
+      "%.1f to %.1f",
+      d->incidence / CW_DEGREE, fmax(12, flow - 2), fmax(12, flow + 8));
+  remark(remarks, d->diffusion_ratio < 0.7,
+         "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate: lower outlet_width_mm",
          d->diffusion_ratio);
-  remark(remarks, d->diffusion_ratio > 1.1, "w2 / w1 is %.2f; 0.7 to 1 are usual: the wheel accelerates its flow",
+  remark(remarks, d->diffusion_ratio > 1.1,
+         "w2 / w1 is %.2f; 0.7 to 1 are usual: the wheel accelerates its flow; raise outlet_width_mm",
          d->diffusion_ratio);
+  const int few = d->overlap < 1;
   remark(remarks, d->overlap < 0.8 || d->overlap > 3.2,
-         "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual, up to 3 at low specific speed: %s the wrap or "
-         "blade_count",
-         d->overlap, d->overlap < 1 ? "raise" : "lower");
+         "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual, up to 3 at low specific speed: %s "
+         "wrap_angle_deg to %.0f, or blade_count",
+         d->overlap, few ? "raise" : "lower", (few ? 1 : 3) * 360.0 / d->blade_count);
   remark(remarks, strstr(d->source[CW_DESIGN_leading_edge_radius_shroud], "at the eye") != NULL,
          "leading_edge_radius_shroud_mm lies at the eye or inside it: the blades begin at r = %.4g mm, %s",
          1e3 * d->leading_edge_radius_shroud, d->source[CW_DESIGN_leading_edge_radius_shroud]);
   remark(remarks, d->wrap_spread != 0,
-         "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay "
-         "within 12 to "
-         "60 deg and the blades stand steep on the walls",
+         "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay within 12 to "
+         "60 deg and the blades stand steep on the walls; wrap_spread_deg gives another difference",
          d->wrap_spread / CW_DEGREE);
   remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
-         "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);
+         "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual: %s", d->inlet_throat_ratio,
+         d->inlet_throat_ratio > 1 ? "raise inlet_blade_angle_deg or lower blade_count"
+                                   : "lower inlet_blade_angle_deg or raise blade_count");
+}
+
+static void of_passage(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(remarks, d->passage_area_reversal > 1e-3,
-         "the passage's area goes from %.3g mm2 in the eye to %.3g mm2 at D2, but steps back by %.1f %% on its way: "
-         "change axial_length_mm or the poles of hub and shroud, or leave them out",
+         "the passage's area goes from %.3g mm2 in the eye to %.3g mm2 at D2, but steps back by %.1f %% on its way; "
+         "0.1 %% are usual: change axial_length_mm, or leave out hub_pole_radial, shroud_pole_axial and "
+         "shroud_pole_radial",
          d->passage_area_eye * 1e6, d->passage_area_outlet * 1e6, 100 * d->passage_area_reversal);
   remark(remarks, d->shroud_bend_radius < 0.6 * d->inlet_passage_width,
-         "the shroud bends with a radius of %.3g mm, %.2f of the passage's width there; at least 0.6 are usual",
-         d->shroud_bend_radius * 1e3, d->shroud_bend_radius / d->inlet_passage_width);
+         "the shroud bends with a radius of %.3g mm, %.2f of the passage's width there; at least 0.6 (%.3g mm) are "
+         "usual: raise axial_length_mm",
+         d->shroud_bend_radius * 1e3, d->shroud_bend_radius / d->inlet_passage_width, 0.6e3 * d->inlet_passage_width);
   remark(remarks, d->npsh_required > d->npsh_available,
-         "the wheel needs an NPSH of about %.1f m, the inlet pressure gives %.1f m (vapour pressure %.0f Pa)",
-         d->npsh_required, d->npsh_available, d->vapour_pressure);
+         "the wheel needs an NPSH of about %.1f m, the inlet pressure gives %.1f m (vapour pressure %.0f Pa): raise "
+         "operating_point.inlet_pressure_pa to %.0f",
+         d->npsh_required, d->npsh_available, d->vapour_pressure,
+         d->vapour_pressure + d->density * CW_GRAVITY * d->npsh_required);
 }
 
 static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
-  const double tip = 2 * d->tongue_tip_radius / d->outlet_diameter, d3 = d->base_diameter / d->outlet_diameter;
-  remark(remarks, d3 < 1.03 || d3 > 1.15, "D3 is %.3f D2; 1.03 to 1.08 are usual", d3);
+  const double d2 = d->outlet_diameter, r3 = d->base_diameter / 2, tip = 2 * d->tongue_tip_radius / d2;
+  remark(remarks, d->base_diameter < 1.03 * d2 || d->base_diameter > 1.15 * d2,
+         "D3 is %.3f D2; 1.03 to 1.08 are usual: base_diameter_mm of %.4g to %.4g", d->base_diameter / d2, 1.03e3 * d2,
+         1.08e3 * d2);
   remark(remarks, tip < 1.045 || tip > 1.25,
-         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: give tongue_gap_mm", tip);
+         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: tongue_gap_mm of %.3g to %.3g",
+         tip, 1e3 * fmax(0, 1.05 * d2 / 2 - r3), 1e3 * fmax(0, 1.2 * d2 / 2 - r3));
   const CwVolute *v = &d->volute;
   const double touching = 0.5 * M_PI + v->input.side_wall_angle;
   remark(
       remarks, v->input.section == CW_SECTION_CIRCLE && v->end_half_angle < touching - 1e-9,
       "section circle: the spiral has no room for circles that touch its side walls; its arcs end at %.0f instead of "
-      "%.0f deg",
+      "%.0f deg: lower side_wall_angle_deg or inlet_width_mm, or take section trapezoid",
       v->end_half_angle / CW_DEGREE, touching / CW_DEGREE);
-  remark(remarks, d->diffuser_angle > 10.05 * CW_DEGREE, "the diffuser opens by %.1f deg; at most 10 deg are usual",
-         d->diffuser_angle / CW_DEGREE);
+  remark(remarks, d->diffuser_angle > 10.05 * CW_DEGREE,
+         "the diffuser opens by %.1f deg; at most 10 deg are usual: raise diffuser_length_mm to %.4g",
+         d->diffuser_angle / CW_DEGREE, 1e3 * d->diffuser_length * tan(0.5 * d->diffuser_angle) / tan(5 * CW_DEGREE));
+  const double throat_diameter = d->discharge_diameter / sqrt(d->diffuser_area_ratio);
   remark(remarks, d->diffuser_area_ratio < 1.45 || d->diffuser_area_ratio > 3.05,
-         "the diffuser has an area ratio of %.2f; 1.5 to 3 are usual: change outlet_diameter_mm",
-         d->diffuser_area_ratio);
+         "the diffuser has an area ratio of %.2f; 1.5 to 3 are usual: outlet_diameter_mm of %.4g to %.4g",
+         d->diffuser_area_ratio, 1e3 * sqrt(1.5) * throat_diameter, 1e3 * sqrt(3) * throat_diameter);
 }
 
 void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
@@ -142,19 +165,21 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
   gave_way(d, remarks);
   against_correlations(d, remarks);
   remark(remarks, fabs(d->blade_count - blades) > 1.5 && d->specific_speed_nq < 45,
-         "%d blades; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives %.1f", d->blade_count, blades);
+         "%d blades; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives a blade_count of %.1f", d->blade_count,
+         blades);
   remark(
       remarks, fabs(d->head_residual) > 0.03 * d->head,
       "the design predicts a head of %.4g m, the table asks for %.4g m: its dimensions, wrap and blade angles do not "
       "fit that head, and go before it unless impeller.priority is head",
       d->predicted_head, d->head);
   remark(remarks, fabs(d->wrap_residual) > 0.1 * CW_DEGREE && isnan(d->asked[CW_DESIGN_wrap_angle]),
-         "the wrap is %.2f deg, the table asks for %.2f deg: the priority decides", d->wrap_angle / CW_DEGREE,
+         "the wrap is %.2f deg, the table asks for %.2f deg: impeller.priority decides", d->wrap_angle / CW_DEGREE,
          (d->wrap_angle - d->wrap_residual) / CW_DEGREE);
   remark(remarks, fabs(d->outlet_angle_residual) > 0.1 * CW_DEGREE,
-         "beta2 is %.2f deg, the table asks for %.2f deg: the priority decides", d->outlet_blade_angle / CW_DEGREE,
+         "beta2 is %.2f deg, the table asks for %.2f deg: impeller.priority decides", d->outlet_blade_angle / CW_DEGREE,
          (d->outlet_blade_angle - d->outlet_angle_residual) / CW_DEGREE);
-  of_wheel(d, remarks);
+  of_blades(d, remarks);
+  of_passage(d, remarks);
   of_volute(d, remarks);
   reach_of_sources(d, remarks);
 }

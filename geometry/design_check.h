@@ -10,7 +10,7 @@ enum { CW_DESIGN_REMARK_LIMIT = 32 };
 
 typedef struct {
   int count;
-  char text[CW_DESIGN_REMARK_LIMIT][240]; // one line each
+  char text[CW_DESIGN_REMARK_LIMIT][320]; // one line each
 } CwDesignRemarks;
 
 void cw_design_check(const CwDesign *design, CwDesignRemarks *remarks);

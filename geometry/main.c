@@ -66,7 +66,9 @@ static void show_solid(CwLog *log, const CwSolid *solid, const CwMeasuredSolid *
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
 static void show_rotor(CwLog *log, const CwDesign *design, const CwMeasuredRotor *rotor) {
-  const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / CW_DEGREE;
+  const int on_hub = rotor->hub_crease.angle < rotor->shroud_crease.angle;
+  const CwMeasuredAngle *crease = on_hub ? &rotor->hub_crease : &rotor->shroud_crease, *edge = &rotor->trailing_edge;
+  const double least = crease->angle / CW_DEGREE, wedge = 360 - edge->angle / CW_DEGREE;
   cw_log(log, "measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / CW_DEGREE,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
   if (design->root_fillet_radius > 0)
@@ -75,17 +77,22 @@ static void show_rotor(CwLog *log, const CwDesign *design, const CwMeasuredRotor
   else
     cw_log(log, "measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least",
            rotor->hub_crease.angle / CW_DEGREE, rotor->shroud_crease.angle / CW_DEGREE);
-  cw_log(log, "measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / CW_DEGREE);
+  cw_log(log, "measured: sharpest wedge of the trailing edge %.1f deg", wedge);
   if (least < 66)
-    cw_log_warn(log, "blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: %s", least,
-                design->blade_form == CW_BLADE_CYLINDRICAL
-                    ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
-                    : "lower lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
-  if (360 - rotor->trailing_edge.angle / CW_DEGREE < 75)
-    cw_log_warn(log,
-                "the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: take "
-                "trailing_edge bevelled, or raise trailing_edge_bevel_mm",
-                360 - rotor->trailing_edge.angle / CW_DEGREE);
+    cw_log_warn(
+        log,
+        "blades meet the %s at %.1f deg at (%.2f, %.2f, %.2f) mm; under 66 deg the prism layers there are skewed: "
+        "%s",
+        on_hub ? "hub" : "shroud", least, crease->at[0] * 1e3, crease->at[1] * 1e3, crease->at[2] * 1e3,
+        design->blade_form == CW_BLADE_CYLINDRICAL
+            ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
+            : "lower lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
+  if (wedge < 75)
+    cw_log_warn(
+        log,
+        "the trailing edge has a wedge of %.1f deg at (%.2f, %.2f, %.2f) mm; under 75 deg the prism layers there "
+        "are skewed: take trailing_edge bevelled, or raise trailing_edge_bevel_mm",
+        wedge, edge->at[0] * 1e3, edge->at[1] * 1e3, edge->at[2] * 1e3);
 }
 
 static void show_measured(CwLog *log, const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {

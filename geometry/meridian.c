@@ -107,8 +107,9 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   meridian->inlet_z = meridian->shroud.pole[0][1] - design->suction_pipe_length;
   CW_REQUIRE(meridian->inlet_z < meridian->nut_end_z, CW_ERR_DESIGN,
              "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: raise "
-             "suction_pipe_length_mm",
-             meridian->inlet_z * 1e3, meridian->nut_end_z * 1e3);
+             "suction_pipe_length_mm to more than %.3f",
+             meridian->inlet_z * 1e3, meridian->nut_end_z * 1e3,
+             1e3 * (design->suction_pipe_length + meridian->inlet_z - meridian->nut_end_z));
 done:
   return status;
 }

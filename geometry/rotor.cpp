@@ -54,12 +54,12 @@ CwStatus RotorMaker::sections() {
   for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
       last = std::max(last, cw_blade_theta(&s, 0));
-      const double longest = cw_blade_longest_nose(&s), share = 0.99 * longest / s.nose;
+      const double longest = cw_blade_longest_nose(&s),
+                   thickness = 0.99 * longest / s.nose * design->leading_edge_thickness;
       CW_REQUIRE(s.nose < longest, CW_ERR_GEOMETRY,
                  "the leading edge's ellipse takes %.0f %% of the %s at span %.2f; allowed: %.0f %%: lower "
-                 "leading_edge_thickness_mm to %.3g or leading_edge_ratio to %.3g, or raise thickest_at",
-                 100 * s.nose, shape.name, s.span, 100 * longest, share * 1e3 * design->leading_edge_thickness,
-                 share * design->leading_edge_ratio);
+                 "leading_edge_thickness_mm to %.3g, or raise thickest_at",
+                 100 * s.nose, shape.name, s.span, 100 * longest, 1e3 * thickness);
     }
   CW_TRY(seams(last));
 done:

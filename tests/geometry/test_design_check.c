@@ -20,7 +20,7 @@ static void paper_remarks(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
   assert_true(remarked(&design, "predicts a head"));
-  assert_true(remarked(&design, "D3 is 1.020 D2"));
+  assert_true(remarked(&design, "D3 is 1.020 D2; 1.03 to 1.08 are usual: base_diameter_mm of 206 to 216"));
   assert_true(remarked(&design, "incidence"));
   assert_false(remarked(&design, "width b2 is")); // 8 mm: Guan 8.81, less 10 % is 7.93
   assert_false(remarked(&design, "outlet D2 is"));
@@ -56,9 +56,9 @@ static void ends_and_reach_are_remarked(void **state) {
   assert_false(remarked(&design, "ANSI/HI"));
   assert_false(remarked(&design, "Guelich's efficiencies"));
   design.overlap = 0.7;
-  assert_true(remarked(&design, "raise the wrap"));
+  assert_true(remarked(&design, "raise wrap_angle_deg to 60"));
   design.overlap = 3.5;
-  assert_true(remarked(&design, "lower the wrap"));
+  assert_true(remarked(&design, "lower wrap_angle_deg to 180"));
   design.diffusion_ratio = 0.7; // the least without a remark
   assert_false(remarked(&design, "separate"));
   design.diffusion_ratio = 0.699;
@@ -67,8 +67,11 @@ static void ends_and_reach_are_remarked(void **state) {
   assert_false(remarked(&design, "accelerates"));
   design.diffusion_ratio = 1.3;
   assert_true(remarked(&design, "accelerates"));
+  design.npsh_required = 12; // (2339 + 998.2 9.80665 12) Pa
+  assert_true(remarked(&design, "raise operating_point.inlet_pressure_pa to 1198"));
   design.tongue_tip_radius = 0.13;
-  assert_true(remarked(&design, "tongue's tip lies at 1.300"));
+  assert_true(remarked(
+      &design, "tongue's tip lies at 1.300 of the wheel's radius; 1.05 to 1.2 are usual: tongue_gap_mm of 3 to 18"));
   design.tongue_tip_radius = 0.102;
   assert_true(remarked(&design, "tongue's tip lies at 1.020"));
   design.diffuser_area_ratio = 4;
