@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-
-#include <Standard_Failure.hxx>
 
 #include "geometry/bspline_fit.hpp"
 #include "geometry/root_fillet.hpp"
+#include "geometry/solid.hpp"
 
 namespace {
 
@@ -201,17 +199,13 @@ void Maker::points() {
       shape.has_bevel ? cw_blade_bevel_begin(&middle, edge, design->trailing_edge_bevel) : middle.end;
   const double theta_corner = cw_blade_side(&middle, CW_BLADE_PRESSURE, middle.end).theta;
   const double first = edge == CW_EDGE_SHARP ? 0.7 : 0.8;
-  if (!(p_bevel > first) || (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner)) {
-    char text[280];
-    std::snprintf(
-        text, sizeof text,
+  if (!(p_bevel > first) || (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner))
+    cw_solid_refuse(
         "the bevel of %.3g mm is longer than the trailing edge of the %s, or begins at %.0f %% of it; allowed: "
         "from %.0f %% on: lower trailing_edge_bevel_mm to %.3g, or trailing_edge_thickness_mm (%.3g mm)",
         1e3 * design->trailing_edge_bevel, shape.name, 100 * p_bevel, 100 * first,
         1e3 * cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle),
         1e3 * design->trailing_edge_thickness);
-    throw Standard_Failure(text);
-  }
   // With fillets half-way between even steps on the ellipse and even turns of its normal, which their feet follow.
   for (int i = 0; i < nose_points; i++) {
     const double f = (double)i / (nose_points - 1), even = M_PI * (f - 0.5);

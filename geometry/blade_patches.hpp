@@ -12,8 +12,8 @@
 #include "geometry/meridian.h"
 
 // Makes all surfaces, in the model unit (m), and curves of a shape whose name and sections are set. The lines from its
-// nose to the eye turn into the meridian within a fifth of the angle `room`. Throws Standard_Failure with the reason
-// where the trailing edge or the root fillets do not fit.
+// nose to the eye turn into the meridian within a fifth of the angle `room`. Throws std::runtime_error with the
+// reason where the trailing edge or the root fillets do not fit.
 void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, double room,
                       CwBladeShape *shape);
 

@@ -15,7 +15,7 @@
 #include "geometry/blade_shape.hpp"
 #include "geometry/design.h"
 
-// Sets foot, reach and handle of all patches of a shape whose points are made. Throws Standard_Failure where
+// Sets foot, reach and handle of all patches of a shape whose points are made. Throws std::runtime_error where
 // the fillets of hub and shroud leave too little of the blade between them, or have no room before its leading
 // edge.
 void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape);

@@ -3,8 +3,11 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepCheck_Analyzer.hxx>
@@ -29,6 +32,15 @@ CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *libr
   } catch (const std::exception &failure) {
     return CW_FAIL(code, "%s: %s", what.c_str(), failure.what());
   }
+}
+
+void cw_solid_refuse(const char *format, ...) {
+  char text[400];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  throw std::runtime_error(text);
 }
 
 std::string cw_solid_fault(const CwSolid &solid) {

@@ -29,6 +29,9 @@ struct CwSolid {
 // What BRepCheck finds fault with, in a few words that name the face; "": the solid is valid.
 std::string cw_solid_fault(const CwSolid &solid);
 
+// Throws std::runtime_error with a line, printf style, that says what cannot be built: for cw_solid_guard().
+[[noreturn]] void cw_solid_refuse(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 // Runs what uses OpenCASCADE. Exceptions become `code`, with `what` before their text; before that of OpenCASCADE's own
 // stands `library` too.
 CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *library,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <exception>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include <GeomAPI.hxx>
@@ -181,7 +180,11 @@ private:
     double side_direction = direction(k);
     Handle(Geom_BSplineSurface) surface = cw_bspline_surface(SIDE, across_, [&](double u, double v) {
       double height = cw_volute_nose_height(&v_, side_direction * (1 - u));
-      if (std::isnan(height)) throw std::runtime_error("the nose of the tongue does not reach the side walls");
+      if (std::isnan(height))
+        cw_solid_refuse(
+            "the nose of the tongue, of radius %.3g mm, does not reach the side walls, which open by %.1f deg: "
+            "lower tongue_radius_mm or side_wall_angle_deg",
+            1e3 * radius, 180 / M_PI * v_.input.side_wall_angle);
       double contact[3];
       cw_volute_wall_point(&v_, cw_volute_contact_angle(&v_, psi(v)), psi(v), contact, nullptr, nullptr);
       // u = 0 lies on the outer wall's border exactly.
@@ -193,8 +196,11 @@ private:
     for (int side : {BOTTOM, TOP}) {
       flank_vertex_[side] = b_.vertex(surface->Value(1, side));
       gp_Pnt p = b_.point(flank_vertex_[side]);
-      if (std::hypot(p.X(), p.Y()) < TONGUE_SIDE * r3())
-        throw std::runtime_error("the tongue's side comes nearer than 1 % to D3/2; raise tongue_gap_mm");
+      const double at = std::hypot(p.X(), p.Y()), least = TONGUE_SIDE * r3(), mm = 1e3 * unit_;
+      if (at < least)
+        cw_solid_refuse("the tongue's side comes to %.2f mm from the axis; allowed: at least %.2f mm, 1.01 D3/2: raise "
+                        "tongue_gap_mm by %.2f or more",
+                        mm * at, mm * least, mm * (least - at));
       nose_side_[side] = b_.edge(surface->VIso(side), 0, 1, kink_vertex_[0][side], flank_vertex_[side]);
     }
     nose_flank_ = b_.edge(surface->UIso(1), 0, 1, flank_vertex_[BOTTOM], flank_vertex_[TOP]);
@@ -369,12 +375,10 @@ private:
         double z = std::min(std::fabs(p.Z()) * unit_, s.kink_height);
         double wall = scale_ * cw_volute_wall_radius(&s, z);
         if (std::fabs(p.Z()) > scale_ * s.kink_height + least || std::hypot(p.X(), p.Y()) > wall + least) continue;
-        char text[160];
-        snprintf(text, sizeof text,
-                 "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length_mm or "
-                 "tongue_gap_mm, or lower outlet_diameter_mm",
-                 1e3 * unit_ * p.X(), 1e3 * unit_ * p.Y(), 1e3 * unit_ * p.Z());
-        throw std::runtime_error(text);
+        const double mm = 1e3 * unit_;
+        cw_solid_refuse("the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; allowed: a wall of %.2f mm between "
+                        "them: raise diffuser_length_mm or tongue_gap_mm, or lower outlet_diameter_mm (%.1f mm)",
+                        mm * p.X(), mm * p.Y(), mm * p.Z(), mm * least, 1e3 * v_.input.outlet_diameter);
       }
   }
 

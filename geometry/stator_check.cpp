@@ -2,8 +2,6 @@
 #include "geometry/stator_check.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
 
 #include <BRep_Tool.hxx>
 #include <TopExp.hxx>
@@ -28,10 +26,8 @@ void check_tolerances(const CwSolid &stator) {
     double tolerance = BRep_Tool::Tolerance(vertex);
     if (tolerance < LARGEST_TOLERANCE) continue;
     gp_Pnt p = BRep_Tool::Pnt(vertex);
-    char text[200];
-    snprintf(text, sizeof text, "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm",
-             mm * tolerance, mm * p.X(), mm * p.Y(), mm * p.Z(), mm * LARGEST_TOLERANCE);
-    throw std::runtime_error(text);
+    cw_solid_refuse("its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm", mm * tolerance,
+                    mm * p.X(), mm * p.Y(), mm * p.Z(), mm * LARGEST_TOLERANCE);
   }
 }
 
@@ -42,13 +38,10 @@ void check_angles(const CwSolid &stator) {
     const double angle = found.angle * 180 / M_PI;
     if (angle >= LEAST_FLUID_ANGLE && 360 - angle >= LEAST_SOLID_ANGLE) return;
     const bool fluid = angle < LEAST_FLUID_ANGLE;
-    char text[240];
-    snprintf(text, sizeof text,
-             "%s and %s meet through the %s at %.1f deg at (%.1f, %.1f, %.1f) mm; allowed: at least %g deg",
-             stator.faces[found.face[0]].name.c_str(), stator.faces[found.face[1]].name.c_str(),
-             fluid ? "fluid" : "solid", fluid ? angle : 360 - angle, mm * found.at.X(), mm * found.at.Y(),
-             mm * found.at.Z(), fluid ? LEAST_FLUID_ANGLE : LEAST_SOLID_ANGLE);
-    throw std::runtime_error(text);
+    cw_solid_refuse("%s and %s meet through the %s at %.1f deg at (%.1f, %.1f, %.1f) mm; allowed: at least %g deg",
+                    stator.faces[found.face[0]].name.c_str(), stator.faces[found.face[1]].name.c_str(),
+                    fluid ? "fluid" : "solid", fluid ? angle : 360 - angle, mm * found.at.X(), mm * found.at.Y(),
+                    mm * found.at.Z(), fluid ? LEAST_FLUID_ANGLE : LEAST_SOLID_ANGLE);
   });
 }
 
@@ -57,6 +50,6 @@ void check_angles(const CwSolid &stator) {
 void cw_stator_check(const CwSolid &stator) {
   check_tolerances(stator);
   const std::string fault = cw_solid_fault(stator);
-  if (!fault.empty()) throw std::runtime_error(fault);
+  if (!fault.empty()) cw_solid_refuse("%s", fault.c_str());
   check_angles(stator);
 }

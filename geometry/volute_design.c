@@ -245,8 +245,10 @@ static CwStatus growth_for_area(const CwVolute *volute, double largest, double *
   } while (isnan(least_excess) && (share *= 1.5) < 0.7);
   while (isnan(largest_excess = throat_area_excess(largest, &context)) && largest > low) largest *= 0.8;
   CW_REQUIRE(!isnan(least_excess) && !isnan(largest_excess), CW_ERR_DESIGN,
-             "volute: no spiral with this D3 and b3 has room for its tongue%s; lower inlet_width_mm or %s",
-             cw_volute_has_corners(volute) ? " and corners" : "",
+             "volute: no spiral with D3 = %g and b3 = %g mm has room for its tongue of radius %g mm%s; lower "
+             "inlet_width_mm or %s",
+             volute->input.base_diameter * 1e3, volute->input.inlet_width * 1e3, volute->input.tongue_radius * 1e3,
+             cw_volute_has_corners(volute) ? " and its corners" : "",
              cw_volute_has_corners(volute) ? "corner_radius_mm" : "tongue_radius_mm");
   *growth = cw_root_find(throat_area_excess, &context, low, largest);
   CW_REQUIRE(!isnan(*growth), CW_ERR_DESIGN,
@@ -294,17 +296,24 @@ static CwStatus check_tongue(const CwVolute *volute) {
   if (!isnan(volute->throat_width))
     cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
                          NULL, NULL);
-  CW_REQUIRE(volute->end_half_angle == volute->arc_half_angle || isnan(volute->throat_width) ||
-                 corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
-             CW_ERR_DESIGN,
-             "volute: %s too little side wall at the throat; lower inlet_width_mm or %s, or take section trapezoid%s",
-             cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
-             cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
-             cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
-  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && volute->throat_width > 4 * in->tongue_radius,
-             CW_ERR_DESIGN,
+  CW_REQUIRE(
+      volute->end_half_angle == volute->arc_half_angle || isnan(volute->throat_width) ||
+          corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
+      CW_ERR_DESIGN,
+      "volute: %s %.2f of the throat's width to its side walls; allowed: at least %.2f: lower inlet_width_mm or %s, "
+      "or take section trapezoid%s",
+      cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
+      (corner[0] - volute->inner_wall_x) / volute->throat_width, LEAST_SIDE,
+      cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
+      cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
+  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && !isnan(volute->throat_width), CW_ERR_DESIGN,
              "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius_mm or raise throat_area_mm2",
              in->tongue_radius * 1e3);
+  CW_REQUIRE(
+      volute->throat_width > 4 * in->tongue_radius, CW_ERR_DESIGN,
+      "volute: no tongue of radius %g mm fits beside a throat %.4g mm wide; allowed: less than a quarter of that: "
+      "lower tongue_radius_mm or raise throat_area_mm2 (%.4g mm2)",
+      in->tongue_radius * 1e3, volute->throat_width * 1e3, volute->throat_area * 1e6);
 done:
   return status;
 }
@@ -316,12 +325,14 @@ static CwStatus check_sections(const CwVolute *volute) {
   for (int i = 0; i <= steps; i++) {
     double phi = volute->start_angle + 2 * M_PI * i / steps;
     double gap = cw_volute_section(volute, phi).kink_radius - base_radius(volute);
-    CW_REQUIRE(gap > START_MARGIN * base_radius(volute), CW_ERR_DESIGN,
-               "volute: the section %.0f deg behind the spiral's start is too small for %s; lower %s or "
-               "inlet_width_mm, or take section trapezoid%s",
-               phi * 180 / M_PI, cw_volute_has_corners(volute) ? "its corners" : "a circle",
-               cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
-               cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
+    CW_REQUIRE(
+        gap > START_MARGIN * base_radius(volute), CW_ERR_DESIGN,
+        "volute: the section %.0f deg behind the spiral's start has side walls of %.3g mm (more than %.3g mm are "
+        "allowed) and is too small for %s; lower %s or inlet_width_mm, or take section trapezoid%s",
+        phi * 180 / M_PI, gap * 1e3, START_MARGIN * base_radius(volute) * 1e3,
+        cw_volute_has_corners(volute) ? "its corners" : "a circle",
+        cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
+        cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
   }
 done:
   return status;
