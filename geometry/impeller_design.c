@@ -231,10 +231,12 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
     }
     const double solved = 0.5 * (low + high);
     TAKE(outlet_blade_angle, given, solved, "straight law beta1 to beta2 closes the wrap");
-    CW_REQUIRE(cw_case_given(given) || (solved > least + 1e-6 && solved < largest - 1e-6), CW_ERR_DESIGN,
-               "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 "
-               "deg: change wrap_angle_deg, inlet_blade_angle_deg or the leading edge radii",
-               design->wrap_angle / CW_DEGREE, beta1 / CW_DEGREE);
+    CW_REQUIRE(
+        cw_case_given(given) || (solved > least + 1e-6 && solved < largest - 1e-6), CW_ERR_DESIGN,
+        "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 deg; allowed "
+        "with that beta1: wrap_angle_deg of %.2f to %.2f; or change inlet_blade_angle_deg or the leading edge radii",
+        design->wrap_angle / CW_DEGREE, beta1 / CW_DEGREE, straight_wrap(meridian, beta1, largest) / CW_DEGREE,
+        straight_wrap(meridian, beta1, least) / CW_DEGREE);
   }
   SET(wrap_residual, cw_case_given(table_wrap) ? design->wrap_angle - table_wrap : 0, "wrap - table's wrap");
   SET(outlet_angle_residual, cw_case_given(given) ? design->outlet_blade_angle - given : 0, "beta2 - table's beta2");

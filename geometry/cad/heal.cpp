@@ -83,7 +83,9 @@ Fault fault_of(const TopoDS_Shape &shape, double tolerance) {
   const double largest = measure.Tolerance(shape, 1);
   if (largest > LARGEST_TOLERANCE * tolerance) {
     const Handle(TopTools_HSequenceOfShape) where = measure.OverTolerance(shape, LARGEST_TOLERANCE * tolerance);
-    return {"edges and faces fit one another within no less than " + std::to_string(largest) + " units",
+    return {"edges and faces fit one another within no less than " +
+                std::to_string((int)std::ceil(largest / tolerance)) +
+                " times the tolerance (allowed: " + std::to_string((int)LARGEST_TOLERANCE) + ")",
             where.IsNull() || where->IsEmpty() ? std::nullopt : place_of(where->Value(1))};
   }
   if (!(std::fabs(volume_of(shape)) > 0)) return {"it has no volume", {}};
