@@ -91,7 +91,7 @@ static void to_space(const CwBladeSection *section, CwBladePoint point, double t
   x[2] = rz[1];
 }
 
-// Least distance at mid-span from the edge `from` of a blade to a side of its neighbour turned by `turn`, and
+// Least distance at mid-span from the edge `from` of a blade to a side of its neighbour `section` turned by `turn`, and
 // the place q there.
 static double throat(const CwBladeSection *section, CwBladePoint from, CwBladeSide side, double turn, double *place) {
   enum { POINTS = 400 };
@@ -108,6 +108,18 @@ static double throat(const CwBladeSection *section, CwBladePoint from, CwBladeSi
     }
   }
   return least;
+}
+
+// From the end of a blade's suction side to the pressure side of the neighbour: of a blade with a splitter behind its
+// pressure side the narrower of both passages.
+static double outlet_throat(const CwDesign *design, const CwBladeSection *blade, double pitch) {
+  double place;
+  const CwBladePoint end = cw_blade_side(blade, CW_BLADE_SUCTION, blade->end);
+  if (!(design->splitter_start > 0)) return throat(blade, end, CW_BLADE_PRESSURE, -pitch, &place);
+  const CwBladeSection splitter = cw_blade_splitter(design, blade);
+  const CwBladePoint its_end = cw_blade_side(&splitter, CW_BLADE_SUCTION, splitter.end);
+  return fmin(throat(&splitter, end, CW_BLADE_PRESSURE, -pitch, &place),
+              throat(blade, its_end, CW_BLADE_PRESSURE, 0, &place));
 }
 
 static double passage_width(const CwMeridian *meridian, double q) {
@@ -140,9 +152,7 @@ CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure
   SET(inlet_throat_area, design->blade_count * design->inlet_throat_width * passage_width(meridian, place), "z a1 b");
   SET(inlet_throat_ratio, design->water_flow_rate / design->inlet_throat_area / design->inlet_relative_speed,
       "Q / (throat area w1)");
-  SET(outlet_throat_width,
-      throat(&section, cw_blade_side(&section, CW_BLADE_SUCTION, section.end), CW_BLADE_PRESSURE, -pitch, &place),
-      "least distance to the next blade, mid-span");
+  SET(outlet_throat_width, outlet_throat(design, &section, pitch), "least distance to the next blade, mid-span");
   // Guelich, section 6.3.2: lambda_c = 1.1 with an axial inlet, lambda_w = 0.3 tan(beta1B)^0.57 at the shroud.
   const CwTriangle *tip = &design->inlet_triangle[CW_TRIANGLE_SPANS - 1];
   const double cm = design->inlet_meridional_speed, w = hypot(tip->u, cm);
