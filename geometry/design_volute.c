@@ -110,9 +110,7 @@ static CwStatus widened(const CwVoluteTable *given, double tongue, int width_ope
 // Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side walls,
 // which else would make the spiral too tall, at low specific speed the tongue's radius, which is too large for its
 // throat. Then given side walls yield, and at last a given b3.
-static CwStatus volute_that_fits(const CwVoluteTable *given, CwDesign *design) {
-  const int width_open = !cw_case_given(given->inlet_width),
-            side_open = !cw_case_given(given->side_wall_angle) && given->section != CW_SECTION_RECTANGLE;
+static CwStatus volute_that_fits(const CwVoluteTable *given, int width_open, int side_open, CwDesign *design) {
   const double tongue = 0.0075 * design->outlet_diameter;
   char first[1000];
   SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
@@ -152,7 +150,7 @@ CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const int width_open = !cw_case_given(given->inlet_width);
   const int side_open = !cw_case_given(given->side_wall_angle) && given->section != CW_SECTION_RECTANGLE;
-  CW_TRY(volute_that_fits(given, design));
+  CW_TRY(volute_that_fits(given, width_open, side_open, design));
   const double narrowest = 1.001 * (design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter);
   while (width_open && flatness(&design->volute) > FLATTEST_THROAT && design->inlet_width > narrowest) {
     SET(inlet_width, fmax(narrowest, 0.9 * design->inlet_width), "narrowed for a throat that is not too flat");

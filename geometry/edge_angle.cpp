@@ -71,7 +71,7 @@ void cw_edge_angles(const CwSolid &solid, const CwFacePair &wanted,
   for (int i = 1; i <= faces_of.Extent(); i++) {
     CwEdgeAngle found = {{number.Find(faces_of(i).First()), number.Find(faces_of(i).Last())}, 0, gp_Pnt()};
     const CwSolidFace &a = solid.faces[found.face[0]], &b = solid.faces[found.face[1]];
-    if (found.face[0] == found.face[1] || !(wanted(a, b) || wanted(b, a))) continue;
+    if (found.face[0] == found.face[1] || (wanted && !wanted(a, b) && !wanted(b, a))) continue;
     const TopoDS_Edge in_a = edge_in_face(faces_of.FindKey(i), a.face),
                       in_b = edge_in_face(faces_of.FindKey(i), b.face);
     double first, last;

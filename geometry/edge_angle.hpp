@@ -25,7 +25,7 @@ struct CwCornerAngle {
 
 using CwFacePair = std::function<bool(const CwSolidFace &, const CwSolidFace &)>;
 
-// Calls `use` for places along each edge whose faces satisfy `wanted`, in either order.
+// Calls `use` for places along each edge whose faces satisfy `wanted`, in either order; an empty one: along all.
 void cw_edge_angles(const CwSolid &solid, const CwFacePair &wanted,
                     const std::function<void(const CwEdgeAngle &)> &use);
 

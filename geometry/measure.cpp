@@ -119,8 +119,7 @@ void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
 // The sharpest edges and the sharpest corner.
 void measure_sharpness(const CwSolid *solid, CwMeasuredSolid *measured) {
   measured->fluid_edge.angle = measured->wall_edge.angle = measured->corner.angle = HUGE_VAL;
-  const auto all = [](const CwSolidFace &, const CwSolidFace &) { return true; };
-  cw_edge_angles(*solid, all, [&](const CwEdgeAngle &found) {
+  cw_edge_angles(*solid, nullptr, [&](const CwEdgeAngle &found) {
     for (int wall : {0, 1}) {
       CwMeasuredAngle &least = wall ? measured->wall_edge : measured->fluid_edge;
       const double angle = wall ? 2 * M_PI - found.angle : found.angle;

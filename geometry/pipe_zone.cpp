@@ -20,8 +20,6 @@
 
 namespace {
 
-const int PLANE_CURVE = 49;  // points of a curve in a plane's or cylinder's parameters
-const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders off u = 0, where u jumps
 const double SAME_POINT = Precision::Confusion();
 
 std::vector<CwSolidFace *> faces_of(CwSolid &solid, const std::string &patch) {

@@ -17,14 +17,13 @@ static const double OPEN_ZONE = 1;     // of the diameter, where the length is l
 // At the end of lines on what no value of the case should bring about.
 #define OWN_FAULT "a fault of the program, please report it with the case"
 
-static CwStatus check_zone(const char *what, double given, double stub, double diameter, const char *keys) {
+static CwStatus check_zone(const char *what, double given, double stub, double diameter) {
   CwStatus status = CW_OK;
   CW_REQUIRE(given - stub >= LEAST_ZONE * diameter * (1 - 1e-9), CW_ERR_DESIGN,
-             "the %s pipe of %.1f mm leaves %.1f mm to a zone of its own; it needs %.1f mm: raise %s to at least "
-             "%.1f, or leave out %s",
-             what, 1e3 * given, 1e3 * (given - stub), 1e3 * LEAST_ZONE * diameter,
-             keys[0] == 's' ? "suction_pipe_length_mm" : "discharge_pipe_length_mm",
-             1e3 * (stub + LEAST_ZONE * diameter), keys);
+             "the %s pipe of %.1f mm leaves %.1f mm to a zone of its own; it needs %.1f mm: raise "
+             "%s_pipe_length_mm to at least %.1f, or leave out %s_pipe_zone",
+             what, 1e3 * given, 1e3 * (given - stub), 1e3 * LEAST_ZONE * diameter, what,
+             1e3 * (stub + LEAST_ZONE * diameter), what);
 done:
   return status;
 }
@@ -42,13 +41,11 @@ CwStatus cw_pump_pipe_stubs(const CwCase *table, CwDesign *design, CwPipeStubs *
       design->suction_pipe_length = stubs->suction + OPEN_ZONE * design->inlet_diameter;
       design->source[CW_DESIGN_suction_pipe_length] = "past the nut, 1.25 D1";
     }
-    CW_TRY(check_zone("suction", design->suction_pipe_length, stubs->suction, design->inlet_diameter,
-                      "suction_pipe_zone"));
+    CW_TRY(check_zone("suction", design->suction_pipe_length, stubs->suction, design->inlet_diameter));
   }
   if (table->volute.discharge_pipe_zone == CW_PIPE_OWN_ZONE) {
     stubs->discharge = STUB * design->discharge_diameter;
-    CW_TRY(check_zone("discharge", design->discharge_pipe_length, stubs->discharge, design->discharge_diameter,
-                      "discharge_pipe_zone"));
+    CW_TRY(check_zone("discharge", design->discharge_pipe_length, stubs->discharge, design->discharge_diameter));
   }
 done:
   return status;
@@ -102,6 +99,11 @@ static const char *maker_of(const char *face) {
       {"trailing", "trailing_edge_thickness_mm or trailing_edge_bevel_mm"},
       {"leading", "leading_edge_thickness_mm"},
       {"tongue", "tongue_radius_mm"},
+      {"step", "inlet_width_mm"},
+      {"neck", "base_diameter_mm"},
+      {"diffuser", "diffuser_length_mm"},
+      {"suction_pipe", "suction_pipe_length_mm"},
+      {"discharge", "discharge_pipe_length_mm"},
   };
   for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
     if (strstr(face, makers[i][0])) return makers[i][1];

@@ -61,12 +61,11 @@ static double computed_value(const CwCaseKey *key, const CwDesign *design) {
       snprintf(name, sizeof name, "%.*s", (int)(strlen(other_names[i][1]) - 2), other_names[i][1]);
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     const CwDesignValue value = cw_hydraulic_design_value(design, i);
-    const size_t length = strlen(name);
-    if (strncmp(value.key, name, length) || (value.key[length] && value.key[length] != '_')) continue;
-    if (strcmp(value.key + length, "_m") && strcmp(value.key + length, "_m2") && strcmp(value.key + length, "_deg") &&
-        value.key[length])
-      continue;
-    const double si = strcmp(value.key + length, "_deg") ? value.stored : value.stored * M_PI / 180;
+    if (strncmp(value.key, name, strlen(name))) continue;
+    const char *suffix = value.key + strlen(name);
+    const int degrees = !strcmp(suffix, "_deg");
+    if (*suffix && !degrees && strcmp(suffix, "_m") && strcmp(suffix, "_m2")) continue;
+    const double si = degrees ? value.stored * M_PI / 180 : value.stored;
     return unit ? si * unit->denominator / unit->numerator : si;
   }
   return NAN;

@@ -31,11 +31,10 @@ const int SECTORS = 5;                      // round the axis; the last one hold
 const double SECTOR = CW_VOLUTE_SECTOR;     // angle of all but the last
 const int ALONG = 33, SIDE = 25;            // points of interpolation: along the flow, other
 const int ACROSS = 49, ACROSS_CORNERS = 97; // over the outer wall, whose curvature jumps where it has corners
-// Of curves in the parameter plane; where the kink line bends more, each of its points is one of theirs.
-const int PLANE_CURVE = 49, PLANE_CURVE_BENT = 97;
+// Of curves in the parameter plane where the kink line bends more: each of its points is one of theirs.
+const int PLANE_CURVE_BENT = 97;
 const double TONGUE_SIDE = 1.01;  // least radius of the tongue's end at the side wall, in D3/2
 const double LEAST_WALL = 0.0025; // between diffuser and spiral, of D3
-const double U_MARGIN = 0.1;      // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
 
 using PointOfOne = std::function<gp_Pnt(double)>;

@@ -17,6 +17,9 @@
 
 #include "geometry/solid.hpp"
 
+enum { PLANE_CURVE = 49 };   // usual points of a curve in the parameter plane
+const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
+
 // An edge in a face's loop. Where the edge is straight in the parameter plane, `border` holds the (u,v) of
 // its two ends, in the order of its curve; else its curve there is interpolated (only on planes, cylinders
 // and cones).

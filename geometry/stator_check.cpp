@@ -33,8 +33,7 @@ void check_tolerances(const CwSolid &stator) {
 
 void check_angles(const CwSolid &stator) {
   const double mm = 1e3 * stator.unit;
-  const auto all = [](const CwSolidFace &, const CwSolidFace &) { return true; };
-  cw_edge_angles(stator, all, [&](const CwEdgeAngle &found) {
+  cw_edge_angles(stator, nullptr, [&](const CwEdgeAngle &found) {
     const double angle = found.angle * 180 / M_PI;
     if (angle >= LEAST_FLUID_ANGLE && 360 - angle >= LEAST_SOLID_ANGLE) return;
     const bool fluid = angle < LEAST_FLUID_ANGLE;

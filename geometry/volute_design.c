@@ -37,10 +37,6 @@ static const double LEAST_SIDE = 0.25;
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 
-static double base_radius(const CwVolute *volute) {
-  return 0.5 * volute->input.base_diameter;
-}
-
 typedef struct {
   const CwVolute *volute;
   double value; // what the function is to reach
@@ -100,12 +96,12 @@ static void place_tongue_by_wedge(CwVolute *volute, double wedge) {
 }
 
 static double gap_of(const CwVolute *volute) {
-  return volute->tip_radius - base_radius(volute);
+  return volute->tip_radius - cw_volute_base_radius(volute);
 }
 
 // Places the tongue at the default wedge where the spiral's kink lies at `kink_radius`, by moving the law's start.
 static void place_tongue_at(CwVolute *volute, double kink_radius) {
-  const double growth = volute->law_end - volute->law_start, step = 1e-4 * base_radius(volute);
+  const double growth = volute->law_end - volute->law_start, step = 1e-4 * cw_volute_base_radius(volute);
   const double arc = volute->arc_half_angle;
   const double slope =
       (cw_volute_law(volute, kink_radius + step, arc) - cw_volute_law(volute, kink_radius - step, arc)) / (2 * step);
@@ -139,7 +135,8 @@ static double nearest_root(CwRootFunction excess, const Context *context, double
 // The tongue that the input asks for, or the nearest.
 static void choose_tongue(CwVolute *volute) {
   const CwVoluteInput *in = &volute->input;
-  const double least = LEAST_START * base_radius(volute), largest = LARGEST_START * base_radius(volute);
+  const double least = LEAST_START * cw_volute_base_radius(volute),
+               largest = LARGEST_START * cw_volute_base_radius(volute);
   if (!isnan(in->tongue_angle)) {
     const Context context = {.volute = volute, .value = in->tongue_angle};
     place_tongue_by_wedge(volute, nearest_root(angle_excess, &context, LEAST_WEDGE, LARGEST_WEDGE));
@@ -161,7 +158,7 @@ static void choose_tongue(CwVolute *volute) {
 
 // Makes the spiral of a law that grows by `growth` in one turn, with its tongue and throat.
 static void close_spiral(CwVolute *volute, double growth) {
-  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), volute->arc_half_angle);
+  volute->law_start = cw_volute_law(volute, cw_volute_base_radius(volute) * (1 + START_MARGIN), volute->arc_half_angle);
   volute->law_end = volute->law_start + growth;
   choose_tongue(volute);
   volute->throat_area = throat_sum(volute, CW_AREA_LAW_VELOCITY);
@@ -265,7 +262,7 @@ static CwStatus solve_spiral(CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
   const int velocity = in->area_law == CW_AREA_LAW_VELOCITY;
-  const double scale = velocity ? 1e6 : 1e3, r3 = base_radius(volute);
+  const double scale = velocity ? 1e6 : 1e3, r3 = cw_volute_base_radius(volute);
   const double asked = in->flow_rate / (velocity ? in->section_speed : in->angular_momentum);
   const double largest = cw_volute_law(volute, LARGEST_SPIRAL * r3, volute->end_half_angle) - volute->law_start;
   double growth = asked;
@@ -324,12 +321,12 @@ static CwStatus check_sections(const CwVolute *volute) {
   const int steps = 72;
   for (int i = 0; i <= steps; i++) {
     double phi = volute->start_angle + 2 * M_PI * i / steps;
-    double gap = cw_volute_section(volute, phi).kink_radius - base_radius(volute);
+    double gap = cw_volute_section(volute, phi).kink_radius - cw_volute_base_radius(volute);
     CW_REQUIRE(
-        gap > START_MARGIN * base_radius(volute), CW_ERR_DESIGN,
+        gap > START_MARGIN * cw_volute_base_radius(volute), CW_ERR_DESIGN,
         "volute: the section %.0f deg behind the spiral's start has side walls of %.3g mm (more than %.3g mm are "
         "allowed) and is too small for %s; lower %s or inlet_width_mm, or take section trapezoid%s",
-        phi * 180 / M_PI, gap * 1e3, START_MARGIN * base_radius(volute) * 1e3,
+        phi * 180 / M_PI, gap * 1e3, START_MARGIN * cw_volute_base_radius(volute) * 1e3,
         cw_volute_has_corners(volute) ? "its corners" : "a circle",
         cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
         cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
@@ -369,14 +366,15 @@ static CwStatus design_with_arc(double arc, CwVolute *volute) {
   volute->arc_half_angle = volute->end_half_angle = arc;
   const int circle = volute->input.section == CW_SECTION_CIRCLE;
   if (circle || cw_volute_has_corners(volute)) volute->end_half_angle = 0.5 * M_PI + volute->input.side_wall_angle;
-  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), arc);
+  volute->law_start = cw_volute_law(volute, cw_volute_base_radius(volute) * (1 + START_MARGIN), arc);
   return circle ? design_circle(volute) : design_spiral(volute);
 }
 
 // Whether the tip lies farther from the spiral's start than the given tongue does.
 static int tip_is_beyond(const CwVolute *volute) {
   const CwVoluteInput *in = &volute->input;
-  return (!isnan(in->tongue_gap) && gap_of(volute) > in->tongue_gap + CW_VOLUTE_TONGUE_SLACK * base_radius(volute)) ||
+  return (!isnan(in->tongue_gap) &&
+          gap_of(volute) > in->tongue_gap + CW_VOLUTE_TONGUE_SLACK * cw_volute_base_radius(volute)) ||
          (!isnan(in->tongue_angle) && volute->tip_angle > in->tongue_angle + CW_VOLUTE_TONGUE_SLACK);
 }
 

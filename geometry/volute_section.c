@@ -5,16 +5,12 @@
 
 #include "geometry/root.h"
 
-static double base_radius(const CwVolute *volute) {
-  return 0.5 * volute->input.base_diameter;
-}
-
 int cw_volute_has_corners(const CwVolute *volute) {
   return !isnan(volute->input.corner_radius);
 }
 
 double cw_volute_half_width(const CwVolute *volute, double r) {
-  return 0.5 * volute->input.inlet_width + (r - base_radius(volute)) * tan(volute->input.side_wall_angle);
+  return 0.5 * volute->input.inlet_width + (r - cw_volute_base_radius(volute)) * tan(volute->input.side_wall_angle);
 }
 
 // Integral of b dr / r over a trapezoid from r3 to r_o.
@@ -47,7 +43,7 @@ static double arc_angle(const CwVolute *volute, double phi, double *slope) {
 
 // The section with the arcs' half angle k whose kink lies at r_k; without slopes.
 static CwVoluteSection section_at(const CwVolute *volute, double r_k, double k) {
-  double r3 = base_radius(volute), b3 = volute->input.inlet_width;
+  double r3 = cw_volute_base_radius(volute), b3 = volute->input.inlet_width;
   CwVoluteSection s = {.kink_radius = r_k, .kink_height = cw_volute_half_width(volute, r_k), .arc_angle = k};
   s.arc_radius = s.kink_height / sin(k);
   if (cw_volute_has_corners(volute)) {
@@ -83,7 +79,7 @@ static double law_excess(double r_k, const void *context) {
 }
 
 CwVoluteSection cw_volute_section(const CwVolute *volute, double phi) {
-  double growth = (volute->law_end - volute->law_start) / (2 * M_PI), r3 = base_radius(volute), k_slope;
+  double growth = (volute->law_end - volute->law_start) / (2 * M_PI), r3 = cw_volute_base_radius(volute), k_slope;
   double k = arc_angle(volute, phi, &k_slope);
   Law law = {volute, k, fmax(cw_volute_law(volute, r3, k), volute->law_start + growth * phi)};
   double r_k = cw_root_find(law_excess, &law, r3, 3 * r3);

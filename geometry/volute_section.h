@@ -25,6 +25,11 @@ typedef struct {
 // Whether the outer wall is parallel to the axis and has corners of a given radius.
 int cw_volute_has_corners(const CwVolute *volute);
 
+// D3/2, m.
+static inline double cw_volute_base_radius(const CwVolute *volute) {
+  return 0.5 * volute->input.base_diameter;
+}
+
 // Half width of the casing between the side walls at the radius r >= D3/2, m.
 double cw_volute_half_width(const CwVolute *volute, double r);
 

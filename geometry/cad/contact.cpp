@@ -10,7 +10,6 @@
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 
 #include "geometry/cad/cad_part.hpp"
-#include "pipeline/log.h"
 #include "pipeline/vec.h"
 
 namespace {
@@ -26,10 +25,8 @@ double squared_distance(const double a[3], const double b[3]) {
 }
 
 void normal_of(const CwSurvey &survey, int triangle, double n[3]) {
-  const double *a = survey.point[survey.triangle[triangle][0]];
-  double side[2][3];
-  for (int k = 0; k < 2; k++) cw_sub(survey.point[survey.triangle[triangle][k + 1]], a, side[k]);
-  cw_cross(side[0], side[1], n);
+  const int *corner = survey.triangle[triangle];
+  cw_normal(survey.point[corner[0]], survey.point[corner[1]], survey.point[corner[2]], n);
   cw_unit(n);
 }
 

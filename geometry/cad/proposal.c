@@ -128,10 +128,8 @@ static CwFaceRole wheel_role(const CwSurvey *survey, const CwSurveyFace *face, d
   for (int t = face->first_triangle; t < face->first_triangle + face->triangle_count; t++) {
     const double *a = survey->point[survey->triangle[t][0]], *b = survey->point[survey->triangle[t][1]],
                  *c = survey->point[survey->triangle[t][2]];
-    double u[3], v[3], n[3];
-    cw_sub(b, a, u);
-    cw_sub(c, a, v);
-    cw_cross(u, v, n);
+    double n[3];
+    cw_normal(a, b, c, n);
     const double x = a[0] + b[0] + c[0], y = a[1] + b[1] + c[1], r = hypot(x, y);
     outward += (r > 0 ? (n[0] * x + n[1] * y) / r : 0) + suction * n[2];
   }
