@@ -181,7 +181,3 @@ int cw_correlated_quantity(CwCorrelated quantity) {
   };
   return of[quantity];
 }
-
-const char *cw_correlations_name(CwCorrelations family) {
-  return family == CW_CORRELATIONS_GUAN ? "guan" : "guelich";
-}

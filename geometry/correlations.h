@@ -34,6 +34,4 @@ double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesi
 
 // The quantity of a design that is correlated, or -1 for the blade number.
 int cw_correlated_quantity(CwCorrelated quantity);
-
-const char *cw_correlations_name(CwCorrelations family);
 #endif

@@ -9,6 +9,7 @@
 #include "geometry/design_check.h"
 #include "geometry/design_value.h"
 #include "geometry/volute_section.h"
+#include "pipeline/case_schema.h"
 #include "pipeline/record.h"
 
 static json_t *angle_json(const CwMeasuredAngle *angle) {
@@ -93,7 +94,7 @@ static json_t *correlations_json(const CwDesign *design) {
       const char *source;
       const double correlated = cw_correlation(family, i, design, &source);
       failed |= json_object_set_new(
-                    row, cw_correlations_name(family),
+                    row, cw_case_choice("design", "correlations", family),
                     json_pack("{s:o, s:s}", "value", cw_json_number(correlated * scale), "source", source)) != 0;
     }
     failed |= json_object_set_new(all, key, row) != 0;
@@ -127,22 +128,16 @@ static json_t *sections_json(const CwVolute *volute) {
 
 CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path) {
   CwStatus status = CW_OK;
-  static const char *const priorities[] = {
-      [CW_PRIORITY_WRAP] = "wrap", [CW_PRIORITY_HEAD] = "head", [CW_PRIORITY_BETA] = "beta"};
-  static const char *const edges[] = {[CW_EDGE_BEVELLED] = "bevelled",
-                                      [CW_EDGE_BLUNT] = "blunt",
-                                      [CW_EDGE_ROUNDED] = "rounded",
-                                      [CW_EDGE_SHARP] = "sharp"};
   json_t *sources = json_pack("{s:s}", "blade_count", design->blade_count_source), *names = json_object();
-  json_t *root = json_pack("{s:i, s:i, s:s, s:s, s:s, s:s, s:s, s:s}",                                                //
-                           "blade_count", design->blade_count,                                                        //
-                           "splitter_count", design->splitter_start > 0 ? design->blade_count : 0,                    //
-                           "priority", priorities[design->priority],                                                  //
-                           "correlation_family", cw_correlations_name(design->correlations),                          //
-                           "slip_model", design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner",               //
-                           "rotation", design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise", //
-                           "blade_form", design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted",      //
-                           "trailing_edge", edges[design->trailing_edge]);
+  json_t *root = json_pack("{s:i, s:i, s:s, s:s, s:s, s:s, s:s, s:s}",                                           //
+                           "blade_count", design->blade_count,                                                   //
+                           "splitter_count", design->splitter_start > 0 ? design->blade_count : 0,               //
+                           "priority", cw_case_choice("impeller", "priority", design->priority),                 //
+                           "correlation_family", cw_case_choice("design", "correlations", design->correlations), //
+                           "slip_model", cw_case_choice("design", "slip", design->slip),                         //
+                           "rotation", cw_case_choice("impeller", "rotation", design->rotation),                 //
+                           "blade_form", cw_case_choice("impeller", "blade_form", design->blade_form),           //
+                           "trailing_edge", cw_case_choice("impeller", "trailing_edge", design->trailing_edge));
   int failed = 0;
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     const CwDesignValue value = cw_hydraulic_design_value(design, i);

@@ -344,6 +344,10 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
   }
 }
 
+const char *cw_case_choice(const char *section, const char *key, int value) {
+  return cw_case_keys[cw_case_key_find(section, key)].choices[value];
+}
+
 void cw_case_key_chosen(const CwCaseKey *key, double value, char text[CW_KEY_ALLOWED_SIZE]) {
   size_t used = 0, size = CW_KEY_ALLOWED_SIZE;
   if (key->type == CW_KEY_CHOICE) {

@@ -84,6 +84,9 @@ void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table);
 // The same from a value in `unit`, or NULL for none.
 void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, CwCase *table);
 
+// The word of a key of one choice for a value of its enum. The key must be there.
+const char *cw_case_choice(const char *section, const char *key, int value);
+
 // A value of a key of choices as people write it: "wrap", of several "[cgns, openfoam]".
 void cw_case_key_chosen(const CwCaseKey *key, double value, char text[CW_KEY_ALLOWED_SIZE]);
 
