@@ -17,7 +17,8 @@
 
 namespace {
 
-const int SAMPLES = 40; // of an edge
+const int SAMPLES = 40;    // of an edge
+const double FLAT = 1e-12; // sine of the angle between both derivatives under which a surface has no normal
 
 // Normal out of the solid, and the tangent of the edge with the face on its left, seen from outside.
 struct Side {
@@ -25,20 +26,26 @@ struct Side {
   gp_Vec normal, tangent;
 };
 
-// At the parameter t of an edge as it stands in its face: its orientation there includes that of the face.
-Side side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) {
+// At the parameter t of an edge as it stands in its face: its orientation there includes that of the face. False where
+// the edge has no tangent, or the face no tangent plane.
+bool side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t, Side &side) {
   double first, last;
   gp_Pnt2d uv;
   gp_Vec2d duv;
   gp_Vec xu, xv;
-  Side side;
-  BRep_Tool::CurveOnSurface(edge, face, first, last)->D1(t, uv, duv);
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  if (curve.IsNull()) return false;
+  curve->D1(t, uv, duv);
   BRep_Tool::Surface(face)->D1(uv.X(), uv.Y(), side.at, xu, xv);
-  side.normal = xu.Crossed(xv).Normalized();
-  side.tangent = (xu * duv.X() + xv * duv.Y()).Normalized();
+  side.normal = xu.Crossed(xv);
+  side.tangent = xu * duv.X() + xv * duv.Y();
+  if (!(side.normal.Magnitude() > FLAT * xu.Magnitude() * xv.Magnitude()) || !(side.tangent.Magnitude() > 0))
+    return false;
+  side.normal.Normalize();
+  side.tangent.Normalize();
   if (face.Orientation() == TopAbs_REVERSED) side.normal.Reverse();
   if (edge.Orientation() == TopAbs_REVERSED) side.tangent.Reverse();
-  return side;
+  return true;
 }
 
 double angle_between(const Side &a, const Side &b) {
@@ -54,10 +61,10 @@ TopoDS_Edge edge_in_face(const TopoDS_Shape &edge, const TopoDS_Face &face) {
 }
 
 // The end of an edge at which the face's loop arrives, or from which it goes on.
-Side side_at_end(const TopoDS_Edge &edge, const TopoDS_Face &face, bool arrives) {
+bool side_at_end(const TopoDS_Edge &edge, const TopoDS_Face &face, bool arrives, Side &side) {
   double first, last;
   BRep_Tool::Range(edge, first, last);
-  return side_at(edge, face, arrives == (edge.Orientation() != TopAbs_REVERSED) ? last : first);
+  return side_at(edge, face, arrives == (edge.Orientation() != TopAbs_REVERSED) ? last : first, side);
 }
 
 } // namespace
@@ -78,12 +85,22 @@ void cw_edge_angles(const CwSolid &solid, const CwFacePair &wanted,
     BRep_Tool::Range(in_a, first, last);
     for (int k = 0; k <= SAMPLES; k++) {
       const double t = first + (last - first) * k / SAMPLES;
-      const Side side = side_at(in_a, a.face, t);
-      found.angle = angle_between(side, side_at(in_b, b.face, t));
-      found.at = side.at;
+      Side of_a, of_b;
+      if (!side_at(in_a, a.face, t, of_a) || !side_at(in_b, b.face, t, of_b)) continue;
+      found.angle = angle_between(of_a, of_b);
+      found.at = of_a.at;
       use(found);
     }
   }
+}
+
+double cw_edge_angle(const TopoDS_Edge &edge, const TopoDS_Face &a, const TopoDS_Face &b) {
+  double first, last;
+  Side of_a, of_b;
+  BRep_Tool::Range(edge, first, last);
+  const double t = (first + last) / 2;
+  if (!side_at(edge_in_face(edge, a), a, t, of_a) || !side_at(edge_in_face(edge, b), b, t, of_b)) return M_PI;
+  return angle_between(of_a, of_b);
 }
 
 void cw_corner_angles(const CwSolid &solid, const std::function<void(const CwCornerAngle &)> &use) {
@@ -94,8 +111,9 @@ void cw_corner_angles(const CwSolid &solid, const std::function<void(const CwCor
       for (BRepTools_WireExplorer at(TopoDS::Wire(wires.Current()), face); at.More(); at.Next())
         loop.push_back(at.Current());
       for (size_t k = 0; k < loop.size(); k++) {
-        const Side before = side_at_end(loop[k], face, true);
-        const Side behind = side_at_end(loop[(k + 1) % loop.size()], face, false);
+        Side before, behind;
+        if (!side_at_end(loop[k], face, true, before) || !side_at_end(loop[(k + 1) % loop.size()], face, false, behind))
+          continue;
         const gp_Vec back = -before.tangent;
         double angle = behind.tangent.Angle(back);
         if (behind.tangent.Crossed(back).Dot(before.normal) < 0) angle = 2 * M_PI - angle;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <deque>
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
@@ -23,6 +22,7 @@
 
 #include "geometry/cad/cad_part.hpp"
 #include "geometry/cad/face_distance.hpp"
+#include "geometry/edge_angle.hpp"
 
 struct CwSurveyData {
   double unit; // m
@@ -162,33 +162,6 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, CwSurve
   for (double &x : lists.box.back()) x *= unit;
 }
 
-// Angle between two faces through the water, at the middle of their edge.
-double angle_at(const TopoDS_Edge &edge, const TopoDS_Face &a, const TopoDS_Face &b) {
-  const BRepAdaptor_Curve curve(edge);
-  const double t = (curve.FirstParameter() + curve.LastParameter()) / 2;
-  gp_Vec normal[2];
-  const TopoDS_Face *faces[] = {&a, &b};
-  for (int s = 0; s < 2; s++) {
-    double from, to;
-    const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(edge, *faces[s], from, to);
-    if (flat.IsNull()) return M_PI;
-    const BRepAdaptor_Surface surface(*faces[s], Standard_False);
-    if (!normal_at(surface, faces[s]->Orientation() == TopAbs_REVERSED, flat->Value(t), normal[s])) return M_PI;
-  }
-  // Along the edge as face a runs about it, the water lies on its left: a convex edge of the water has the normal of b
-  // turned outward.
-  gp_Pnt at;
-  gp_Vec along;
-  curve.D1(t, at, along);
-  TopAbs_Orientation sense = TopAbs_FORWARD;
-  for (TopExp_Explorer it(a, TopAbs_EDGE); it.More(); it.Next())
-    if (it.Current().IsSame(edge)) sense = it.Current().Orientation();
-  if (sense == TopAbs_REVERSED) along.Reverse();
-  const gp_Vec into_a = normal[0].Crossed(along); // within face a, away from the edge
-  const double turn = std::atan2(normal[0].Crossed(normal[1]).Magnitude(), normal[0].Dot(normal[1]));
-  return into_a.Dot(normal[1]) < 0 ? M_PI - turn : M_PI + turn;
-}
-
 void add_edges(const TopoDS_Shape &shape, int first_face, double unit, CwSurveyData &lists) {
   const TopTools_IndexedMapOfShape map = cw_cad_faces(shape);
   TopTools_IndexedDataMapOfShapeListOfShape faces;
@@ -202,7 +175,7 @@ void add_edges(const TopoDS_Shape &shape, int first_face, double unit, CwSurveyD
     BRepGProp::LinearProperties(edge, properties);
     lists.edge.push_back({{first_face + a - 1, first_face + b - 1},
                           properties.Mass() * unit,
-                          angle_at(edge, TopoDS::Face(map(a)), TopoDS::Face(map(b)))});
+                          cw_edge_angle(edge, TopoDS::Face(map(a)), TopoDS::Face(map(b)))});
   }
 }
 
