@@ -71,19 +71,7 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
       best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
 }
 
-// The wheel with the spread of its wraps; all its sections have a law.
-static CwStatus wheel(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
-  enum { SECTIONS = 5 };
-  CwStatus status = CW_OK;
-  CwBladeSection section;
-  CW_TRY(cw_impeller_design(table, meridian, design));
-  choose_wrap_spread(&table->impeller, meridian, design);
-  for (int j = 0; j < SECTIONS; j++) CW_TRY(cw_blade_section(design, meridian, (double)j / (SECTIONS - 1), &section));
-done:
-  return status;
-}
-
-// The leading edge's ellipse must end before the blade is thickest, at every span.
+// The leading edge's ellipse must end before the blade is thickest, at every span. Fails where a section has no law.
 static CwStatus fit_leading_edge(const CwMeridian *meridian, CwDesign *design) {
   enum { SECTIONS = 5 };
   const double room = 0.99;
@@ -182,7 +170,8 @@ static void trailing_edge(const CwImpellerTable *given, CwDesign *design) {
 static CwStatus pump(const CwCase *table, CwDesign *design) {
   CwStatus status = CW_OK;
   CwMeridian meridian;
-  CW_TRY(wheel(table, &meridian, design));
+  CW_TRY(cw_impeller_design(table, &meridian, design));
+  choose_wrap_spread(&table->impeller, &meridian, design);
   CW_TRY(fit_leading_edge(&meridian, design));
   CW_TRY(make_clearance(&meridian, design));
   passage(&meridian, design);

@@ -14,12 +14,6 @@ typedef struct {
   double volute_radius; // mean of the spiral's walls
 } Sizes;
 
-// What a wall is like.
-typedef struct {
-  CwAlong along;
-  CwPatchGroup group, size;
-} Wall;
-
 static CwStatus check_turned(const CwCaseCad *cad, const CwSurvey *survey, int face, const CwContact *contact) {
   CwStatus status = CW_OK;
   const CwSurveyFace *of = &survey->face[face];
@@ -120,14 +114,18 @@ static CwAlong along_of(CwPatchGroup group, int before) {
   return before ? CW_ALONG_SUCTION : CW_ALONG_DISCHARGE;
 }
 
-// By what the case says of its walls, else by its name, else by form and place.
-static Wall wall_of(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of) {
-  const CwWallName *name = has_walls(cad, of) ? NULL : cw_wall_name(of->name);
+// By what the case says of its walls, else by its name, else by form and place; what turns or is monitored by its name.
+static CwWallName wall_of(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of) {
+  const CwWallName *name = cw_wall_name(of->name);
   const int before = is_before(patches, of->part);
-  const CwPatchGroup group = name ? name->group : group_of(cad, of);
-  const int of_blades = name && (name->along == CW_ALONG_BLADE || name->along == CW_ALONG_TRAILING_EDGE);
-  Wall wall = {name ? name->along : along_of(group, before), group, name ? name->size : group};
-  if (of_blades && !cad->domain[of->part].rotating) wall.along = along_of(CW_GROUP_VOLUTE, before); // a guide wheel's
+  CwWallName wall = name ? *name : (CwWallName){.turns = -1};
+  if (!name || has_walls(cad, of)) {
+    wall.group = wall.size = group_of(cad, of);
+    wall.along = along_of(wall.group, before);
+  } else if ((wall.along == CW_ALONG_BLADE || wall.along == CW_ALONG_TRAILING_EDGE) &&
+             !cad->domain[of->part].rotating) {
+    wall.along = along_of(CW_GROUP_VOLUTE, before); // a guide wheel's
+  }
   return wall;
 }
 
@@ -200,13 +198,12 @@ static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int 
 
 static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of,
                      const CwWallFlow flow[CW_ALONG_COUNT], CwModelPatch *patch) {
-  const CwWallName *name = cw_wall_name(of->name);
-  const Wall wall = wall_of(cad, patches, of);
+  const CwWallName wall = wall_of(cad, patches, of);
   patch->group = wall.group;
   patch->size = wall.size;
   patch->flow = flow[wall.along];
-  if (name && name->turns >= 0) patch->turns = name->turns;
-  patch->monitored = name && name->monitored;
+  if (wall.turns >= 0) patch->turns = wall.turns;
+  patch->monitored = wall.monitored;
   if (of->rule < 0) return;
   const CwCadPatch *rule = &cad->patch[of->rule];
   if (cw_case_given(rule->velocity)) patch->flow.speed = rule->velocity;
