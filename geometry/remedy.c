@@ -18,7 +18,7 @@ typedef struct {
   int trials;
 } Search;
 
-// Index of a key that the case gives; only those of the pump's shape, and no part of the duty point or the fluid.
+// Whether the case gives the key, and it is one of the pump's shape, no part of the duty point or the fluid.
 static int may_change(const CwCaseKey *key, const CwCase *table) {
   const int shapes = !strcmp(key->section, "impeller") || !strcmp(key->section, "volute");
   if (!shapes || key->type == CW_KEY_NAME) return 0;

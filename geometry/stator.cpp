@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <vector>
 
@@ -12,7 +11,6 @@
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
-#include <Standard_Failure.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Pln.hxx>
@@ -436,16 +434,10 @@ private:
 
 CwStatus cw_stator_build(const CwVolute *volute, double unit, CwSolid **stator) {
   *stator = nullptr;
-  try {
+  return cw_solid_guard(CW_ERR_GEOMETRY, "stator", "", [&] {
     std::unique_ptr<CwSolid> fresh(StatorMaker(*volute, unit).make());
     cw_stator_check(*fresh);
     *stator = fresh.release();
     return CW_OK;
-  } catch (const Standard_Failure &failure) {
-    return CW_FAIL(CW_ERR_LIBRARY, "stator: OpenCASCADE failed: %s", failure.GetMessageString());
-  } catch (const std::bad_alloc &) {
-    return CW_FAIL(CW_ERR_MEMORY, "stator: out of memory");
-  } catch (const std::exception &failure) {
-    return CW_FAIL(CW_ERR_GEOMETRY, "stator: %s", failure.what());
-  }
+  });
 }

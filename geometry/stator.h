@@ -15,7 +15,7 @@ extern "C" {
 
 // Builds the solid in the model unit (m, see solid.h) and checks it as stator_check.hpp says. Its patches:
 // stator_interface, neck, step, volute, tongue (nose and flank), diffuser, discharge, outlet. Fails with
-// CW_ERR_GEOMETRY and one line that says what does not fit, or CW_ERR_LIBRARY. Freed by cw_solid_free().
+// CW_ERR_GEOMETRY and one line that says what does not fit. Freed by cw_solid_free().
 CwStatus cw_stator_build(const CwVolute *volute, double unit, CwSolid **stator);
 
 #ifdef __cplusplus
