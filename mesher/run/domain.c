@@ -120,7 +120,8 @@ CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain) {
     if (cw_cad_face_is_wall(domain->cad, f)) without += area[f];
   cw_log_warn(log,
               "%s: %d faces, %.2g %% of the wall, carry no layers: no direction sees all faces about a corner or an "
-              "edge of theirs and lies in the open faces there, first at (%.6g, %.6g, %.6g) mm of face '%s'",
+              "edge of theirs and lies in the open faces there, first at (%.6g, %.6g, %.6g) mm of face '%s'; "
+              "round the solid there where its y+ matters",
               domain->name, bare.count, 100 * (walls - without) / walls, CW_MM(bare.at),
               cw_cad_face_name(domain->cad, bare.first));
 done:
