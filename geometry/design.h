@@ -8,10 +8,6 @@
 #include "pipeline/case.h"
 #include "pipeline/vec.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Every quantity of the design, once: X(member, unit kind, text). A member `outlet_width` of kind LENGTH is
 // CwDesign.outlet_width in m, CW_DESIGN_outlet_width in the enum and "outlet_width_m" in design.json.
 #define CW_DESIGN_LIST(X)                                                                                              \
@@ -155,8 +151,4 @@ typedef struct {
   double asked[CW_DESIGN_COUNT];       // SI: the case's value where it gave way, for the reason in `source`; else NAN
 } CwDesign;
 #undef CW_DESIGN_MEMBER
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -49,10 +49,6 @@
 // A tongue lies where it was asked for within this: rad, or of D3/2.
 #define CW_VOLUTE_TONGUE_SLACK 1e-6
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The fields are what the keys of the case, the design of the impeller and the correlations leave.
 typedef struct {
   double flow_rate; // Q, m3/s
@@ -105,8 +101,4 @@ typedef struct {
   double discharge_lean;      // rad: the pipe runs along (-sin, cos) of it; tangential: as the throat
   double outlet_x, outlet_y;  // m: centre of the diffuser's end; its z is 0
 } CwVolute;
-
-#ifdef __cplusplus
-}
-#endif
 #endif
