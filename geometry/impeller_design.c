@@ -172,11 +172,10 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
   const int wrapped = design->priority == CW_PRIORITY_WRAP;
   const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) : 0;
-  const char *source, *incidence_source;
+  const char *source;
   const double usual = CORRELATED(CW_CORRELATED_INCIDENCE), asked = table->impeller.incidence;
   const double incidence = cw_case_given(asked) ? asked : usual;
-  incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
-  source = incidence_source;
+  source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
   // On the shroud, at a greater radius, the angle is less; 12 degrees are the least.
   const double least = fmax(13 * CW_DEGREE, atan(tan(12.05 * CW_DEGREE) * design->leading_edge_radius_shroud / r));
   double beta = cw_case_given(given) ? given : 25 * CW_DEGREE, tau = 1, flow = 0;

@@ -202,13 +202,12 @@ void measure_soundness(const CwSolid *solid, CwMeasuredSolid *measured) {
   measured->closed = !open;
   if (fault.empty() && open) fault = "face " + open->name + " has an edge that no other face shares in the other sense";
   snprintf(measured->fault, sizeof measured->fault, "%s", fault.c_str());
-  measured->largest_tolerance = 0;
-  for (size_t i = 0; i < solid->faces.size(); i++) {
-    const double tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->faces[i].face, 1) * solid->unit;
-    if (tolerance <= measured->largest_tolerance) continue;
-    measured->largest_tolerance = tolerance;
-    measured->loosest = (int)i;
-  }
+  ShapeAnalysis_ShapeTolerance tolerance;
+  const double largest = tolerance.Tolerance(solid->solid, 1);
+  measured->largest_tolerance = largest * solid->unit;
+  measured->loosest = 0;
+  for (size_t i = 0; i < solid->faces.size(); i++)
+    if (tolerance.Tolerance(solid->faces[i].face, 1) >= largest) measured->loosest = (int)i;
 }
 
 } // namespace
