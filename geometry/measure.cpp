@@ -197,10 +197,10 @@ const CwSolidFace *open_face(const CwSolid *solid) {
 void measure_soundness(const CwSolid *solid, CwMeasuredSolid *measured) {
   const CwSolidFace *open = open_face(solid);
   std::string fault = cw_solid_fault(*solid);
-  if (fault.empty() && !(measured->volume > 0)) fault = "it is inside out";
-  measured->valid = fault.empty();
+  measured->valid = fault.empty() && measured->volume > 0;
   measured->closed = !open;
-  if (fault.empty() && open) fault = "face " + open->name + " has an edge that no other face shares in the other sense";
+  if (fault.empty() && !measured->valid) fault = "it is inside out";
+  if (open) fault = "face " + open->name + " has an edge that no other face shares in the other sense";
   snprintf(measured->fault, sizeof measured->fault, "%s", fault.c_str());
   ShapeAnalysis_ShapeTolerance tolerance;
   const double largest = tolerance.Tolerance(solid->solid, 1);

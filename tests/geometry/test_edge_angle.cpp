@@ -30,17 +30,13 @@ static CwSolid prism(const std::vector<gp_Pnt> &corners) {
   return solid;
 }
 
-static bool all(const CwSolidFace &, const CwSolidFace &) {
-  return true;
-}
-
 // A right-angled triangle of 30 and 60 degrees: its upright edges have the triangle's angles, the other six 90 degrees;
 // each end face has the triangle's corners, and each side four right angles.
 static void wedge(void **) {
   const CwSolid solid = prism({gp_Pnt(0, 0, 0), gp_Pnt(std::sqrt(3), 0, 0), gp_Pnt(0, 1, 0)});
   std::map<int, int> edges, corners;
   double upright = 0;
-  cw_edge_angles(solid, all, [&](const CwEdgeAngle &found) {
+  cw_edge_angles(solid, nullptr, [&](const CwEdgeAngle &found) {
     edges[(int)std::lround(found.angle / degree)]++;
     assert_int_not_equal(found.face[0], found.face[1]);
     if (found.angle > 31 * degree) return;
@@ -65,7 +61,7 @@ static void ledge(void **) {
   const CwSolid solid =
       prism({gp_Pnt(0, 0, 0), gp_Pnt(2, 0, 0), gp_Pnt(2, 1, 0), gp_Pnt(1, 1, 0), gp_Pnt(1, 2, 0), gp_Pnt(0, 2, 0)});
   int inner = 0, corners = 0, none = 0;
-  cw_edge_angles(solid, all, [&](const CwEdgeAngle &found) {
+  cw_edge_angles(solid, nullptr, [&](const CwEdgeAngle &found) {
     if (found.angle < M_PI) return;
     assert_near(found.angle, 1.5 * M_PI, 1e-9);
     assert_near(found.at.X(), 1, 1e-9);
