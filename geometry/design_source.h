@@ -7,7 +7,8 @@
 
 #include "geometry/design.h"
 
-// The family's value of a quantity with the design so far; its formula goes to `source`.
+// The family's value of a quantity with the design so far; its formula goes to `source`, which SET and TAKE read after
+// the value.
 #define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
 
 #define SET(member, value, text)                                                                                       \

@@ -31,19 +31,15 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
   const double q = design->water_flow_rate, h = design->water_head, omega = design->angular_speed;
   const double rpm = omega * 30 / M_PI;
   const char *source;
-  double value;
   SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75 with water, rpm, m3/s, m");
   SET(specific_speed_ns, 3.65 * design->specific_speed_nq, "3.65 nq");
   SET(specific_speed_us, rpm * sqrt(q * 60e12 / 3785411784.0) / pow(h / 0.3048, 0.75), "n Q^0.5 / H^0.75");
   SET(type_number, omega * sqrt(q) / pow(CW_GRAVITY * h, 0.75), "omega Q^0.5 / (g H)^0.75, ISO 2548");
-  value = CORRELATED(CW_CORRELATED_EFFICIENCY);
-  SET(efficiency, value * design->viscous_efficiency_factor, source);
-  value = CORRELATED(CW_CORRELATED_HYDRAULIC_EFFICIENCY);
-  SET(hydraulic_efficiency, value, source);
+  SET(efficiency, CORRELATED(CW_CORRELATED_EFFICIENCY) * design->viscous_efficiency_factor, source);
+  SET(hydraulic_efficiency, CORRELATED(CW_CORRELATED_HYDRAULIC_EFFICIENCY), source);
   SET(shaft_power, table->fluid.density * CW_GRAVITY * design->flow_rate * design->head / design->efficiency,
       "rho g Q H / efficiency");
-  value = CORRELATED(CW_CORRELATED_SHAFT_DIAMETER);
-  SET(shaft_diameter, value, source);
+  SET(shaft_diameter, CORRELATED(CW_CORRELATED_SHAFT_DIAMETER), source);
 }
 
 // The least difference of the wraps at shroud and hub with which all sections have a law within the allowed

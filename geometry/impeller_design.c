@@ -44,8 +44,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
     source = "that of the shaft through the inlet";
   }
   TAKE(hub_diameter, given->hub_diameter, value, source);
-  value = CORRELATED(CW_CORRELATED_OUTLET_WIDTH);
-  TAKE(outlet_width, given->outlet_width, value, source);
+  TAKE(outlet_width, given->outlet_width, CORRELATED(CW_CORRELATED_OUTLET_WIDTH), source);
   SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
   SET(head_coefficient, 2 * CW_GRAVITY * design->water_head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
   value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
@@ -68,8 +67,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   value = CORRELATED(CW_CORRELATED_BLADE_COUNT);
   design->blade_count = given->blade_count ? given->blade_count : (int)value;
   design->blade_count_source = given->blade_count ? "case" : source;
-  value = CORRELATED(CW_CORRELATED_BLADE_THICKNESS);
-  TAKE(blade_thickness, given->blade_thickness, value, source);
+  TAKE(blade_thickness, given->blade_thickness, CORRELATED(CW_CORRELATED_BLADE_THICKNESS), source);
   const double room = 0.5 * largest_leading_edge(design);
   value = 0.70 * design->blade_thickness;
   TAKE(leading_edge_thickness, given->leading_edge_thickness, fmin(value, room),
@@ -79,10 +77,8 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
        fmax(d1 / 3,
             1.2 * design->nut_length - design->outlet_width + (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
        "D1 / 3, past the nut");
-  value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
-  TAKE(base_diameter, table->volute.base_diameter, value, source);
-  value = CORRELATED(CW_CORRELATED_INLET_WIDTH);
-  TAKE(inlet_width, table->volute.inlet_width, value, source);
+  TAKE(base_diameter, table->volute.base_diameter, CORRELATED(CW_CORRELATED_BASE_DIAMETER), source);
+  TAKE(inlet_width, table->volute.inlet_width, CORRELATED(CW_CORRELATED_INLET_WIDTH), source);
   const int splitters = cw_case_given(given->splitter_start);
   SET(splitter_start, splitters ? given->splitter_start : 0, splitters ? "case" : "none");
   SET(splitter_position, given->splitter_position, "case or its default");
