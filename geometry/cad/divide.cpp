@@ -161,7 +161,8 @@ CwStatus fail_at(const CwCadPart &part, const CwCadFrame &frame, double unit, co
 
 void replace(CwCadPart &part, const TopoDS_Shape &shape) {
   TopExp_Explorer solid(shape, TopAbs_SOLID);
-  if (!solid.More()) throw Standard_Failure("the division leaves no solid");
+  if (!solid.More())
+    throw Standard_Failure("no solid is left when its closed or kinked faces are divided; split them in CAD");
   const TopoDS_Shape made = solid.Current();
   if (!BRepCheck_Analyzer(made).IsValid()) { // ends of lunes: their edges' parameters do not fit
     BRepLib::SameParameter(made, Precision::Confusion(), Standard_True);

@@ -92,7 +92,8 @@ const gp_XY *first_of(std::vector<std::pair<double, gp_XY>> &by_distance, const 
   return nullptr;
 }
 
-void add_face(const TopoDS_Face &face, int part, int index, double unit, CwSurveyData &lists) {
+void add_face(const TopoDS_Face &face, const std::string &domain, int part, int index, double unit,
+              CwSurveyData &lists) {
   CwSurveyFace made = {};
   made.part = part;
   made.face = index;
@@ -106,7 +107,9 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, CwSurve
   made.height[1] = -INFINITY;
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
-  if (mesh.IsNull()) throw Standard_Failure(("face " + std::to_string(index + 1) + " has no triangulation").c_str());
+  if (mesh.IsNull())
+    throw Standard_Failure(
+        ("face " + std::to_string(index + 1) + " of " + domain + " has no triangulation; mend it in CAD").c_str());
   const BRepAdaptor_Surface surface(face, Standard_False);
   BRepTopAdaptor_FClass2d outline(face, Precision::PConfusion());
   // Chords of the triangles may leave the face.
@@ -233,7 +236,8 @@ CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
       BRepTools::Clean(solid);
       BRepMesh_IncrementalMesh mesh(solid, DEFLECTION * size, Standard_False, ANGLE);
       const TopTools_IndexedMapOfShape faces = cw_cad_faces(solid);
-      for (int i = 1; i <= faces.Extent(); i++) add_face(TopoDS::Face(faces(i)), (int)p, i - 1, parts->unit, lists);
+      for (int i = 1; i <= faces.Extent(); i++)
+        add_face(TopoDS::Face(faces(i)), parts->part[p].domain, (int)p, i - 1, parts->unit, lists);
       BRepTools::Clean(solid); // a stored triangulation would go into the files
       add_edges(solid, first, parts->unit, lists);
     }
