@@ -92,8 +92,7 @@ const gp_XY *first_of(std::vector<std::pair<double, gp_XY>> &by_distance, const 
   return nullptr;
 }
 
-void add_face(const TopoDS_Face &face, const std::string &domain, int part, int index, double unit,
-              CwSurveyData &lists) {
+void add_face(const TopoDS_Face &face, const CwCadPart &of, int part, int index, double unit, CwSurveyData &lists) {
   CwSurveyFace made = {};
   made.part = part;
   made.face = index;
@@ -108,8 +107,7 @@ void add_face(const TopoDS_Face &face, const std::string &domain, int part, int 
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
   if (mesh.IsNull())
-    throw Standard_Failure(
-        ("face " + std::to_string(index + 1) + " of " + domain + " has no triangulation; mend it in CAD").c_str());
+    throw Standard_Failure(("face " + std::to_string(index + 1) + " of " + of.domain + " has no triangles").c_str());
   const BRepAdaptor_Surface surface(face, Standard_False);
   BRepTopAdaptor_FClass2d outline(face, Precision::PConfusion());
   // Chords of the triangles may leave the face.
@@ -237,7 +235,7 @@ CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
       BRepMesh_IncrementalMesh mesh(solid, DEFLECTION * size, Standard_False, ANGLE);
       const TopTools_IndexedMapOfShape faces = cw_cad_faces(solid);
       for (int i = 1; i <= faces.Extent(); i++)
-        add_face(TopoDS::Face(faces(i)), parts->part[p].domain, (int)p, i - 1, parts->unit, lists);
+        add_face(TopoDS::Face(faces(i)), parts->part[p], (int)p, i - 1, parts->unit, lists);
       BRepTools::Clean(solid); // a stored triangulation would go into the files
       add_edges(solid, first, parts->unit, lists);
     }
