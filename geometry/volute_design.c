@@ -286,6 +286,13 @@ done:
   return status;
 }
 
+// What makes room for corners, or for a circle.
+static const char *room_by(const CwVolute *volute) {
+  return cw_volute_has_corners(volute)
+             ? "lower corner_radius_mm or inlet_width_mm, or take section trapezoid without corner_radius_mm"
+             : "lower side_wall_angle_deg or inlet_width_mm, or take section trapezoid";
+}
+
 static CwStatus check_tongue(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
@@ -293,16 +300,11 @@ static CwStatus check_tongue(const CwVolute *volute) {
   if (!isnan(volute->throat_width))
     cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
                          NULL, NULL);
-  CW_REQUIRE(
-      volute->end_half_angle == volute->arc_half_angle || isnan(volute->throat_width) ||
-          corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
-      CW_ERR_DESIGN,
-      "volute: %s %.2f of the throat's width to its side walls; allowed: at least %.2f: lower inlet_width_mm or %s, "
-      "or take section trapezoid%s",
-      cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
-      (corner[0] - volute->inner_wall_x) / volute->throat_width, LEAST_SIDE,
-      cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
-      cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
+  CW_REQUIRE(volute->end_half_angle == volute->arc_half_angle || isnan(volute->throat_width) ||
+                 corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
+             CW_ERR_DESIGN, "volute: %s %.2f of the throat's width to its side walls; allowed: at least %.2f: %s",
+             cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
+             (corner[0] - volute->inner_wall_x) / volute->throat_width, LEAST_SIDE, room_by(volute));
   CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && !isnan(volute->throat_width), CW_ERR_DESIGN,
              "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius_mm or raise throat_area_mm2",
              in->tongue_radius * 1e3);
@@ -325,11 +327,9 @@ static CwStatus check_sections(const CwVolute *volute) {
     CW_REQUIRE(
         gap > START_MARGIN * cw_volute_base_radius(volute), CW_ERR_DESIGN,
         "volute: the section %.0f deg behind the spiral's start has side walls of %.3g mm (more than %.3g mm are "
-        "allowed) and is too small for %s; lower %s or inlet_width_mm, or take section trapezoid%s",
+        "allowed) and is too small for %s; %s",
         phi * 180 / M_PI, gap * 1e3, START_MARGIN * cw_volute_base_radius(volute) * 1e3,
-        cw_volute_has_corners(volute) ? "its corners" : "a circle",
-        cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
-        cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
+        cw_volute_has_corners(volute) ? "its corners" : "a circle", room_by(volute));
   }
 done:
   return status;
