@@ -9,7 +9,8 @@
 #include "pipeline/mesh/cell.h"
 #include "pipeline/vec.h"
 
-static const double ROUNDING = 1e-11; // of the greatest coordinate
+static const double ROUNDING = 1e-11;    // of the greatest coordinate
+static const double SURFACE_OPEN = 1e-9; // of its area, what rounding may leave of the sum of its area vectors
 
 // A face on a partition plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end
 // of a triangle; `reversed` if the outward normal runs the other way.
@@ -381,9 +382,10 @@ static CwStatus check_surface(const CwAssembly *a) {
       for (int k = 0; k < 3; ++k) vector[k] += sum->vector[k];
     }
     double open = cw_norm(vector);
-    CW_REQUIRE(open <= 1e-9 * area, CW_ERR_INPUT,
-               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2; allowed: %.3g m2",
-               domain->name, area, open, 1e-9 * area);
+    CW_REQUIRE(open <= SURFACE_OPEN * area, CW_ERR_INPUT,
+               "domain %s: its surface is not closed: the area vectors of its patches, of %.6g mm2, sum to %.3g mm2; "
+               "allowed: %.3g mm2; run cutwater-mesh again",
+               domain->name, 1e6 * area, 1e6 * open, 1e6 * SURFACE_OPEN * area);
   }
 done:
   return status;

@@ -153,11 +153,17 @@ static CwStatus find_polygons(const CwBoundaryInput *in, const CwWallCurves *cur
                               int32_t node, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CwPolygons polygons = {0};
+  char place[40];
   CW_TRY(plane_outline(in, curves, free_curves, node, outline));
   CW_TRY(find_crossings(free_curves, outline));
   if (free_curves->tight_count > 0) goto done;
-  CW_TRY(cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
-                          (const int32_t(*)[2])outline->edge, outline->boundary, &polygons));
+  CwStatus found = cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
+                                    (const int32_t(*)[2])outline->edge, outline->boundary, &polygons);
+  if (found == CW_ERR_MESH) {
+    snprintf(place, sizeof place, "partition plane %d", node);
+    cw_fail_place(place);
+  }
+  CW_TRY(found);
   CW_GROW(free_curves->outline, free_curves->outline_space, free_curves->outline_count + polygons.polygon_count);
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
     int32_t first = polygons.polygon_start[p], last = polygons.polygon_start[p + 1];

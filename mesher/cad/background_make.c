@@ -91,7 +91,8 @@ CwStatus cw_background_join(const CwContext *context, CwCad *cad, void *const *f
     volume = -volume;
   }
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
-  CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "the tessellation encloses %g m3; it must be positive", volume);
+  CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "solid of face '%s': the tessellation encloses %g mm3; allowed: above 0",
+             cw_cad_face_name(cad, 0), cw_mm3(volume));
   CW_TRY(cw_rays_make(context, background->point_count, (const double(*)[3])background->x, background->triangle_count,
                       (const int32_t(*)[3])background->triangle, &background->rays));
 done:

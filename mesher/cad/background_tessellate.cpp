@@ -161,7 +161,8 @@ CwStatus start(const CwCad *cad, double deflection, double angle, CwTessellation
   made.context->ChangeParameters() = parameters;
   if (!made.context->BuildModel() || !made.context->DiscretizeEdges() || !made.context->HealModel() ||
       !made.context->PreProcessModel()) {
-    return CW_FAIL(CW_ERR_LIBRARY, "OpenCASCADE failed to divide the edges");
+    return CW_FAIL(CW_ERR_LIBRARY, "solid of face '%s': OpenCASCADE failed to divide the edges",
+                   cw_cad_face_name(cad, 0));
   }
   const Handle(IMeshData_Model) &model = made.context->GetModel();
   for (int i = 0; i < model->EdgesNb(); i++) {

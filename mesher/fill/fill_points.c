@@ -7,6 +7,7 @@
 
 #include "mesher/common/box.h"
 #include "mesher/common/branchless.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/common/verticals.h"
 #include "mesher/fill/fill_reach.h"
@@ -305,7 +306,8 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwRadix *places, 
   int32_t kept = 0, crossings = 0, chosen = choose_offsets(tree);
   uint64_t cut = ~0ull;
   CW_REQUIRE(place_count < INT32_MAX / 16, CW_ERR_MESH,
-             "%s: the size field asks for more than 100 million points in one region", tree->input->name);
+             "%s: the size field asks for %lld points in one region; allowed: below %d; lower mesh.cells_per_region",
+             tree->input->name, (long long)place_count, INT32_MAX / 16);
   CW_NEW_UNSET(points, place_count + chosen);
   if (site) CW_NEW_UNSET(sites, place_count + chosen);
   for (int64_t k = 0; k < place_count; k++) {
@@ -395,7 +397,11 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   double edge = CW_LATTICE_CONSTANT * exp(weight / area);
   while (edge * (double)(1 << above) < 1.001 * extent) {
     above++;
-    CW_REQUIRE(above <= DEPTH, CW_ERR_MESH, "%s: the size field is below 1e-5 of the region", input->name);
+    CW_REQUIRE(above <= DEPTH, CW_ERR_MESH,
+               "%s: the size field asks for edges of %.3g mm in a region of %.6g mm; allowed: above %.3g mm there, by "
+               "fewer mesh.cells or greater mesh.size_... of its walls",
+               input->name, cw_mm(edge / CW_LATTICE_CONSTANT), cw_mm(extent),
+               cw_mm(1.001 * extent / (CW_LATTICE_CONSTANT * (double)(1 << DEPTH))));
   }
   int below = DEPTH - above < 8 ? DEPTH - above : 8;
   tree->frame.unit = edge / (double)(1 << below);

@@ -41,8 +41,9 @@ CwStatus cw_tet_neighbours(int32_t tetrahedron_count, const int32_t (*tetrahedro
   CwStatus status = CW_OK;
   int64_t faces;
   CwTetSide *face = NULL;
-  CW_REQUIRE(tetrahedron_count < INT32_MAX / 4, CW_ERR_MESH, "%d tetrahedra in one region; at most %d are allowed",
-             tetrahedron_count, INT32_MAX / 4);
+  CW_REQUIRE(tetrahedron_count < INT32_MAX / 4, CW_ERR_MESH,
+             "%d tetrahedra in one region; allowed: below %d; lower mesh.cells_per_region", tetrahedron_count,
+             INT32_MAX / 4);
   CW_TRY(sort_faces(tetrahedron_count, tetrahedron, 0, NULL, &faces, &face));
   for (int64_t k = 0, next; k < faces; k = next) {
     for (next = k + 1; next < faces && same(&face[k], &face[next]);) next++;

@@ -173,7 +173,9 @@ CwStatus cw_kernel_core_append(const CwKernelCore *core, CwFill *fill) {
   if (!lattice->tet_count) goto done;
   int64_t tets = (int64_t)fill->tetrahedron_count + lattice->tet_count;
   int32_t more = fill->point_count - core->fixed_count;
-  CW_REQUIRE(tets < INT32_MAX, CW_ERR_MESH, "%lld tetrahedra in one region", (long long)tets);
+  CW_REQUIRE(tets < INT32_MAX, CW_ERR_MESH,
+             "%lld tetrahedra in one region; allowed: below %d; lower mesh.cells_per_region", (long long)tets,
+             INT32_MAX);
   double(*x)[3] = realloc(fill->x, ((size_t)fill->point_count + (size_t)lattice->deep_count) * sizeof *x);
   CW_REQUIRE(x, CW_ERR_MEMORY, "out of memory: %d points", lattice->deep_count);
   fill->x = x;

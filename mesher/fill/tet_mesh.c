@@ -10,7 +10,8 @@ enum { LARGE_PAGE = 1 << 21, CACHE_LINE = 64 }; // bytes
 // Aligned to large pages, which realloc is not. Pages not yet touched cost nothing.
 CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t space, int64_t sure) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
+  CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region; lower mesh.cells_per_region",
+             INT32_MAX / 4);
   size_t large = sure * (int64_t)sizeof *mesh->tet >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
   size_t size = ((size_t)space * sizeof *mesh->tet + large - 1) / large * large;
   CwTet *pool = aligned_alloc(large, size);

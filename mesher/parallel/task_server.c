@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "mesher/parallel/team.h"
@@ -135,8 +136,11 @@ static CwStatus start_thread(CwTaskServer *server) {
   pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
   pthread_cond_init(&server->look, &clock);
   pthread_condattr_destroy(&clock);
-  server->started = pthread_create(&server->thread, NULL, serve, server) == 0;
-  CW_REQUIRE(server->started, CW_ERR_LIBRARY, "the system gives no thread");
+  int refused = pthread_create(&server->thread, NULL, serve, server);
+  server->started = !refused;
+  CW_REQUIRE(server->started, CW_ERR_LIBRARY,
+             "the system gives no thread to serve tasks of %d ranks: %s; raise the limit of processes (ulimit -u)",
+             server->team->ranks, strerror(refused));
 done:
   return status;
 }

@@ -202,7 +202,10 @@ static CwStatus settle_unit(CwMeshRun *run) {
   CwBox box = cw_box_empty();
   for (int d = 0; d < run->model.domain_count; d++) cw_cad_add_to_box(run->domain[d].cad, &box);
   double extent = cw_box_longest(&box);
-  CW_REQUIRE(extent > 0 && isfinite(extent), CW_ERR_INPUT, "%s/geometry: the solids have no extent", run->run_path);
+  CW_REQUIRE(
+      extent > 0 && isfinite(extent), CW_ERR_INPUT,
+      "%s/geometry: the solids reach over %g mm; allowed: a length above 0; make it again with cutwater-geometry",
+      run->run_path, 1e3 * extent);
   int power = cw_model_unit_power(extent);
   cw_model_unit_set(power);
   for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, -power));
@@ -361,9 +364,17 @@ static void log_plan(const CwMeshRun *run, int d) {
          domain->name, domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
 }
 
-// Whether a domain is small enough to be one region: as large as a case file may ask regions to be.
-static int fits_one_region(const CwMeshRun *run, int d) {
-  return cw_predicted_cells(run, d) <= cw_case_keys[cw_case_key_find("mesh", "cells_per_region")].most;
+// A domain that is to be one region must be as small as a case file may ask regions to be.
+static CwStatus require_one_region(const CwMeshRun *run, int d, const char *reason) {
+  CwStatus status = CW_OK;
+  const CwCaseKey *key = &cw_case_keys[cw_case_key_find("mesh", "cells_per_region")];
+  double cells = cw_predicted_cells(run, d);
+  CW_REQUIRE(cells <= key->most, CW_ERR_MESH,
+             "%s: %s; after %d other plans, and one region cannot hold its %.0f cells; allowed: up to %.0f in one, so "
+             "at most %.2g times the present mesh.cells, or another mesh.cells_per_region (%.0f to %.0f)",
+             run->domain[d].name, reason, PLANS_MORE, cells, key->most, key->most / cells, key->least, key->most);
+done:
+  return status;
 }
 
 CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
@@ -372,14 +383,15 @@ CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
   char text[CW_OUTCOME_TEXT_SIZE];
   const char *reason = cw_outcome_text(why, cw_mm(1), text);
   if (domain->symmetry) return plan_whole(run, why->domain, reason);
-  CW_REQUIRE(domain->more_regions != CW_UNDIVIDED, CW_ERR_MESH, "%s: %s; after %d other plans, undivided too",
+  CW_REQUIRE(domain->more_regions != CW_UNDIVIDED, CW_ERR_MESH,
+             "%s: %s; after %d other plans, undivided too; allowed: walls without folds and knife edges there, with "
+             "layers that have room; fewer walls.layer_count, a lower y+ or other mesh.cells may do",
              domain->name, reason, PLANS_MORE);
   if (domain->more_regions < PLANS_MORE) {
     cw_log_warn(run->context.log, "%s: %s; planned again with one region more", domain->name, reason);
     domain->more_regions++;
   } else {
-    CW_REQUIRE(fits_one_region(run, why->domain), CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
-               PLANS_MORE);
+    CW_TRY(require_one_region(run, why->domain, reason));
     cw_log_warn(run->context.log, "%s: %s; meshed undivided after %d other plans", domain->name, reason, PLANS_MORE);
     domain->more_regions = CW_UNDIVIDED;
   }
@@ -396,8 +408,9 @@ void cw_warn_of_few_cells(const CwMeshRun *run) {
     int asked = run->table->mesh.least_regions, least = cw_domain_least_regions(run->table, cells);
     if (least == asked) continue;
     cw_log_warn(run->context.log,
-                "%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more",
-                run->domain[d].name, asked, least, cells);
+                "%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more; allowed: "
+                "one for %.0f, or more mesh.cells",
+                run->domain[d].name, asked, least, cells, cw_policy.region_cells_fewest);
   }
 }
 

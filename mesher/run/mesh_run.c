@@ -128,8 +128,10 @@ static CwStatus shorten_for_layers(CwMeshRun *run, const CwOutcome *why, CwPassS
   char text[CW_OUTCOME_TEXT_SIZE];
   const CwDomain *domain = &run->domain[why->domain];
   cw_outcome_text(why, cw_mm(1), text);
-  CW_REQUIRE(state->finer_rounds < FINER_MOST, CW_ERR_MESH, "%s: %s; also with edges %d times shorter there",
-             domain->name, text, 1 << FINER_MOST);
+  CW_REQUIRE(state->finer_rounds < FINER_MOST, CW_ERR_MESH,
+             "%s: %s; also with edges %d times shorter there; allowed: a wall that neither folds nor touches itself "
+             "there, or more mesh.cells than %lld",
+             domain->name, text, 1 << FINER_MOST, (long long)run->table->mesh.cells);
   cw_log_warn(run->context.log, "%s: %s; made again with shorter edges there", domain->name, text);
   CW_TRY(cw_finer_places_add(domain, why->domain, why->place, &run->finer));
   state->finer_rounds++;
@@ -196,8 +198,9 @@ static CwStatus judge_pass(CwMeshRun *run, CwPassState *state, int *last, int *a
   *last = met || run->passes - state->first_pass + 1 >= PASSES_MOST;
   if (met || (*last && state->poor_rounds > 0)) CW_TRY(improve(run, state, met, again));
   if (*last && !*again && !met)
-    cw_log_warn(run->context.log, "%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells,
-                100 * off, asked, PASSES_MOST);
+    cw_log_warn(run->context.log,
+                "mesh.cells: %lld cells made, %.1f %% off the asked %.0f after %d passes; wanted: within %.0f %%",
+                (long long)run->cells, 100 * off, asked, PASSES_MOST, 100 * COUNT_TOLERANCE);
 done:
   return status;
 }

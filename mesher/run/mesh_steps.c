@@ -95,7 +95,8 @@ static CwStatus region_paths(const CwMeshRun *run, int d, int32_t region, char p
   int length = snprintf(path, PATH_SIZE, "%s/mesh/%s-%04d.h5", run->run_path, name, region + 1);
   if (failure_path)
     length = snprintf(failure_path, PATH_SIZE, "%s/mesh/failed-%s-%04d.vtk", run->run_path, name, region + 1);
-  CW_REQUIRE(length < PATH_SIZE, CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+  CW_REQUIRE(length < PATH_SIZE, CW_ERR_USAGE, "%s: the path is too long; allowed: about %d characters", run->run_path,
+             PATH_SIZE - 2 * CW_NAME_SIZE);
 done:
   return status;
 }

@@ -72,8 +72,9 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   if (outcome->kind == CW_OUTCOME_THIN) CW_TRY_STAGE(cw_thin_places_in_regions(run, places), outcome);
   for (int d = 0; d < run->model.domain_count; d++) {
     CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH,
-               "%s: the regions in %s/mesh do not fit together on the partition planes", run->domain[d].name,
-               run->run_path);
+               "%s: its %d regions in %s/mesh do not fit together on the partition planes; allowed: each face there in "
+               "two of them; remove that folder and run cutwater-mesh again",
+               run->domain[d].name, regions[d], run->run_path);
   }
 done:
   cw_results_free(&results);

@@ -14,9 +14,18 @@ typedef struct {
   CwMeshStep step;
 } StepContext;
 
+// The status of work on a domain, whose name a failure tells.
+static CwStatus in_domain(const CwMeshRun *run, int32_t domain, CwStatus status) {
+  const char *name = run->domain[domain].name;
+  int has_place = status == CW_ERR_GEOMETRY || status == CW_ERR_MESH || status == CW_ERR_LIBRARY;
+  if (has_place && strncmp(cw_fail_message(), name, strlen(name)) != 0) cw_fail_place(name);
+  return status;
+}
+
 static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *size) {
   StepContext *step = context;
-  return step->step(step->run, step->task[index], bytes, size);
+  CwMeshTask task = step->task[index];
+  return in_domain(step->run, task.domain, step->step(step->run, task, bytes, size));
 }
 
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
@@ -67,6 +76,11 @@ static void tell_of_copies(CwMeshRun *run) {
   run->copies_told = 1;
 }
 
+static CwStatus run_domain(void *given, const CwContext *context, int32_t domain, CwOutcome *outcome) {
+  const CwMerging *merging = given;
+  return in_domain(merging->run, domain, merging->of->work(given, context, domain, outcome));
+}
+
 CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, const CwResults *results,
                         CwOutcome outcome[CW_DOMAINS_MOST]) {
   CwStatus status = CW_OK;
@@ -81,9 +95,9 @@ CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, const CwResults 
                       .cost = cost,
                       .own = of->own,
                       .by_threads = 1,
-                      .run = of->work,
+                      .run = run_domain,
                       .hand = of->hand,
-                      .given = &(CwMerging){run, results}};
+                      .given = &(CwMerging){run, results, of}};
   CW_TRY(cw_groups_run(&run->context, &work, outcome));
   tell_of_copies(run);
 done:

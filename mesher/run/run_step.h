@@ -22,21 +22,24 @@ void cw_results_free(CwResults *results);
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
                      const CwMeshTask *task, const int32_t *after, CwResults *results, double **seconds);
 
+typedef struct CwDomainWork CwDomainWork;
+
 // What work on the walls of a domain is given: results of a step that it merges, NULL: none.
 typedef struct {
   CwMeshRun *run;
   const CwResults *results;
+  const CwDomainWork *of;
 } CwMerging;
 
 // Work on the walls of all domains side by side, whose products come to lie once on each host.
-typedef struct {
+struct CwDomainWork {
   const char *step; // in the profiler
   double own;       // of the work, what no thread takes from another
   double copied;    // of that on a wall triangle, what one takes that is a periodic image
   // As those of CwGroupWork; given: a CwMerging.
   CwStatus (*work)(void *given, const CwContext *context, int32_t domain, CwOutcome *outcome);
   CwStatus (*hand)(void *given, const CwGroupHand *hand);
-} CwDomainWork;
+};
 
 // outcome: of each domain. Collective.
 CwStatus cw_run_domains(CwMeshRun *run, const CwDomainWork *of, const CwResults *results,

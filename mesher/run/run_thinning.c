@@ -118,8 +118,9 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
     describe(run, place, sizeof text, text);
     describe_file(run, place, sizeof file, file);
     outcome->domain = d;
-    CW_END_UNLESS(attempt < ATTEMPTS, outcome, CW_OUTCOME_REPLAN, NULL, "%s; after %d attempts with thinner layers%s",
-                  text, ATTEMPTS, file);
+    CW_END_UNLESS(attempt < ATTEMPTS, outcome, CW_OUTCOME_REPLAN, NULL,
+                  "%s; after %d attempts with thinner layers, at last within %.0f edge lengths%s", text, ATTEMPTS,
+                  cw_policy.thin_reach * (double)(1 << (ATTEMPTS - 1)), file);
     if (run->rank == 0 && is_told(places, i))
       cw_log_warn(run->context.log, "%s; tried again with thinner layers there", text);
     CW_TRY(lower(run, place, cw_policy.thin_reach * (double)(1 << attempt)));

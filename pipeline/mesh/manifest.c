@@ -67,7 +67,8 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
   CW_REQUIRE(region->points - region->own_points <= d->shared_points, CW_ERR_INPUT,
              "%s: %s: %lld points less %lld own ones leave more than the %lld 'shared_points' of the domain", file,
              where, (long long)region->points, (long long)region->own_points, (long long)d->shared_points);
-  CW_REQUIRE(asprintf(&region->path, "%s/mesh/%s", run, name) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_REQUIRE(asprintf(&region->path, "%s/mesh/%s", run, name) >= 0, CW_ERR_MEMORY, "out of memory: a path of %s/mesh",
+             run);
   ++mesh->region_count;
   ++d->region_count;
 done:
@@ -124,7 +125,8 @@ CwStatus cw_mesh_manifest_read(const char *run, CwMesh *mesh) {
   json_t *root = NULL;
   CwModel model = {0};
   size_t regions = 0;
-  CW_REQUIRE(asprintf(&file, "%s/mesh/manifest.json", run) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_REQUIRE(asprintf(&file, "%s/mesh/manifest.json", run) >= 0, CW_ERR_MEMORY, "out of memory: a path of %s/mesh",
+             run);
   CW_TRY(cw_json_read(file, &root));
   CW_REQUIRE(json_integer_value(json_object_get(root, "format")) == CW_MANIFEST_FORMAT, CW_ERR_INPUT,
              "%s: 'format' must be %d: the mesh was written by another version", file, CW_MANIFEST_FORMAT);

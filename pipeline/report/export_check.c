@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "pipeline/file_digest.h"
 #include "pipeline/stage_files.h"
@@ -55,8 +56,10 @@ CwStatus cw_export_check_begin(const char *run, json_t *record, const CwRanks *r
   check->joined = 1; // nothing is to be waited for yet
   CW_NEW(check->file, json_object_size(files));
   json_object_foreach(files, name, digest) check->file[check->count++].name = name;
-  CW_REQUIRE(pthread_create(&check->reader, NULL, read_files, check) == 0, CW_ERR_LIBRARY,
-             "the system gives no thread");
+  int refused = pthread_create(&check->reader, NULL, read_files, check);
+  CW_REQUIRE(!refused, CW_ERR_LIBRARY,
+             "%s/export: the system gives no thread to read it: %s; raise the limit of processes (ulimit -u)", run,
+             strerror(refused));
   check->joined = 0;
   *made = check;
   check = NULL;

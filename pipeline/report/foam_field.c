@@ -88,7 +88,8 @@ static CwStatus read_values(Reader *reader, const CwFoamField *field, CwFoamValu
                reader->path, word);
     next_word(reader, word);
     CW_REQUIRE(!strcmp(word, field->components == 3 ? "List<vector>" : "List<scalar>"), CW_ERR_INPUT,
-               "%s: its values are a %s", reader->path, word);
+               "%s: its values are a %s; allowed: %s", reader->path, word,
+               field->components == 3 ? "List<vector>" : "List<scalar>");
     CW_TRY(read_list(reader, word, field->scalar_size, values));
   }
   CW_TRY(expect(reader, ";"));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-report: the files of a run in, one page to look at out.
+#include <errno.h>
 #include <hdf5.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
@@ -30,7 +32,7 @@ static const CwStageUsage usage = {
 static CwStatus require_content(const CwReportData *data) {
   CwStatus status = CW_OK;
   FILE *nowhere = fopen("/dev/null", "w");
-  CW_REQUIRE(nowhere, CW_ERR_IO, "/dev/null: cannot be opened");
+  CW_REQUIRE(nowhere, CW_ERR_IO, "/dev/null: cannot be opened: %s", strerror(errno));
   CW_TRY(cw_page_write(nowhere, data));
 done:
   if (nowhere) fclose(nowhere);

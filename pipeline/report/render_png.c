@@ -188,8 +188,8 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   }
   cairo_surface_flush(surface);
   cairo_status_t written = cairo_surface_write_to_png_stream(surface, append, png);
-  CW_REQUIRE(written == CAIRO_STATUS_SUCCESS, CW_ERR_LIBRARY, "cairo: a picture cannot be written: %s",
-             cairo_status_to_string(written));
+  CW_REQUIRE(written == CAIRO_STATUS_SUCCESS, CW_ERR_LIBRARY, "cairo: a picture of %d x %d cannot be written: %s",
+             canvas->width, canvas->height, cairo_status_to_string(written));
 done:
   if (cr) cairo_destroy(cr);
   cairo_surface_destroy(surface);

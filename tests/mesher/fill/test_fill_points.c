@@ -228,7 +228,7 @@ static void wrong_size_field_is_an_error(void **unused) {
   assert_non_null(strstr(cw_fail_message(), "size field"));
   field.size = 1e-9;
   assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, NULL), CW_ERR_MESH);
-  assert_non_null(strstr(cw_fail_message(), "1e-5 of the region"));
+  assert_non_null(strstr(cw_fail_message(), "the size field asks for edges of 1e-06 mm in a region of "));
   surface_free(&s);
 }
 

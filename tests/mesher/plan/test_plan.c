@@ -305,13 +305,16 @@ static void plans_that_do_not_fit_give_way(void **state) {
   assert_true(cw_size_at(domain[1].size, x) == wanted);
   run.tets.factor *= 1e6;
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
-  assert_string_equal(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans");
+  assert_non_null(strstr(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans, and one "
+                                            "region cannot hold its "));
+  assert_non_null(strstr(cw_fail_message(), "another mesh.cells_per_region (5000 to 4000000)"));
   cw_fail_clear();
   run.tets.factor /= 1e6;
   check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 1);
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
-  assert_string_equal(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans, undivided too");
+  assert_non_null(strstr(cw_fail_message(),
+                         "stator: partition plane 3 grazes a face; after 3 other plans, undivided too; allowed: "));
   cw_fail_clear();
   cw_plan_free(&run.domain[1].plan);
 }

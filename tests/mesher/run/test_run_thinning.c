@@ -17,9 +17,10 @@ static void a_plan_is_given_up_after_three_attempts(void **state) {
   assert_int_equal(cw_thin(&run, &places, 3, &outcome), CW_OK);
   assert_int_equal(outcome.kind, CW_OUTCOME_REPLAN);
   assert_int_equal(outcome.domain, 1);
-  assert_string_equal(outcome.reason,
-                      "stator region 3, no place is known: the boundary crosses itself; after 3 attempts with thinner "
-                      "layers; its boundary is in runs/some/mesh/failed-stator-0003.vtk");
+  assert_string_equal(
+      outcome.reason,
+      "stator region 3, no place is known: the boundary crosses itself; after 3 attempts with thinner "
+      "layers, at last within 16 edge lengths; its boundary is in runs/some/mesh/failed-stator-0003.vtk");
   assert_int_equal(run.retries, 0);
 }
 
