@@ -13,6 +13,10 @@ CwStatus cw_place_file_open(const char *folder, const char *name, int is_new, Cw
   CwStatus status = CW_OK;
   CW_TRY(cw_path_set(&file->path, "%s/%s", folder, name));
   int descriptor = open(file->path, O_WRONLY | O_CLOEXEC | (is_new ? O_CREAT | O_TRUNC : 0), 0666);
+  if (descriptor == 0) { // standard input is closed; 0 means none here
+    descriptor = fcntl(0, F_DUPFD_CLOEXEC, 1);
+    close(0);
+  }
   CW_REQUIRE(descriptor > 0, CW_ERR_IO, "%s: cannot be written: %s", file->path, strerror(errno));
   file->descriptor = descriptor;
 done:

@@ -153,7 +153,7 @@ static inline CwStatus take_pair(const Match *m, const Side *first, const Side *
   return CW_OK;
 }
 
-// How often the face of a side is named by cells and boundary faces.
+// How often the face of a side is named by cells and boundary faces, all of which it looks through: for a message.
 static int times_named(const CwRegionData *data, int32_t ref) {
   int times = 0;
   int32_t nodes[4], last = CW_CELL_FACES * cw_region_cell_count(data);
