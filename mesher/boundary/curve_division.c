@@ -144,22 +144,16 @@ done:
 
 // Gathers what all faces found, each edge once, and halves it. The faces of the curves concerned are left for the next
 // round.
-static CwStatus halve_found(Faces *faces, void *const *bytes, const int64_t *size, CwCurveDivision *division,
-                            int32_t *halved) {
+static CwStatus halve_found(Faces *faces, const CwTaskResults *found, CwCurveDivision *division, int32_t *halved) {
   CwStatus status = CW_OK;
   const CwBoundaryInput *in = faces->in;
   const CwNetwork *network = in->network;
   Edge *edge = NULL;
   uint8_t *changed = NULL;
-  size_t count = 0, kept = 0;
-  for (int32_t i = 0; i < faces->face_count; i++) count += (size_t)size[i] / sizeof *edge;
+  size_t count = (size_t)cw_task_results_join(found, NULL) / sizeof *edge, kept = 0;
   CW_NEW(edge, count);
   CW_NEW(changed, network->curve_count);
-  count = 0;
-  for (int32_t i = 0; i < faces->face_count; i++) {
-    if (size[i]) memcpy(edge + count, bytes[i], (size_t)size[i]);
-    count += (size_t)size[i] / sizeof *edge;
-  }
+  cw_task_results_join(found, edge);
   qsort(edge, count, sizeof *edge, compare_edges);
   for (size_t i = 0; i < count; i++) {
     if (!kept || compare_edges(&edge[i], &edge[kept - 1])) edge[kept++] = edge[i];
@@ -189,34 +183,24 @@ done:
 CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInput *in, CwCurveDivision *division) {
   CwStatus status = CW_OK;
   Faces faces = {.in = in, .division = division};
-  void **bytes = NULL;
-  int64_t *size = NULL;
-  int32_t count = 0, all = cw_cad_face_count(in->cad), total = 0;
+  CwTaskResults results = {0};
+  int32_t all = cw_cad_face_count(in->cad), total = 0;
   CW_NEW(faces.face, all);
   for (int32_t f = 0; f < all; f++) {
     if (is_meshed(in, f)) faces.face[faces.face_count++] = f;
   }
   for (int round = 0; round < ROUNDS && faces.face_count; round++) {
     int32_t halved = 0;
-    count = faces.face_count;
-    CW_NEW(bytes, count);
-    CW_NEW(size, count);
     CwSchedule schedule = {
-        .step = "curves of the walls", .count = count, .run = judge_face, .context = &faces, .gather = 1};
-    CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
-    CW_TRY(halve_found(&faces, bytes, size, division, &halved));
+        .step = "curves of the walls", .count = faces.face_count, .run = judge_face, .context = &faces};
+    CW_TRY(cw_schedule_gather(context, &schedule, &results));
+    CW_TRY(halve_found(&faces, &results, division, &halved));
     total += halved;
-    for (int32_t i = 0; i < count; i++) free(bytes[i]);
-    free(bytes);
-    free(size);
-    bytes = NULL;
-    size = NULL;
+    cw_task_results_free(&results);
   }
   if (total) cw_log_debug(cw_log_of(context), "curves of the walls: %d edges halved to lie as their curves do", total);
 done:
-  for (int32_t i = 0; bytes && i < count; i++) free(bytes[i]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   free(faces.face);
   return status;
 }

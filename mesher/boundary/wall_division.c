@@ -144,30 +144,24 @@ static CwStatus divide_curves(const CwContext *context, const CwBoundaryInput *i
   CwStatus status = CW_OK;
   const CwNetwork *network = in->network;
   Curves curves = {.in = in, .edges = edges};
-  void **bytes = NULL;
-  int64_t *size = NULL;
+  CwTaskResults results = {0};
   CW_NEW(curves.curve, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     if (network->curve[i].wall && cw_image_turns(in->images, &in->images->curve, i) == 0)
       curves.curve[curves.count++] = i;
   }
-  CW_NEW(bytes, curves.count);
-  CW_NEW(size, curves.count);
-  CwSchedule schedule = {
-      .step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves, .gather = 1};
-  CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
+  CwSchedule schedule = {.step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves};
+  CW_TRY(cw_schedule_gather(context, &schedule, &results));
   for (int32_t i = 0; i < curves.count; i++) {
     CwCurveDivision *of = &division[curves.curve[i]];
-    of->count = (int32_t)((size_t)size[i] / sizeof *of->point);
+    of->count = (int32_t)((size_t)results.size[i] / sizeof *of->point);
     of->given = open_edge_of(edges, &network->curve[curves.curve[i]]) != NULL;
-    of->point = bytes[i];
-    bytes[i] = NULL;
+    of->point = results.bytes[i];
+    results.bytes[i] = NULL;
   }
   CW_TRY(cw_curve_divisions_refine(context, in, division));
 done:
-  for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   free(curves.curve);
   return status;
 }

@@ -15,7 +15,6 @@
 #include "mesher/common/vec.h"
 #include "mesher/layers/direction_smoothing_work.h"
 #include "mesher/layers/layers_normal.h"
-#include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
 
 // Displacement of v without any smoothing, m.
@@ -90,19 +89,13 @@ static CwStatus smoothing_make(CwLayerWork *work) {
     smoothing->place[v] = leans ? smoothing->count : -1;
     if (leans) smoothing->member[smoothing->count++] = v;
   }
-  smoothing->block_count = (smoothing->count + CW_SMOOTHING_BLOCK - 1) / CW_SMOOTHING_BLOCK;
 done:
   return status;
 }
 
-static void leans_free(int32_t blocks, void **lean) {
-  for (int32_t b = 0; lean && b < blocks; b++) free(lean[b]);
-  free(lean);
-}
-
 void cw_smoothing_free(CwSmoothing **smoothing) {
   if (!*smoothing) return;
-  leans_free((*smoothing)->block_count, (*smoothing)->lean);
+  cw_task_results_free(&(*smoothing)->lean);
   free((*smoothing)->source);
   free((*smoothing)->reach);
   cw_scratch_free(&(*smoothing)->local);
@@ -115,29 +108,24 @@ void cw_smoothing_free(CwSmoothing **smoothing) {
 
 CwStatus cw_smooth_directions(CwLayerWork *work) {
   CwStatus status = CW_OK;
-  int64_t *size = NULL;
-  void **bytes = NULL;
+  CwTaskResults made = {0};
   if (!work->smoothing) CW_TRY(smoothing_make(work));
   CwSmoothing *smoothing = work->smoothing;
   for (int32_t i = 0; i < smoothing->source_count; i++) raise_source(work, &smoothing->source[i]);
-  CW_NEW(bytes, smoothing->block_count);
-  CW_NEW(size, smoothing->block_count);
   CwSchedule schedule = {.step = "layers: smoothing",
-                         .count = smoothing->block_count,
+                         .count = (smoothing->count + CW_SMOOTHING_BLOCK - 1) / CW_SMOOTHING_BLOCK,
                          .run = cw_smoothing_solve_block,
-                         .context = smoothing,
-                         .gather = 1};
-  CW_TRY(cw_schedule_run(work->in->context, &schedule, bytes, size, NULL));
+                         .context = smoothing};
+  CW_TRY(cw_schedule_gather(work->in->context, &schedule, &made));
   for (int32_t v = 0; v < work->n; v++) smoothing->lean_t[v] = smoothing->reach[v].source >= 0 ? work->t[v] : -1;
   for (int32_t i = 0; i < smoothing->count; i++) {
-    const CwLean *lean = (const CwLean *)bytes[i / CW_SMOOTHING_BLOCK] + i % CW_SMOOTHING_BLOCK;
+    const CwLean *lean = (const CwLean *)made.bytes[i / CW_SMOOTHING_BLOCK] + i % CW_SMOOTHING_BLOCK;
     if (lean->changed) memcpy(work->column[smoothing->member[i]], lean->column, sizeof lean->column);
   }
-  leans_free(smoothing->block_count, smoothing->lean);
-  smoothing->lean = bytes;
-  bytes = NULL;
+  cw_task_results_free(&smoothing->lean);
+  smoothing->lean = made;
+  made = (CwTaskResults){0};
 done:
-  if (bytes) leans_free(smoothing->block_count, bytes);
-  free(size);
+  cw_task_results_free(&made);
   return status;
 }

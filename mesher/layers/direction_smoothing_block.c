@@ -421,8 +421,8 @@ static void start(const CwSmoothing *smoothing, Part *part, int32_t i) {
     set_end(part, i);
     return;
   }
-  if (smoothing->lean) {
-    const CwLean *last = (const CwLean *)smoothing->lean[place / CW_SMOOTHING_BLOCK] + place % CW_SMOOTHING_BLOCK;
+  if (smoothing->lean.bytes) {
+    const CwLean *last = (const CwLean *)smoothing->lean.bytes[place / CW_SMOOTHING_BLOCK] + place % CW_SMOOTHING_BLOCK;
     part->widen[i] = last->widen;
     for (int k = 0; k < 3; k++) part->u[i][k] = last->u[k] * work->t[v] / smoothing->lean_t[v];
     if (is_settled(smoothing, v)) {

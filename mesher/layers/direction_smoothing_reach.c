@@ -12,7 +12,6 @@
 #include "mesher/common/vec.h"
 #include "mesher/common/vertex_heap.h"
 #include "mesher/layers/direction_smoothing_work.h"
-#include "mesher/parallel/schedule.h"
 #include "mesher/policy.h"
 
 enum { BLOCKS = 256, LEAST_BLOCK = 2048 }; // blocks at most; vertices of one at least
@@ -133,24 +132,18 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   int32_t n = smoothing->work->n, block = n / BLOCKS + 1 > LEAST_BLOCK ? n / BLOCKS + 1 : LEAST_BLOCK;
   int32_t count = (n + block - 1) / block;
   Blocks blocks = {.smoothing = smoothing, .block = block};
-  int64_t *size = NULL;
-  void **bytes = NULL;
+  CwTaskResults results = {0};
   CW_TRY(cw_scratch_make((int64_t)n * (int64_t)sizeof(Reached), &blocks.reached));
   CW_TRY(cw_scratch_make((int64_t)n * (int64_t)sizeof(int32_t), &blocks.visited));
-  CW_NEW(bytes, count);
-  CW_NEW(size, count);
-  CwSchedule schedule = {
-      .step = "layers: reach of smoothing", .count = count, .run = find_block, .context = &blocks, .gather = 1};
-  CW_TRY(cw_schedule_run(smoothing->work->in->context, &schedule, bytes, size, NULL));
+  CwSchedule schedule = {.step = "layers: reach of smoothing", .count = count, .run = find_block, .context = &blocks};
+  CW_TRY(cw_schedule_gather(smoothing->work->in->context, &schedule, &results));
   for (int32_t b = 0; b < count; b++) {
-    const CwSmoothingReach *made = bytes[b];
+    const CwSmoothingReach *made = results.bytes[b];
     int32_t first = b * block, last = n - first < block ? n : first + block;
     for (int32_t i = first; i < last; i++) smoothing->reach[smoothing->work->curve[i]] = made[i - first];
   }
 done:
-  for (int32_t b = 0; bytes && b < count; b++) free(bytes[b]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   cw_scratch_free(&blocks.reached);
   cw_scratch_free(&blocks.visited);
   return status;

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_LAYERS_DIRECTION_SMOOTHING_WORK_H
 
 #include "mesher/layers/layer_columns.h"
+#include "mesher/parallel/schedule.h"
 #include "mesher/parallel/scratch.h"
 #include "pipeline/status.h"
 
@@ -42,9 +43,8 @@ typedef struct CwSmoothing {
   CwScratch *local;        // of a block: local number + 1 of every vertex of the domain, else 0, also when given back
   int32_t count;           // vertices in reach that may lean
   int32_t *member, *place; // these, block by block; the place of each vertex among them, -1: none of them
-  int32_t block_count;
-  void **lean;    // the CwLean of the members of each block, as the last smoothing left them; NULL before the first
-  double *lean_t; // of each vertex: the thickness it was made for; negative out of reach
+  CwTaskResults lean; // the CwLean of the members of each block, as the last smoothing left them; none before the first
+  double *lean_t;     // of each vertex: the thickness it was made for; negative out of reach
 } CwSmoothing;
 
 // Sets `reach` from the sources. Collective.

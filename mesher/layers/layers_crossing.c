@@ -292,8 +292,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   CwStatus status = CW_OK;
   const CwLayerWork *work = crossing->work;
   const CwLayerInput *in = work->in;
-  void **bytes = NULL;
-  int64_t *size = NULL;
+  CwTaskResults results = {0};
   int32_t blocks = 0;
   memcpy(crossing->x, top, (size_t)work->n * sizeof *top);
   crossing->list_count = 0;
@@ -311,24 +310,15 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   }
   drop_active(crossing);
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
-  CW_NEW(bytes, blocks);
-  CW_NEW(size, blocks);
-  CwSchedule schedule = {
-      .step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing, .gather = 1};
-  CW_TRY(cw_schedule_run(crossing->work->in->context, &schedule, bytes, size, NULL));
-  size_t total = (size_t)crossing->pair_count;
-  for (int32_t i = 0; i < blocks; i++) total += (size_t)size[i] / sizeof *crossing->pair;
-  CW_GROW(crossing->pair, crossing->pair_space, total);
-  for (int32_t i = 0; i < blocks; i++) {
-    if (size[i] == 0) continue;
-    memcpy(crossing->pair + crossing->pair_count, bytes[i], (size_t)size[i]);
-    crossing->pair_count += (int32_t)((size_t)size[i] / sizeof *crossing->pair);
-  }
+  CwSchedule schedule = {.step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing};
+  CW_TRY(cw_schedule_gather(crossing->work->in->context, &schedule, &results));
+  size_t found = (size_t)cw_task_results_join(&results, NULL) / sizeof *crossing->pair;
+  CW_GROW(crossing->pair, crossing->pair_space, (size_t)crossing->pair_count + found);
+  cw_task_results_join(&results, crossing->pair + crossing->pair_count);
+  crossing->pair_count += (int32_t)found;
   crossing->searched = 1;
 done:
-  for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   return status;
 }
 

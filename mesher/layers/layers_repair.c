@@ -232,18 +232,15 @@ static CwStatus turn_marked(Repair *repair) {
   CwLayerWork *work = repair->work;
   Groups groups = {.repair = repair};
   double *cost = NULL;
-  void **bytes = NULL;
-  int64_t *size = NULL;
+  CwTaskResults results = {0};
   CW_TRY(group_marked(repair, &groups));
   CW_NEW(cost, groups.count);
-  CW_NEW(bytes, groups.count);
-  CW_NEW(size, groups.count);
   for (int32_t g = 0; g < groups.count; g++) cost[g] = groups.start[g + 1] - groups.start[g];
   CwSchedule schedule = {
-      .step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group, .context = &groups, .gather = 1};
-  CW_TRY(cw_schedule_run(work->in->context, &schedule, bytes, size, NULL));
+      .step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group, .context = &groups};
+  CW_TRY(cw_schedule_gather(work->in->context, &schedule, &results));
   for (int32_t g = 0; g < groups.count; g++) {
-    const Turned *made = bytes[g];
+    const Turned *made = results.bytes[g];
     for (int32_t i = groups.start[g]; i < groups.start[g + 1]; i++, made++) {
       int32_t v = groups.vertex[i];
       if (!made->changed) continue;
@@ -253,9 +250,7 @@ static CwStatus turn_marked(Repair *repair) {
     }
   }
 done:
-  for (int32_t g = 0; bytes && g < groups.count; g++) free(bytes[g]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   free(cost);
   free(groups.vertex);
   free(groups.start);

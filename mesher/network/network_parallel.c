@@ -103,17 +103,11 @@ CwStatus cw_network_trace_all(const CwContext *context, CwNetwork *network, cons
   CwStatus status = CW_OK;
   int32_t nodes = network->plan->node_count;
   Traces traces = {network, background};
-  void **bytes = NULL;
-  int64_t *size = NULL;
-  CW_NEW(bytes, nodes);
-  CW_NEW(size, nodes);
-  CwSchedule schedule = {
-      .step = "traces of the planes", .count = nodes, .run = trace_plane, .context = &traces, .gather = 1};
-  CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
-  for (int32_t node = 0; node < nodes; node++) CW_TRY_STAGE(join(network, bytes[node], outcome), outcome);
+  CwTaskResults results = {0};
+  CwSchedule schedule = {.step = "traces of the planes", .count = nodes, .run = trace_plane, .context = &traces};
+  CW_TRY(cw_schedule_gather(context, &schedule, &results));
+  for (int32_t node = 0; node < nodes; node++) CW_TRY_STAGE(join(network, results.bytes[node], outcome), outcome);
 done:
-  for (int32_t node = 0; bytes && node < nodes; node++) free(bytes[node]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   return status;
 }

@@ -62,18 +62,14 @@ CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32
   int alone = cw_team_ranks(cw_team_of(context)) == 1;
   Share share = {body, given, count, start, width, block_of(count), alone ? out : NULL};
   int32_t blocks = (count + share.block - 1) / share.block;
-  void **bytes = NULL;
-  int64_t *size = NULL;
-  CW_NEW(bytes, blocks);
-  CW_NEW(size, blocks);
-  CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .alike = 1, .gather = 1};
-  CW_TRY(cw_schedule_run(context, &schedule, bytes, size, NULL));
+  CwTaskResults results = {0};
+  CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .alike = 1};
+  CW_TRY(cw_schedule_gather(context, &schedule, &results));
   for (int32_t i = 0; i < blocks; i++) {
-    if (bytes[i]) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
+    if (results.bytes[i])
+      memcpy((char *)out + place_of(&share, i * share.block), results.bytes[i], (size_t)results.size[i]);
   }
 done:
-  for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   return status;
 }

@@ -314,3 +314,31 @@ done:
   if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(cw_log_of(context), status);
   return status;
 }
+
+CwStatus cw_schedule_gather(const CwContext *context, const CwSchedule *schedule, CwTaskResults *results) {
+  CwStatus status = CW_OK;
+  CwSchedule gathering = *schedule;
+  gathering.gather = 1;
+  results->count = schedule->count;
+  CW_NEW(results->bytes, results->count);
+  CW_NEW(results->size, results->count);
+  CW_TRY(cw_schedule_run(context, &gathering, results->bytes, results->size, NULL));
+done:
+  return status;
+}
+
+void cw_task_results_free(CwTaskResults *results) {
+  for (int32_t i = 0; results->bytes && i < results->count; i++) free(results->bytes[i]);
+  free(results->bytes);
+  free(results->size);
+  *results = (CwTaskResults){0};
+}
+
+int64_t cw_task_results_join(const CwTaskResults *results, void *to) {
+  int64_t all = 0;
+  for (int32_t i = 0; i < results->count; i++) {
+    if (to && results->size[i] > 0) memcpy((char *)to + all, results->bytes[i], (size_t)results->size[i]);
+    all += results->size[i];
+  }
+  return all;
+}

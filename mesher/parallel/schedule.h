@@ -41,4 +41,18 @@ typedef struct {
 // A failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
 CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, void **bytes, int64_t *size,
                          double *seconds);
+
+// The results of all tasks on every rank; {0} are none.
+typedef struct {
+  int32_t count;
+  void **bytes;
+  int64_t *size;
+} CwTaskResults;
+
+// The same with `gather`. Zeroed `results` on entry; the caller frees them whatever is returned, but for bytes that it
+// has taken over and set to NULL.
+CwStatus cw_schedule_gather(const CwContext *context, const CwSchedule *schedule, CwTaskResults *results);
+void cw_task_results_free(CwTaskResults *results);
+// Copies all of them, one behind the other, to `to`, unless that is NULL; returns their bytes.
+int64_t cw_task_results_join(const CwTaskResults *results, void *to);
 #endif

@@ -125,8 +125,7 @@ done:
 // The candidates of all directions, in their order; where there is much to look at it is shared among the ranks.
 static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
   CwStatus status = CW_OK;
-  void **bytes = NULL;
-  int64_t *size = NULL;
+  CwTaskResults results = {0};
   *count = 0;
   if ((int64_t)look->count * (look->part->pieces.count + look->part->sample_count) < SHARED_LEAST) {
     for (int32_t i = 0; i < look->count; i++) {
@@ -134,19 +133,11 @@ static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
     }
     goto done;
   }
-  CW_NEW(bytes, look->count);
-  CW_NEW(size, look->count);
-  CwSchedule schedule = {
-      .step = "decomposition", .count = look->count, .run = look_along, .context = look, .gather = 1};
-  CW_TRY(cw_schedule_run(look->model->context, &schedule, bytes, size, NULL));
-  for (int32_t i = 0; i < look->count; i++) {
-    if (size[i] > 0) memcpy(candidate + *count, bytes[i], (size_t)size[i]);
-    *count += (int32_t)(size[i] / (int64_t)sizeof *candidate);
-  }
+  CwSchedule schedule = {.step = "decomposition", .count = look->count, .run = look_along, .context = look};
+  CW_TRY(cw_schedule_gather(look->model->context, &schedule, &results));
+  *count = (int32_t)(cw_task_results_join(&results, candidate) / (int64_t)sizeof *candidate);
 done:
-  for (int32_t i = 0; bytes && i < look->count; i++) free(bytes[i]);
-  free(bytes);
-  free(size);
+  cw_task_results_free(&results);
   return status;
 }
 

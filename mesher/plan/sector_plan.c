@@ -201,14 +201,13 @@ done:
 static CwStatus judge_half_planes(Sectors *sectors, const CwPlanPart *part) {
   CwStatus status = CW_OK;
   Wheel wheel = {sectors, part};
-  void *bytes[ANGLES] = {0};
-  int64_t size[ANGLES] = {0};
-  CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel, .gather = 1};
-  CW_TRY(cw_schedule_run(sectors->model->context, &schedule, bytes, size, NULL));
-  for (int i = 0; i < ANGLES; i++) memcpy(&sectors->judged[i], bytes[i], sizeof sectors->judged[i]);
+  CwTaskResults results = {0};
+  CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel};
+  CW_TRY(cw_schedule_gather(sectors->model->context, &schedule, &results));
+  for (int i = 0; i < ANGLES; i++) memcpy(&sectors->judged[i], results.bytes[i], sizeof sectors->judged[i]);
   sectors->is_judged = 1;
 done:
-  for (int i = 0; i < ANGLES; i++) free(bytes[i]);
+  cw_task_results_free(&results);
   return status;
 }
 
