@@ -24,55 +24,19 @@ enum { PASSES = 8, THICKNESSES = 2 };
 static const double FACTOR[THICKNESSES] = {1.1, 0.9}; // of the present one, tried
 static const double MUCH = 200;                       // more than any bound or quality
 
-// The triangle across the edge from v to w of t; -1 where there is none. *apex: its third corner.
-static int32_t across(int32_t t, int32_t v, int32_t w, const int32_t (*triangle)[3], const int32_t *start,
-                      const int32_t *around, int32_t *apex) {
-  for (int32_t i = start[v]; i < start[v + 1]; i++) {
-    const int32_t *corner = triangle[around[i]];
-    if (around[i] == t || (corner[0] != w && corner[1] != w && corner[2] != w)) continue;
-    for (int k = 0; k < 3; k++) {
-      if (corner[k] != v && corner[k] != w) *apex = corner[k];
-    }
-    return around[i];
-  }
-  return -1;
-}
-
-double cw_layer_top_bound(int32_t t, const int32_t (*triangle)[3], const double (*top)[3], const int32_t *start,
-                          const int32_t *around, double least) {
-  const int32_t *vertex = triangle[t];
-  const double *const corner[3] = {top[vertex[0]], top[vertex[1]], top[vertex[2]]};
-  CwBoundSide side[3];
-  double m[3];
-  cw_normal(corner[0], corner[1], corner[2], m);
-  for (int k = 0; k < 3; k++) {
-    int32_t apex = -1, other = across(t, vertex[k], vertex[(k + 1) % 3], triangle, start, around, &apex);
-    double n[3];
-    side[k] = (CwBoundSide){.angle = 90, .apex = -1};
-    if (other < 0) continue;
-    const int32_t *beyond = triangle[other];
-    cw_normal(top[beyond[0]], top[beyond[1]], top[beyond[2]], n);
-    side[k] = (CwBoundSide){cw_inner_angle(corner[k], corner[(k + 1) % 3], m, n), apex, top[apex]};
-  }
-  return cw_triangle_bound(corner, side, least);
-}
-
-static double bound_in(const CwLayerWork *work, int32_t t, const double (*top)[3], double least) {
-  return cw_layer_top_bound(t, work->in->triangle, top, work->face_start, work->face, least);
-}
-
 // How good the column of v is: until its prisms are good by them, and then by the least bound of the triangles that its
 // end is a corner or an apex of.
 static double judge(const CwLayerWork *work, int32_t v, const double (*top)[3], double floor, int32_t *first) {
   double quality = cw_layers_around(work, v, top, -INFINITY, first), least = asin(cw_policy.improve_below) / CW_DEGREE;
   if (quality < cw_policy.prism_good) return quality - MUCH;
+  const CwBoundSurface surface = {work->in->triangle, top, work->face_start, work->face};
   for (int32_t i = work->face_start[v]; i < work->face_start[v + 1] && least > floor; i++) {
     int32_t t = work->face[i], apex;
-    least = fmin(least, bound_in(work, t, top, least));
+    least = fmin(least, cw_bound_on(&surface, t, least));
     for (int k = 0; k < 3; k++) {
       int32_t a = work->in->triangle[t][k], b = work->in->triangle[t][(k + 1) % 3];
-      int32_t other = a == v || b == v ? -1 : across(t, a, b, work->in->triangle, work->face_start, work->face, &apex);
-      if (other >= 0) least = fmin(least, bound_in(work, other, top, least));
+      int32_t other = a == v || b == v ? -1 : cw_bound_neighbour(&surface, t, a, b, &apex);
+      if (other >= 0) least = fmin(least, cw_bound_on(&surface, other, least));
     }
   }
   return least;
@@ -112,25 +76,28 @@ typedef struct {
   double (*top)[3];
 } ConcaveEdges;
 
+static CwBoundSurface layer_top(const ConcaveEdges *concave) {
+  return (CwBoundSurface){concave->wall->triangle, (const double(*)[3])concave->layers->top, concave->around.start,
+                          concave->around.triangle};
+}
+
 static CwStatus find_narrow(void *context, int32_t t, void *out) {
   const ConcaveEdges *concave = context;
   const CwSurfaceMesh *surface = concave->surface;
   if (surface->source[t] != t) return CW_OK;
-  const int32_t(*triangle)[3] = concave->wall->triangle;
-  const double(*top)[3] = (const double(*)[3])concave->layers->top;
-  double bound =
-      cw_layer_top_bound(t, triangle, top, concave->around.start, concave->around.triangle, cw_policy.wanted_angle);
-  *(uint8_t *)out = bound < cw_policy.wanted_angle;
+  const CwBoundSurface top = layer_top(concave);
+  *(uint8_t *)out = cw_bound_on(&top, t, cw_policy.wanted_angle) < cw_policy.wanted_angle;
   return CW_OK;
 }
 
 // Marks the columns at a narrow triangle and at those beside it.
 static void mark_columns(ConcaveEdges *concave, int32_t t) {
   const CwSurfaceMesh *surface = concave->surface;
-  const int32_t(*triangle)[3] = concave->wall->triangle, *corner = triangle[t];
+  const CwBoundSurface top = layer_top(concave);
+  const int32_t *corner = top.triangle[t];
   for (int k = 0; k < 3; k++) {
     int32_t apex = corner[k];
-    across(t, corner[k], corner[(k + 1) % 3], triangle, concave->around.start, concave->around.triangle, &apex);
+    cw_bound_neighbour(&top, t, corner[k], corner[(k + 1) % 3], &apex);
     int32_t v = cw_image_first_member(&surface->images, concave->is_first, corner[k]);
     concave->turning[v] = 1;
     v = cw_image_first_member(&surface->images, concave->is_first, apex);

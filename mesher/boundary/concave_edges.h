@@ -15,9 +15,4 @@
 CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *wall,
                                CwLayers *layers, int32_t *opened);
 
-// What the layer top allows a tetrahedron on its triangle t (degrees; triangle_bound.h), or anything not below `least`.
-// start, around: triangles at each wall vertex, as in CwIncident.
-double cw_layer_top_bound(int32_t t, const int32_t (*triangle)[3], const double (*top)[3], const int32_t *start,
-                          const int32_t *around, double least);
-
 #endif

@@ -32,3 +32,37 @@ double cw_triangle_bound(const double *const corner[3], const CwBoundSide side[3
   }
   return best;
 }
+
+int32_t cw_bound_neighbour(const CwBoundSurface *surface, int32_t t, int32_t a, int32_t b, int32_t *apex) {
+  int32_t found = -1, count = 0;
+  for (int32_t i = surface->start[a]; i < surface->start[a + 1]; i++) {
+    const int32_t *corner = surface->triangle[surface->around[i]];
+    if (surface->around[i] == t || (corner[0] != b && corner[1] != b && corner[2] != b)) continue;
+    found = surface->around[i];
+    count++;
+  }
+  if (count != 1) return -1;
+  for (int k = 0; k < 3; k++) {
+    int32_t corner = surface->triangle[found][k];
+    if (corner != a && corner != b) *apex = corner;
+  }
+  return found;
+}
+
+double cw_bound_on(const CwBoundSurface *surface, int32_t t, double least) {
+  const double(*x)[3] = surface->x;
+  const int32_t *vertex = surface->triangle[t];
+  const double *const corner[3] = {x[vertex[0]], x[vertex[1]], x[vertex[2]]};
+  CwBoundSide side[3];
+  double m[3], n[3];
+  cw_normal(corner[0], corner[1], corner[2], m);
+  for (int k = 0; k < 3; k++) {
+    int32_t apex = -1, other = cw_bound_neighbour(surface, t, vertex[k], vertex[(k + 1) % 3], &apex);
+    side[k] = (CwBoundSide){.angle = 90.0, .apex = -1};
+    if (other < 0) continue;
+    const int32_t *beyond = surface->triangle[other];
+    cw_normal(x[beyond[0]], x[beyond[1]], x[beyond[2]], n);
+    side[k] = (CwBoundSide){cw_inner_angle(corner[k], corner[(k + 1) % 3], m, n), apex, x[apex]};
+  }
+  return cw_triangle_bound(corner, side, least);
+}

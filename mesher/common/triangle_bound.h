@@ -25,4 +25,16 @@ double cw_inner_angle(const double from[3], const double to[3], const double m[3
 // best of these four, or anything not below `least`. Side k lies at the edge from corner k to the next; the normal of
 // the corners points outward.
 double cw_triangle_bound(const double *const corner[3], const CwBoundSide side[3], double least);
+
+// A surface, normals outward, and the triangles at each of its points, as in CwIncident.
+typedef struct {
+  const int32_t (*triangle)[3];
+  const double (*x)[3];
+  const int32_t *start, *around;
+} CwBoundSurface;
+
+// The triangle beside t at its edge from a to b, where there is just one; else -1. *apex: its third corner.
+int32_t cw_bound_neighbour(const CwBoundSurface *surface, int32_t t, int32_t a, int32_t b, int32_t *apex);
+// The bound of triangle t by its neighbours.
+double cw_bound_on(const CwBoundSurface *surface, int32_t t, double least);
 #endif

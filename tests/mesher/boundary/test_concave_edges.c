@@ -8,6 +8,7 @@
 #include "flat_ring.h"
 #include "mesher/boundary/concave_edges.h"
 #include "mesher/common/incident.h"
+#include "mesher/common/triangle_bound.h"
 #include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
 #include "tests/unit_test.h"
@@ -59,10 +60,8 @@ static double least_bound(const Ring *ring) {
   double least = 90;
   const int32_t(*triangle)[3] = (const int32_t(*)[3])ring->flat.triangle;
   assert_int_equal(cw_incident_make(POINTS, TRIANGLES, triangle, &around), CW_OK);
-  for (int32_t t = 0; t < TRIANGLES; t++) {
-    const double(*top)[3] = (const double(*)[3])ring->top;
-    least = fmin(least, cw_layer_top_bound(t, triangle, top, around.start, around.triangle, 90));
-  }
+  const CwBoundSurface top = {triangle, (const double(*)[3])ring->top, around.start, around.triangle};
+  for (int32_t t = 0; t < TRIANGLES; t++) least = fmin(least, cw_bound_on(&top, t, 90));
   cw_incident_free(&around);
   return least;
 }
