@@ -14,6 +14,12 @@
 #include "mesher/policy.h"
 
 enum { BISECTIONS = 20 };
+// Least cosine between a ray and the normal of what stands opposite: less is grazed. A column on an open edge runs
+// inside its own open patch and must not take that for an obstacle.
+static const double FACING = 0.05, FACING_OF_CONSTRAINED = 0.3;
+static const double START = 1e-3;        // of the shortest edge of the wall: what a ray meets nearer is its own wall
+static const double ALONG_CREASE = 0.7;  // cosine of an edge that lies along a crease
+static const double CLOSING_SHARE = 0.6; // of the thickness at which columns that lean to each other would meet
 
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
@@ -155,13 +161,12 @@ static int meet(void *context, int32_t f) {
   double facing = 0, way = hit(in, f, ray->x, ray->g, &facing);
   if (way <= ray->offset || way > ray->far) return 0;
   if (wall) {
-    if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
+    if (facing < FACING || belongs_to_crease(ray->work, ray->v, f)) return 0;
     double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
     ray->faced = 1;
     ray->best = fmin(ray->best, cw_layers_room(ray->work, ray->v, way / ray->stretch, core / ray->stretch));
   } else {
-    // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
-    if (facing < (ray->constrained ? 0.3 : 0.05)) return 0;
+    if (facing < (ray->constrained ? FACING_OF_CONSTRAINED : FACING)) return 0;
     ray->best = fmin(ray->best, CW_OPEN_SHARE * way / ray->stretch);
   }
   return 0;
@@ -197,7 +202,7 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   ray_start(work, v, ray.x);
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
-  ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
+  ray.offset = START * cw_layers_shortest_edge(work, v);
   ray.core = cw_policy.least_distance * mean_edge(work, v);
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
@@ -245,7 +250,7 @@ done:
 static int smoothing_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
   int at_v = work->crease[v] == CW_CREASE_CONCAVE, at_w = work->crease[w] == CW_CREASE_CONCAVE;
   if (!at_v || !at_w) return at_v || at_w;
-  double along_v = cw_dot(work->along[v], e), along_w = cw_dot(work->along[w], e), least = 0.7 * cw_norm(e);
+  double along_v = cw_dot(work->along[v], e), along_w = cw_dot(work->along[w], e), least = ALONG_CREASE * cw_norm(e);
   int corner = cw_norm(work->along[v]) == 0 || cw_norm(work->along[w]) == 0;
   return corner || fabs(along_v) > least || fabs(along_w) > least;
 }
@@ -253,7 +258,6 @@ static int smoothing_parts(const CwLayerWork *work, int32_t v, int32_t w, const 
 static CwStatus find_most(void *context, int32_t v, void *out) {
   const CwLayerWork *work = context;
   const CwLayerInput *in = work->in;
-  const double share = 0.6;
   double most = in->target[v];
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
@@ -263,7 +267,7 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
     // Without constraints: the smoothing sees to what those tilt. Of the edge's length squared, by the thickness:
     double closing = cw_dot(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
                      cw_dot(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
-    if (closing > 0) most = fmin(most, share * cw_dot(e, e) / closing);
+    if (closing > 0) most = fmin(most, CLOSING_SHARE * cw_dot(e, e) / closing);
   }
   *(double *)out = most;
   return CW_OK;

@@ -12,6 +12,7 @@
 static const double BENT = 0.98;             // least cosine of the normals about a vertex of a wall as good as flat
 static const double SHARP = 0.92;            // the same of a convex edge that columns need not slide along
 static const double RISE = 0.3, FOLD = 0.75; // of an edge against the normal where the bend is concave
+static const double ALONG = 0.3;             // greatest cosine of the normals about a crease to its edge
 
 // What keeps the best candidate direction.
 typedef struct {
@@ -141,7 +142,7 @@ double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double d
 }
 
 double cw_layers_floor(const CwLayerWork *work, int32_t v) {
-  return work->crease[v] == CW_CREASE_CONCAVE ? 0.3 : CW_CONVEX_FLOOR;
+  return work->crease[v] == CW_CREASE_CONCAVE ? CW_CONCAVE_FLOOR : CW_CONVEX_FLOOR;
 }
 
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
@@ -169,7 +170,7 @@ static void edge_direction(int count, double (*normal)[3], double along[3]) {
     }
   cw_unit(along);
   for (int i = 0; i < count; i++)
-    if (fabs(cw_dot(normal[i], along)) > 0.3) memset(along, 0, 3 * sizeof *along);
+    if (fabs(cw_dot(normal[i], along)) > ALONG) memset(along, 0, 3 * sizeof *along);
 }
 
 typedef struct {

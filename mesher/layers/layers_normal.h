@@ -29,8 +29,9 @@ CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v);
 // constraints hold none.
 CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
 enum { CW_LAYER_NORMALS = 48 }; // distinct ones around a vertex, at most
-// Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor). Over convex
-// edges CW_CONVEX_FLOOR: sharper ones leave thinner layers.
+// Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor), of concave
+// edges and of all others: sharper convex ones leave thinner layers.
+#define CW_CONCAVE_FLOOR 0.3
 #define CW_CONVEX_FLOOR 0.55
 double cw_layers_floor(const CwLayerWork *work, int32_t v);
 // The column of v without any smoothing.
