@@ -207,7 +207,7 @@ static CwStatus collect_region(void *context, int region, CwRegionData *data) {
     --*(face->loop[3] < 0 ? &inner.triangles : &inner.quads);
   }
   a->places[region].inner = (CwFaceCount){inner.triangles / 2, inner.quads / 2};
-  a->places[region].open = count; // until spread() knows where they begin
+  a->places[region].open_count = count;
 done:
   free(open);
   return status;
@@ -223,9 +223,8 @@ static CwStatus spread(const CwRanks *ranks, CwAssembly *a) {
     MPI_Bcast(cw_patch_part(a, r, 0), (int)sizeof *a->parts * mesh->patch_count, MPI_BYTE, root, ranks->comm);
   }
   for (int r = 0; r < mesh->region_count; ++r) {
-    const int64_t open = a->places[r].open;
-    a->places[r].open = a->open_count;
-    a->open_count += open;
+    a->places[r].first_open = a->open_count;
+    a->open_count += a->places[r].open_count;
     for (int p = 0; p < mesh->patch_count; ++p) {
       CwPatchPart *part = cw_patch_part(a, r, p), *sum = &a->patches[p];
       part->before = sum->faces;
@@ -311,8 +310,8 @@ static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
       const OpenFace *here = sides[s], *there = sides[1 - s];
       CwRegionPlace *place = &a->places[here->region];
       int64_t mine = place->cell + here->cell, other = a->places[there->region].cell + there->cell;
-      a->across[place->open + here->slot] = other;
-      a->partner[place->open + here->slot] = a->places[there->region].open + there->slot;
+      a->across[place->first_open + here->slot] = other;
+      a->partner[place->first_open + here->slot] = a->places[there->region].first_open + there->slot;
       if (mine < other) ++*(here->loop[3] < 0 ? &place->outer.triangles : &place->outer.quads);
     }
   }

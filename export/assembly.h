@@ -33,7 +33,7 @@ typedef struct {
   int64_t own_point;                   // its first own point
   int64_t tetrahedron, pyramid, prism; // its first cell of each type among those of the domain
   int64_t cell;                        // its first cell, cells counted region by region over all domains
-  int64_t open;                        // its first open face in CwAssembly.across
+  int64_t first_open, open_count;      // its open faces in CwAssembly.across
   CwFaceCount inner;                   // faces between its own cells
   CwFaceCount outer;                   // open faces whose other cell has the larger number
 } CwRegionPlace;

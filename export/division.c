@@ -216,7 +216,7 @@ done:
 // The cells at the open faces of the region, in the order of those.
 static void note_open(CwDivision *v, int region, const CwRegionData *data, const CwRegionFaces *faces,
                       const int32_t *piece_of, const int64_t *number, Found *found) {
-  int64_t open = v->assembly->places[region].open;
+  int64_t open = v->assembly->places[region].first_open;
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell)
     for (int f = 0; f < CW_CELL_FACES; ++f) {
       int32_t nodes[4];
@@ -329,8 +329,8 @@ static CwStatus spread_links(CwDivision *v, const CwRanks *ranks, Found *found) 
   CW_TRY(cw_ranks_agree(ranks, all ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
   cw_ranks_broadcast(ranks, all, count, sizeof *all);
   for (int r = 0; r < a->mesh->region_count; ++r) {
-    const int64_t end = r + 1 < a->mesh->region_count ? a->places[r + 1].open : a->open_count, before = count;
-    for (int64_t i = a->places[r].open; i < end; ++i) {
+    const int64_t first = a->places[r].first_open, before = count;
+    for (int64_t i = first; i < first + a->places[r].open_count; ++i) {
       const int here = v->open_part[i], there = v->open_part[a->partner[i]];
       if (a->across[a->partner[i]] > a->across[i]) continue; // the other region's
       if (here == there)

@@ -116,7 +116,7 @@ int cw_face_stretch_inner(const CwAssembly *a, int region, const CwRegionData *d
     int64_t across[CW_CELL_FACES], open[CW_CELL_FACES], key[CW_CELL_FACES];
     for (int f = 0; f < CW_CELL_FACES; ++f) {
       const int32_t local = faces->across[CW_CELL_FACES * cell + f];
-      open[f] = local == CW_ACROSS_OPEN ? place->open + s->next_open++ : -1;
+      open[f] = local == CW_ACROSS_OPEN ? place->first_open + s->next_open++ : -1;
       across[f] = open[f] >= 0 ? a->across[open[f]] : local >= 0 ? place->cell + local : -1;
     }
     const int count = faces_onward(place->cell + cell, across, key);

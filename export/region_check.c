@@ -88,9 +88,8 @@ static int is_turned_copy(const CwRegionData *model, const CwRegionData *data) {
 static CwStatus check_counts(const CwAssembly *a, int region, const CwRegionFaces *faces) {
   CwStatus status = CW_OK;
   const CwRegionPlace *place = &a->places[region];
-  int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
   CW_REQUIRE(faces->inner_triangles == place->inner.triangles && faces->inner_quads == place->inner.quads &&
-                 faces->open_count == open,
+                 faces->open_count == place->open_count,
              CW_ERR_INPUT, "%s: has other faces than when it was first read; another program has changed it",
              a->mesh->regions[region].path);
 done:

@@ -19,7 +19,7 @@ static CwMesh mesh = {.regions = &line,
                       .patch_count = 2,
                       .domain_count = 1,
                       .domains = {{.patch_count = 2, .region_count = 1}}};
-static CwRegionPlace place = {.cell = 100, .open = 1, .inner.triangles = 1, .outer.triangles = 1};
+static CwRegionPlace place = {.cell = 100, .first_open = 1, .inner.triangles = 1, .outer.triangles = 1};
 static CwPatchPart parts[] = {{.faces.triangles = 2}, {.faces.triangles = 3}};
 static int64_t across[] = {0, 200};
 static CwAssembly assembly = {
