@@ -46,7 +46,7 @@ static double judge(const CwLayerWork *work, int32_t v, const double (*top)[3], 
 static void stretch(CwLayerWork *work, int32_t v, double (*top)[3]) {
   int32_t first = 0;
   double best = judge(work, v, (const double(*)[3])top, -INFINITY, &first), start = work->t[v], thickness = start;
-  double least = work->in->least ? work->in->least[v] : 0, kept[3];
+  double least = cw_layer_least(work->in, v), kept[3];
   memcpy(kept, top[v], sizeof kept);
   for (int i = 0; i < THICKNESSES; i++) {
     work->t[v] = FACTOR[i] * start;

@@ -24,7 +24,7 @@ static void plain(const CwLayerWork *work, int32_t v, const double direction[3],
 }
 
 static int is_source(const CwLayerWork *work, int32_t v) {
-  int constrained = work->in->constraint_count && work->in->constraint_count[v] > 0;
+  int constrained = cw_layer_constraints(work->in, v) > 0;
   return work->crease[v] == CW_CREASE_CONCAVE || (constrained && cw_dot(work->base[v], work->normal[v]) < 0.985);
 }
 
@@ -42,7 +42,7 @@ static void raise_source(const CwLayerWork *work, CwSmoothingSource *source) {
 // The one direction in which the column of a source may still lean: along its concave edge, or along the line that wall
 // and constraint share; zero where its column is wholly given.
 static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]) {
-  int constraints = work->in->constraint_count ? work->in->constraint_count[v] : 0;
+  int constraints = cw_layer_constraints(work->in, v);
   memset(line, 0, 3 * sizeof *line);
   if (work->crease[v] == CW_CREASE_CONCAVE && constraints == 0) memcpy(line, work->along[v], 3 * sizeof *line);
   if (work->crease[v] == CW_CREASE_NONE && constraints == 1)

@@ -43,7 +43,7 @@ typedef struct {
 static Allowed allowed_at(const CwSmoothing *smoothing, int32_t v) {
   const CwLayerWork *work = smoothing->work;
   const CwLayerInput *in = work->in;
-  int constraints = in->constraint_count ? in->constraint_count[v] : 0;
+  int constraints = cw_layer_constraints(in, v);
   Allowed allowed = {.is_across = work->crease[v] == CW_CREASE_NONE && constraints == 0};
   if (is_source(smoothing, v)) {
     const CwSmoothingSource *source = source_of(smoothing, v);

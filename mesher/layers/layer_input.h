@@ -45,4 +45,16 @@ typedef struct {
   const int32_t (*obstacle_triangle)[3];
 } CwLayerInput;
 
+// How many constraints hold the column of v, whether one of them is an open patch, and down to which thickness (m) it
+// may be thinned for a better shape.
+static inline int cw_layer_constraints(const CwLayerInput *in, int32_t v) {
+  return in->constraint_count ? in->constraint_count[v] : 0;
+}
+static inline int cw_layer_stays(const CwLayerInput *in, int32_t v) {
+  return in->constraint_stays && in->constraint_stays[v];
+}
+static inline double cw_layer_least(const CwLayerInput *in, int32_t v) {
+  return in->least ? in->least[v] : 0;
+}
+
 #endif

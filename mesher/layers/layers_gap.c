@@ -140,7 +140,7 @@ static double excess(const CwLayerWork *work, int32_t v, double way, double t) {
 
 double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core) {
   double share = cw_policy.gap_share * way, left = (way - core) / 2, high = share;
-  double low = fmin(share, fmax(left, work->in->least ? work->in->least[v] : 0));
+  double low = fmin(share, fmax(left, cw_layer_least(work->in, v)));
   if (left >= share || excess(work, v, way, low) <= 0) return low;
   if (excess(work, v, way, high) >= 0) return high;
   for (int i = 0; i < BISECTIONS; i++) {
@@ -177,7 +177,7 @@ static int meet(void *context, int32_t f) {
 static void ray_start(const CwLayerWork *work, int32_t v, double x[3]) {
   const CwLayerInput *in = work->in;
   cw_copy(in->x[v], x);
-  if (!in->constraint_stays || !in->constraint_stays[v]) return;
+  if (!cw_layer_stays(in, v)) return;
   double count = work->near_start[v + 1] - work->near_start[v];
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     for (int i = 0; i < 3; i++) x[i] += (in->x[work->near[k]][i] - in->x[v][i]) / count;
@@ -197,8 +197,7 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   const CwLayerWork *work = gaps->work;
   const CwLayerInput *in = work->in;
   int32_t v = gaps->vertex[i];
-  Ray ray = {
-      .work = work, .v = v, .constrained = in->constraint_count && in->constraint_count[v] > 0, .best = INFINITY};
+  Ray ray = {.work = work, .v = v, .constrained = cw_layer_constraints(in, v) > 0, .best = INFINITY};
   ray_start(work, v, ray.x);
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);

@@ -11,10 +11,6 @@
 
 static const double GAIN = 1e-6; // of quality: less is none
 
-double cw_layers_least(const CwLayerWork *work, int32_t v) {
-  return work->in->least ? work->in->least[v] : 0;
-}
-
 // Whether another wall is so near that the layers of both leave a core of few cells. Elsewhere tetrahedra have room to
 // grow from needles of the layer top; there they reach to the other side.
 static int in_channel(const CwLayerWork *work, int32_t f) {
@@ -34,7 +30,7 @@ double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3
   double prism = prism_quality(work, f, top), quality = prism < cw_policy.sound_quality ? prism : cw_policy.prism_good;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
-    if (work->t[v] <= cw_layers_least(work, v)) continue;
+    if (work->t[v] <= cw_layer_least(work->in, v)) continue;
     quality = share * fmin(prism, cw_layers_top_quality(work, f, top));
     break;
   }
@@ -62,7 +58,7 @@ void cw_layers_helped_by(const CwLayerWork *work, int32_t f, const double (*top)
   int any = 0;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
-    int gives = !sound || work->t[v] > cw_layers_least(work, v);
+    int gives = !sound || work->t[v] > cw_layer_least(work->in, v);
     helps[k] = gives && thinned_quality(work, f, top, k, sound) > before + GAIN;
     any |= helps[k];
   }

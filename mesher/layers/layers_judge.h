@@ -5,9 +5,6 @@
 
 #include "mesher/layers/layer_columns.h"
 
-// Thickness down to which column v may be thinned for a better shape, m.
-double cw_layers_least(const CwLayerWork *work, int32_t v);
-
 // How good prism f with column ends `top` is, for the repair: its quality (prism_quality.h) and that of its layer top,
 // which is to be the rounder in channels, as long as one of the columns can still give way; then that of a prism that
 // is sound counts as prism_good. What is good but for its shear is prism_good: such columns are turned once more at the

@@ -153,7 +153,7 @@ void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
   const CwLayerInput *in = work->in;
   for (int k = 0; k < 3; k++) end[k] = in->x[v][k] + work->t[v] * work->column[v][k];
-  if (in->snap && in->constraint_count && in->constraint_count[v] > 0) in->snap(in->snap_context, v, end);
+  if (in->snap && cw_layer_constraints(in, v) > 0) in->snap(in->snap_context, v, end);
 }
 
 // Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
@@ -214,17 +214,13 @@ typedef struct {
   double base[3], base_cos, along[3];
 } Held;
 
-static int constraints_at(const CwLayerWork *work, int32_t v) {
-  return work->in->constraint_count ? work->in->constraint_count[v] : 0;
-}
-
 static CwStatus find_held(void *context, int32_t i, void *out) {
   const Special *special = context;
   const CwLayerWork *work = special->work;
   int32_t v = special->vertex[i];
   Held *made = out;
   double normal[CW_LAYER_NORMALS][3];
-  int count = distinct_normals(work, v, normal), constraints = constraints_at(work, v);
+  int count = distinct_normals(work, v, normal), constraints = cw_layer_constraints(work->in, v);
   if (work->crease[v] != CW_CREASE_NONE) edge_direction(count, normal, made->along);
   memcpy(made->base, work->normal[v], sizeof made->base);
   made->base_cos = work->normal_cos[v];
@@ -235,8 +231,7 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
 }
 
 CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v) {
-  int stays = work->in->constraint_stays && work->in->constraint_stays[v];
-  return constraints_at(work, v) > 0 && !stays ? CW_OUTCOME_REPLAN : CW_OUTCOME_FINER;
+  return cw_layer_constraints(work->in, v) > 0 && !cw_layer_stays(work->in, v) ? CW_OUTCOME_REPLAN : CW_OUTCOME_FINER;
 }
 
 // Whether a column of this cosine leaves the wall inside what holds it at vertex v. Not in a block: all ranks fail
@@ -246,7 +241,7 @@ static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, 
   const double *x = work->in->x[v];
   if (cosine > CW_LAYERS_LEAST_COSINE) goto done;
   CW_REQUIRE(
-      !work->in->constraint_stays || !work->in->constraint_stays[v], CW_ERR_MESH,
+      !cw_layer_stays(work->in, v), CW_ERR_MESH,
       "layers: no column inside the open patch at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
       "%.2f needed): it is nearly tangent to the wall there",
       CW_MM(x), cosine, CW_LAYERS_LEAST_COSINE);
@@ -274,7 +269,7 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
     memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
     work->normal_cos[v] = work->base_cos[v] = made[v].normal_cos;
     work->crease[v] = (uint8_t)made[v].crease;
-    if (made[v].crease != CW_CREASE_NONE || constraints_at(work, v) > 0) special.vertex[special.count++] = v;
+    if (made[v].crease != CW_CREASE_NONE || cw_layer_constraints(work->in, v) > 0) special.vertex[special.count++] = v;
   }
   CW_NEW_UNSET(held, special.count);
   CW_TRY(

@@ -123,7 +123,7 @@ static CwStatus thin_marked(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
   for (int32_t v = 0; v < work->n; v++) {
-    double least = repair->mark[v] == FOR_SHAPE ? cw_layers_least(work, v) : 0;
+    double least = repair->mark[v] == FOR_SHAPE ? cw_layer_least(work->in, v) : 0;
     if (!repair->mark[v] || work->t[v] <= least) continue;
     work->t[v] = fmax(cw_policy.column_kept * work->t[v], least);
     work->reason[v] = CW_LAYER_REPAIR;

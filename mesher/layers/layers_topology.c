@@ -28,7 +28,7 @@ static CwStatus check_vertex(const CwLayerInput *in, int32_t v) {
   CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
              "layers: thickness %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", cw_mm(in->target[v]),
              CW_MM(x));
-  int constraints = in->constraint_count ? in->constraint_count[v] : 0;
+  int constraints = cw_layer_constraints(in, v);
   CW_REQUIRE(constraints >= 0 && constraints <= 2, CW_ERR_INPUT,
              "layers: %d constraints at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2", constraints, CW_MM(x));
   for (int i = 0; i < constraints; i++)

@@ -141,14 +141,14 @@ static void offer_middle(Turn *turn) {
   double middle[3] = {0};
   for (int32_t i = 0; i < 3 * count; i++) middle[i % 3] += turn->top[work->near[first + i / 3]][i % 3] / count;
   cw_sub(middle, in->x[v], middle);
-  if (in->constraint_count && in->constraint_count[v] == 1) cw_flatten(middle, in->constraint_normal[v][0]);
+  if (cw_layer_constraints(in, v) == 1) cw_flatten(middle, in->constraint_normal[v][0]);
   offer(turn, middle);
 }
 
 void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge judge, int finely) {
   const CwLayerInput *in = work->in;
   const double step[3] = {0.25, 0.1, 0.04};
-  int constraints = in->constraint_count ? in->constraint_count[v] : 0;
+  int constraints = cw_layer_constraints(in, v);
   if (constraints == 2) return;
   Turn turn = {.work = work, .v = v, .top = top, .judge = judge};
   turn.least_cosine = fmin(cw_policy.column_least_cosine, 0.9 * work->base_cos[v]);
