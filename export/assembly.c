@@ -28,9 +28,9 @@ typedef struct {
 typedef struct {
   CwAssembly *assembly;
   OpenFace *open;
-  int64_t open_count, open_room;
+  int64_t open_count, open_capacity;
   CwInterfaceFace *interface[CW_INTERFACES_MOST][2];
-  int64_t interface_count[CW_INTERFACES_MOST][2], interface_room[CW_INTERFACES_MOST][2];
+  int64_t interface_count[CW_INTERFACES_MOST][2], interface_capacity[CW_INTERFACES_MOST][2];
   double *least[CW_DOMAINS_MOST], *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
 } Collected;
 
@@ -127,7 +127,7 @@ static CwStatus collect_interface(const CwMesh *mesh, int region, const CwRegion
   CwStatus status = CW_OK;
   int patch = mesh->interfaces[i].patch[side], local = patch - mesh->domains[data->domain].first_patch;
   int64_t *count = &c->interface_count[i][side], place = (int64_t)region << 32;
-  CW_GROW(c->interface[i][side], c->interface_room[i][side],
+  CW_GROW(c->interface[i][side], c->interface_capacity[i][side],
           *count + cw_face_count(cw_patch_part(a, region, patch)->faces));
   for (int32_t f = 0; f < data->triangle_count; ++f)
     if (data->triangle_patch[f] == local)
@@ -200,7 +200,7 @@ static CwStatus collect_region(void *context, int region, CwRegionData *data) {
   inner.triangles = 4 * (int64_t)(data->tetrahedron_count + data->pyramid_count) + 2 * (int64_t)data->prism_count;
   inner.triangles -= data->triangle_count;
   inner.quads = data->pyramid_count + 3 * (int64_t)data->prism_count - data->quad_count;
-  CW_GROW(c->open, c->open_room, c->open_count + count);
+  CW_GROW(c->open, c->open_capacity, c->open_count + count);
   for (int32_t i = 0; i < count; ++i) {
     OpenFace *face = &c->open[c->open_count++];
     *face = open_face(region, data, i, open[i]);

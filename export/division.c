@@ -152,18 +152,19 @@ static int compare_links(const void *left, const void *right) {
 typedef struct {
   CwDivision *division;
   CwLink *links;
-  int64_t link_count, link_room;
+  int64_t link_count, link_capacity;
   struct Shared {
     int64_t slot, id; // slot: part * domains + domain
   } * shared;
-  int64_t shared_count, shared_room;
+  int64_t shared_count, shared_capacity;
   int8_t *open_sides; // by open face, 3 or 4
 } Found;
 
-static CwStatus add_link(CwLink **links, int64_t *count, int64_t *room, int part, int other, int region, int sides) {
+static CwStatus add_link(CwLink **links, int64_t *count, int64_t *capacity, int part, int other, int region,
+                         int sides) {
   CwStatus status = CW_OK;
   const CwFaceCount one = {sides == 3, sides == 4};
-  CW_GROW(*links, *room, *count + 2);
+  CW_GROW(*links, *capacity, *count + 2);
   (*links)[(*count)++] = (CwLink){.part = part, .other = other, .region = region, .count = one};
   (*links)[(*count)++] = (CwLink){.part = other, .other = part, .region = region, .count = one};
 done:
@@ -198,7 +199,7 @@ static CwStatus count_points(const CwDivision *v, int region, const CwRegionData
   CW_NEW(number, data->point_count);
   for (int k = 0; k < v->first_piece[region + 1] - v->first_piece[region]; ++k) {
     cw_division_points(v, region, k, data, piece_of, number);
-    CW_GROW(found->shared, found->shared_room, found->shared_count + data->shared_count);
+    CW_GROW(found->shared, found->shared_capacity, found->shared_count + data->shared_count);
     for (int32_t p = 0; p < data->point_count; ++p) {
       if (number[p] < 0) continue;
       if (p >= data->shared_count)
@@ -241,7 +242,7 @@ static CwStatus count_inner(const CwDivision *v, int region, const CwRegionData 
       if (here == there)
         cw_face_count_add(&pieces[here].inner, (CwFaceCount){s.sides[f] == 3, s.sides[f] == 4});
       else
-        CW_TRY(add_link(&found->links, &found->link_count, &found->link_room, pieces[here].part, pieces[there].part,
+        CW_TRY(add_link(&found->links, &found->link_count, &found->link_capacity, pieces[here].part, pieces[there].part,
                         region, s.sides[f]));
     }
   merge_links(found->links, before, &found->link_count);
@@ -321,10 +322,10 @@ static CwStatus spread_links(CwDivision *v, const CwRanks *ranks, Found *found) 
   CwStatus status = CW_OK;
   const CwAssembly *a = v->assembly;
   CwLink *all = NULL;
-  int64_t count = 0, room;
+  int64_t count = 0, capacity;
   CW_TRY(cw_ranks_gather(ranks, found->links, found->link_count, sizeof *all, (void **)&all, &count));
   MPI_Bcast(&count, 1, MPI_INT64_T, 0, ranks->comm);
-  room = count;
+  capacity = count;
   if (!all) all = calloc((size_t)count + 1, sizeof *all);
   CW_TRY(cw_ranks_agree(ranks, all ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
   cw_ranks_broadcast(ranks, all, count, sizeof *all);
@@ -337,7 +338,7 @@ static CwStatus spread_links(CwDivision *v, const CwRanks *ranks, Found *found) 
         cw_face_count_add(&v->pieces[v->first_piece[r] + here - v->pieces[v->first_piece[r]].part].inner,
                           (CwFaceCount){found->open_sides[i] == 3, found->open_sides[i] == 4});
       else
-        CW_TRY(add_link(&all, &count, &room, here, there, r, found->open_sides[i]));
+        CW_TRY(add_link(&all, &count, &capacity, here, there, r, found->open_sides[i]));
     }
     merge_links(all, before, &count);
   }

@@ -208,7 +208,7 @@ CwStatus cw_face_quality_region(const CwRegionData *data, const CwRegionFaces *f
                    : cell >= data->tetrahedron_count ? 5
                                                      : 4,
                    x, middle[cell].volume, across, q)) {
-      CW_GROW(flat->cell, flat->space, flat->count + 1);
+      CW_GROW(flat->cell, flat->capacity, flat->count + 1);
       flat->cell[flat->count++] = cell;
     }
   }

@@ -50,7 +50,7 @@ void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum);
 // Prisms of a region that have a great aspect ratio where they lie so to the axes: checkMesh's is of the components of
 // area vectors, and not the same once a region is turned.
 typedef struct {
-  int32_t *cell, count, space;
+  int32_t *cell, count, capacity;
 } CwFlatPrisms;
 
 // Adds the faces between two cells of a region, those on patches, and the cells by determinant, and lists the flat

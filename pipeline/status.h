@@ -110,18 +110,19 @@ void cw_fail_clear(void);
     CW_REQUIRE((pointer), CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_new_count, sizeof *(pointer));    \
   } while (0)
 
-// Makes room for `wanted` items in a list that has room for `space`, and for as many more, so that a list grown item by
-// item is copied a few times only. The list stays as it is where memory is out (CW_ERR_MEMORY).
-#define CW_GROW(pointer, space, wanted)                                                                                \
+// Makes room for `wanted` items in a list that has room for `capacity`, and for as many more, so that a list grown item
+// by item is copied a few times only. The list stays as it is where memory is out (CW_ERR_MEMORY).
+#define CW_GROW(pointer, capacity, wanted)                                                                             \
   do {                                                                                                                 \
     size_t cw_grow_wanted = (size_t)(wanted);                                                                          \
-    if (cw_grow_wanted > (size_t)(space)) {                                                                            \
-      size_t cw_grow_space = 2 * cw_grow_wanted + 64;                                                                  \
-      __typeof__(space) cw_grow_new = (__typeof__(space))cw_grow_space;                                                \
-      void *cw_grown = cw_grow_new > (space) ? realloc((pointer), cw_grow_space * sizeof *(pointer)) : NULL;           \
-      CW_REQUIRE(cw_grown, CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_grow_space, sizeof *(pointer));  \
+    if (cw_grow_wanted > (size_t)(capacity)) {                                                                         \
+      size_t cw_grow_capacity = 2 * cw_grow_wanted + 64;                                                               \
+      __typeof__(capacity) cw_grow_new = (__typeof__(capacity))cw_grow_capacity;                                       \
+      void *cw_grown = cw_grow_new > (capacity) ? realloc((pointer), cw_grow_capacity * sizeof *(pointer)) : NULL;     \
+      CW_REQUIRE(cw_grown, CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_grow_capacity,                   \
+                 sizeof *(pointer));                                                                                   \
       (pointer) = cw_grown;                                                                                            \
-      (space) = cw_grow_new;                                                                                           \
+      (capacity) = cw_grow_new;                                                                                        \
     }                                                                                                                  \
   } while (0)
 

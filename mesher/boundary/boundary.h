@@ -39,7 +39,7 @@ typedef struct {
 
 // Edges shared with another domain (coupled_edges.h).
 typedef struct {
-  int32_t count, room;
+  int32_t count, capacity;
   CwDividedEdge *edge;
 } CwOpenEdges;
 

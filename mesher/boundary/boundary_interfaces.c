@@ -16,10 +16,10 @@ static CwStatus start_nodes(const CwBoundaryInput *in, const CwWallCurves *curve
                             const CwLayers *layers, CwFreeCurves *free_curves) {
   CwStatus status = CW_OK;
   const CwNetwork *network = in->network;
-  free_curves->nodes.x_space = free_curves->nodes.plane_space = surface->vertex_count + 4096;
+  free_curves->nodes.x_capacity = free_curves->nodes.plane_capacity = surface->vertex_count + 4096;
   free_curves->nodes.count = surface->vertex_count;
-  CW_NEW(free_curves->nodes.x, free_curves->nodes.x_space);
-  CW_NEW(free_curves->nodes.on_plane, free_curves->nodes.plane_space);
+  CW_NEW(free_curves->nodes.x, free_curves->nodes.x_capacity);
+  CW_NEW(free_curves->nodes.on_plane, free_curves->nodes.plane_capacity);
   memcpy(free_curves->nodes.x, layers->top, (size_t)surface->vertex_count * sizeof *free_curves->nodes.x);
   free_curves->corner_count = network->corner_count;
   CW_NEW(free_curves->corner_node, network->corner_count);
@@ -57,7 +57,7 @@ static double free_end(const CwBoundaryInput *in, const CwWallCurves *curves, co
 
 static CwStatus add_tight(CwFreeCurves *free_curves, const double x[3]) {
   CwStatus status = CW_OK;
-  CW_GROW(free_curves->tight, free_curves->tight_space, free_curves->tight_count + 1);
+  CW_GROW(free_curves->tight, free_curves->tight_capacity, free_curves->tight_count + 1);
   memcpy(free_curves->tight[free_curves->tight_count++], x, sizeof *free_curves->tight);
 done:
   return status;
@@ -164,7 +164,7 @@ static CwStatus find_polygons(const CwBoundaryInput *in, const CwWallCurves *cur
     cw_fail_place(place);
   }
   CW_TRY(found);
-  CW_GROW(free_curves->outline, free_curves->outline_space, free_curves->outline_count + polygons.polygon_count);
+  CW_GROW(free_curves->outline, free_curves->outline_capacity, free_curves->outline_count + polygons.polygon_count);
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
     int32_t first = polygons.polygon_start[p], last = polygons.polygon_start[p + 1];
     int32_t start = polygons.loop_start[first], end = polygons.loop_start[last];

@@ -54,8 +54,8 @@ done:
 
 CwStatus cw_node_table_add(CwNodeTable *nodes, const double x[3], int on_plane, int32_t *node) {
   CwStatus status = CW_OK;
-  CW_GROW(nodes->x, nodes->x_space, nodes->count + 1);
-  CW_GROW(nodes->on_plane, nodes->plane_space, nodes->count + 1);
+  CW_GROW(nodes->x, nodes->x_capacity, nodes->count + 1);
+  CW_GROW(nodes->on_plane, nodes->plane_capacity, nodes->count + 1);
   cw_copy(x, nodes->x[nodes->count]);
   nodes->on_plane[nodes->count] = (uint8_t)on_plane;
   *node = nodes->count++;
@@ -64,7 +64,7 @@ done:
 }
 
 void cw_node_table_arrays(CwNodeTable *nodes, CwArrayVisit visit, void *given) {
-  nodes->x_space = nodes->plane_space = nodes->count; // who copies them makes room for no more
+  nodes->x_capacity = nodes->plane_capacity = nodes->count; // who copies them makes room for no more
   CW_SHOW(visit, given, nodes->x, nodes->count);
   CW_SHOW(visit, given, nodes->on_plane, nodes->count);
 }
@@ -83,8 +83,8 @@ void cw_outlines_arrays(int32_t count, CwInterfaceOutline **outline, CwImages *i
 
 void cw_free_curves_arrays(void *product, CwArrayVisit visit, void *given) {
   CwFreeCurves *free_curves = product;
-  free_curves->tight_space = free_curves->tight_count; // as of the nodes
-  free_curves->outline_space = free_curves->outline_count;
+  free_curves->tight_capacity = free_curves->tight_count; // as of the nodes
+  free_curves->outline_capacity = free_curves->outline_count;
   cw_node_table_arrays(&free_curves->nodes, visit, given);
   cw_node_images_arrays(&free_curves->images, visit, given);
   CW_SHOW(visit, given, free_curves->corner_node, free_curves->corner_count);

@@ -18,7 +18,7 @@ extern "C" {
 // Nodes 0 .. vertices of the surface mesh - 1 stand on the layer top, one over each vertex; the others lie on free
 // curves, open patches and interfaces.
 typedef struct {
-  int32_t count, x_space, plane_space;
+  int32_t count, x_capacity, plane_capacity;
   double (*x)[3];
   uint8_t *on_plane; // the node (and its column) is shared by regions
 } CwNodeTable;
@@ -42,10 +42,10 @@ typedef struct {
   int32_t corner_count; // of the network
   int32_t *corner_node; // of each of them, or -1
   int32_t curve_count;
-  CwCurveNodes *curve;             // along each curve of the network; none along wall curves
-  int32_t tight_count, tight_space; // places where layers leave no room for a free curve, or cross one
-  double (*tight)[3];              // m
-  int32_t outline_count, outline_space;
+  CwCurveNodes *curve;                 // along each curve of the network; none along wall curves
+  int32_t tight_count, tight_capacity; // places where layers leave no room for a free curve, or cross one
+  double (*tight)[3];                  // m
+  int32_t outline_count, outline_capacity;
   CwInterfaceOutline *outline; // of all planes, by node
   CwImages outline_images;     // where turns take each outline
   CwHostMemory *memory;        // where its arrays lie; NULL: they are this rank's

@@ -8,8 +8,8 @@
 
 CwStatus cw_wall_curves_add(CwWallCurves *curves, const double x[3], CwConstraint constraint, int32_t *vertex) {
   CwStatus status = CW_OK;
-  CW_GROW(curves->x, curves->x_space, curves->vertex_count + 1);
-  CW_GROW(curves->constraint, curves->constraint_space, curves->vertex_count + 1);
+  CW_GROW(curves->x, curves->x_capacity, curves->vertex_count + 1);
+  CW_GROW(curves->constraint, curves->constraint_capacity, curves->vertex_count + 1);
   cw_copy(x, curves->x[curves->vertex_count]);
   curves->constraint[curves->vertex_count] = constraint;
   *vertex = curves->vertex_count++;

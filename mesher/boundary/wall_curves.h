@@ -17,7 +17,7 @@ typedef struct {
 } CwConstraint;
 
 typedef struct {
-  int32_t vertex_count, x_space, constraint_space;
+  int32_t vertex_count, x_capacity, constraint_capacity;
   double (*x)[3];
   CwConstraint *constraint; // of each vertex
   CwNodeImages images;      // of the vertices

@@ -74,7 +74,7 @@ static CwStatus find_crossings(const CwBackground *background, const CwScanlines
                                size_t *count) {
   CwStatus status = CW_OK;
   double(*place)[2] = NULL;
-  size_t room = 0;
+  size_t capacity = 0;
   CW_NEW(place, (size_t)lines->count[0] * (size_t)lines->count[1]);
   for (int32_t k = 0; k < lines->count[1]; k++) {
     for (int32_t j = 0; j < lines->count[0]; j++)
@@ -90,7 +90,7 @@ static CwStatus find_crossings(const CwBackground *background, const CwScanlines
         if (p[0] < range.low[0] || p[0] > range.high[0] || p[1] < range.low[1] || p[1] > range.high[1] ||
             !meets(background, t, p, &x))
           continue;
-        CW_GROW(*crossing, room, *count + 1);
+        CW_GROW(*crossing, capacity, *count + 1);
         (*crossing)[(*count)++] = (Crossing){line, x};
       }
     }

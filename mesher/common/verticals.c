@@ -22,7 +22,7 @@ struct CwVerticals {
   int32_t *member; // triangles whose box meets the bin
   double *z;
   int32_t *chosen; // members of a bin that are looked at closely
-  int32_t z_space, chosen_space;
+  int32_t z_capacity, chosen_capacity;
 };
 
 static int32_t bin_of(const CwVerticals *verticals, int axis, float value) {
@@ -157,8 +157,8 @@ CwStatus cw_verticals_cut(CwVerticals *verticals, double x, double y, int32_t *c
   CwStatus status = CW_OK;
   int64_t bin = bin_at(verticals, x, y), members = verticals->start[bin + 1] - verticals->start[bin];
   *count = 0;
-  CW_GROW(verticals->z, verticals->z_space, members + 1);
-  CW_GROW(verticals->chosen, verticals->chosen_space, members);
+  CW_GROW(verticals->z, verticals->z_capacity, members + 1);
+  CW_GROW(verticals->chosen, verticals->chosen_capacity, members);
   int32_t chosen = choose_members(verticals, bin, (float)x, (float)y);
   for (int32_t k = 0; k < chosen; k++) {
     verticals->chosen[*count] = verticals->chosen[k];

@@ -64,12 +64,12 @@ static uint64_t scatter(const double x[3]) {
 static CwStatus check_points(const CwFillInput *input) {
   CwStatus status = CW_OK;
   int32_t *table = NULL; // 1 + point
-  uint64_t space = 2 * (uint64_t)input->point_count + 1;
-  CW_NEW(table, space);
+  uint64_t capacity = 2 * (uint64_t)input->point_count + 1;
+  CW_NEW(table, capacity);
   for (int32_t p = 0; p < input->point_count; p++) {
     const double *x = input->x[p];
-    uint64_t k = (scatter(x) >> 32) * space >> 32;
-    for (; table[k]; k = k + 1 < space ? k + 1 : 0)
+    uint64_t k = (scatter(x) >> 32) * capacity >> 32;
+    for (; table[k]; k = k + 1 < capacity ? k + 1 : 0)
       CW_REQUIRE(!same_place(input->x[table[k] - 1], x), CW_ERR_MESH,
                  "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, CW_MM(x));
     table[k] = 1 + p;

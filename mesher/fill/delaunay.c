@@ -24,14 +24,14 @@ typedef struct {
 
 typedef struct {
   CwSphereFrame frame;
-  int32_t *cavity, cavity_count, cavity_space;
+  int32_t *cavity, cavity_count, cavity_capacity;
   Side *side;
-  int32_t side_count, side_space;
+  int32_t side_count, side_capacity;
   CwRadix *edge;
-  int32_t edge_space;
+  int32_t edge_capacity;
   double (*arm)[4]; // from the new point to each point round the cavity, and its square
   int32_t *round;   // these points
-  int32_t arm_space, round_space;
+  int32_t arm_capacity, round_capacity;
   CwTet none; // a sphere without radius far from all points: in place of a neighbour where there is none
   int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
 } Work;
@@ -119,12 +119,12 @@ CW_INLINE void look_beyond(CwTetMesh *mesh, Work *work, int32_t t, const double 
 CW_INLINE CwStatus find_cavity(CwTetMesh *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
   CwStatus status = CW_OK;
   work->cavity_count = work->side_count = 0;
-  CW_GROW(work->cavity, work->cavity_space, 1);
+  CW_GROW(work->cavity, work->cavity_capacity, 1);
   work->cavity[work->cavity_count++] = start;
   cw_sphere_take(&mesh->tet[start], 1);
   for (int32_t head = 0; head < work->cavity_count; head++) {
-    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
-    CW_GROW(work->side, work->side_space, work->side_count + 4);
+    CW_GROW(work->cavity, work->cavity_capacity, work->cavity_count + 4);
+    CW_GROW(work->side, work->side_capacity, work->side_count + 4);
     look_beyond(mesh, work, work->cavity[head], p, place);
   }
 done:
@@ -140,7 +140,7 @@ static inline void join(CwTetMesh *mesh, int32_t one, int32_t other) {
 static CwStatus join_by_sorting(CwTetMesh *mesh, Work *work) {
   CwStatus status = CW_OK;
   int32_t count = 0;
-  CW_GROW(work->edge, work->edge_space, 3 * (int64_t)work->side_count);
+  CW_GROW(work->edge, work->edge_capacity, 3 * (int64_t)work->side_count);
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
     for (int i = 0; i < 3; i++) {
@@ -160,8 +160,8 @@ done:
 CW_INLINE CwStatus prepare_sides(CwTetMesh *mesh, Work *work, int32_t point, int32_t *round_count) {
   CwStatus status = CW_OK;
   int32_t locals = 0;
-  CW_GROW(work->arm, work->arm_space, 3 * (int64_t)work->side_count + 1);
-  CW_GROW(work->round, work->round_space, 3 * (int64_t)work->side_count + 1);
+  CW_GROW(work->arm, work->arm_capacity, 3 * (int64_t)work->side_count + 1);
+  CW_GROW(work->round, work->round_capacity, 3 * (int64_t)work->side_count + 1);
   for (int32_t k = 0; k < work->side_count; k++) {
     Side *side = &work->side[k];
     for (int i = 0; i < 3; i++) { // without branches, as above
@@ -242,9 +242,9 @@ done:
   return status;
 }
 
-static CwStatus note_duplicate(CwTetMesh *mesh, int32_t given, int32_t point, const CwTet *tet, int32_t *space) {
+static CwStatus note_duplicate(CwTetMesh *mesh, int32_t given, int32_t point, const CwTet *tet, int32_t *capacity) {
   CwStatus status = CW_OK;
-  CW_GROW(mesh->duplicate, *space, mesh->duplicate_count + 1);
+  CW_GROW(mesh->duplicate, *capacity, mesh->duplicate_count + 1);
   int32_t *pair = mesh->duplicate[mesh->duplicate_count++];
   pair[0] = given;
   pair[1] = -1;
@@ -306,7 +306,7 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwTetMesh *mesh)
   CW_TRY(cw_hilbert_rounds(count, x, order));
   CW_NEW_UNSET(mesh->point, count + CW_ENCLOSING_POINTS);
   CW_NEW_UNSET(mesh->source, count + CW_ENCLOSING_POINTS);
-  mesh->point_count = mesh->point_space = count + CW_ENCLOSING_POINTS;
+  mesh->point_count = mesh->point_capacity = count + CW_ENCLOSING_POINTS;
   CW_TRY(enclose(mesh, count, x));
   for (int32_t k = 0; k < count; k++) {
     memcpy(mesh->point[CW_ENCLOSING_POINTS + k].x, x[order[k]], sizeof *x);
@@ -321,7 +321,7 @@ done:
 
 CW_INLINE CwStatus add_points(CwTetMesh *mesh, Work *work, int32_t end) {
   CwStatus status = CW_OK;
-  int32_t last = 0, duplicate_space = 0;
+  int32_t last = 0, duplicate_capacity = 0;
   for (int32_t k = CW_ENCLOSING_POINTS; k < end; k++) {
     int32_t point = mesh->point_count, found = 0;
     mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
@@ -331,7 +331,7 @@ CW_INLINE CwStatus add_points(CwTetMesh *mesh, Work *work, int32_t end) {
     const float seen[3] = {(float)place[0], (float)place[1], (float)place[2]};
     int32_t start = walk(mesh, last, mesh->point[point].x, seen, &found);
     if (start < 0) {
-      CW_TRY(note_duplicate(mesh, mesh->source[k], point, &mesh->tet[found], &duplicate_space));
+      CW_TRY(note_duplicate(mesh, mesh->source[k], point, &mesh->tet[found], &duplicate_capacity));
       continue;
     }
     mesh->point_count++;

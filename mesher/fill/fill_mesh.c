@@ -12,8 +12,8 @@ CwStatus cw_fill_to_mesh(const CwFill *fill, CwTetMesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
   CW_NEW(neighbour, count);
   CW_TRY(cw_tet_neighbours(count, (const int32_t(*)[4])fill->tetrahedron, neighbour));
-  mesh->point_count = mesh->point_space = fill->point_count + CW_ENCLOSING_POINTS;
-  mesh->tet_count = mesh->tet_space = count;
+  mesh->point_count = mesh->point_capacity = fill->point_count + CW_ENCLOSING_POINTS;
+  mesh->tet_count = mesh->tet_capacity = count;
   CW_NEW(mesh->point, mesh->point_count);
   CW_NEW(mesh->source, mesh->point_count);
   CW_NEW(mesh->tet, count);

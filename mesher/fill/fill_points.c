@@ -49,7 +49,7 @@ typedef struct {
 
 typedef struct {
   int32_t *item;
-  int64_t count, space;
+  int64_t count, capacity;
 } List;
 
 typedef struct {
@@ -61,7 +61,7 @@ typedef struct {
   double clearance; // factor on the distances to the boundary
   CwLatticeCell *cell;
   Reached *reached; // of each cell
-  int32_t cell_count, cell_space, reached_space;
+  int32_t cell_count, cell_capacity, reached_capacity;
   List list; // of cells
   List open; // of cells that are still being cut, each after that of the cell that it came from
   uint8_t children[64];
@@ -193,7 +193,7 @@ static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t 
   uint64_t middle = pack_cell(at, 1 << (level - 1)), before = middle - UNITS;
   int32_t *to[8];
   *first = tree->open.count;
-  CW_GROW(tree->open.item, tree->open.space, tree->open.count + 8 * (int64_t)list_count + 1);
+  CW_GROW(tree->open.item, tree->open.capacity, tree->open.count + 8 * (int64_t)list_count + 1);
   tree->open.count += 8 * (int64_t)list_count;
   for (int c = 0; c < 8; c++) to[c] = tree->open.item + *first + (int64_t)c * list_count;
   for (int32_t k = 0; k < list_count; k++) {
@@ -215,9 +215,9 @@ done:
 static CwStatus add_cell(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count, int inside) {
   CwStatus status = CW_OK;
   int clear = is_clear(tree, at, level, tree->open.item + list, list_count);
-  CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
-  CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
-  CW_GROW(tree->list.item, tree->list.space, tree->list.count + list_count);
+  CW_GROW(tree->cell, tree->cell_capacity, tree->cell_count + 1);
+  CW_GROW(tree->reached, tree->reached_capacity, tree->cell_count + 1);
+  CW_GROW(tree->list.item, tree->list.capacity, tree->list.count + list_count);
   int32_t *its = tree->list.item + tree->list.count, triangles = list_count, first = tree->input->triangle_count;
   if (list_count) memcpy(its, tree->open.item + list, (size_t)list_count * sizeof *its);
   const Box box = {pack_cell(at, 0), pack_cell(at, (1 << level) - 1)};
@@ -411,7 +411,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   }
   tree->per_unit = 1.0 / tree->frame.unit;
   name_boxes(tree, box);
-  CW_GROW(tree->open.item, tree->open.space, items);
+  CW_GROW(tree->open.item, tree->open.capacity, items);
   for (; tree->open.count < items; tree->open.count++) tree->open.item[tree->open.count] = (int32_t)tree->open.count;
   CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items));
   CW_TRY(cw_lattice_places(input, &tree->frame, tree->cell_count, tree->cell, &places, &place));

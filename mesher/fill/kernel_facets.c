@@ -28,17 +28,17 @@ static int same_points(const int32_t p[3], const int32_t q[3]) {
   return 1;
 }
 
-// The place of a hash in a table of `space` places, and the one after another.
-static uint32_t place_of(uint32_t hash, uint32_t space) {
-  return (uint32_t)((uint64_t)hash * space >> 32);
+// The place of a hash in a table of `capacity` places, and the one after another.
+static uint32_t place_of(uint32_t hash, uint32_t capacity) {
+  return (uint32_t)((uint64_t)hash * capacity >> 32);
 }
 
-static uint32_t after(uint32_t place, uint32_t space) {
-  return place + 1 < space ? place + 1 : 0;
+static uint32_t after(uint32_t place, uint32_t capacity) {
+  return place + 1 < capacity ? place + 1 : 0;
 }
 
 int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]) {
-  for (uint32_t k = place_of(scatter_three(corner), facets->table_space);; k = after(k, facets->table_space)) {
+  for (uint32_t k = place_of(scatter_three(corner), facets->table_capacity);; k = after(k, facets->table_capacity)) {
     int32_t f = facets->table[k];
     if (f == EMPTY) return -1;
     if (same_points(facets->corner[f], corner)) return f;
@@ -54,8 +54,8 @@ static int is_edge(const CwFacets *facets, int32_t side, int32_t a, int32_t b) {
 // The place of an edge in the table, or the empty one where it belongs.
 static uint32_t edge_place(const CwFacets *facets, int32_t a, int32_t b) {
   int32_t low = a < b ? a : b, high = a < b ? b : a;
-  uint32_t k = place_of(scatter((uint64_t)low << 32 | (uint64_t)high), facets->edge_space);
-  while (facets->edge[k] != EMPTY && !is_edge(facets, facets->edge[k], a, b)) k = after(k, facets->edge_space);
+  uint32_t k = place_of(scatter((uint64_t)low << 32 | (uint64_t)high), facets->edge_capacity);
+  while (facets->edge[k] != EMPTY && !is_edge(facets, facets->edge[k], a, b)) k = after(k, facets->edge_capacity);
   return k;
 }
 
@@ -65,8 +65,8 @@ int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b) {
 
 static void note_facet(CwFacets *facets, int32_t f) {
   const int32_t *p = facets->corner[f];
-  uint32_t place = place_of(scatter_three(p), facets->table_space);
-  while (facets->table[place] >= 0) place = after(place, facets->table_space);
+  uint32_t place = place_of(scatter_three(p), facets->table_capacity);
+  while (facets->table[place] >= 0) place = after(place, facets->table_capacity);
   facets->table[place] = f;
   for (int k = 0; k < 3; k++) {
     if (p[k] > p[(k + 1) % 3]) continue; // the boundary is closed: another facet has the edge in the opposite direction
@@ -77,12 +77,12 @@ static void note_facet(CwFacets *facets, int32_t f) {
 // Empty tables with room for `count` facets.
 static CwStatus make_tables(CwFacets *facets, int32_t count) {
   CwStatus status = CW_OK;
-  facets->table_space = 4 * (uint32_t)count + 16; // most faces that are looked for are no facets
-  facets->edge_space = 2 * (uint32_t)count + 16;  // 1.5 edges a triangle, seldom asked for
-  CW_NEW(facets->table, facets->table_space);
-  CW_NEW(facets->edge, facets->edge_space);
-  memset(facets->table, EMPTY, facets->table_space * sizeof *facets->table);
-  memset(facets->edge, EMPTY, facets->edge_space * sizeof *facets->edge);
+  facets->table_capacity = 4 * (uint32_t)count + 16; // most faces that are looked for are no facets
+  facets->edge_capacity = 2 * (uint32_t)count + 16;  // 1.5 edges a triangle, seldom asked for
+  CW_NEW(facets->table, facets->table_capacity);
+  CW_NEW(facets->edge, facets->edge_capacity);
+  memset(facets->table, EMPTY, facets->table_capacity * sizeof *facets->table);
+  memset(facets->edge, EMPTY, facets->edge_capacity * sizeof *facets->edge);
 done:
   return status;
 }

@@ -17,7 +17,7 @@ typedef struct {
   int32_t missing_count;
   int32_t *table; // hash table of facets by their points; -1: empty
   int32_t *edge;  // hash table of their edges, as 3 * facet + side of one facet that has it upward; -1: empty
-  uint32_t table_space, edge_space;
+  uint32_t table_capacity, edge_capacity;
 } CwFacets;
 
 // Numbers the facets as the mesh does. Fails with CW_ERR_MESH where one is listed twice.

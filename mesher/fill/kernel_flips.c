@@ -13,7 +13,7 @@ CwStatus cw_flips_make(CwTetMesh *mesh, CwFlips *flips) {
   memset(flips, 0, sizeof *flips);
   flips->mesh = mesh;
   CW_NEW(flips->tet_at, mesh->point_count);
-  flips->tet_at_space = mesh->point_count;
+  flips->tet_at_capacity = mesh->point_count;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwTet *tet = &mesh->tet[t];
     cw_tet_prefetch_ahead(tet);
@@ -33,9 +33,9 @@ void cw_flips_free(CwFlips *flips) {
 CwStatus cw_flips_star(CwFlips *flips, int32_t point) {
   CwStatus status = CW_OK;
   for (;;) {
-    flips->star_count = cw_tet_star(flips->mesh, flips->tet_at[point], point, flips->star_space, flips->star);
+    flips->star_count = cw_tet_star(flips->mesh, flips->tet_at[point], point, flips->star_capacity, flips->star);
     if (flips->star_count > 0) break;
-    CW_GROW(flips->star, flips->star_space, flips->star_space + 1);
+    CW_GROW(flips->star, flips->star_capacity, flips->star_capacity + 1);
   }
 done:
   return status;
@@ -162,7 +162,7 @@ CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double 
   }
   if (n == 0) goto done;
   CW_TRY(cw_tet_mesh_add_point(mesh, x, (*source_count)++, &middle));
-  CW_GROW(flips->tet_at, flips->tet_at_space, mesh->point_count);
+  CW_GROW(flips->tet_at, flips->tet_at_capacity, mesh->point_count);
   for (int k = 0; k < n; k++) {
     memcpy(tet[2 * k], (int32_t[4]){a, middle, ring[k], ring[(k + 1) % n]}, sizeof *tet);
     memcpy(tet[2 * k + 1], (int32_t[4]){middle, b, ring[k], ring[(k + 1) % n]}, sizeof *tet);

@@ -17,8 +17,8 @@ typedef int (*CwCrossing)(const void *context, int count, const int32_t *point);
 
 typedef struct {
   CwTetMesh *mesh;
-  int32_t *tet_at, tet_at_space; // one tetrahedron of each point
-  int32_t *star, star_count, star_space;
+  int32_t *tet_at, tet_at_capacity; // one tetrahedron of each point
+  int32_t *star, star_count, star_capacity;
   CwCrossing crossing;
   const void *context;
   int slack;    // crossings that a flip may add

@@ -26,7 +26,7 @@ typedef struct {
   double fit;           // factor on the wanted spacing
   double wanted, found; // cells that the size field asks for, and cells found
   CwRadix *place;
-  int64_t place_count, place_space;
+  int64_t place_count, place_capacity;
   uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
 } Lattice;
 
@@ -74,7 +74,7 @@ static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int lev
     lattice->wanted += edge / asked * (edge / asked) * (edge / asked);
     goto done;
   }
-  CW_GROW(lattice->place, lattice->place_space, lattice->place_count + 9);
+  CW_GROW(lattice->place, lattice->place_capacity, lattice->place_count + 9);
   for (int k = 0; k < 9; k++) {
     int32_t there[3];
     for (int i = 0; i < 3; i++) there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));

@@ -40,7 +40,7 @@ done:
 static CwStatus even_out_again(CwTetWork *w, CwTetShapes *shapes) {
   CwStatus status = CW_OK;
   shapes->floor = w->limit;
-  CW_GROW(shapes->irregular, shapes->irregular_space, w->mesh->point_count);
+  CW_GROW(shapes->irregular, shapes->irregular_capacity, w->mesh->point_count);
   memset(shapes->irregular, 1, (size_t)w->mesh->point_count);
   CW_TRY(cw_tet_shorten(w, shapes));
   CW_TRY(cw_tet_relax(w, shapes, CW_TET_EDGES));
@@ -59,7 +59,7 @@ CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t *sour
                  .insert_round = sin(cw_policy.wanted_angle * CW_DEGREE),
                  .changed = &shapes.slender};
   CW_NEW(shapes.irregular, mesh->point_count);
-  shapes.irregular_space = mesh->point_count;
+  shapes.irregular_capacity = mesh->point_count;
   CW_TRY(cw_tet_judge_all(&w, &shapes));
   w.count.least_before = least_quality(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));

@@ -33,7 +33,7 @@ CwStatus cw_tet_set_places(CwTetWork *w, CwTetShapes *shapes) {
   CwStatus status = CW_OK;
   const CwTetMesh *mesh = w->mesh;
   CwBox box = cw_box_empty();
-  CW_GROW(shapes->place, shapes->place_space, mesh->point_count);
+  CW_GROW(shapes->place, shapes->place_capacity, mesh->point_count);
   for (int32_t p = 0; p < mesh->point_count; p++) {
     if (mesh->source[p] >= 0) cw_box_add_point(&box, mesh->point[p].x);
   }
@@ -85,7 +85,7 @@ static inline void note_shapes(const CwTetMesh *mesh, CwTetShapes *shapes, const
 CwStatus cw_tet_judge(CwTetWork *w, CwTetShapes *shapes, const int32_t *list, int32_t count, CwTetList *spoilt) {
   CwStatus status = CW_OK;
   const float slender_square = (float)cw_tet_slender_square();
-  CW_GROW(shapes->slender.tet, shapes->slender.space, shapes->slender.count + count + 1);
+  CW_GROW(shapes->slender.tet, shapes->slender.capacity, shapes->slender.count + count + 1);
   for (int32_t from = 0; from < count; from += CW_TET_GROUP) {
     float quality[CW_TET_GROUP];
     int32_t slender[CW_TET_GROUP];

@@ -12,9 +12,9 @@ typedef struct {
   double floor;       // quality below which none becomes worse for the sake of the aspect
   CwTetList slender;  // of those judged last
   uint8_t *irregular; // by point, where relaxing is to follow: 1 where one round it is not as in a lattice; or NULL
-  int32_t irregular_space;
+  int32_t irregular_capacity;
   Cw4f *place; // of each point when they were last judged or moved together, from `middle`
-  int32_t place_space;
+  int32_t place_capacity;
   double middle[3], blurred; // square of an edge that is too short for such places
 } CwTetShapes;
 

@@ -8,14 +8,14 @@
 enum { LARGE_PAGE = 1 << 21, CACHE_LINE = 64 }; // bytes
 
 // Aligned to large pages, which realloc is not. Pages not yet touched cost nothing.
-CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t space, int64_t sure) {
+CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t capacity, int64_t sure) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region; lower mesh.cells_per_region",
-             INT32_MAX / 4);
+  CW_REQUIRE(capacity < INT32_MAX / 4, CW_ERR_MESH,
+             "more than %d tetrahedra in one region; lower mesh.cells_per_region", INT32_MAX / 4);
   size_t large = sure * (int64_t)sizeof *mesh->tet >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
-  size_t size = ((size_t)space * sizeof *mesh->tet + large - 1) / large * large;
+  size_t size = ((size_t)capacity * sizeof *mesh->tet + large - 1) / large * large;
   CwTet *pool = aligned_alloc(large, size);
-  CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
+  CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)capacity);
 #ifdef MADV_HUGEPAGE
   if (large == LARGE_PAGE)
     (void)madvise(pool, (size_t)sure * sizeof *pool / large * large, MADV_HUGEPAGE); // else small
@@ -23,7 +23,7 @@ CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t space, int64_t sure) {
   if (mesh->tet_count) memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
   free(mesh->tet);
   mesh->tet = pool;
-  mesh->tet_space = (int32_t)space;
+  mesh->tet_capacity = (int32_t)capacity;
 done:
   return status;
 }
@@ -35,8 +35,8 @@ CwStatus cw_tet_mesh_new_tet(CwTetMesh *mesh, int32_t *tet) {
     mesh->spare = mesh->tet[*tet].corner[1];
     goto done;
   }
-  if (mesh->tet_count == mesh->tet_space)
-    CW_TRY(cw_tet_mesh_make_room(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64, 0));
+  if (mesh->tet_count == mesh->tet_capacity)
+    CW_TRY(cw_tet_mesh_make_room(mesh, (int64_t)mesh->tet_capacity + mesh->tet_capacity / 4 + 64, 0));
   *tet = mesh->tet_count++;
   mesh->tet[*tet] = (CwTet){.quality = 0.0};
 done:
@@ -68,25 +68,25 @@ void cw_tet_mesh_pack(CwTetMesh *mesh) {
   mesh->tet_count = kept;
   mesh->spare = 0;
   // Some room is left for those to come, since a larger pool stands beside this one for a moment.
-  int32_t space = kept + kept / 32 + 64;
-  CwTet *pool = space < mesh->tet_space ? realloc(mesh->tet, (size_t)space * sizeof *pool) : NULL;
+  int32_t capacity = kept + kept / 32 + 64;
+  CwTet *pool = capacity < mesh->tet_capacity ? realloc(mesh->tet, (size_t)capacity * sizeof *pool) : NULL;
   if (pool) { // as a rule in its place, and so aligned as before
     mesh->tet = pool;
-    mesh->tet_space = space;
+    mesh->tet_capacity = capacity;
   }
 }
 
 CwStatus cw_tet_mesh_add_point(CwTetMesh *mesh, const double x[3], int32_t source, int32_t *point) {
   CwStatus status = CW_OK;
-  if (mesh->point_count == mesh->point_space) {
-    int32_t space = mesh->point_space + mesh->point_space / 8 + 64;
-    CwTetPoint *points = realloc(mesh->point, (size_t)space * sizeof *points);
-    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", space);
+  if (mesh->point_count == mesh->point_capacity) {
+    int32_t capacity = mesh->point_capacity + mesh->point_capacity / 8 + 64;
+    CwTetPoint *points = realloc(mesh->point, (size_t)capacity * sizeof *points);
+    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", capacity);
     mesh->point = points;
-    int32_t *sources = realloc(mesh->source, (size_t)space * sizeof *sources);
-    CW_REQUIRE(sources, CW_ERR_MEMORY, "out of memory: %d points", space);
+    int32_t *sources = realloc(mesh->source, (size_t)capacity * sizeof *sources);
+    CW_REQUIRE(sources, CW_ERR_MEMORY, "out of memory: %d points", capacity);
     mesh->source = sources;
-    mesh->point_space = space;
+    mesh->point_capacity = capacity;
   }
   *point = mesh->point_count++;
   memcpy(mesh->point[*point].x, x, sizeof mesh->point->x);

@@ -48,10 +48,10 @@ typedef struct {
 } CwTetPoint;
 
 typedef struct {
-  int32_t point_count, point_space; // with the enclosing ones, where there are such
-  CwTetPoint *point;                // in the order of insertion
-  int32_t *source;                  // the given point that each is; -1 for the enclosing ones
-  int32_t tet_count, tet_space;     // with free places
+  int32_t point_count, point_capacity; // with the enclosing ones, where there are such
+  CwTetPoint *point;                   // in the order of insertion
+  int32_t *source;                     // the given point that each is; -1 for the enclosing ones
+  int32_t tet_count, tet_capacity;     // with free places
   CwTet *tet;
   int32_t spare;  // 1 + the free place to use next, 0: none; corner[1] of each leads on likewise
   uint32_t stars; // so many stars and cavities were marked
@@ -90,7 +90,7 @@ CwStatus cw_tet_mesh_new_tet(CwTetMesh *mesh, int32_t *tet);
 void cw_tet_mesh_free_tet(CwTetMesh *mesh, int32_t tet);
 // Room for tetrahedra, in which those there are stay. The first `sure` ones, which are certain to come, are asked for
 // in large pages: thousands of small ones would take a tenth of the time to connect points.
-CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t space, int64_t sure);
+CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t capacity, int64_t sure);
 // Moves all tetrahedra to the front, in their order, without what they note, and gives the memory behind them back.
 void cw_tet_mesh_pack(CwTetMesh *mesh);
 // A point that no tetrahedron has yet.

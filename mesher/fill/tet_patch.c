@@ -77,8 +77,8 @@ CwStatus cw_tet_patch_take(const CwTetMesh *whole, int32_t t, int32_t count, int
   CW_NEW(mesh->point, patch->point_count);
   CW_NEW(mesh->source, patch->point_count);
   CW_NEW(mesh->tet, patch->tet_count);
-  mesh->point_count = mesh->point_space = patch->point_count;
-  mesh->tet_count = mesh->tet_space = patch->tet_count;
+  mesh->point_count = mesh->point_capacity = patch->point_count;
+  mesh->tet_count = mesh->tet_capacity = patch->tet_count;
   for (int32_t p = 0; p < patch->point_count; p++) {
     memcpy(mesh->point[p].x, whole->point[patch->point[p]].x, sizeof mesh->point->x);
     mesh->source[p] = whole->source[patch->point[p]] >= fixed_count;
@@ -179,13 +179,13 @@ void cw_tet_patch_free(CwTetPatch *patch) {
 
 CwStatus cw_tet_patch_copy_mesh(const CwTetMesh *from, CwTetMesh *to) {
   CwStatus status = CW_OK;
-  if (to->point_space < from->point_count || to->tet_space < from->tet_count) {
+  if (to->point_capacity < from->point_count || to->tet_capacity < from->tet_count) {
     cw_tet_mesh_free(to);
     CW_NEW(to->point, 2 * from->point_count);
     CW_NEW(to->source, 2 * from->point_count);
     CW_NEW(to->tet, 2 * from->tet_count);
-    to->point_space = 2 * from->point_count;
-    to->tet_space = 2 * from->tet_count;
+    to->point_capacity = 2 * from->point_count;
+    to->tet_capacity = 2 * from->tet_count;
   }
   memcpy(to->point, from->point, (size_t)from->point_count * sizeof *from->point);
   memcpy(to->source, from->source, (size_t)from->point_count * sizeof *from->source);

@@ -10,7 +10,7 @@ void cw_tet_work_free(CwTetWork *w) {
 
 CwStatus cw_tet_list_push(CwTetList *list, int32_t t) {
   CwStatus status = CW_OK;
-  CW_GROW(list->tet, list->space, list->count + 1);
+  CW_GROW(list->tet, list->capacity, list->count + 1);
   list->tet[list->count++] = t;
 done:
   return status;

@@ -16,7 +16,7 @@ enum { CW_STAR = 96 };                   // tetrahedra of a point that is moved 
 enum { CW_TET_NO_PASS = (1 << 30) - 1 }; // of a tetrahedron that no pass has put into a list
 
 typedef struct {
-  int32_t *tet, count, space;
+  int32_t *tet, count, capacity;
 } CwTetList;
 
 // In the mesh, the pass of a tetrahedron is the one that put it into the list for the next, the mark of a point the

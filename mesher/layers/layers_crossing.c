@@ -313,7 +313,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[
   CwSchedule schedule = {.step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing};
   CW_TRY(cw_schedule_gather(crossing->work->in->context, &schedule, &results));
   size_t found = (size_t)cw_task_results_join(&results, NULL) / sizeof *crossing->pair;
-  CW_GROW(crossing->pair, crossing->pair_space, (size_t)crossing->pair_count + found);
+  CW_GROW(crossing->pair, crossing->pair_capacity, (size_t)crossing->pair_count + found);
   cw_task_results_join(&results, crossing->pair + crossing->pair_count);
   crossing->pair_count += (int32_t)found;
   crossing->searched = 1;

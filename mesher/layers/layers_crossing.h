@@ -22,7 +22,7 @@ typedef struct {
   uint8_t *active; // triangles that moved
   int32_t *list, list_count;
   int searched; // a first time
-  int32_t pair_count, pair_space;
+  int32_t pair_count, pair_capacity;
   CwLayerPair *pair; // layer top with layer top, wall or open patch; wall with wall, looked for once
 } CwLayerCrossing;
 

@@ -275,7 +275,7 @@ done:
 // Columns before they were turned.
 typedef struct {
   uint8_t *noted; // of each vertex
-  int64_t count, space;
+  int64_t count, capacity;
   struct {
     int32_t v;
     double column[3];
@@ -286,7 +286,7 @@ static CwStatus note_marked(const Repair *repair, Before *before) {
   CwStatus status = CW_OK;
   for (int32_t v = 0; v < repair->work->n; v++) {
     if (!repair->mark[v] || before->noted[v]) continue;
-    CW_GROW(before->column, before->space, before->count + 1);
+    CW_GROW(before->column, before->capacity, before->count + 1);
     before->column[before->count].v = v;
     cw_copy(repair->work->column[v], before->column[before->count++].column);
     before->noted[v] = 1;

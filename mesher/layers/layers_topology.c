@@ -53,9 +53,9 @@ static CwStatus list_near(void *context, int32_t v, void *out) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = context;
   const CwLayerInput *in = work->in;
-  int32_t *list = out, count = 0, room = 2 * (work->face_start[v + 1] - work->face_start[v]);
+  int32_t *list = out, count = 0, capacity = 2 * (work->face_start[v + 1] - work->face_start[v]);
   CW_TRY(check_vertex(in, v));
-  CW_REQUIRE(room > 0, CW_ERR_INPUT, "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v,
+  CW_REQUIRE(capacity > 0, CW_ERR_INPUT, "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v,
              CW_MM(in->x[v]));
   for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
     const int32_t *corner = in->triangle[work->face[k]];
@@ -63,7 +63,7 @@ static CwStatus list_near(void *context, int32_t v, void *out) {
       if (corner[i] != v) count = insert(list, count, corner[i]);
     }
   }
-  while (count < room) list[count++] = -1;
+  while (count < capacity) list[count++] = -1;
 done:
   return status;
 }

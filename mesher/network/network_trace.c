@@ -35,7 +35,7 @@ typedef struct {
 
 // One trace on one face.
 typedef struct {
-  int32_t face, count, space, closed;
+  int32_t face, count, capacity, closed;
   Point *point;
   CwCorner end[2]; // on the CAD edges where an open trace begins and ends
 } Trace;
@@ -189,7 +189,7 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
   int32_t face = found->background->face[triangle], first = key;
   *trace = (Trace){.face = face, .closed = !on_face_border(found, key)};
   for (;;) {
-    CW_GROW(trace->point, trace->space, trace->count + 1);
+    CW_GROW(trace->point, trace->capacity, trace->count + 1);
     double *x = trace->point[trace->count].x, *uv = trace->point[trace->count].uv;
     if (on_face_border(found, key)) {
       CwCorner *end = &trace->end[trace->count > 0];

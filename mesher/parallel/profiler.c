@@ -34,7 +34,7 @@ typedef struct {
 struct CwProfiler {
   Account all, *present; // present: NULL is `all`
   double since;          // when the present part went on
-  int32_t step_count, step_space;
+  int32_t step_count, step_capacity;
   Sides *step;
 };
 
@@ -110,7 +110,7 @@ CwStatus cw_profiler_groups(const CwContext *context, const char *step, int32_t 
   CwStatus status = CW_OK;
   CwProfiler *profiler = profiler_of(context);
   if (!profiler) goto done;
-  CW_GROW(profiler->step, profiler->step_space, profiler->step_count + 1);
+  CW_GROW(profiler->step, profiler->step_capacity, profiler->step_count + 1);
   Sides *made = &profiler->step[profiler->step_count++];
   *made = (Sides){.step = step, .own = own, .least_ranks = least_ranks};
   CW_NEW(made->item, count);

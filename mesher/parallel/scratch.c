@@ -8,7 +8,7 @@
 struct CwScratch {
   int64_t size;
   pthread_mutex_t lock;
-  int32_t count, room;
+  int32_t count, capacity;
   void **array; // those that nobody has at present
 };
 
@@ -33,14 +33,14 @@ done:
 
 void cw_scratch_give(CwScratch *scratch, void *array) {
   pthread_mutex_lock(&scratch->lock);
-  if (array && scratch->count == scratch->room) {
-    void *grown = realloc(scratch->array, (size_t)(scratch->room + 16) * sizeof *scratch->array);
+  if (array && scratch->count == scratch->capacity) {
+    void *grown = realloc(scratch->array, (size_t)(scratch->capacity + 16) * sizeof *scratch->array);
     if (grown) {
       scratch->array = grown;
-      scratch->room += 16;
+      scratch->capacity += 16;
     }
   }
-  if (array && scratch->count < scratch->room) {
+  if (array && scratch->count < scratch->capacity) {
     scratch->array[scratch->count++] = array;
     array = NULL;
   }

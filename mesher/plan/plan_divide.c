@@ -153,7 +153,7 @@ typedef struct {
   const CwPlanModel *model;
   const CwPlan *plan;
   const CwPlanPart *part;
-  int32_t node, regions, count, space;
+  int32_t node, regions, count, capacity;
   Candidate *candidate; // best first
   uint8_t looked[CW_DIRECTIONS];
   int32_t tried_count;
@@ -208,7 +208,7 @@ static CwStatus look_further(Choice *choice, Directions *directions, Best *best)
   directions->model = choice->model;
   directions->part = choice->part;
   directions->regions = choice->regions;
-  CW_GROW(choice->candidate, choice->space, choice->count + directions->count * OF_DIRECTION);
+  CW_GROW(choice->candidate, choice->capacity, choice->count + directions->count * OF_DIRECTION);
   CW_TRY(look(directions, choice->candidate + choice->count, &added));
   choice->count += added;
   qsort(choice->candidate, (size_t)choice->count, sizeof *choice->candidate, by_score);

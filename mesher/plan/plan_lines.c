@@ -41,7 +41,7 @@ typedef struct {
   const CwPlane *plane;
   int32_t node, above;
   double point[3], direction[3], from, to;
-  int32_t neighbour_count, neighbour_space;
+  int32_t neighbour_count, neighbour_capacity;
   Neighbour *neighbour;
 } Line;
 
@@ -101,7 +101,7 @@ static CwStatus find_neighbours(Line *line, double room) {
       double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
       if ((a > room && b > room) || (a < -room && b < -room)) continue;
       if (c > node && cw_plan_is_ancestor(plan, node, c)) continue; // its own lines are judged from there
-      CW_GROW(line->neighbour, line->neighbour_space, line->neighbour_count + 1);
+      CW_GROW(line->neighbour, line->neighbour_capacity, line->neighbour_count + 1);
       line->neighbour[line->neighbour_count++] = made;
     }
   }

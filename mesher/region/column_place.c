@@ -25,17 +25,17 @@ static int compare_sides(const void *p, const void *q) {
 CwStatus cw_open_edge_places_make(const CwRegionInput *from, CwOpenEdgePlaces *places) {
   CwStatus status = CW_OK;
   const CwCad *cad = from->in->cad;
-  int32_t room = 0, side_space = 0;
+  int32_t capacity = 0, side_capacity = 0;
   memset(places, 0, sizeof *places);
-  CW_GROW(places->place, room, 1); // qsort() wants an array even of none
-  CW_GROW(places->side, side_space, 1);
+  CW_GROW(places->place, capacity, 1); // qsort() wants an array even of none
+  CW_GROW(places->side, side_capacity, 1);
   for (int32_t i = 0; i < 2 * from->in->network->curve_count; i++) { // either face of each curve
     const CwCurve *curve = &from->in->network->curve[i / 2];
     const CwCurveNodes *nodes = &from->wall_curves->curve[i / 2];
     int32_t face = curve->face[i % 2];
     if (curve->kind != CW_CURVE_EDGE || !curve->wall || cw_cad_face_is_wall(cad, face)) continue;
-    CW_GROW(places->place, room, places->count + nodes->count);
-    CW_GROW(places->side, side_space, places->side_count + nodes->count);
+    CW_GROW(places->place, capacity, places->count + nodes->count);
+    CW_GROW(places->side, side_capacity, places->side_count + nodes->count);
     for (int32_t k = 0; k < nodes->count; k++) {
       CwOpenEdgePlace *made = &places->place[places->count++];
       *made = (CwOpenEdgePlace){nodes->node[k], face, {0, 0}};

@@ -26,15 +26,15 @@ CwStatus cw_beside_make(const double origin[3], const double axis[3][3], double 
                         const double (*x)[3], CwBeside *beside) {
   CwStatus status = CW_OK;
   Near *near = NULL;
-  int32_t kept = 0, room = 0;
+  int32_t kept = 0, capacity = 0;
   *beside = (CwBeside){0};
-  CW_GROW(near, room, 1); // qsort() wants an array even of none
+  CW_GROW(near, capacity, 1); // qsort() wants an array even of none
   for (int32_t i = 0; i < count; i++) {
     double d[3];
     cw_sub(x[i], origin, d);
     double height = cw_dot(d, axis[2]);
     if (fabs(height) > reach) continue;
-    CW_GROW(near, room, kept + 1);
+    CW_GROW(near, capacity, kept + 1);
     near[kept++] = (Near){{cw_dot(d, axis[0]), cw_dot(d, axis[1]), height}, i};
   }
   qsort(near, (size_t)kept, sizeof *near, compare_near);
@@ -107,13 +107,13 @@ static int compare_centres(const void *p, const void *q) {
 typedef struct {
   CwPatchInput input;
   double (*uv)[2], (*x)[3];
-  int32_t uv_space, x_space;
+  int32_t uv_capacity, x_capacity;
 } Growing;
 
 static CwStatus add_point(Growing *growing, const double uv[2]) {
   CwStatus status = CW_OK;
-  CW_GROW(growing->uv, growing->uv_space, growing->input.point_count + 1);
-  CW_GROW(growing->x, growing->x_space, growing->input.point_count + 1);
+  CW_GROW(growing->uv, growing->uv_capacity, growing->input.point_count + 1);
+  CW_GROW(growing->x, growing->x_capacity, growing->input.point_count + 1);
   growing->input.uv = (const double(*)[2])growing->uv;
   growing->input.x = (const double(*)[3])growing->x;
   int32_t p = growing->input.point_count++;
@@ -183,7 +183,7 @@ done:
 CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, CwEncroachRefined *refined) {
   CwStatus status = CW_OK;
   CwCdt cdt = {0};
-  Growing growing = {.input = *patch, .uv_space = patch->point_count, .x_space = patch->point_count};
+  Growing growing = {.input = *patch, .uv_capacity = patch->point_count, .x_capacity = patch->point_count};
   const double scale[2] = {1, 1};
   int32_t encroached = 0, added = 0;
   CwOutcome outcome = {0};

@@ -12,7 +12,7 @@ CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const doubl
   CwStatus status = CW_OK;
   int images = domain->symmetry ? domain->symmetry->count : 1;
   double size = SHORTER * cw_size_at(domain->size, x) / cw_size_scale(domain->size);
-  CW_GROW(places->place, places->space, places->count + images);
+  CW_GROW(places->place, places->capacity, places->count + images);
   for (int turns = 0; turns < images; turns++) {
     CwFinerPlace *place = &places->place[places->count++];
     *place = (CwFinerPlace){number, {{x[0], x[1], x[2]}, size}};

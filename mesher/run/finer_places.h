@@ -17,7 +17,7 @@ typedef struct {
 
 // Zeroed: none. Those of a later round follow those of an earlier one, also where they ask at the same place again.
 typedef struct {
-  int32_t count, space;
+  int32_t count, capacity;
   CwFinerPlace *place;
 } CwFinerPlaces;
 

@@ -75,7 +75,7 @@ static json_t *law_packed(const CwCellLaw *law) {
 static CwStatus places_in(const json_t *file, CwFinerPlaces *places) {
   CwStatus status = CW_OK;
   size_t count = json_array_size(file);
-  CW_GROW(places->place, places->space, (int32_t)count);
+  CW_GROW(places->place, places->capacity, (int32_t)count);
   for (size_t i = 0; i < count; i++) {
     const json_t *of = json_array_get(file, i);
     double value[5];

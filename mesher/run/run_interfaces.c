@@ -69,15 +69,15 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   CwOutcome of_domain[CW_DOMAINS_MOST];
   CwResults results = {.shared = 1}; // of each domain first those of its faces
   CwMeshTask *task = NULL;
-  int32_t count, space, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
+  int32_t count, capacity, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   CW_TRY_STAGE(run_curves(run, places, outcome), outcome);
   cw_face_counts(run, faces);
   CW_TRY(cw_face_tasks(run, 0, &count, &task));
-  space = count;
+  capacity = count;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     parts[d] = faces[d] + domain->free_curves.outline_count;
-    CW_GROW(task, space, count + domain->free_curves.outline_count);
+    CW_GROW(task, capacity, count + domain->free_curves.outline_count);
     for (int32_t i = 0; i < domain->free_curves.outline_count; i++) {
       if (cw_image_turns(&domain->images, &domain->free_curves.outline_images, i) > 0) continue;
       // Takes about as long as an open patch of as many triangles.

@@ -42,7 +42,7 @@ void cw_thin_places_free(CwThinPlaces *places) {
 
 static CwStatus add_place(int32_t domain, int32_t region, const CwRegionFailure *failure, CwThinPlaces *places) {
   CwStatus status = CW_OK;
-  CW_GROW(places->place, places->space, places->count + 1);
+  CW_GROW(places->place, places->capacity, places->count + 1);
   places->place[places->count++] = (CwThinPlace){domain, region, *failure};
 done:
   return status;

@@ -13,7 +13,7 @@ typedef struct {
 } CwThinPlace;
 
 typedef struct {
-  int32_t count, space;
+  int32_t count, capacity;
   CwThinPlace *place; // by domain and region
 } CwThinPlaces;
 

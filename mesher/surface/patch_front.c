@@ -17,19 +17,19 @@ typedef struct {
 
 typedef struct {
   Entry *entry;
-  int32_t count, room;
+  int32_t count, capacity;
   int32_t (*queue)[2]; // first and last entry; first -1: empty
-  int32_t queue_count, queue_space, current;
+  int32_t queue_count, queue_capacity, current;
   int32_t *row; // of each point
-  int32_t row_room;
+  int32_t row_capacity;
 } Front;
 
 static CwStatus push(Front *front, int32_t t, int32_t a, int32_t b) {
   CwStatus status = CW_OK;
   int32_t rows = front->row[a] + front->row[b], n = front->count;
-  CW_GROW(front->queue, front->queue_space, rows + 1);
+  CW_GROW(front->queue, front->queue_capacity, rows + 1);
   for (; front->queue_count <= rows; front->queue_count++) front->queue[front->queue_count][0] = -1;
-  CW_GROW(front->entry, front->room, n + 1);
+  CW_GROW(front->entry, front->capacity, n + 1);
   front->entry[n] = (Entry){t, a, b, -1};
   front->count++;
   int32_t *queue = front->queue[rows];
@@ -55,7 +55,7 @@ static int pop(Front *front, Entry *entry) {
 
 static CwStatus set_row(Front *front, int32_t p, int32_t row) {
   CwStatus status = CW_OK;
-  CW_GROW(front->row, front->row_room, p + 1);
+  CW_GROW(front->row, front->row_capacity, p + 1);
   front->row[p] = row;
 done:
   return status;

@@ -25,9 +25,9 @@ CwStatus cw_outline_point(CwPatchOutline *outline, int32_t node, const double uv
   CwStatus status = CW_OK;
   if (outline->local[node] < 0) {
     int32_t k = outline->point_count;
-    CW_GROW(outline->node, outline->node_space, k + 1);
-    CW_GROW(outline->uv, outline->uv_space, k + 1);
-    CW_GROW(outline->x, outline->x_space, k + 1);
+    CW_GROW(outline->node, outline->node_capacity, k + 1);
+    CW_GROW(outline->uv, outline->uv_capacity, k + 1);
+    CW_GROW(outline->x, outline->x_capacity, k + 1);
     outline->local[node] = outline->point_count++;
     outline->node[k] = node;
     memcpy(outline->uv[k], uv, sizeof outline->uv[k]);
@@ -40,8 +40,8 @@ done:
 
 CwStatus cw_outline_edge(CwPatchOutline *outline, int32_t a, int32_t b, int boundary) {
   CwStatus status = CW_OK;
-  CW_GROW(outline->edge, outline->edge_space, outline->edge_count + 1);
-  CW_GROW(outline->boundary, outline->boundary_space, outline->edge_count + 1);
+  CW_GROW(outline->edge, outline->edge_capacity, outline->edge_count + 1);
+  CW_GROW(outline->boundary, outline->boundary_capacity, outline->edge_count + 1);
   outline->edge[outline->edge_count][0] = a;
   outline->edge[outline->edge_count][1] = b;
   outline->boundary[outline->edge_count++] = (uint8_t)boundary;

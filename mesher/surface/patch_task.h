@@ -9,12 +9,12 @@
 // Points and edges of a patch, gathered curve by curve; `node` maps local points to the numbers of the caller.
 typedef struct {
   int32_t point_count, edge_count;
-  int32_t *node, node_space;
+  int32_t *node, node_capacity;
   double (*uv)[2], (*x)[3];
-  int32_t uv_space, x_space;
-  int32_t (*edge)[2], edge_space;
+  int32_t uv_capacity, x_capacity;
+  int32_t (*edge)[2], edge_capacity;
   uint8_t *boundary;
-  int32_t boundary_space;
+  int32_t boundary_capacity;
   int32_t *local; // of each node of the caller, -1: not in the patch
 } CwPatchOutline;
 

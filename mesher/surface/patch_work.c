@@ -5,55 +5,55 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Grows an array to `room` items; the old one stays valid when memory is out.
-#define GROW(pointer, room)                                                                                            \
+// Grows an array to `capacity` items; the old one stays valid when memory is out.
+#define GROW(pointer, capacity)                                                                                        \
   do {                                                                                                                 \
-    void *grown = realloc((pointer), (size_t)(room) * sizeof *(pointer));                                              \
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "patch %s: out of memory for %d items", work->input->name, (int)(room));          \
+    void *grown = realloc((pointer), (size_t)(capacity) * sizeof *(pointer));                                          \
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "patch %s: out of memory for %d items", work->input->name, (int)(capacity));      \
     (pointer) = grown;                                                                                                 \
   } while (0)
 
-static CwStatus grow_points(CwPatchWork *work, int32_t room) {
+static CwStatus grow_points(CwPatchWork *work, int32_t capacity) {
   CwStatus status = CW_OK;
-  if (room <= work->point_room) goto done;
-  if (room < 2 * work->point_room) room = 2 * work->point_room;
-  GROW(work->uv, room);
-  GROW(work->x, room);
-  GROW(work->xu, room);
-  GROW(work->xv, room);
-  GROW(work->metric, room);
-  GROW(work->size, room);
-  GROW(work->point_triangle, room);
-  GROW(work->point_fresh, room);
-  work->point_room = room;
+  if (capacity <= work->point_capacity) goto done;
+  if (capacity < 2 * work->point_capacity) capacity = 2 * work->point_capacity;
+  GROW(work->uv, capacity);
+  GROW(work->x, capacity);
+  GROW(work->xu, capacity);
+  GROW(work->xv, capacity);
+  GROW(work->metric, capacity);
+  GROW(work->size, capacity);
+  GROW(work->point_triangle, capacity);
+  GROW(work->point_fresh, capacity);
+  work->point_capacity = capacity;
 done:
   return status;
 }
 
-static CwStatus grow_triangles(CwPatchWork *work, int32_t room) {
+static CwStatus grow_triangles(CwPatchWork *work, int32_t capacity) {
   CwStatus status = CW_OK;
-  if (room <= work->triangle_room) goto done;
-  if (room < 2 * work->triangle_room) room = 2 * work->triangle_room;
-  GROW(work->corner, room);
-  GROW(work->neighbour, room);
-  GROW(work->given, room);
-  GROW(work->component, room);
-  GROW(work->mark, room);
-  memset(work->mark + work->triangle_room, 0, (size_t)(room - work->triangle_room) * sizeof *work->mark);
-  work->triangle_room = room;
+  if (capacity <= work->triangle_capacity) goto done;
+  if (capacity < 2 * work->triangle_capacity) capacity = 2 * work->triangle_capacity;
+  GROW(work->corner, capacity);
+  GROW(work->neighbour, capacity);
+  GROW(work->given, capacity);
+  GROW(work->component, capacity);
+  GROW(work->mark, capacity);
+  memset(work->mark + work->triangle_capacity, 0, (size_t)(capacity - work->triangle_capacity) * sizeof *work->mark);
+  work->triangle_capacity = capacity;
 done:
   return status;
 }
 
-static CwStatus grow_cavity(CwPatchWork *work, int32_t room) {
+static CwStatus grow_cavity(CwPatchWork *work, int32_t capacity) {
   CwStatus status = CW_OK;
-  if (room <= work->cavity_room) goto done;
-  room *= 2;
-  GROW(work->cavity, room);
-  GROW(work->border, room);
-  GROW(work->border_given, room);
-  GROW(work->fresh, room);
-  work->cavity_room = room;
+  if (capacity <= work->cavity_capacity) goto done;
+  capacity *= 2;
+  GROW(work->cavity, capacity);
+  GROW(work->border, capacity);
+  GROW(work->border_given, capacity);
+  GROW(work->fresh, capacity);
+  work->cavity_capacity = capacity;
 done:
   return status;
 }
@@ -195,7 +195,7 @@ static int in_circle(const CwPatchWork *work, const int32_t corner[3], const dou
 
 static void start_marks(CwPatchWork *work) {
   if (++work->marker == 0) {
-    memset(work->mark, 0, (size_t)work->triangle_room * sizeof *work->mark);
+    memset(work->mark, 0, (size_t)work->triangle_capacity * sizeof *work->mark);
     work->marker = 1;
   }
 }

@@ -24,22 +24,22 @@ enum { CW_PATCH_RING = 48 }; // free points with more triangles than that are le
 typedef struct {
   const CwPatchInput *input;
   int32_t given_count; // points below are given, the others free
-  int32_t point_count, point_room;
+  int32_t point_count, point_capacity;
   double (*uv)[2], (*x)[3];
   double (*xu)[3], (*xv)[3]; // derivatives of the map
   double (*metric)[3];       // first fundamental form: xu.xu, xu.xv, xv.xv
   double *size;              // wanted edge length at the point: the field, held down by nearby short given edges
   int32_t *point_triangle;   // one triangle at the point; -1: none (a removed point)
-  int32_t triangle_count, triangle_room; // slots
-  int32_t (*corner)[3];                  // corner[t][0] < 0: a free slot, the next one in neighbour[t][0]
-  int32_t (*neighbour)[3];               // across edge i; -1: outside
-  uint8_t *given;                        // bit i: edge i is given
+  int32_t triangle_count, triangle_capacity; // slots
+  int32_t (*corner)[3];                      // corner[t][0] < 0: a free slot, the next one in neighbour[t][0]
+  int32_t (*neighbour)[3];                   // across edge i; -1: outside
+  uint8_t *given;                            // bit i: edge i is given
   int32_t *component;
   uint32_t *mark; // scratch: equal to `marker` where marked
   uint32_t marker;
   int32_t free_slot; // -1: none
   // The cavity of the last insertion; its new triangles after it.
-  int32_t cavity_count, border_count, cavity_room;
+  int32_t cavity_count, border_count, cavity_capacity;
   int32_t *cavity;
   int32_t (*border)[3]; // from, to, triangle outside
   uint8_t *border_given;

@@ -67,9 +67,9 @@ static double size_at(const void *context, double s) {
 
 static CwStatus find_breaks(const Pair *pair, double length, int *count, Break **breaks) {
   CwStatus status = CW_OK;
-  int room = 2;
-  for (int side = 0; side < 2; side++) room += pair->in[side]->network->corner_count;
-  CW_NEW(*breaks, room);
+  int capacity = 2;
+  for (int side = 0; side < 2; side++) capacity += pair->in[side]->network->corner_count;
+  CW_NEW(*breaks, capacity);
   (*breaks)[(*count)++] = (Break){{0, 0}, {1, 1}};
   for (int side = 0; side < 2; side++) {
     const CwNetwork *network = pair->in[side]->network;
@@ -108,7 +108,7 @@ done:
 }
 
 typedef struct {
-  int32_t count, room;
+  int32_t count, capacity;
   double *s;
 } Places;
 
@@ -118,7 +118,7 @@ static CwStatus divide(const Pair *pair, double length, double from, double to, 
   double *place = NULL;
   int32_t made;
   CW_TRY(cw_divide_by_size(size_at, pair, from, to, (to - from) * length, 1, &made, &place));
-  CW_GROW(places->s, places->room, places->count + made);
+  CW_GROW(places->s, places->capacity, places->count + made);
   for (int32_t k = 1; k + 1 < made; k++) places->s[places->count++] = place[k];
 done:
   free(place);
@@ -128,7 +128,7 @@ done:
 static CwStatus add_open_edge(const Pair *pair, int side, const Places *places, int break_count, const Break *breaks) {
   CwStatus status = CW_OK;
   CwOpenEdges *edges = pair->edges[side];
-  CW_GROW(edges->edge, edges->room, edges->count + 1);
+  CW_GROW(edges->edge, edges->capacity, edges->count + 1);
   CwDividedEdge *open_edge = &edges->edge[edges->count++];
   *open_edge = (CwDividedEdge){.edge = pair->edge[side]};
   CW_NEW(open_edge->t, places->count + break_count);

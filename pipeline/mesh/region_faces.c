@@ -30,10 +30,10 @@ typedef struct {
   int32_t end;    // faces with all their nodes below it are matched
   int32_t *first; // place of the first side of each list, LISTS a node
   Side *sides;
-  int32_t room, used, free; // of `sides`: places, those taken so far, the first that is free again
-  CwRegionFaces *faces;     // NULL where only open faces are asked for
-  int32_t *open;            // these, as refs
-  int32_t open_count, open_room;
+  int32_t capacity, used, free; // of `sides`: places, those taken so far, the first that is free again
+  CwRegionFaces *faces;         // NULL where only open faces are asked for
+  int32_t *open;                // these, as refs
+  int32_t open_count, open_capacity;
 } Match;
 
 int cw_face_loop(const int64_t *nodes, int count, int order[4]) {
@@ -180,7 +180,7 @@ static CwStatus take_single(Match *m, const Side *side) {
   if (m->faces) {
     m->faces->across[side->ref] = CW_ACROSS_OPEN;
   } else {
-    CW_GROW(m->open, m->open_room, m->open_count + 1);
+    CW_GROW(m->open, m->open_capacity, m->open_count + 1);
     m->open[m->open_count] = side->ref;
   }
   ++m->open_count;
@@ -209,7 +209,7 @@ static inline CwStatus meet(Match *m, int32_t least, const Side *side) {
   } else {
     int32_t place = m->free;
     if (place == NONE) {
-      CW_GROW(m->sides, m->room, m->used + 1);
+      CW_GROW(m->sides, m->capacity, m->used + 1);
       place = m->used++;
     } else {
       m->free = m->sides[place].next;

@@ -76,7 +76,7 @@ static CwStatus add_cell(const CwCutPlane *plane, const CwRegionData *cells, con
     x[k] = cells->points[node[k]];
     s[k] = distance[node[k]];
   }
-  CW_GROW(cut->cells, cut->space, cut->count + 1);
+  CW_GROW(cut->cells, cut->capacity, cut->count + 1);
   CwCutCell *made = &cut->cells[cut->count++];
   made->cell = cell;
   made->corners = cw_cut_cell(plane, count, x, s, made->polygon);

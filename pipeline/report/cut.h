@@ -30,7 +30,7 @@ typedef struct {
 
 typedef struct {
   CwCutCell *cells; // ascending by `cell`
-  int64_t count, space;
+  int64_t count, capacity;
 } CwRegionCut;
 
 // Adds to `cut`, zeroed on entry, the cells of a region that a surface cuts, with their polygons in the frame of

@@ -119,7 +119,7 @@ static CwStatus read_patch(Reader *reader, CwFoamField *field, const char *name)
     begins = !strcmp(word, ";") || !strcmp(word, "{") || !strcmp(word, "}");
   }
   if (!found) goto done;
-  CW_GROW(field->patch, field->patch_space, field->patch_count + 1);
+  CW_GROW(field->patch, field->patch_capacity, field->patch_count + 1);
   field->patch[field->patch_count++] = values;
 done:
   return status;

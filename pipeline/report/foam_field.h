@@ -24,7 +24,7 @@ typedef struct {
   int components, scalar_size; // 1 or 3; 4 or 8 bytes
   CwFoamValues cells;
   CwFoamValues *patch; // those patches that have values in the file
-  int patch_count, patch_space;
+  int patch_count, patch_capacity;
 } CwFoamField;
 
 // Maps a volScalarField or volVectorField. Zeroed `field` on entry; free it with cw_foam_field_close, also after a

@@ -32,9 +32,9 @@ struct CwSimplifier {
   int32_t (*place)[3]; // of each cluster, in cells
   int32_t *table;      // clusters by their place, open addressing; -1: free
   int64_t table_size;  // a power of two
-  int64_t cluster_count, cluster_space, place_space;
+  int64_t cluster_count, cluster_capacity, place_capacity;
   Triangle *triangle;
-  int64_t triangle_count, triangle_space;
+  int64_t triangle_count, triangle_capacity;
 };
 
 void cw_simplify_free(CwSimplifier *s) {
@@ -91,8 +91,8 @@ static CwStatus cluster_at(CwSimplifier *s, const int32_t place[3], int32_t *ind
   CwStatus status = CW_OK;
   int64_t slot = slot_of(s, place);
   if (s->table[slot] < 0) {
-    CW_GROW(s->cluster, s->cluster_space, s->cluster_count + 1);
-    CW_GROW(s->place, s->place_space, s->cluster_count + 1);
+    CW_GROW(s->cluster, s->cluster_capacity, s->cluster_count + 1);
+    CW_GROW(s->place, s->place_capacity, s->cluster_count + 1);
     s->cluster[s->cluster_count] = (Cluster){0};
     memcpy(s->place[s->cluster_count], place, sizeof s->place[0]);
     s->table[slot] = (int32_t)s->cluster_count++;
@@ -122,7 +122,7 @@ static CwStatus add_triangle(CwSimplifier *s, const Triangle *triangle) {
   CwStatus status = CW_OK;
   const int32_t *corner = triangle->corner;
   if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) goto done;
-  CW_GROW(s->triangle, s->triangle_space, s->triangle_count + 1);
+  CW_GROW(s->triangle, s->triangle_capacity, s->triangle_count + 1);
   s->triangle[s->triangle_count++] = *triangle;
 done:
   return status;
@@ -274,9 +274,9 @@ CwStatus cw_simplify_absorb(CwSimplifier *s, const void *bytes) {
   pack += sizeof head;
   CW_TRY(cw_simplify_start(s->most, s->first_cell, &from));
   from->cell = head.cell;
-  CW_GROW(from->cluster, from->cluster_space, head.cluster_count);
-  CW_GROW(from->place, from->place_space, head.cluster_count);
-  CW_GROW(from->triangle, from->triangle_space, head.triangle_count);
+  CW_GROW(from->cluster, from->cluster_capacity, head.cluster_count);
+  CW_GROW(from->place, from->place_capacity, head.cluster_count);
+  CW_GROW(from->triangle, from->triangle_capacity, head.triangle_count);
   from->cluster_count = head.cluster_count;
   from->triangle_count = head.triangle_count;
   if (from->cluster) memcpy(from->cluster, pack, (size_t)head.cluster_count * sizeof *from->cluster);

@@ -107,8 +107,8 @@ static CwStatus add_line(Work *work, const double start[2], CwStreamlines *lines
     work->beside[pixel] = 1; // not again
     return CW_OK;
   }
-  CW_GROW(lines->end, lines->space, lines->count + 1);
-  CW_GROW(lines->point, lines->point_space, lines->point_count + points);
+  CW_GROW(lines->end, lines->capacity, lines->count + 1);
+  CW_GROW(lines->point, lines->point_capacity, lines->point_count + points);
   for (int k = -work->behind; k <= work->ahead; k++) {
     const double *x = way_point(work, k);
     memcpy(lines->point[lines->point_count++], x, 2 * sizeof *x);

@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
   double (*point)[2];
   int *end;
-  int count, point_count, space, point_space;
+  int count, point_count, capacity, point_capacity;
 } CwStreamlines;
 
 // Lines about `apart` px from one another, the nearest half of that, and twice that long at least. Zeroed `lines` on
