@@ -159,7 +159,11 @@ static CwStatus start_threads(const CwTeam *all, CwLog *log, const Groups *group
   if (count > 1) {
     CW_TRY(cw_threads_make(count, CPU_COUNT(&cores) ? &cores : NULL, &own->pool));
     int made = cw_threads_count(own->pool);
-    if (made < count) cw_log_warn(log, "%d of %d threads can be started; the work on walls takes longer", made, count);
+    if (made < count)
+      cw_log_warn(
+          log,
+          "%d of %d threads can be started; the work on walls takes longer; raise the limit of processes (ulimit -u)",
+          made, count);
   }
 done:
   free(maker_number);

@@ -148,7 +148,7 @@ CwStatus cw_mpi_start(int *argc, char ***argv, CwTeam **all) {
   setenv("OMPI_MCA_mpi_yield_when_idle", "0", 0);
   MPI_Initialized(&started);
   CW_REQUIRE(started || MPI_Init_thread(argc, argv, MPI_THREAD_MULTIPLE, &given) == MPI_SUCCESS, CW_ERR_LIBRARY,
-             "MPI cannot be started");
+             "MPI cannot be started; allowed: by itself, or under the mpirun of the MPI that it is built with");
   MPI_Query_thread(&given);
   CW_TRY(make_team(MPI_COMM_WORLD, given >= MPI_THREAD_MULTIPLE, all));
   CW_TRY(find_hosts(*all));

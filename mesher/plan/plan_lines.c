@@ -109,16 +109,21 @@ done:
   return status;
 }
 
+// Whether x lies in the cell of a neighbour, or as near to it as `off`, where turns have not moved it.
+static int in_its_cell(const Line *line, const Neighbour *near, const double x[3], double off) {
+  double back[3];
+  cw_copy(x, back);
+  if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
+  return cw_plan_in_cell(line->plan, near->node, back, off, NULL, 0);
+}
+
 // Distance from x to the nearest other plane inside its own cell; `room` where none is nearer.
 static double plane_near(const Line *line, const double x[3], double room) {
   double best = room;
   for (int32_t i = 0; i < line->neighbour_count; i++) {
     const Neighbour *near = &line->neighbour[i];
-    double distance = fabs(cw_plane_distance(&near->plane, x)), back[3];
-    if (distance >= best) continue;
-    cw_copy(x, back);
-    if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
-    if (cw_plan_in_cell(line->plan, near->node, back, room, NULL, 0)) best = distance;
+    double distance = fabs(cw_plane_distance(&near->plane, x));
+    if (distance < best && in_its_cell(line, near, x, room)) best = distance;
   }
   return best;
 }
@@ -156,12 +161,10 @@ static double judge_crossings(const Line *line, double from, double to, Lines *l
   at(line, to + SAME_POINT, b);
   for (int32_t i = 0; i < line->neighbour_count && !lines->impossible; i++) {
     const Neighbour *near = &line->neighbour[i];
-    double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b), back[3];
+    double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b);
     if ((before > 0) == (after > 0)) continue;
     cw_lerp(a, b, before / (before - after), x);
-    cw_copy(x, back);
-    if (near->turns) cw_symmetry_turn(line->plan->sector_turns, line->plan->sector_turns - near->turns, x, back);
-    if (!cw_plan_in_cell(line->plan, near->node, back, 2 * SAME_POINT, NULL, 0)) continue;
+    if (!in_its_cell(line, near, x, 2 * SAME_POINT)) continue;
     CwPlanWall wall = cw_plan_wall_near(line->model, x, cw_policy.plan_room * line->model->thickest);
     if (wall.thickness > 0)
       worst = fmax(worst, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));

@@ -204,9 +204,11 @@ done:
 static CwStatus shares(const CwReportData *data, json_t *domain, const char *key, int count, double *share) {
   CwStatus status = CW_OK;
   json_t *array = json_object_get(domain, key);
+  const char *name = json_string_value(json_object_get(domain, "name"));
   double sum = 0;
   CW_REQUIRE(json_is_array(array) && json_array_size(array) == (size_t)count, CW_ERR_INPUT,
-             "%s/mesh/record.json: '%s' of a domain must be an array of %d counts", data->run, key, count);
+             "%s/mesh/record.json: '%s' of domain %s must be an array of %d counts", data->run, key, name ? name : "?",
+             count);
   for (int k = 0; k < count; k++) {
     share[k] = json_number_value(json_array_get(array, (size_t)k));
     sum += share[k];
