@@ -120,14 +120,12 @@ static CwStatus plane_outline(const CwBoundaryInput *in, const CwWallCurves *cur
     if (curve->plane[0] != node && curve->plane[1] != node) continue;
     int bounds = curve->kind == CW_CURVE_CUT || curve->plane[1] == node;
     const CwCurveNodes *nodes = nodes_of(in, curves, free_curves, i);
-    int32_t previous = -1, local;
+    int32_t previous = -1;
     for (int32_t k = 0; k < nodes->count; k++) {
       double uv[2];
       const double *x = free_curves->nodes.x[nodes->node[k]];
       cw_plane_uv(&map, x, uv);
-      CW_TRY(cw_outline_point(outline, nodes->node[k], uv, x, &local));
-      if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, bounds));
-      previous = local;
+      CW_TRY(cw_outline_next(outline, nodes->node[k], uv, x, bounds, &previous));
     }
   }
 done:

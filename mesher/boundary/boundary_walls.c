@@ -34,11 +34,9 @@ static CwStatus wall_outline(const CwBoundaryInput *in, const CwWallCurves *curv
       int32_t previous = -1;
       for (int32_t k = 0; k < nodes->count; k++) {
         double uv[2];
-        int32_t local;
+        int32_t v = nodes->node[k];
         curve_uv(in, curve, nodes->parameter[k], face, uv);
-        CW_TRY(cw_outline_point(outline, nodes->node[k], uv, curves->x[nodes->node[k]], &local));
-        if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, kind == CW_CURVE_EDGE));
-        previous = local;
+        CW_TRY(cw_outline_next(outline, v, uv, curves->x[v], kind == CW_CURVE_EDGE, &previous));
       }
     }
   }
@@ -223,17 +221,7 @@ done:
   return status;
 }
 
-// Layer top node and its (u,v) on an open patch: the (u,v) of the wall curve is the start of the search.
-static CwStatus add_top_point(const CwBoundaryInput *in, const CwFreeCurves *free_curves, const CwCurve *curve,
-                              const CwCurveNodes *nodes, int32_t k, int32_t face, CwPatchOutline *outline,
-                              int32_t *local) {
-  double uv[2];
-  curve_uv(in, curve, nodes->parameter[k], face, uv);
-  const double *x = free_curves->nodes.x[nodes->node[k]];
-  cw_cad_face_project(in->cad, face, x, uv);
-  return cw_outline_point(outline, nodes->node[k], uv, x, local);
-}
-
+// Of layer top nodes: the (u,v) of the wall curve is the start of the search for theirs.
 CwStatus cw_boundary_open_patch_outline(const CwBoundaryInput *in, const CwWallCurves *curves,
                                         const CwFreeCurves *free_curves, int32_t face, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
@@ -242,11 +230,13 @@ CwStatus cw_boundary_open_patch_outline(const CwBoundaryInput *in, const CwWallC
     const CwCurve *curve = &in->network->curve[i];
     if (curve->kind == CW_CURVE_LINE || (curve->face[0] != face && curve->face[1] != face)) continue;
     const CwCurveNodes *nodes = curve->wall ? &curves->curve[i] : &free_curves->curve[i];
-    int32_t previous = -1, local;
+    int32_t previous = -1;
     for (int32_t k = 0; k < nodes->count; k++) {
-      CW_TRY(add_top_point(in, free_curves, curve, nodes, k, face, outline, &local));
-      if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, curve->kind == CW_CURVE_EDGE));
-      previous = local;
+      double uv[2];
+      const double *x = free_curves->nodes.x[nodes->node[k]];
+      curve_uv(in, curve, nodes->parameter[k], face, uv);
+      cw_cad_face_project(in->cad, face, x, uv);
+      CW_TRY(cw_outline_next(outline, nodes->node[k], uv, x, curve->kind == CW_CURVE_EDGE, &previous));
     }
   }
 done:

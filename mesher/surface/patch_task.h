@@ -24,6 +24,9 @@ void cw_outline_clear(CwPatchOutline *outline);
 // Adds the point of `node` unless it is there; returns its local number through *local.
 CwStatus cw_outline_point(CwPatchOutline *outline, int32_t node, const double uv[2], const double x[3], int32_t *local);
 CwStatus cw_outline_edge(CwPatchOutline *outline, int32_t a, int32_t b, int boundary);
+// The same along a curve: the next point, and the edge from *previous, the local number of the one before, -1: none.
+CwStatus cw_outline_next(CwPatchOutline *outline, int32_t node, const double uv[2], const double x[3], int boundary,
+                         int32_t *previous);
 void cw_outline_free(CwPatchOutline *outline);
 
 // A patch mesh in one block: what the caller adds to its own arrays. Points are the new ones only; triangles count
