@@ -22,7 +22,7 @@ typedef enum {
   CW_OUTCOME_THIN        // the layers leave no room: thinner ones may
 } CwOutcomeKind;
 
-enum { CW_REASON_SIZE = 400 };
+enum { CW_REASON_SIZE = 600 }; // the failure of a region, its place and the path of its boundary
 
 // Plain data: it travels between ranks as bytes. Zeroed: done.
 typedef struct {
