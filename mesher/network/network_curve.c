@@ -7,6 +7,7 @@
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
+#include "pipeline/order.h"
 
 enum { NEWTON_STEPS = 20 };
 static const double ON_PLANE = 1e-12; // of the model's unit: as near as double precision allows
@@ -49,15 +50,7 @@ double cw_face_onto_planes(const CwCad *cad, int32_t face, const CwPlane *a, con
 }
 
 void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double length, double x[3], double parameter[2]) {
-  int32_t low = 0, high = curve->fine_count - 1;
-  while (high - low > 1) {
-    int32_t middle = (low + high) / 2;
-    if (curve->fine_length[middle] <= length) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
+  int32_t low = cw_interval_of(curve->fine_count, curve->fine_length, length), high = low + 1;
   double span = curve->fine_length[high] - curve->fine_length[low];
   double s = span > 0 ? (length - curve->fine_length[low]) / span : 0;
   s = fmin(fmax(s, 0), 1);

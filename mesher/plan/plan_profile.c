@@ -7,6 +7,7 @@
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
+#include "pipeline/order.h"
 
 int cw_profile_bin(const CwPlanProfile *profile, double place) {
   double bin = (place - profile->low) / profile->width;
@@ -20,15 +21,7 @@ double cw_profile_below(const CwPlanProfile *profile, double place) {
 }
 
 double cw_profile_place(const CwPlanProfile *profile, double cells) {
-  int low = 0, high = CW_PROFILE_BINS;
-  while (high - low > 1) {
-    int middle = (low + high) / 2;
-    if (profile->below[middle] <= cells) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
+  int low = cw_interval_of(CW_PROFILE_BINS + 1, profile->below, cells);
   double step = profile->below[low + 1] - profile->below[low];
   double part = step > 0 ? fmin(fmax((cells - profile->below[low]) / step, 0), 1) : 0.5;
   return profile->low + (low + part) * profile->width;
