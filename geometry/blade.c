@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "pipeline/order.h"
+
 static const double least_beta = 12 * M_PI / 180, largest_beta = 60 * M_PI / 180;
 static const double offset_fades_at = 0.4;
 
@@ -68,11 +70,7 @@ static void at(const CwBladeSection *section, double p, double x[2], double dx[2
 
 // Place q of mid-span at which a cylindrical blade has the radius r, for r not before its leading edge.
 static double master_place(const CwBladeSection *section, double r) {
-  int low = 0, high = CW_BLADE_STEPS;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    *(section->radius[middle] <= r ? &low : &high) = middle;
-  }
+  const int low = cw_interval_of(CW_BLADE_STEPS + 1, section->radius, r), high = low + 1;
   double q = (low + (r - section->radius[low]) / (section->radius[high] - section->radius[low])) / CW_BLADE_STEPS;
   for (int i = 0; i < 3; i++) {
     double x[2], dx[2];

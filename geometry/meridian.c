@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "pipeline/order.h"
+
 static const double gauss_x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
                                   0.9061798459386640};
 static const double gauss_w[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
@@ -44,11 +46,7 @@ double cw_meridian_length(const CwMeridianCurve *curve, double t) {
 }
 
 double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
-  int low = 0, high = CW_MERIDIAN_STEPS;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    *(curve->length[middle] <= length ? &low : &high) = middle;
-  }
+  const int low = cw_interval_of(CW_MERIDIAN_STEPS + 1, curve->length, length), high = low + 1;
   double t = (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
   for (int i = 0; i < 4; i++)
     t -= (curve->length[low] + curve_piece(curve, (double)low / CW_MERIDIAN_STEPS, t) - length) / curve_speed(curve, t);
