@@ -209,10 +209,9 @@ CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain, void **
   cw_size_join(domain->size, &open_edges);
   domain->solid_volume = 0;
   for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
-  CW_REQUIRE(
-      domain->solid_volume > 0, CW_ERR_INPUT,
-      "%s: lines through the solid find a volume of %g mm3 in it; allowed: above 0, walls that enclose the fluid",
-      domain->name, cw_mm3(domain->solid_volume));
+  CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT,
+             "%s: the faces of the solid enclose %g mm3; allowed: above 0, faces whose normals point out of the fluid",
+             domain->name, cw_mm3(domain->solid_volume));
   CW_TRY(integrate(context, domain, 1));
 done:
   cw_size_free(&open_edges);
