@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mesher/boundary/boundary_curves.h"
+#include "mesher/common/incident.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/surface/patch_task.h"
@@ -160,20 +161,11 @@ done:
 // Lists the wall triangles by region.
 static CwStatus list_regions(CwSurfaceMesh *surface, int32_t regions) {
   CwStatus status = CW_OK;
-  int32_t *start, *fill = NULL;
   surface->region_count = regions;
   CW_NEW(surface->region_start, regions + 1);
   CW_NEW(surface->region_triangle, surface->triangle_count);
-  CW_NEW(fill, regions);
-  start = surface->region_start;
-  for (int32_t t = 0; t < surface->triangle_count; t++) start[surface->region[t] + 1]++;
-  for (int32_t r = 0; r < regions; r++) {
-    fill[r] = start[r];
-    start[r + 1] += start[r];
-  }
-  for (int32_t t = 0; t < surface->triangle_count; t++) surface->region_triangle[fill[surface->region[t]]++] = t;
+  cw_list_by_group(surface->triangle_count, surface->region, regions, surface->region_start, surface->region_triangle);
 done:
-  free(fill);
   return status;
 }
 

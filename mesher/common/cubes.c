@@ -6,21 +6,22 @@
 #include <string.h>
 
 #include "mesher/common/box.h"
+#include "mesher/common/incident.h"
 
 enum { ALONG_MOST = 256 };
 
-static size_t cube_of(const CwCubes *cubes, const double x[3]) {
+static int32_t cube_of(const CwCubes *cubes, const double x[3]) {
   int32_t place[3];
   for (int k = 0; k < 3; k++) {
     int32_t at = (int32_t)((x[k] - cubes->low[k]) / cubes->size);
     place[k] = at < cubes->count[k] ? at : cubes->count[k] - 1;
   }
-  return cw_cube(cubes, place[0], place[1], place[2]);
+  return (int32_t)cw_cube(cubes, place[0], place[1], place[2]);
 }
 
 CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes *cubes) {
   CwStatus status = CW_OK;
-  size_t *of = NULL; // of each point
+  int32_t *of = NULL; // of each point
   CwBox box = count ? cw_box_of_points(count, x) : (CwBox){{0}, {0}};
   size_t all = 1;
   memset(cubes, 0, sizeof *cubes);
@@ -33,13 +34,8 @@ CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes
   CW_NEW(cubes->start, all + 1);
   CW_NEW_UNSET(cubes->member, count);
   CW_NEW_UNSET(of, count);
-  int32_t *end = cubes->start; // where the lists end, until they are filled from behind
-  for (int32_t i = 0; i < count; i++) {
-    of[i] = cube_of(cubes, x[i]);
-    end[of[i]]++;
-  }
-  for (size_t c = 0; c < all; c++) end[c + 1] += end[c];
-  for (int32_t i = count - 1; i >= 0; i--) cubes->member[--end[of[i]]] = i;
+  for (int32_t i = 0; i < count; i++) of[i] = cube_of(cubes, x[i]);
+  cw_list_by_group(count, of, (int32_t)all, cubes->start, cubes->member);
 done:
   free(of);
   if (status != CW_OK) cw_cubes_free(cubes);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The triangles around each vertex of a surface.
+// Items listed by the group that each belongs to, as the triangles around each vertex of a surface.
 #ifndef CUTWATER_MESHER_COMMON_INCIDENT_H
 #define CUTWATER_MESHER_COMMON_INCIDENT_H
 
 #include <stdint.h>
 
 #include "pipeline/status.h"
+
+// Those of group g are member[start[g]] .. member[start[g + 1] - 1], ascending. start: groups + 1, zeroed.
+void cw_list_by_group(int32_t count, const int32_t *group, int32_t groups, int32_t *start, int32_t *member);
 
 typedef struct {
   int32_t *start;    // point_count + 1

@@ -7,6 +7,7 @@
 #include "mesher/cad/rays.h"
 #include "mesher/common/box.h"
 #include "mesher/common/cubes.h"
+#include "mesher/common/incident.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
 #include "mesher/size/size_sources.h"
@@ -225,10 +226,7 @@ CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) 
   CW_NEW(surface->curvature, b->point_count);
   CW_NEW(surface->face_start, faces + 1);
   CW_NEW(surface->face_triangle, b->triangle_count);
-  for (int32_t t = 0; t < b->triangle_count; t++) surface->face_start[b->face[t]]++;
-  for (int f = 0; f < faces; f++) // ends of the faces, filled from behind
-    surface->face_start[f + 1] += surface->face_start[f];
-  for (int32_t t = b->triangle_count - 1; t >= 0; t--) surface->face_triangle[--surface->face_start[b->face[t]]] = t;
+  cw_list_by_group(b->triangle_count, b->face, faces, surface->face_start, surface->face_triangle);
   CW_TRY(find_creases(surface));
   *result = surface;
   surface = NULL;
