@@ -52,7 +52,7 @@ CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, Cw
   CwStatus status = CW_OK;
   const CwFreeCurves *free_curves = &run->domain[why->domain].free_curves;
   CwRegionFailure failure = {.failed = 1, .patch = "inner surface"};
-  snprintf(failure.message, sizeof failure.message, "%s", why->reason);
+  snprintf(failure.message, sizeof failure.message, "%.*s", (int)sizeof failure.message - 1, why->reason);
   for (int32_t i = 0; i < free_curves->tight_count; i++) {
     memcpy(failure.at, free_curves->tight[i], sizeof failure.at);
     CW_TRY(add_place(why->domain, -1, &failure, places));

@@ -52,7 +52,7 @@ done:
 CwStatus cw_outline_next(CwPatchOutline *outline, int32_t node, const double uv[2], const double x[3], int boundary,
                          int32_t *previous) {
   CwStatus status = CW_OK;
-  int32_t local;
+  int32_t local = -1;
   CW_TRY(cw_outline_point(outline, node, uv, x, &local));
   if (*previous >= 0) CW_TRY(cw_outline_edge(outline, *previous, local, boundary));
   *previous = local;
