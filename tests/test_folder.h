@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The folder of a test program, made before its tests and removed after them, by cmocka_run_group_tests; or one for
-// each of its tests, by cmocka_unit_test_setup_teardown.
+// The folder of a test program, under TMPDIR or /tmp, made before its tests and removed after them, by
+// cmocka_run_group_tests; or one for each of its tests, by cmocka_unit_test_setup_teardown.
 #ifndef CUTWATER_TESTS_TEST_FOLDER_H
 #define CUTWATER_TESTS_TEST_FOLDER_H
 
-#include <string.h>
 #include <unistd.h>
 
 #include "tests/remove_folder.h"
 
-static char test_folder[] = "/tmp/cutwater-test-XXXXXX";
+static char test_folder[100];
 
 static inline int make_test_folder(void **state) {
-  strcpy(test_folder + sizeof test_folder - 7, "XXXXXX"); // of the test before
-  return mkdtemp(test_folder) ? 0 : -1;
+  const char *place = getenv("TMPDIR");
+  const int length = snprintf(test_folder, sizeof test_folder, "%s/cutwater-test-XXXXXX", place ? place : "/tmp");
+  return length < (int)sizeof test_folder && mkdtemp(test_folder) ? 0 : -1;
+}
+
+// The path of a file in it, until the eighth call after.
+static inline const char *in_test_folder(const char *name) {
+  static char path[8][sizeof test_folder + 100];
+  static int next;
+  next = (next + 1) % 8;
+  snprintf(path[next], sizeof *path, "%s/%s", test_folder, name);
+  return path[next];
 }
 
 // Fails where a test has left a file in it, a temporary one too.

@@ -99,8 +99,8 @@ static void zone_free(Zone *z) {
 
 static void cells_are_sound_and_fill_the_solid(void **state) {
   static const char *const names[] = {"ROTOR", "STATOR"};
-  char path[STAGE_PATH_SIZE + 40], words[40];
-  snprintf(path, sizeof path, "%s/run/mesh/manifest.json", test_folder);
+  char words[40];
+  const char *path = in_test_folder("run/mesh/manifest.json");
   json_t *manifest = json_load_file(path, 0, NULL);
   if (stage_shell(output, "'%s/cgns_audit' '%s/run/export/pump.cgns'", CUTWATER_BIN_DIR, test_folder))
     fail_msg("%s", output);

@@ -49,10 +49,9 @@ static void faults_are_found(void **state) {
       {"/pump/ROTOR/ZoneGridConnectivity/rotor_to_stator/CellListDonor/ data", 0, 0, 200, "edges from face"},
   };
   for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
-    char path[STAGE_PATH_SIZE + 20];
     int32_t values[1 << 17], kept;
     assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", test_folder, test_folder), 0);
-    snprintf(path, sizeof path, "%s/bad.cgns", test_folder);
+    const char *path = in_test_folder("bad.cgns");
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), set = H5Dopen2(file, faults[i].array, H5P_DEFAULT);
     hid_t space = H5Dget_space(set);
     assert_true(file >= 0 && set >= 0);
@@ -72,9 +71,8 @@ static void faults_are_found(void **state) {
 }
 
 static void a_point_that_is_moved_is_found(void **state) {
-  char path[STAGE_PATH_SIZE + 20];
   assert_int_equal(stage_shell(output, "cp '%s/run/export/pump.cgns' '%s/bad.cgns'", test_folder, test_folder), 0);
-  snprintf(path, sizeof path, "%s/bad.cgns", test_folder);
+  const char *path = in_test_folder("bad.cgns");
   hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
   hid_t set = H5Dopen2(file, "/pump/STATOR/GridCoordinates/CoordinateX/ data", H5P_DEFAULT);
   hid_t there = H5Dget_space(set), here = H5Screate(H5S_SCALAR);

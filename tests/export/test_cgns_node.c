@@ -7,13 +7,13 @@
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char path[sizeof test_folder + 20];
+static const char *path;
 static const double values[4] = {1, 2, 3, 4};
 
 // Two nodes, of a text and of values, in a file of their own; whether all of it went well.
 static int make_file(void) {
   hid_t file = -1, node = -1;
-  snprintf(path, sizeof path, "%s/node.cgns", test_folder);
+  path = in_test_folder("node.cgns");
   int well = cw_cgns_create(path, &file) == CW_OK &&
              cw_cgns_text(file, "Descriptor", "Descriptor_t", "rotor", &node) == CW_OK &&
              cw_cgns_list(node, "Values", "DataArray_t", "R8", 4, values, NULL) == CW_OK;

@@ -13,8 +13,7 @@ enum { PATCHES = 4, FIRST = 100 }; // FIRST: faces between cells
 
 // What was written behind the head, without blanks; "" where there is no file. It is removed.
 static void content(const char *name, char text[4000]) {
-  char path[sizeof test_folder + 60];
-  snprintf(path, sizeof path, "%s/%s", test_folder, name);
+  const char *path = in_test_folder(name);
   FILE *file = fopen(path, "r");
   size_t count = 0;
   int letter;

@@ -11,10 +11,9 @@
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_export(void **state) {
-  char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
   if (make_test_folder(state) || stage_run_make(test_folder, &pump)) return -1;
-  snprintf(run, sizeof run, "%s/run", test_folder);
+  const char *run = in_test_folder("run");
   return stage_export(run, 2, output);
 }
 
@@ -47,10 +46,9 @@ static void checkmesh_finds_a_sound_mesh(void **state) {
 
 // With pyramids: sound but for their flatness, which gives cells of small determinant.
 static void checkmesh_takes_pyramids(void **state) {
-  char run[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
   stage_need_program("checkMesh");
-  snprintf(run, sizeof run, "%s/pyramids", test_folder);
+  const char *run = in_test_folder("pyramids");
   pump.pyramids = 1;
   assert_int_equal(synthetic_run_write(run, &pump), 0);
   assert_int_equal(stage_export(run, 2, output), 0);

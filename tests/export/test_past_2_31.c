@@ -84,10 +84,9 @@ static void cgns_has_its_integers(void **state) {
   const Before before = {.points = 3000000000, .cells = 2200000000, .patch = 2500000000};
   static CwCase table;
   Large l;
-  char path[100];
+  const char *path = in_test_folder("pump.cgns");
   CwCgnsFile out = {0};
   large_make(before, &l);
-  snprintf(path, sizeof path, "%s/pump.cgns", test_folder);
   assert_int_equal(cw_cgns_plan(&l.assembly, CW_INTEGERS_AUTO, &out.wide), CW_OK);
   assert_true(out.wide);
   assert_int_equal(cw_cgns_tree_write(path, &l.assembly, NULL, &table, out.wide), CW_OK);
@@ -141,9 +140,9 @@ static void openfoam_has_its_labels(void **state) {
   const int64_t all = before.inner + before.patch;
   CwFoamMesh mesh = {0};
   Large l;
-  char path[200], folder_of[100], text[50];
+  const char *folder_of = in_test_folder("openfoam"), *path = in_test_folder("openfoam/constant/polyMesh/faces");
+  char text[50];
   large_make(before, &l);
-  snprintf(folder_of, sizeof folder_of, "%s/openfoam", test_folder);
   assert_int_equal(stage_shell(text, "mkdir '%s' '%s/constant'", folder_of, folder_of), 0);
   assert_int_equal(cw_foam_layout_plan(&l.assembly, folder_of, &table, &mesh), CW_OK);
   assert_int_equal(mesh.label_size, 8);
@@ -151,16 +150,15 @@ static void openfoam_has_its_labels(void **state) {
   assert_int_equal(cw_foam_region_write(&mesh, 1, &data, &faces), CW_OK);
   cw_foam_layout_free(&mesh);
 
-  snprintf(path, sizeof path, "%s/constant/polyMesh/faces", folder_of);
   int64_t at = start_of(path);
   for (int f = 0; f < 4; ++f) assert_int_equal(integer_at(path, at + 8 * (all + f)), 3 * (all + f));
   at += 8 * (all + 5) + snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)(3 * (all + 4)));
   for (int f = 0; f < 4; ++f)
     for (int i = 0; i < 3; ++i)
       assert_int_equal(integer_at(path, at + 8 * (3 * (all + f) + i)), before.points + triangles[f][i]);
-  snprintf(path, sizeof path, "%s/constant/polyMesh/owner", folder_of);
+  path = in_test_folder("openfoam/constant/polyMesh/owner");
   for (int f = 0; f < 4; ++f) assert_int_equal(integer_at(path, start_of(path) + 8 * (all + f)), before.cells);
-  snprintf(path, sizeof path, "%s/constant/polyMesh/points", folder_of);
+  path = in_test_folder("openfoam/constant/polyMesh/points");
   const int64_t bits = integer_at(path, start_of(path) + 24 * (before.points + 1));
   double x;
   memcpy(&x, &bits, sizeof x);
@@ -190,14 +188,14 @@ static void fluent_has_its_lines(void **state) {
   const Before before = {.points = 2100000000, .cells = 1900000000, .inner = 1000000000, .patch = 1100000000};
   CwFluentMesh mesh = {0};
   Large l;
-  char path[100], text[2000] = {0}, line[60];
+  const char *path = in_test_folder("pump.msh");
+  char text[2000] = {0}, line[60];
   large_make(before, &l);
   assert_int_equal(cw_fluent_mesh_plan(&l.assembly, &mesh), CW_OK);
   assert_int_equal(cw_fluent_mesh_create(test_folder, &mesh), CW_OK);
   assert_int_equal(cw_fluent_mesh_write_region(&mesh, 1, &data, &faces), CW_OK);
   assert_int_equal(cw_fluent_mesh_close(&mesh), CW_OK);
 
-  snprintf(path, sizeof path, "%s/pump.msh", test_folder);
   FILE *in = fopen(path, "rb");
   assert_non_null(in);
   assert_true(fread(text, 1, 600, in) > 0);

@@ -10,7 +10,7 @@
 
 static void labels_stand_where_they_are_put(void **state) {
   enum { COUNT = 40000 }; // more than one piece of what is narrowed at once
-  char path[100];
+  const char *path = in_test_folder("labels");
   int64_t *values = calloc(COUNT, sizeof *values);
   for (int i = 0; i < COUNT; ++i) values[i] = 3 * i - 7;
   for (int size = 4; size <= 8; size += 4) {
@@ -22,7 +22,6 @@ static void labels_stand_where_they_are_put(void **state) {
     assert_int_equal(cw_place_file_put_labels(&file, values, 10, size, 6), CW_OK);
     assert_int_equal(cw_place_file_put(&file, "labels", 6, 0), CW_OK);
     assert_int_equal(cw_place_file_close(&file), CW_OK);
-    snprintf(path, sizeof path, "%s/labels", test_folder);
     FILE *in = fopen(path, "rb");
     char head[6];
     assert_int_equal(fread(head, 1, 6, in), 6);

@@ -183,9 +183,9 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
 // Two prisms of n sides and of many in one cylinder: their areas are 2 n sin(pi / n) r h.
 static void sides_of_different_area_are_told(void **state) {
   SyntheticPump pump = synthetic_pump();
-  char run[STAGE_PATH_SIZE + 10], words[200];
+  char words[200];
   pump.stator.around = 8;
-  snprintf(run, sizeof run, "%s/other", test_folder);
+  const char *run = in_test_folder("other");
   assert_int_equal(synthetic_run_write(run, &pump), 0);
   assert_int_equal(stage_export(run, 1, output), 0);
   const double height = pump.top - pump.bottom;

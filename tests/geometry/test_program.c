@@ -10,7 +10,7 @@
 #include "tests/whole_file.h"
 
 static int run(const char *case_file, const char *name) {
-  char command[600];
+  char command[800];
   snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages", CUTWATER_BIN_DIR,
            case_file, test_folder, name, test_folder);
   const int code = system(command);
@@ -18,8 +18,7 @@ static int run(const char *case_file, const char *name) {
 }
 
 static int messages_have(const char *words) {
-  char path[64];
-  snprintf(path, sizeof path, "%s/messages", test_folder);
+  const char *path = in_test_folder("messages");
   char *messages = read_whole(path, NULL);
   const int found = strstr(messages, words) != NULL;
   free(messages);
@@ -41,7 +40,7 @@ static void files_are_written_and_the_same_each_time(void **state) {
                                       "volute_sections.svg",
                                       "model.json",
                                       "pump_faces.step"};
-  char command[300];
+  char command[400];
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "a"), 0);
   assert_true(messages_have("measured: wrap 71.000 deg, D1 74.0000, D2 200.0000, b2 8.0000 mm"));
   assert_true(messages_have("predicted head"));
@@ -65,8 +64,7 @@ static void failure_leaves_no_record(void **state) {
            "sed 's/wrap_angle_deg: 71/wrap_angle_deg: 21/' %s/cases/paper/case.yaml > %s/case.yaml",
            CUTWATER_SOURCE_DIR, test_folder);
   assert_int_equal(system(command), 0);
-  char path[64];
-  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
+  const char *path = in_test_folder("case.yaml");
   assert_int_not_equal(run(path, "c"), 0);
   assert_true(messages_have("case.yaml: a wrap of 21.00 deg"));
   snprintf(command, sizeof command, "test ! -e %s/c/geometry/record.json", test_folder);
@@ -89,9 +87,9 @@ static void write_case(const char *path, const Given *given) {
 
 // Key and value behind "tried:" in the only line that says error.
 static void read_remedy(char key[64], double *value) {
-  char path[64], line[2000];
+  char line[2000];
   int errors = 0, found = 0;
-  snprintf(path, sizeof path, "%s/messages", test_folder);
+  const char *path = in_test_folder("messages");
   FILE *file = fopen(path, "r");
   assert_non_null(file);
   while (fgets(line, sizeof line, file)) {
@@ -107,8 +105,8 @@ static void read_remedy(char key[64], double *value) {
 // A wheel far too small for its head: put into the case, the value that the refusal names works.
 static void what_a_refusal_names_works(void **state) {
   Given given[] = {{"outlet_blade_angle_deg", 15}, {"outlet_diameter_mm", 150}, {"outlet_width_mm", 10}, {NULL, 0}};
-  char path[64], key[64];
-  snprintf(path, sizeof path, "%s/given.yaml", test_folder);
+  char key[64];
+  const char *path = in_test_folder("given.yaml");
   write_case(path, given);
   assert_int_not_equal(run(path, "given"), 0);
   read_remedy(key, &given[1].value);

@@ -68,13 +68,12 @@ typedef struct {
 } Built;
 
 static Built build(double s, const Variant *variant) {
-  char path[80];
   CwCase table;
   CwDesign design;
   CwPipeStubs stubs;
   CwPump pump = {0};
   Built built = {0};
-  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
+  const char *path = in_test_folder("case.yaml");
   write_case(path, s, variant);
   if (cw_case_read(path, &table) != CW_OK || cw_hydraulic_design(&table, &design) != CW_OK ||
       cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK || cw_pump_build(&table, &design, &stubs, &pump) != CW_OK ||
@@ -84,7 +83,7 @@ static Built build(double s, const Variant *variant) {
   built.count = pump.count;
   built.unit = cw_solid_unit(pump.solid[0]);
   for (int i = 0; i < pump.count; i++) {
-    snprintf(path, sizeof path, "%s/solid.brep", test_folder);
+    path = in_test_folder("solid.brep");
     assert_int_equal(cw_solid_write_brep(pump.solid[i], path), CW_OK);
     built.text[i] = read_whole(path, &built.size[i]);
     unlink(path);

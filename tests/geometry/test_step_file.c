@@ -39,9 +39,7 @@ static void assert_same_files(const char *a, const char *b) {
 
 static void files_are_the_same_each_time(void **state) {
   const CwSolid *const solids[] = {rotor};
-  char a[64], b[64];
-  snprintf(a, sizeof a, "%s/a", test_folder);
-  snprintf(b, sizeof b, "%s/b", test_folder);
+  const char *a = in_test_folder("a"), *b = in_test_folder("b");
   assert_int_equal(cw_step_write(solids, 1, a), CW_OK);
   assert_int_equal(cw_step_write(solids, 1, b), CW_OK);
   assert_same_files(a, b);
@@ -54,8 +52,7 @@ static void files_are_the_same_each_time(void **state) {
 
 static void faces_table(void **state) {
   const CwSolid *const solids[] = {rotor};
-  char path[64];
-  snprintf(path, sizeof path, "%s/faces.csv", test_folder);
+  const char *path = in_test_folder("faces.csv");
   assert_int_equal(cw_faces_table_write(solids, 1, path), CW_OK);
   size_t size;
   char *text = read_whole(path, &size);
@@ -78,9 +75,8 @@ static void unwritable_place_is_refused(void **state) {
 // Where files may not grow, as on a full disk, the message names the file that was asked for.
 static void short_disk_names_the_file(void **state) {
   const CwSolid *const solids[] = {rotor};
-  char path[64];
   struct rlimit before, small;
-  snprintf(path, sizeof path, "%s/pump.step", test_folder);
+  const char *path = in_test_folder("pump.step");
   assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
   small = before;
   small.rlim_cur = 4096;

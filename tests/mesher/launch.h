@@ -12,6 +12,7 @@
 
 #include "mesher/parallel/ranks.h"
 #include "pipeline/stop_line.h"
+#include "tests/test_folder.h"
 
 // Whether this process is such a rank.
 static inline int launched(int argc) {
@@ -33,13 +34,11 @@ static inline int end_as_rank(CwTeam *all, int code) {
 
 // Starts ranks of this program; gives all they print and mpirun's exit status, -1 where it has none.
 static inline int launch(int ranks, const char *mode, char *output, size_t output_size) {
-  char command[4300], self[4000] = {0}, folder[] = "/tmp/cutwater-XXXXXX", log[64];
+  char command[4300], self[4000] = {0};
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  if (!mkdtemp(folder)) return -1;
-  snprintf(log, sizeof log, "%s/log", folder);
-  mkdir(log, 0777);
-  setenv("CUTWATER_LAUNCHED", folder, 1);
+  if (make_test_folder(NULL) || mkdir(in_test_folder("log"), 0777)) return -1;
+  setenv("CUTWATER_LAUNCHED", test_folder, 1);
   if (readlink("/proc/self/exe", self, sizeof self - 1) <= 0) return -1;
   snprintf(command, sizeof command, "mpirun -q --oversubscribe -n %d '%s' %s 2>&1", ranks, self, mode);
   FILE *pipe = popen(command, "r");
@@ -48,11 +47,7 @@ static inline int launch(int ranks, const char *mode, char *output, size_t outpu
   while ((got = fread(output + used, 1, output_size - 1 - used, pipe)) > 0) used += got;
   output[used] = '\0';
   int status = pclose(pipe);
-  char token[80];
-  snprintf(token, sizeof token, "%s/test.running", log); // of ranks that were killed
-  unlink(token);
-  rmdir(log);
-  rmdir(folder);
+  clear_test_folder(NULL); // with the file of ranks that were killed
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

@@ -9,8 +9,8 @@
 
 // Reads `head` with `lines` behind it; the file is gone then.
 static inline CwStatus read_given(const char *head, const char *lines, CwCase *table) {
-  char path[sizeof test_folder + 16], text[2000];
-  snprintf(path, sizeof path, "%s/case.yaml", test_folder);
+  char text[2000];
+  const char *path = in_test_folder("case.yaml");
   assert_true(snprintf(text, sizeof text, "%s%s\n", head, lines) < (int)sizeof text);
   write_text(path, text);
   cw_fail_clear();

@@ -15,7 +15,6 @@ static CwStatus read_text(const char *cad, CwCase *table) {
 
 static void everything_is_read(void **state) {
   CwCase table;
-  char placed[80];
   if (read_text("  files: [pump.step, /abs/other.brep]\n"
                 "  unit_in: 1\n"
                 "  tolerance_um: 20\n"
@@ -33,7 +32,7 @@ static void everything_is_read(void **state) {
                 &table))
     fail_msg("%s", cw_fail_message());
   const CwCaseCad *cad = table.cad;
-  snprintf(placed, sizeof placed, "%s/pump.step", test_folder);
+  const char *placed = in_test_folder("pump.step");
   assert_string_equal(cad->files.text[0], placed);
   assert_string_equal(cad->files.text[1], "/abs/other.brep");
   assert_near(cad->unit, 0.0254, 1e-12);

@@ -13,20 +13,16 @@
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char path[sizeof test_folder + 40];
 static CwCase paper;
 
 static int make_run(void **state) {
   CwRecord *record;
-  char folder[sizeof test_folder + 20];
   assert_int_equal(make_test_folder(state), 0);
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &paper), CW_OK);
-  snprintf(folder, sizeof folder, "%s/geometry", test_folder);
-  snprintf(path, sizeof path, "%s/record.json", folder);
-  assert_int_equal(cw_make_directory(folder), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("geometry")), CW_OK);
   assert_int_equal(cw_record_start("geometry", NULL, &record), CW_OK);
   assert_int_equal(cw_record_case(record, &paper), CW_OK);
-  assert_int_equal(cw_record_write(record, path), CW_OK);
+  assert_int_equal(cw_record_write(record, in_test_folder("geometry/record.json")), CW_OK);
   cw_record_free(record);
   return 0;
 }
@@ -90,7 +86,7 @@ static void a_record_that_is_missing_or_broken_is_told(void **state) {
   assert_int_equal(cw_case_origin_check(&paper, test_folder, "mesh"), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "mesh/record.json: it is missing; cutwater-mesh writes it"));
   json_t *none = json_pack("{s:{}}", "results");
-  assert_int_equal(cw_sealed_json_write(none, path), CW_OK);
+  assert_int_equal(cw_sealed_json_write(none, in_test_folder("geometry/record.json")), CW_OK);
   json_decref(none);
   assert_int_equal(cw_case_origin_check(&paper, test_folder, "geometry"), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "geometry/record.json: does not say of which case; run cutwater-geometry"));

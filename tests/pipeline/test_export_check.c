@@ -15,16 +15,9 @@
 
 enum { SIZE = 2 * CW_FILE_BLOCK + 12345 }; // three blocks
 
-static char path[sizeof test_folder + 60];
-
-static const char *in_run(const char *name) {
-  snprintf(path, sizeof path, "%s/%s", test_folder, name);
-  return path;
-}
-
 // A file of so many bytes, in which one at `place` is another (-1: none).
 static void write_file(const char *name, int size, int place) {
-  FILE *file = fopen(in_run(name), "wb");
+  FILE *file = fopen(in_test_folder(name), "wb");
   assert_non_null(file);
   for (int i = 0; i < size; i++) fputc((i * 7 + (i == place)) & 255, file);
   assert_int_equal(fclose(file), 0);
@@ -33,15 +26,14 @@ static void write_file(const char *name, int size, int place) {
 static int make_run(void **state) {
   CwRecord *record;
   if (make_test_folder(state)) return -1;
-  assert_int_equal(cw_make_directory(in_run("export")), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
   write_file("export/pump.cgns", SIZE, -1);
   write_file("export/small", 3, -1);
   assert_int_equal(cw_record_start("export", NULL, &record), CW_OK);
-  char folder[sizeof path];
-  strcpy(folder, in_run("export"));
+  const char *folder = in_test_folder("export");
   assert_int_equal(cw_record_file(record, folder, "pump.cgns"), CW_OK);
   assert_int_equal(cw_record_file(record, folder, "small"), CW_OK);
-  assert_int_equal(cw_record_write(record, in_run("export/record.json")), CW_OK);
+  assert_int_equal(cw_record_write(record, in_test_folder("export/record.json")), CW_OK);
   cw_record_free(record);
   return 0;
 }
@@ -51,7 +43,7 @@ static CwStatus checked(void) {
   const CwRanks alone = {.comm = MPI_COMM_SELF, .rank = 0, .size = 1};
   CwExportCheck *check = NULL;
   json_t *record = NULL;
-  assert_int_equal(cw_sealed_json_read(in_run("export/record.json"), &record), CW_OK);
+  assert_int_equal(cw_sealed_json_read(in_test_folder("export/record.json"), &record), CW_OK);
   assert_int_equal(cw_export_check_begin(test_folder, record, &alone, &check), CW_OK);
   const CwStatus status = cw_export_check_end(check);
   cw_export_check_free(&check);
@@ -80,7 +72,7 @@ static void a_shorter_file_and_one_that_is_missing_are_told(void **state) {
   write_file("export/pump.cgns", SIZE - 1, -1);
   assert_int_equal(checked(), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "export/pump.cgns: is not as"));
-  assert_int_equal(unlink(in_run("export/pump.cgns")), 0);
+  assert_int_equal(unlink(in_test_folder("export/pump.cgns")), 0);
   assert_int_equal(checked(), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "export/pump.cgns: cannot be read: No such file"));
 }
@@ -89,7 +81,7 @@ static void it_can_be_given_up(void **state) {
   const CwRanks alone = {.comm = MPI_COMM_SELF, .rank = 0, .size = 1};
   CwExportCheck *check = NULL;
   json_t *record = NULL;
-  assert_int_equal(cw_sealed_json_read(in_run("export/record.json"), &record), CW_OK);
+  assert_int_equal(cw_sealed_json_read(in_test_folder("export/record.json"), &record), CW_OK);
   assert_int_equal(cw_export_check_begin(test_folder, record, &alone, &check), CW_OK);
   cw_export_check_free(&check);
   cw_export_check_free(&check);

@@ -13,10 +13,8 @@
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-
-static FILE *begin(const char *name, const char *class, char path[200]) {
-  snprintf(path, 200, "%s/%s", test_folder, name);
-  FILE *file = fopen(path, "w");
+static FILE *begin(const char *name, const char *class) {
+  FILE *file = fopen(in_test_folder(name), "w");
   assert_non_null(file);
   fprintf(file, "/* a comment */\nFoamFile\n{\n    version 2.0;\n    format binary;\n    class %s;\n", class);
   fprintf(file, "    arch \"LSB;label=32;scalar=64\";\n}\n// * //\ndimensions [0 2 -2 0 0 0 0];\n");
@@ -40,10 +38,10 @@ static double of_character(char character) {
 
 static void values_are_those_of_the_file(void **state) {
   const double cell[] = {1, of_character('}'), of_character(';'), -4}, face[] = {of_character('{'), 7};
-  char path[200];
+  const char *path = in_test_folder("p");
   double value;
   CwFoamField field = {0};
-  FILE *file = begin("p", "volScalarField", path);
+  FILE *file = begin("p", "volScalarField");
   fputs("internalField ", file);
   put_list(file, "scalar", 1, cell, 4);
   fputs("boundaryField\n{\n    hub { type zeroGradient; }\n    inlet\n    {\n        type fixed;\n        p0 ", file);
@@ -97,8 +95,7 @@ static void make_mesh(CwMesh *mesh, CwRegionData cells[2]) {
 
 static void write_field(const char *name, const char *type, int components, const double *cell, int cells,
                         const char *patches) {
-  char path[200];
-  FILE *file = begin(name, components == 3 ? "volVectorField" : "volScalarField", path);
+  FILE *file = begin(name, components == 3 ? "volVectorField" : "volScalarField");
   fputs("internalField ", file);
   put_list(file, type, components, cell, cells);
   fprintf(file, "boundaryField\n{\n%s}\n", patches);
@@ -110,7 +107,6 @@ static void the_flow_lies_on_the_mesh(void **state) {
   CwRegionData cells[2];
   CwFlow flow = {0};
   CwCase table = {.fluid.density = 1000, .operating_point.speed = 2};
-  char path[200];
   double *share[2];
   const double p[] = {-5, 15}, u[] = {0, 2, 0, 0, 2, 0}, y_plus[] = {1, 100};
   make_mesh(&mesh, cells);
@@ -118,13 +114,11 @@ static void the_flow_lies_on_the_mesh(void **state) {
   assert_false(flow.present); // nothing solved
   for (const char *const *name = (const char *const[]){"solve", "solve/steady", "solve/steady/90", "solve/steady/200",
                                                        "solve/steady/0", NULL};
-       *name; name++) {
-    snprintf(path, sizeof path, "%s/%s", test_folder, *name);
-    assert_int_equal(mkdir(path, 0777), 0);
-  }
+       *name; name++)
+    assert_int_equal(mkdir(in_test_folder(*name), 0777), 0);
   write_field("solve/steady/200/p", "scalar", 1, p, 2, "");
   write_field("solve/steady/200/U", "vector", 3, u, 2, "");
-  FILE *file = begin("solve/steady/200/yPlus", "volScalarField", path);
+  FILE *file = begin("solve/steady/200/yPlus", "volScalarField");
   fputs("internalField uniform 0;\nboundaryField\n{\nhub { value ", file);
   put_list(file, "scalar", 1, y_plus, 2);
   fputs("}\n}\n", file);
@@ -135,7 +129,7 @@ static void the_flow_lies_on_the_mesh(void **state) {
   for (int r = 0; r < 2; r++) {
     assert_int_equal(cw_flow_faces(&flow, &mesh, r, &cells[r], share), CW_OK);
     for (int f = 0; f < 2; f++) {
-      assert_true(share[0][f] == r);                                  // of the cell behind
+      assert_true(share[0][f] == r);                                       // of the cell behind
       assert_true(r ? isnan(share[1][f]) : fabs(share[1][f] - f) < 1e-12); // face after face; the volute has none
     }
     free(share[0]);

@@ -47,8 +47,7 @@ static void capture_end(void) {
 }
 
 static int open_capture(void) {
-  char name[sizeof test_folder + 32];
-  snprintf(name, sizeof name, "%s/stderr", test_folder);
+  const char *name = in_test_folder("stderr");
   int file = open(name, O_RDWR | O_CREAT | O_TRUNC, 0600);
   assert_true(file >= 0);
   unlink(name);

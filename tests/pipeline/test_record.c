@@ -95,8 +95,7 @@ static void peak_memory_is_that_of_the_process(void **state) {
 
 static void place_that_cannot_be_written_is_an_error(void **state) {
   CwRecord *record = NULL;
-  char missing[sizeof test_folder + 32];
-  snprintf(missing, sizeof missing, "%s/none/record.json", test_folder);
+  const char *missing = in_test_folder("none/record.json");
   assert_int_equal(cw_record_start("export", test_log, &record), CW_OK);
   assert_int_equal(cw_record_write(record, missing), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "none/record.json: cannot be written: No such file or directory"));

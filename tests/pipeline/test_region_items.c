@@ -5,9 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static char path[] = "/tmp/cutwater-region-XXXXXX";
+static const char *path;
 static double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 static int64_t shared_id[1] = {8};
 static int32_t tetrahedra[1][4] = {{0, 1, 2, 3}}, triangles[1][3] = {{0, 2, 1}}, triangle_patch[1] = {2}, zero[1];
@@ -33,12 +34,13 @@ static void write_file(int format) {
 }
 
 static int make_file(void **state) {
-  int handle = mkstemp(path);
-  return handle < 0 || close(handle);
+  const int failed = make_test_folder(state);
+  path = in_test_folder("region.h5");
+  return failed;
 }
 
 static int remove_file(void **state) {
-  return unlink(path);
+  return unlink(path) || remove_test_folder(state);
 }
 
 static void the_surface_comes_without_the_cells(void **state) {

@@ -13,7 +13,9 @@
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/quantity.h"
 #include "pipeline/report/survey.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 #define GAP "\342\200\257"
 #define MINUS "\342\210\222"
@@ -121,11 +123,9 @@ static void html_is_escaped_and_encoded(void **state) {
 }
 
 static CwStatus embed(const char *content, char **text) {
-  char path[] = "/tmp/cutwater-svg-XXXXXX";
+  const char *path = in_test_folder("drawing.svg");
   size_t size = 0;
-  int handle = mkstemp(path);
-  assert_int_equal(write(handle, content, strlen(content)), (ssize_t)strlen(content));
-  close(handle);
+  write_text(path, content);
   FILE *page = open_memstream(text, &size);
   CwStatus status = cw_html_svg_file(page, path);
   fclose(page);
@@ -351,5 +351,5 @@ int main(void) {
       cmocka_unit_test(survey_finds_places),
       cmocka_unit_test(pictures_are_turned_alike),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -21,14 +21,8 @@
 
 #define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
 
-static void path_in_run(const char *name, char path[200]) {
-  snprintf(path, 200, "%s/%s", test_folder, name);
-}
-
 static void write_in_run(const char *name, const char *text) {
-  char path[200];
-  path_in_run(name, path);
-  write_text(path, text);
+  write_text(in_test_folder(name), text);
 }
 
 // A stage's record, with the case that it ran for.
@@ -44,15 +38,11 @@ static void write_record(const char *name, const char *text) {
 }
 
 static char *read_in_run(const char *name) {
-  char path[200];
-  path_in_run(name, path);
-  return read_whole(path, NULL);
+  return read_whole(in_test_folder(name), NULL);
 }
 
 static int there(const char *name) {
-  char path[200];
-  path_in_run(name, path);
-  return access(path, F_OK) == 0;
+  return access(in_test_folder(name), F_OK) == 0;
 }
 
 // Whether nothing half-written lies beside the page.
@@ -75,9 +65,8 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
   int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}}, triangle_patch[4] = {0, 0, 1, 1};
   int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}, quad_patch[4] = {3, 3, 3, 3};
   int32_t triangle_cell[4] = {0, 1, 0, 1}, quad_cell[4] = {0, 1, 1, 0};
-  char name[40], path[200], digest[CW_HASH_TEXT];
+  char name[40], digest[CW_HASH_TEXT];
   snprintf(name, sizeof name, "mesh/%s-0001.h5", domain);
-  path_in_run(name, path);
   const CwRegionData data = {.point_count = 8,
                              .prism_count = 2,
                              .triangle_count = 4,
@@ -90,7 +79,7 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
                              .quads = quad,
                              .quad_patch = quad_patch,
                              .quad_cell = quad_cell};
-  hid_t file = cw_region_items_create(path);
+  hid_t file = cw_region_items_create(in_test_folder(name));
   assert_true(file >= 0);
   assert_int_equal(cw_region_items_put_integer(file, "format", CW_REGION_FORMAT), CW_OK);
   assert_int_equal(cw_region_items_put_integer(file, "region", 1), CW_OK);
@@ -128,12 +117,9 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
 // clang-format on
 
 static int make_run(void **state) {
-  char path[200];
   if (make_test_folder(state)) return -1;
-  path_in_run("geometry", path);
-  assert_int_equal(cw_make_directory(path), CW_OK);
-  path_in_run("mesh", path);
-  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("geometry")), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("mesh")), CW_OK);
   write_in_run("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,\"blade_count\":6,"
                                        "\"outlet_diameter_m\":0.2,\"base_diameter_m\":0.204,"
                                        "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
@@ -302,9 +288,7 @@ static void tables_tell_what_was_asked(void **state) {
 }
 
 static void export_figures_are_shown(void **state) {
-  char path[200];
-  path_in_run("export", path);
-  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
                                      "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025012345},"
                                      "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
@@ -322,9 +306,8 @@ static void export_figures_are_shown(void **state) {
 
 // Files of a stage that are not those it wrote, or not those that a later one was made from.
 static void files_that_do_not_belong_together_are_told(void **state) {
-  char path[200], first[300];
-  path_in_run("export", path);
-  assert_int_equal(cw_make_directory(path), CW_OK);
+  char first[300];
+  assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
   write_in_run("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
                                      "\"warnings\":[],\"results\":{\"cells\":4,\"interfaces\":[],\"patches\":[]}}");
@@ -366,13 +349,10 @@ static void domains_of_another_mesh_are_told(void **state) {
 static void missing_files_are_named(void **state) {
   static const char *const names[] = {"geometry/design.json", "geometry/record.json", "mesh/record.json",
                                       "mesh/manifest.json", "mesh/stator-0001.h5"};
-  char path[200], aside[200];
-  path_in_run("aside", aside);
   for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-    path_in_run(names[k], path);
-    assert_int_equal(rename(path, aside), 0);
+    assert_int_equal(rename(in_test_folder(names[k]), in_test_folder("aside")), 0);
     fails(CW_ERR_IO, names[k]);
-    assert_int_equal(rename(aside, path), 0);
+    assert_int_equal(rename(in_test_folder("aside"), in_test_folder(names[k])), 0);
   }
 }
 
@@ -394,15 +374,12 @@ static void wrong_content_is_named(void **state) {
       {"mesh/record.json", "{\"case\":{}}", "mesh: made with name: (left out), the case file has paper"},
       {"geometry/velocity_triangles.svg", "<svg>", "not a whole SVG"},
   };
-  char path[200], aside[200];
-  path_in_run("aside", aside);
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-    path_in_run(wrong[k].file, path);
-    assert_int_equal(rename(path, aside), 0);
+    assert_int_equal(rename(in_test_folder(wrong[k].file), in_test_folder("aside")), 0);
     (strstr(wrong[k].text, "\"stage\"") ? write_record : write_in_run)(wrong[k].file, wrong[k].text);
     assert_int_equal(seal_run(test_folder), 0);
     fails(CW_ERR_INPUT, wrong[k].message);
-    assert_int_equal(rename(aside, path), 0);
+    assert_int_equal(rename(in_test_folder("aside"), in_test_folder(wrong[k].file)), 0);
   }
   write_in_run("mesh/rotor-0001.h5", "no HDF5");
   assert_int_equal(seal_run(test_folder), 0);

@@ -81,8 +81,7 @@ static void a_child_does_not_inherit_it(void **state) {
 }
 
 static void a_folder_that_cannot_be_made_is_told(void **state) {
-  char path[sizeof test_folder + 60];
-  snprintf(path, sizeof path, "%s/log/run.lock", test_folder);
+  const char *path = in_test_folder("log/run.lock");
   assert_int_equal(cw_run_lock(path, "mesh", NULL, &lock), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), path));
 }

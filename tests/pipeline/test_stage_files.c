@@ -15,26 +15,19 @@
 #include "tests/unit_test.h"
 #include "tests/whole_file.h"
 
-static char path[sizeof test_folder + 60];
-
-static const char *in_run(const char *name) {
-  snprintf(path, sizeof path, "%s/%s", test_folder, name);
-  return path;
-}
-
 // A stage that has written one file, from those of other stages.
 static void write_stage(const char *stage, const char *const *reads, const char *text) {
   CwRecord *record;
-  char folder[sizeof test_folder + 20], name[40];
-  snprintf(folder, sizeof folder, "%s/%s", test_folder, stage);
+  char name[40];
+  const char *folder = in_test_folder(stage);
   snprintf(name, sizeof name, "%s/made.txt", stage);
   assert_int_equal(cw_make_directory(folder), CW_OK);
-  write_text(in_run(name), text);
+  write_text(in_test_folder(name), text);
   assert_int_equal(cw_record_start(stage, NULL, &record), CW_OK);
   assert_int_equal(cw_record_made_from(record, test_folder, reads), CW_OK);
   assert_int_equal(cw_record_file(record, folder, "made.txt"), CW_OK);
   snprintf(name, sizeof name, "%s/record.json", stage);
-  assert_int_equal(cw_record_write(record, in_run(name)), CW_OK);
+  assert_int_equal(cw_record_write(record, in_test_folder(name)), CW_OK);
   cw_record_free(record);
 }
 
@@ -58,12 +51,12 @@ static void all_as_written_is_taken(void **state) {
 }
 
 static void a_changed_file_is_told_by_its_name(void **state) {
-  write_text(in_run("geometry/made.txt"), "a solit\n");
+  write_text(in_test_folder("geometry/made.txt"), "a solit\n");
   refuses("geometry", CW_ERR_IO, "geometry/made.txt: is not as cutwater-geometry wrote it: damaged or replaced; run");
-  write_text(in_run("geometry/made.txt"), "a solid\n");
-  assert_int_equal(unlink(in_run("mesh/made.txt")), 0);
+  write_text(in_test_folder("geometry/made.txt"), "a solid\n");
+  assert_int_equal(unlink(in_test_folder("mesh/made.txt")), 0);
   refuses("mesh", CW_ERR_IO, "mesh/made.txt: cannot be read: No such file");
-  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("mesh/made.txt")), CW_OK);
   refuses("mesh", CW_ERR_IO, "mesh/made.txt: cannot be read: it is no plain file");
 }
 
@@ -82,7 +75,8 @@ static void what_was_made_from_others_is_told(void **state) {
 static void no_bit_of_a_record_may_change(void **state) {
   json_t *object;
   size_t size;
-  char *bytes = read_whole(in_run("mesh/record.json"), &size);
+  const char *path = in_test_folder("mesh/record.json");
+  char *bytes = read_whole(path, &size);
   assert_true(size > 200);
   for (size_t bit = 0; bit < 8 * size; bit++) {
     bytes[bit / 8] ^= (char)(1 << bit % 8);
@@ -100,8 +94,8 @@ static void no_bit_of_a_record_may_change(void **state) {
 
 static void any_object_comes_back(void **state) {
   json_t *object = json_pack("{s:i, s:s, s:[f, n]}", "one", 1, "digest of", "\"}\n", "list", 0.1), *got;
-  assert_int_equal(cw_sealed_json_write(object, in_run("sealed.json")), CW_OK);
-  assert_int_equal(cw_sealed_json_read(path, &got), CW_OK);
+  assert_int_equal(cw_sealed_json_write(object, in_test_folder("sealed.json")), CW_OK);
+  assert_int_equal(cw_sealed_json_read(in_test_folder("sealed.json"), &got), CW_OK);
   assert_int_equal(json_object_size(got), 4);
   json_object_del(got, "digest");
   assert_true(json_equal(got, object));
@@ -113,12 +107,13 @@ static void any_object_comes_back(void **state) {
 static void shared_blocks_give_the_same_digest(void **state) {
   static char bytes[2 * CW_FILE_BLOCK + 5];
   static const size_t sizes[] = {0, 1, CW_FILE_BLOCK - 1, CW_FILE_BLOCK, CW_FILE_BLOCK + 1, sizeof bytes};
+  const char *path = in_test_folder("blocks");
   char before[CW_HASH_TEXT] = "", digest[CW_HASH_TEXT], shared[CW_HASH_TEXT];
   for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (char)(i * 7 >> 3);
   for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
     CwFileSum sum = {0};
     int64_t size = -1;
-    write_whole(in_run("blocks"), bytes, sizes[s]);
+    write_whole(path, bytes, sizes[s]);
     assert_int_equal(cw_file_digest(path, digest), CW_OK);
     assert_int_equal(cw_file_size(path, &size), CW_OK);
     assert_int_equal(size, sizes[s]);

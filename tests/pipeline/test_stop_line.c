@@ -87,7 +87,7 @@ static void one_tells_where_the_first_is_killed(void **state) {
 // Ranks of another host may be cut off: one of them speaks, and so does one of the first rank's host that
 // ends later.
 static void ranks_elsewhere_leave_the_word_to_the_first_host(void **state) {
-  char host[300] = {0}, far_token[120], said[1000];
+  char host[300] = {0}, far_token[sizeof token + 4], said[1000];
   pid_t rank[RANKS];
   int told;
   snprintf(far_token, sizeof far_token, "%s.far", token);
@@ -131,11 +131,9 @@ static void the_end_leaves_nothing(void **state) {
 }
 
 static int make_run(void **state) {
-  char log[sizeof test_folder + 8];
   if (make_test_folder(state)) return -1;
-  snprintf(log, sizeof log, "%s/log", test_folder);
-  snprintf(token, sizeof token, "%s/mesh.running", log);
-  return mkdir(log, 0777);
+  snprintf(token, sizeof token, "%s/log/mesh.running", test_folder);
+  return mkdir(in_test_folder("log"), 0777);
 }
 
 int main(void) {

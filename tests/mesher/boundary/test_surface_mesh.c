@@ -93,10 +93,9 @@ static void freed_ones_are_empty(void **state) {
 }
 
 static void vtk_has_all_triangles(void **state) {
-  char path[sizeof test_folder + 16];
   Tetrahedron of;
   make(&of);
-  snprintf(path, sizeof path, "%s/it.vtk", test_folder);
+  const char *path = in_test_folder("it.vtk");
   assert_int_equal(cw_surface_mesh_vtk(&of.surface, path), CW_OK);
   char *text = read_whole(path, NULL);
   remove(path);

@@ -11,8 +11,7 @@
 #include "tests/whole_file.h"
 
 static CwStatus read_of(const char *text, double *unit) {
-  char path[64];
-  snprintf(path, sizeof path, "%s/model.json", test_folder);
+  const char *path = in_test_folder("model.json");
   write_text(path, text);
   const CwStatus status = cw_cad_unit_read(test_folder, unit);
   unlink(path);

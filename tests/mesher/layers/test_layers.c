@@ -242,10 +242,9 @@ static void spoiled_layers_are_told(void **state) {
 }
 
 static void vtk_has_the_layer_top(void **state) {
-  char path[sizeof test_folder + 16];
   Square of;
   square(&of);
-  snprintf(path, sizeof path, "%s/it.vtk", test_folder);
+  const char *path = in_test_folder("it.vtk");
   assert_int_equal(cw_layers_vtk(&of.layers, of.region, path), CW_OK);
   char *text = read_whole(path, NULL);
   remove(path);

@@ -69,17 +69,15 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
 }
 
 static int open_pump(void **state) {
-  char command[1024], path[128], case_path[512];
+  char command[1024], case_path[512];
   assert_int_equal(make_test_folder(state), 0);
   snprintf(case_path, sizeof case_path, "%s/cases/%s/case.yaml", CUTWATER_SOURCE_DIR, case_name);
   snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR,
            case_path, test_folder);
   assert_int_equal(system(command), 0);
   check(cw_case_read(case_path, &table));
-  snprintf(path, sizeof path, "%s/geometry/model.json", test_folder);
-  check(cw_model_read(path, &model));
-  snprintf(path, sizeof path, "%s/geometry", test_folder);
-  for (int d = 0; d < model.domain_count; d++) open_domain(&domain[d], d, path);
+  check(cw_model_read(in_test_folder("geometry/model.json"), &model));
+  for (int d = 0; d < model.domain_count; d++) open_domain(&domain[d], d, in_test_folder("geometry"));
   prism_factor = 2.45 * domain[0].layer_count;
   check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
   assert_true(symmetry || strcmp(case_name, "paper") != 0);

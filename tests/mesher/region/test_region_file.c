@@ -14,12 +14,11 @@
 #include "tests/unit_test.h"
 #include "tests/whole_file.h"
 
-static char path[300], other[300];
+static const char *path, *other;
 
 static int make_folder(void **state) {
   if (make_test_folder(state)) return 1;
-  snprintf(path, sizeof path, "%s/rotor-0001.h5", test_folder);
-  snprintf(other, sizeof other, "%s/rotor-0002.h5", test_folder);
+  path = in_test_folder("rotor-0001.h5"), other = in_test_folder("rotor-0002.h5");
   return 0;
 }
 
@@ -189,8 +188,7 @@ static void wrong_index_is_named(void **state) {
 
 static void folder_that_is_not_there_is_an_io_error(void **state) {
   CwRegionMesh r = region_by_hand();
-  char nowhere[400];
-  snprintf(nowhere, sizeof nowhere, "%s/none/rotor-0001.h5", test_folder);
+  const char *nowhere = in_test_folder("none/rotor-0001.h5");
   assert_int_equal(cw_region_write(nowhere, &r), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), strerror(ENOENT)));
   assert_non_null(strstr(cw_fail_message(), nowhere));
