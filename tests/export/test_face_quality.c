@@ -35,13 +35,13 @@ static void the_angle_is_that_of_the_centroids(void **state) {
   CwFaceQuality straight, leaning;
   // The prism's centroid is (1, 1, -1), the tetrahedron's a quarter of the way from (1, 1, 0) to the tip.
   two_cells((double[3]){1, 1, 4}, 2, &straight);
-  assert_float_equal(cw_non_orthogonality_greatest(&straight), 0, 1e-6);
+  assert_near(cw_non_orthogonality_greatest(&straight), 0, 1e-6);
   two_cells((double[3]){9, 1, 4}, 2, &leaning);
-  assert_float_equal(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
+  assert_near(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
   cw_face_quality_add(&straight, &leaning);
   assert_int_equal(leaning.count, 2);
-  assert_float_equal(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
-  assert_float_equal(cw_non_orthogonality_mean(&leaning), acos((1 + sqrt(0.5)) / 2) * 180 / M_PI, 1e-9);
+  assert_near(cw_non_orthogonality_greatest(&leaning), 45, 1e-9);
+  assert_near(cw_non_orthogonality_mean(&leaning), acos((1 + sqrt(0.5)) / 2) * 180 / M_PI, 1e-9);
 }
 
 // A triangle in the plane z = 0 with its centre at (off, 0, 0), that reaches over 0.1 m towards x.
@@ -147,8 +147,8 @@ static void an_aspect_depends_on_the_axes(void **state) {
 static void no_face_is_at_no_angle(void **state) {
   CwFaceQuality o;
   cw_face_quality_start(&o);
-  assert_float_equal(cw_non_orthogonality_greatest(&o), 0, 0);
-  assert_float_equal(cw_non_orthogonality_mean(&o), 0, 0);
+  assert_near(cw_non_orthogonality_greatest(&o), 0, 0);
+  assert_near(cw_non_orthogonality_mean(&o), 0, 0);
 }
 
 int main(void) {

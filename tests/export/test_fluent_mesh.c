@@ -49,7 +49,7 @@ static void openfoam_reads_the_same_mesh(void **state) {
         assert_true(k > 0 && xs == x && ys == y);
         break;
       }
-      assert_float_equal(a, b, 1e-7 * (b < 0 ? -b : b));
+      assert_near(a, b, 1e-7 * (b < 0 ? -b : b));
       x = xs;
       y = ys;
     }

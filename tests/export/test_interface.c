@@ -93,7 +93,7 @@ static void every_centre_lies_where_its_donor_says(void **state) {
       place_in(&p.assembly.interface[0][1 - d][interface.donor[d][i]], interface.place[d][i], place);
       for (int c = 0; c < face->count; ++c)
         for (int k = 0; k < 3; ++k) x[k] += face->nodes[c][k] / face->count;
-      assert_float_equal(place[1], x[2], 1e-12);
+      assert_near(place[1], x[2], 1e-12);
       // The centre of a triangle is off the mean of the angles by a third order of its width.
       assert_true(fabs(remainder(place[0] - atan2(x[1], x[0]), 2 * M_PI)) < 2e-4);
     }
@@ -184,7 +184,7 @@ static void a_disc_finds_its_donors_in_its_plane(void **state) {
           centre += face->nodes[c][k] / 3;
           place += w[c] * donor->nodes[c][k];
         }
-        assert_float_equal(place, centre, 1e-12);
+        assert_near(place, centre, 1e-12);
       }
     }
   }
@@ -225,7 +225,7 @@ static void any_surface_has_the_donors_of_the_cylinder(void **state) {
     for (int64_t i = 0; i < wanted.count[d]; ++i) {
       if (found.donor[d][i] != wanted.donor[d][i]) continue; // a chord's end may belong to its neighbour
       ++same;
-      for (int k = 0; k < 2; ++k) assert_float_equal(found.place[d][i][k], wanted.place[d][i][k], 0.02);
+      for (int k = 0; k < 2; ++k) assert_near(found.place[d][i][k], wanted.place[d][i][k], 0.02);
     }
     assert_true(same >= 0.98 * (double)wanted.count[d]);
   }

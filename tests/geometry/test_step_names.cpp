@@ -43,7 +43,7 @@ static void names_and_volumes_survive(void **) {
     assert_int_equal(cw_measure_solid(solids[i], &before), CW_OK);
     assert_int_equal(cw_measure_solid(&again, &after), CW_OK);
     assert_true(after.valid);
-    assert_float_equal(after.volume / before.volume, 1, 1e-6);
+    assert_near(after.volume / before.volume, 1, 1e-6);
     cw_solid_free(&solids[i]);
   }
   cw_cad_bodies_free(&bodies);

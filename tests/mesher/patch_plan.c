@@ -192,7 +192,7 @@ void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area) {
     assert_true(mesh->component[t] >= 0 && mesh->component[t] < mesh->component_count);
     sum += 0.5 * cross;
   }
-  assert_float_equal(sum / uv_area, 1, 1e-11);
+  assert_near(sum / uv_area, 1, 1e-11);
   assert_int_equal(mesh->folded_count, 0);
 }
 

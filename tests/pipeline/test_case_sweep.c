@@ -32,15 +32,15 @@ static void eight_times_the_cells_halve_each_layer(void **state) {
   CwCase table = pump(CW_SWEEP_SIMILAR, 2, 1.44);
   assert_int_equal(cw_case_sweep("case.yaml", 8000000, &table), CW_OK);
   assert_int_equal(table.walls.layer_count, 4);
-  assert_float_equal(table.walls.growth_ratio, 1.2, 1e-14);
-  assert_float_equal(table.walls.blade.y_plus, 30 / 2.2, 1e-12);
-  assert_float_equal(table.walls.hub_shroud.y_plus, 60 / 2.2, 1e-12);
-  assert_float_equal(table.walls.volute.first_height, 1e-4 / 2.2, 1e-18);
+  assert_near(table.walls.growth_ratio, 1.2, 1e-12);
+  assert_near(table.walls.blade.y_plus, 30 / 2.2, 1e-12);
+  assert_near(table.walls.hub_shroud.y_plus, 60 / 2.2, 1e-12);
+  assert_near(table.walls.volute.first_height, 1e-4 / 2.2, 1e-18);
   assert_true(isnan(table.walls.volute.y_plus));
   // Layers without growth are halved.
   table = pump(CW_SWEEP_SIMILAR, 3, 1);
   assert_int_equal(cw_case_sweep("case.yaml", 8000000, &table), CW_OK);
-  assert_float_equal(table.walls.blade.y_plus, 15, 1e-12);
+  assert_near(table.walls.blade.y_plus, 15, 1e-12);
 }
 
 static double thickness(double first, double growth, int layers) {
@@ -55,10 +55,9 @@ static void the_whole_thickness_stays(void **state) {
     table.walls.hub_shroud.growth_ratio = 1.3;
     assert_int_equal(cw_case_sweep("case.yaml", cells, &table), CW_OK);
     const CwWalls *walls = &table.walls;
-    assert_float_equal(thickness(walls->blade.y_plus, walls->growth_ratio, walls->layer_count), thickness(30, 1.2, 5),
-                       1e-9);
-    assert_float_equal(thickness(walls->hub_shroud.y_plus, walls->hub_shroud.growth_ratio, walls->layer_count),
-                       thickness(60, 1.3, 5), 1e-9);
+    assert_near(thickness(walls->blade.y_plus, walls->growth_ratio, walls->layer_count), thickness(30, 1.2, 5), 1e-9);
+    assert_near(thickness(walls->hub_shroud.y_plus, walls->hub_shroud.growth_ratio, walls->layer_count),
+                thickness(60, 1.3, 5), 1e-9);
   }
 }
 

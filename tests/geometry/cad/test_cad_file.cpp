@@ -59,8 +59,8 @@ static void write_step(const std::string &path) {
 static void check_box(const CwCadBodies *bodies, double x0, double x1) {
   Bnd_Box box;
   BRepBndLib::AddOptimal(bodies->body[0].solid, box, Standard_False, Standard_False);
-  assert_float_equal(1e-3 * box.CornerMin().X(), x0, 1e-6 * x1);
-  assert_float_equal(1e-3 * box.CornerMax().X(), x1, 1e-6 * x1);
+  assert_near(1e-3 * box.CornerMin().X(), x0, 1e-6 * x1);
+  assert_near(1e-3 * box.CornerMax().X(), x1, 1e-6 * x1);
 }
 
 // The file says that its lengths are in another unit: by its text alone, so that no writer's idea of units counts.

@@ -93,10 +93,10 @@ static void concave_edges_are_opened(void **state) {
     assert_in_range(opened, 1, 16);
     for (int32_t v = 0; v < POINTS; v++) {
       const double *end = ring.top[v], *next = ring.top[ring.flat.next[v]]; // a quarter of a turn on
-      assert_float_equal(next[0], -end[1], 1e-15);
-      assert_float_equal(next[1], end[0], 1e-15);
-      assert_float_equal(next[2], end[2], 1e-15);
-      assert_float_equal(ring.thickness[v], end[2], 1e-12);
+      assert_near(next[0], -end[1], 1e-15);
+      assert_near(next[1], end[0], 1e-15);
+      assert_near(next[2], end[2], 1e-15);
+      assert_near(ring.thickness[v], end[2], 1e-12);
       assert_true(ring.thickness[v] >= fmin(ring.least[v], LOW));
       if (fabs(ring.thickness[v] / HIGH - 1) > 0.02 && ring.thickness[v] != LOW)
         assert_int_equal(ring.reason[v], CW_LAYER_REPAIR);
@@ -121,7 +121,7 @@ static void seams_do_not_matter(void **state) {
     for (int j = 0; j <= RINGS; j++)
       for (int k = 0; k < 3; k++) {
         int32_t v = ring_point(AROUND + i, j);
-        assert_float_equal(ring.top[v][k], whole.top[v][k], 0.01 * HIGH);
+        assert_near(ring.top[v][k], whole.top[v][k], 0.01 * HIGH);
       }
 }
 

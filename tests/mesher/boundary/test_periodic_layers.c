@@ -13,8 +13,7 @@
 
 static const double HEIGHT = 0.6e-3;
 
-static void leave(const void *context, int32_t v, double x[3]) {
-}
+static void leave(const void *context, int32_t v, double x[3]) {}
 
 // In the middle of the first seam the column of one member stands on a line that leans, that of the other is free.
 static void seams_get_the_sounder_column(void **state) {
@@ -86,9 +85,9 @@ static void check_lowered(const FlatRing *ring, const CwLayers *layers, double h
     assert_true(fabs(layers->thickness[v] - graded[v]) < 1e-12 || fabs(steps - round(steps)) < 1e-9);
     lowered += layers->thickness[v] < 0.99 * height;
     sloping += layers->thickness[v] < 0.99 * height && fabs(layers->thickness[v] - graded[v]) < 1e-12;
-    assert_float_equal(layers->thickness[next], layers->thickness[v], 1e-15);
-    assert_float_equal(layers->top[next][0], -layers->top[v][1], 1e-12);
-    assert_float_equal(layers->top[next][1], layers->top[v][0], 1e-12);
+    assert_near(layers->thickness[next], layers->thickness[v], 1e-15);
+    assert_near(layers->top[next][0], -layers->top[v][1], 1e-12);
+    assert_near(layers->top[next][1], layers->top[v][0], 1e-12);
   }
   assert_true(lowered >= 4 * PASSAGES && sloping >= PASSAGES);
 }

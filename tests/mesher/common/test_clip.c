@@ -7,8 +7,8 @@
 #include "tests/unit_test.h"
 
 static void assert_point(const double *x, double a, double b) {
-  assert_float_equal(x[0], a, 1e-12);
-  assert_float_equal(x[1], b, 1e-12);
+  assert_near(x[0], a, 1e-12);
+  assert_near(x[1], b, 1e-12);
 }
 
 // The paper's figure 1: triangle {1, 2, 3} through the clippers left, right, lower, upper of a window gives

@@ -14,11 +14,11 @@ static void flat_square(void **state) {
   surface_plate(&c.wall, 0.01, 0, 1 * MM, 1);
   case_run(&c, "flat square");
   for (int32_t v = 0; v < c.wall.point_count; v++) {
-    assert_float_equal(c.out.top[v][0], c.wall.x[v][0], 1e-15);
-    assert_float_equal(c.out.top[v][1], c.wall.x[v][1], 1e-15);
-    assert_float_equal(c.out.top[v][2], 0.6 * MM, 1e-15);
+    assert_near(c.out.top[v][0], c.wall.x[v][0], 1e-15);
+    assert_near(c.out.top[v][1], c.wall.x[v][1], 1e-15);
+    assert_near(c.out.top[v][2], 0.6 * MM, 1e-15);
   }
-  assert_float_equal(c.share, 1, 0);
+  assert_near(c.share, 1, 0);
   case_free(&c);
 }
 
@@ -30,13 +30,13 @@ static void inside_of_box(void **state) {
     const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01};
     surface_box(&c.wall, low, high, h[i], 63, 0);
     case_run(&c, "inside of a box");
-    assert_float_equal(c.share, 1, 0);
+    assert_near(c.share, 1, 0);
     assert_int_equal(c.out.repair_rounds, 0);
     for (int32_t v = 0; v < c.wall.point_count; v++) {
       for (int k = 0; k < 3; k++) {
         double x = c.wall.x[v][k], y = c.out.top[v][k];
         assert_true(y > 0.6 * MM - 1e-12 && y < 9.4 * MM + 1e-12);
-        if (x < 1e-9 || x > 0.01 - 1e-9) assert_float_equal(y, x < 1e-9 ? 0.6 * MM : 9.4 * MM, 1e-12);
+        if (x < 1e-9 || x > 0.01 - 1e-9) assert_near(y, x < 1e-9 ? 0.6 * MM : 9.4 * MM, 1e-12);
       }
     }
     case_free(&c);
@@ -51,7 +51,7 @@ static void box_in_box(void **state) {
   surface_box(&c.wall, low, high, 0.5 * MM, 63, 1);
   surface_box(&c.wall, outer_low, outer_high, 1 * MM, 63, 0);
   case_run(&c, "box in a box");
-  assert_float_equal(c.share, 1, 0);
+  assert_near(c.share, 1, 0);
   int inner = 0;
   for (int32_t v = 0; v < c.wall.point_count; v++) {
     const double *x = c.wall.x[v];
@@ -59,7 +59,7 @@ static void box_in_box(void **state) {
     inner++;
     for (int k = 0; k < 3; k++) {
       double expect = x[k] < 1e-9 ? -0.6 * MM : x[k] > 0.01 - 1e-9 ? 10.6 * MM : x[k];
-      assert_float_equal(c.out.top[v][k], expect, 1e-12);
+      assert_near(c.out.top[v][k], expect, 1e-12);
     }
   }
   assert_int_equal(inner, 6 * 20 * 20 + 2);
@@ -76,19 +76,19 @@ static void l_channel(void **state) {
     surface_extrude(&c.wall, 6, p, 1, depth, h[i], 1);
     surface_ends(&c.open_patch, 0, 0, 0.02, 0.02, depth);
     case_run(&c, "L-shaped channel");
-    assert_float_equal(c.share, 1, 0);
+    assert_near(c.share, 1, 0);
     int convex = 0, concave = 0;
     for (int32_t v = 0; v < c.wall.point_count; v++) {
       const double *x = c.wall.x[v], *y = c.out.top[v];
-      assert_float_equal(x[1], y[1], 1e-12);
+      assert_near(x[1], y[1], 1e-12);
       if (hypot(x[0] - 0.008, x[2] - 0.008) < 1e-9) {
         convex++;
-        assert_float_equal(y[0], 7.4 * MM, 1e-12);
-        assert_float_equal(y[2], 7.4 * MM, 1e-12);
+        assert_near(y[0], 7.4 * MM, 1e-12);
+        assert_near(y[2], 7.4 * MM, 1e-12);
       } else if (hypot(x[0], x[2]) < 1e-9) {
         concave++;
-        assert_float_equal(y[0], 0.6 * MM, 1e-12);
-        assert_float_equal(y[2], 0.6 * MM, 1e-12);
+        assert_near(y[0], 0.6 * MM, 1e-12);
+        assert_near(y[2], 0.6 * MM, 1e-12);
       }
     }
     assert_int_equal(convex, lround(depth / h[i]) + 1);
@@ -110,7 +110,7 @@ static void sharp_creases(void **state) {
     int on_edge = 0;
     for (int32_t v = 0; v < c.wall.point_count; v++) {
       if (hypot(c.wall.x[v][0], c.wall.x[v][2]) > 1e-9) continue;
-      assert_float_equal(hypot(c.out.top[v][0], c.out.top[v][2]), 2 * c.out.thickness[v], 1e-12);
+      assert_near(hypot(c.out.top[v][0], c.out.top[v][2]), 2 * c.out.thickness[v], 1e-12);
       on_edge++;
     }
     assert_int_equal(on_edge, lround(depth / h[i]) + 1);
@@ -125,10 +125,10 @@ static void pipe_between_open_patches(void **state) {
   surface_pipe(&c.wall, 20 * MM, length, 120, 40);
   surface_ends(&c.open_patch, -0.03, -0.03, 0.03, 0.03, length);
   case_run(&c, "pipe between open patches");
-  assert_float_equal(c.share, 1, 0);
+  assert_near(c.share, 1, 0);
   for (int32_t v = 0; v < c.wall.point_count; v++) {
-    assert_float_equal(hypot(c.out.top[v][0], c.out.top[v][2]), 0.02 - 0.6 * MM / cos(M_PI / 120), 1e-10);
-    assert_float_equal(c.out.top[v][1], c.wall.x[v][1], 1e-10);
+    assert_near(hypot(c.out.top[v][0], c.out.top[v][2]), 0.02 - 0.6 * MM / cos(M_PI / 120), 1e-10);
+    assert_near(c.out.top[v][1], c.wall.x[v][1], 1e-10);
   }
   case_free(&c);
 }

@@ -35,7 +35,7 @@ static void column_that_helps(void **state) {
   int helps[3];
   make(&one, 0.3 + more);
   const double(*top)[3] = (const double(*)[3])one.top;
-  assert_float_equal(cw_layers_judge(&one.work, 0, top), cw_policy.turn_top / (1 + more * more), 1e-12);
+  assert_near(cw_layers_judge(&one.work, 0, top), cw_policy.turn_top / (1 + more * more), 1e-12);
   assert_false(cw_layers_is_sound(&one.work, 0, top));
   for (int floor = 0; floor < 2; floor++) {
     one.least[0] = floor ? one.t[0] : 0;
@@ -59,7 +59,7 @@ static void columns_that_must_lean(void **state) {
   for (int v = 0; v < 3; v++) one.top[v][0] += 0.3 * tan(acos(0.1));
   const double(*top)[3] = (const double(*)[3])one.top;
   double quality = cw_layers_judge(&one.work, 0, top);
-  assert_float_equal(quality, 0.1, 1e-12);
+  assert_near(quality, 0.1, 1e-12);
   assert_true(quality < cw_policy.prism_good);
   for (int v = 0; v < 3; v++) {
     const double most = 0.1 / 0.6; // of which the columns keep 0.6
@@ -67,7 +67,7 @@ static void columns_that_must_lean(void **state) {
     assert_true(cw_layers_judge(&one.work, 0, top) >= cw_policy.prism_good);
     assert_true(cw_layers_is_sound(&one.work, 0, top));
     one.base_cos[v] = 1.01 * most;
-    assert_float_equal(cw_layers_judge(&one.work, 0, top), 0.1, 1e-12);
+    assert_near(cw_layers_judge(&one.work, 0, top), 0.1, 1e-12);
     one.base_cos[v] = 1;
   }
 }

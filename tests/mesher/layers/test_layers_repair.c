@@ -58,9 +58,9 @@ static void leaning_column(void **state) {
                     thickness / MM);
       assert_true(prism >= 0.12);
       assert_true(after && i < 2 ? shape >= 0.3 : shape < 0.3);
-      if (!after || i == 0) assert_float_equal(thickness, c.target, 1e-15);
+      if (!after || i == 0) assert_near(thickness, c.target, 1e-15);
       if (after && i == 1) assert_true(thickness < 0.55 * MM);
-      if (after && i == 2) assert_float_equal(thickness, 0.55 * MM, 1e-15);
+      if (after && i == 2) assert_near(thickness, 0.55 * MM, 1e-15);
     }
     cw_box_tree_free(&tree);
     cw_smoothing_free(&work.smoothing);
@@ -96,7 +96,7 @@ static void sheared_prism(void **state) {
     const double *wall[3], *end[3], whole[3] = {1, 1, 1};
     for (int k = 0; k < 3; k++) {
       wall[k] = c.wall.x[corner[k]], end[k] = top[corner[k]];
-      assert_float_equal(end[k][2], c.target, 1e-15);
+      assert_near(end[k][2], c.target, 1e-15);
       if (!layers) assert_true(fabs(end[k][1] - wall[k][1] - c.target * lean[1]) < 1e-12);
     }
     assert_true(cw_prism_top_quality(wall, end) >= 0.3);
@@ -141,12 +141,12 @@ static void wedge_beside_plane(void **state) {
     }
     assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
     cw_sub(top[2], x[2], column);
-    assert_float_equal(column[2], c.target, 1e-15);
+    assert_near(column[2], c.target, 1e-15);
     double wedge = atan2(top[2][0], top[2][2] - 0.5 * MM) * 180 / M_PI;
     print_message("  %s plane%s: a wedge of %.1f degrees\n", held ? "with a" : "without", faced ? " and a wall" : "",
                   wedge);
     assert_true(i == 1 ? wedge >= 54 : wedge < 52 && column[0] == 0);
-    if (faced) assert_float_equal(top[3][0], 8.1 * MM, 1e-15);
+    if (faced) assert_near(top[3][0], 8.1 * MM, 1e-15);
     cw_box_tree_free(&tree);
     cw_smoothing_free(&work.smoothing);
     cw_layers_work_free(&work);

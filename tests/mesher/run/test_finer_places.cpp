@@ -36,9 +36,9 @@ static void places_ask_for_half(void **) {
     assert_int_equal(count, d == 0 ? 4 : 1);
     for (int i = 0; i < count; i++) {
       const double turned[4][2] = {{x[0], x[1]}, {-x[1], x[0]}, {-x[0], -x[1]}, {x[1], -x[0]}};
-      assert_float_equal(point[i].size, wanted / 2, 1e-9 * wanted);
-      assert_float_equal(std::fabs(point[i].x[0] - turned[i][0]) + std::fabs(point[i].x[1] - turned[i][1]), 0, 1e-15);
-      assert_float_equal(point[i].x[2], x[2], 0);
+      assert_near(point[i].size, wanted / 2, 1e-9 * wanted);
+      assert_near(std::fabs(point[i].x[0] - turned[i][0]) + std::fabs(point[i].x[1] - turned[i][1]), 0, 1e-15);
+      assert_near(point[i].x[2], x[2], 0);
     }
     std::free(point);
   }

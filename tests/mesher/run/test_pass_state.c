@@ -92,7 +92,7 @@ static void state_comes_back_as_written(void **unused) {
   check_start(&read.best, &written.best);
   assert_int_equal(read.finer_rounds, 1);
   assert_int_equal(read.poor_rounds, 4);
-  assert_float_equal(read.least_deficit, written.least_deficit, 0);
+  assert_near(read.least_deficit, written.least_deficit, 0);
   assert_int_equal(read.best_round, 3);
   assert_int_equal(read.best_lacks, 1);
   assert_int_equal(read.tried_whole, 1);

@@ -17,11 +17,11 @@ static void what_lacks_angle_counts(void **state) {
   }
   run.domain[0].plan.region_count = 5;
   run.summary[0] = made;
-  assert_float_equal(cw_poor_deficit(&run, &count), 1. / 2 + 2. / 3, 1e-12);
+  assert_near(cw_poor_deficit(&run, &count), 1. / 2 + 2. / 3, 1e-12);
   assert_int_equal(count, 2);
   made[1].quality.dihedral_least = 12;
   made[4].dihedral_allowed = 3;
-  assert_float_equal(cw_poor_deficit(&run, &count), 0, 0);
+  assert_near(cw_poor_deficit(&run, &count), 0, 0);
   assert_int_equal(count, 0);
 }
 
@@ -45,10 +45,10 @@ static void missed_first_heights_count(void **state) {
     made[r].coverage[1] = (CwLayerCoverage){.faces = 500, .first_met = r == 0 ? 475 : 500};
     made[r].coverage[2] = (CwLayerCoverage){.faces = 500};
   }
-  assert_float_equal(cw_poor_deficit(&run, &count), 1.5, 1e-12);
+  assert_near(cw_poor_deficit(&run, &count), 1.5, 1e-12);
   assert_int_equal(count, 1);
   made[0].coverage[1].first_met = 490;
-  assert_float_equal(cw_poor_deficit(&run, &count), 0, 0);
+  assert_near(cw_poor_deficit(&run, &count), 0, 0);
   assert_int_equal(count, 0);
 }
 
@@ -67,7 +67,7 @@ static void what_passages_lack_is_told(void **state) {
   assert_int_equal(cw_poor_in_passages(&run), 0);
   run.domain[1].symmetry = &symmetry;
   assert_int_equal(cw_poor_in_passages(&run), 1);
-  assert_float_equal(cw_poor_deficit(&run, &count), 1, 1e-12);
+  assert_near(cw_poor_deficit(&run, &count), 1, 1e-12);
   assert_int_equal(count, 2);
   made[1].quality.dihedral_least = 12;
   assert_int_equal(cw_poor_in_passages(&run), 0);
