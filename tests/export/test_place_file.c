@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "tests/test_folder.h"
-#include "tests/unit_test.h"
+#include "tests/whole_file.h"
 
 static void labels_stand_where_they_are_put(void **state) {
   enum { COUNT = 40000 }; // more than one piece of what is narrowed at once
@@ -46,10 +46,33 @@ static void a_folder_that_is_missing_is_told(void **state) {
   assert_int_equal(cw_place_file_close(&file), CW_OK);
 }
 
+// As in a process that was started with its standard input closed.
+static void a_file_may_have_the_first_descriptor(void **state) {
+  const char *path = in_test_folder("labels");
+  CwPlaceFile file = {0};
+  const int kept = dup(STDIN_FILENO);
+  close(STDIN_FILENO);
+  const CwStatus opened = cw_place_file_open(test_folder, "labels", 1, &file);
+  const CwStatus put = opened == CW_OK ? cw_place_file_put(&file, "labels", 6, 0) : opened;
+  const CwStatus closed = cw_place_file_close(&file);
+  if (kept >= 0) {
+    assert_int_equal(dup2(kept, STDIN_FILENO), STDIN_FILENO);
+    close(kept);
+  }
+  assert_int_equal(opened, CW_OK);
+  assert_int_equal(put, CW_OK);
+  assert_int_equal(closed, CW_OK);
+  char *text = read_whole(path, NULL);
+  assert_string_equal(text, "labels");
+  free(text);
+  remove(path);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(labels_stand_where_they_are_put),
       cmocka_unit_test(a_folder_that_is_missing_is_told),
+      cmocka_unit_test(a_file_may_have_the_first_descriptor),
   };
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

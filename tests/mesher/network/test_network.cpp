@@ -12,14 +12,13 @@ extern "C" {
 
 #include "solids.h"
 
-// Half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and one partition plane.
+// Half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and up to two partition planes.
 struct Half {
   CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(20, 30, M_PI).Shape());
   CwBackground background;
   CwVerticals *inside = nullptr;
-  CwPlanNode node = {};
-  double none[2] = {0, 0};
-  CwNetwork network;
+  double none[3] = {};
+  CwNetwork network = {};
   CwOutcome outcome;
 
   Half() {
@@ -27,16 +26,18 @@ struct Half {
     assert_int_equal(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside), CW_OK);
   }
   ~Half() {
+    cw_network_free(&network);
     cw_verticals_free(&inside);
     cw_background_free(&background);
     cw_cad_close(&cad);
   }
-  CwOutcomeKind divide(const CwPlane &plane) {
-    node = {plane, -1, {-1, -2}, 0};
-    CwPlan plan = {1, 2, &node, none, 0, 0, 0, 0};
+  // By a plane, and one half again by another.
+  CwOutcomeKind divide(const CwPlane &plane, const CwPlane *other = nullptr) {
+    CwPlanNode node[2] = {{plane, -1, {other ? 1 : -1, -2}, 0}, {other ? *other : plane, 0, {-1, -3}, 0}};
+    CwPlan plan = {other ? 2 : 1, other ? 3 : 2, node, none, 0, 0, 0, 0};
+    cw_network_free(&network);
     outcome = {};
     assert_int_equal(cw_network_make(NULL, cad, &background, inside, &plan, &network, &outcome), CW_OK);
-    if (outcome.kind == CW_OUTCOME_DONE) cw_network_free(&network);
     return outcome.kind;
   }
 };
@@ -69,8 +70,31 @@ static void a_plane_that_grazes_is_refused(void **) {
   print_message("  %s\n", cw_outcome_text(&half.outcome, 1e3, text));
 }
 
+// The second holds the very corner in which the first crosses the edge where the half cylinder's flat side begins; a
+// millimetre beside it they meet on faces, not on a border.
+static void planes_that_meet_on_an_edge_are_refused(void **) {
+  Half half;
+  const CwPlane level = {{0, 0, 1}, 0.017};
+  CwPlane slanted = {{-0.48, 0.64, 0.6}, 0};
+  assert_int_equal(half.divide(level), CW_OUTCOME_DONE);
+  const CwCorner *corner = nullptr;
+  for (int i = 0; i < half.network.corner_count; i++) {
+    const CwCorner &one = half.network.corner[i];
+    if (one.edge >= 0 && one.x[0] > 0.019 && std::fabs(one.x[1]) < 1e-9) corner = &one;
+  }
+  assert_non_null(corner);
+  const double x[3] = {corner->x[0], corner->x[1], corner->x[2]};
+  slanted.offset = cw_plane_distance(&slanted, x);
+  assert_int_equal(half.divide(level, &slanted), CW_OUTCOME_REPLAN);
+  assert_non_null(strstr(half.outcome.reason, "partition planes 0 and 1 meet on the border of face"));
+  for (int k = 0; k < 3; k++) assert_near(half.outcome.place[k], x[k], 1e-8);
+  slanted.offset += 1e-3;
+  assert_int_equal(half.divide(level, &slanted), CW_OUTCOME_DONE);
+}
+
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(a_plane_through_the_middle_divides),
-                              cmocka_unit_test(a_plane_that_grazes_is_refused)};
+                              cmocka_unit_test(a_plane_that_grazes_is_refused),
+                              cmocka_unit_test(planes_that_meet_on_an_edge_are_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
