@@ -8,7 +8,7 @@
 
 #include "geometry/volute_design.h"
 
-static inline CwVoluteInput paper(void) {
+static inline CwVoluteInput volute_of_paper(void) {
   CwVoluteInput input;
   memset(&input, 0, sizeof input);
   input.flow_rate = 25 / 3600.0;

@@ -37,7 +37,7 @@ static CwVolute volute;
 static CwSolid *stator;
 
 static int setup(void **) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   return cw_volute_design(&input, &volute) || cw_stator_build(&volute, mm, &stator);
 }
 
@@ -239,7 +239,7 @@ static double angle_between(const CwSolidFace &a, const CwSolidFace &b) {
 // along the last three sectors; its volume is that of its sections.
 static void families(void **) {
   for (int kind = 0; kind < 4; kind++) {
-    CwVoluteInput input = paper();
+    CwVoluteInput input = volute_of_paper();
     input.section = kind == 2 ? CW_SECTION_CIRCLE : kind == 1 ? CW_SECTION_RECTANGLE : CW_SECTION_TRAPEZOID;
     input.corner_radius = kind < 2 ? 4 * mm : NAN;
     input.inlet_width = (kind == 1 ? 28 : 14) * mm;
@@ -279,7 +279,7 @@ static void parameter_sets(void **) {
     for (double ratio : {1.02, 1.05, 1.08})
       for (double k : {0.76, 0.95}) {
         double wider = k < 0.8 ? 2 : 4;
-        CwVoluteInput input = paper();
+        CwVoluteInput input = volute_of_paper();
         input.neck_width = b2 * mm;
         input.inlet_width = (b2 + wider) * mm;
         input.base_diameter = ratio * 0.2;

@@ -31,7 +31,7 @@ static void trapezoid_heights(void **state) {
 
 // Area and integral of b dr / r by summing strips of the section.
 static void section_by_strips(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   CwVolute volute = designed(&input);
   for (double phi = 0; phi < 6.5; phi += 0.8) {
     CwVoluteSection s = cw_volute_section(&volute, phi);
@@ -55,7 +55,7 @@ static void section_by_strips(void **state) {
 
 // Trapezoid with corners, rectangle and circle, by both laws.
 static CwVoluteInput family(int kind) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.throat_area = NAN;
   input.section = kind == 0 ? CW_SECTION_TRAPEZOID : kind == 1 ? CW_SECTION_RECTANGLE : CW_SECTION_CIRCLE;
   input.area_law = kind == 2 ? CW_AREA_LAW_ANGULAR_MOMENTUM : CW_AREA_LAW_VELOCITY;
@@ -129,14 +129,14 @@ static void family_wall_derivatives(void **state) {
 }
 
 static void tongue_angle(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.tongue_angle = 38 * degree;
   assert_near(designed(&input).tip_angle, 38 * degree, 1e-9);
 }
 
 // A tongue that the spiral does not reach comes as near to it as the flattest arc and the steepest wedge lead.
 static void nearest_tongue(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   const double free = designed(&input).tip_angle;
   input.tongue_angle = 5 * degree;
   const CwVolute low = designed(&input);
@@ -151,7 +151,7 @@ static void nearest_tongue(void **state) {
 }
 
 static void area_ratio(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.outlet_diameter = NAN;
   input.diffuser_area_ratio = 1.8;
   CwVolute volute = designed(&input);
@@ -162,7 +162,7 @@ static void area_ratio(void **state) {
 // The pipe's axis goes through the pump's, and the throat's middle and the diffuser's end lie on a circle
 // that touches both directions: equal angles of the chord to them.
 static void radial_discharge(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.discharge = CW_DISCHARGE_RADIAL;
   CwVolute volute = designed(&input);
   double lean = volute.discharge_lean, middle = volute.inner_wall_x + 0.5 * volute.throat_width;
@@ -176,7 +176,7 @@ static void radial_discharge(void **state) {
 
 // Wide side walls and a large section: the arc's radius is more than its centre's distance from the axis.
 static void arc_beyond_axis(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.side_wall_angle = 30 * degree;
   CwVolute volute = designed(&input);
   CwVoluteSection s = cw_volute_section(&volute, 100);
@@ -191,7 +191,7 @@ static void arc_beyond_axis(void **state) {
 }
 
 static void wall_derivatives(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   CwVolute volute = designed(&input);
   double x[3], a[3], b[3], ahead[3], behind[3], h = 1e-6;
   cw_volute_wall_point(&volute, 1.2, 0.7, x, a, b);
@@ -206,7 +206,7 @@ static void wall_derivatives(void **state) {
 // Without a given throat the spiral takes up Q for K; the throat is then near the area of the plain
 // trapezoid, whose hand-worked value for K = 0.95 and 20 degrees is 905 mm2.
 static void spiral_by_swirl(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.throat_area = NAN;
   CwVolute volute = designed(&input);
   assert_near(volute.law_end - volute.law_start, 25 / 3600.0 / 0.95, 1e-15);
@@ -229,7 +229,7 @@ static double throat_integral(const CwVolute *volute, int strips, int power) {
 }
 
 static void throat_by_strips(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   CwVolute volute = designed(&input);
   assert_near(volute.throat_area, 905e-6, 1e-12);
   assert_near(throat_integral(&volute, 20000, 0), 905e-6, 2e-5 * 905e-6);
@@ -238,7 +238,7 @@ static void throat_by_strips(void **state) {
 // At every level the nose's circle touches the spiral's level line and the plane x = x_i from inside the
 // solid.
 static void tongue_touches(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.tongue_gap = 7 * mm;
   CwVolute volute = designed(&input);
   assert_near(volute.tip_radius, 109 * mm, 1e-9);
@@ -261,7 +261,7 @@ static void tongue_touches(void **state) {
 }
 
 static void diffuser(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   CwVolute volute = designed(&input);
   // (50 - 33.95) / 2 / tan 4.5 deg
   assert_near(volute.diffuser_length, 102.0 * mm, 0.1 * mm);
@@ -293,7 +293,7 @@ static double narrowest(const CwVolute *volute) {
 // The walls before the throat converge; however long the diffuser is, they narrow it by a tenth or little more.
 static void long_diffusers_are_not_pinched(void **state) {
   for (double length = 0.05; length < 2; length *= 1.5) {
-    CwVoluteInput input = paper();
+    CwVoluteInput input = volute_of_paper();
     input.diffuser_length = length;
     const CwVolute volute = designed(&input);
     assert_true(narrowest(&volute) > 0.85);
@@ -304,7 +304,7 @@ static void long_diffusers_are_not_pinched(void **state) {
 
 // A chosen gap is that of the default wedge, 26 degrees, where it lies in its range, else the range's nearer end.
 static void chosen_gap(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.tongue_gap_range[0] = 2 * mm;
   CwVolute chosen = designed(&input);
   CwVoluteSection s = cw_volute_section(&chosen, chosen.start_angle);
@@ -321,7 +321,7 @@ static void chosen_gap(void **state) {
 // its area.
 static void free_gap(void **state) {
   for (double gap = 4.6 * mm; gap < 31 * mm; gap += 5 * mm) {
-    CwVoluteInput input = paper();
+    CwVoluteInput input = volute_of_paper();
     input.tongue_gap = gap;
     const CwVolute volute = designed(&input);
     const CwVoluteSection s = cw_volute_section(&volute, volute.start_angle);
@@ -336,7 +336,7 @@ static void free_gap(void **state) {
 static void slim_gap(void **state) {
   double before = 35 * degree;
   for (double gap = 4.6 * mm; gap > 2.4 * mm; gap -= 0.3 * mm) {
-    CwVoluteInput input = paper();
+    CwVoluteInput input = volute_of_paper();
     input.tongue_gap = gap;
     const CwVolute volute = designed(&input);
     const CwVoluteSection s = cw_volute_section(&volute, volute.start_angle);
@@ -355,7 +355,7 @@ static void slim_gap(void **state) {
 // the throat takes at least 0.98 of Q whatever the tongue; a thin tongue leaves the spiral as the law alone makes it.
 static void throat_passes_the_flow(void **state) {
   for (int i = 0; i < 3; i++) {
-    CwVoluteInput input = paper();
+    CwVoluteInput input = volute_of_paper();
     input.throat_area = NAN;
     input.angular_momentum = i == 2 ? 0.95 : 2.85;
     input.tongue_radius = (i == 0 ? 0.4 : 1.2) * mm;
@@ -377,41 +377,41 @@ static void refuse(CwVoluteInput input, const char *quantity) {
 }
 
 static void wrong_input(void **state) {
-  CwVoluteInput input = paper();
+  CwVoluteInput input = volute_of_paper();
   input.inlet_width = 8.5 * mm;
   refuse(input, "inlet_width_mm (b3) is 8.5 mm; allowed with this D3 and b2: 9.02 to 81.6 mm");
-  input = paper();
+  input = volute_of_paper();
   input.throat_area = 0.5;
   refuse(input, "throat_area_mm2 is 500000 mm2; allowed");
   input.throat_area = 20e-6;
   refuse(input, "throat_area_mm2 is 20 mm2; allowed with this D3, b3 and tongue: ");
-  input = paper();
+  input = volute_of_paper();
   input.throat_area = NAN;
   input.angular_momentum = 0.1;
   refuse(input, "outer wall beyond");
-  input = paper();
+  input = volute_of_paper();
   input.outlet_diameter = 0.03;
   refuse(input, "outlet_diameter_mm is 30 mm");
-  input = paper();
+  input = volute_of_paper();
   input.diffuser_length = 0.02;
   refuse(input, "diffuser_length_mm 20 mm");
-  input = paper();
+  input = volute_of_paper();
   input.interface_radius = 0.102;
   refuse(input, "base_diameter_mm (D3) is 204 mm");
-  input = paper();
+  input = volute_of_paper();
   input.side_wall_angle = NAN;
   refuse(input, "side_wall_angle_deg");
-  input = paper();
+  input = volute_of_paper();
   input.tongue_radius = 0.015;
   refuse(input, "tongue");
-  input = paper();
+  input = volute_of_paper();
   input.tongue_angle = 70 * degree;
   input.tongue_gap = 7 * mm;
   refuse(input, "tongue_gap_mm and tongue_angle_deg both");
-  input = paper();
+  input = volute_of_paper();
   input.diffuser_area_ratio = 2;
   refuse(input, "outlet_diameter_mm and diffuser_area_ratio both");
-  input = paper();
+  input = volute_of_paper();
   input.section = CW_SECTION_CIRCLE;
   input.corner_radius = 3 * mm;
   refuse(input, "corner_radius_mm is 3 mm, but a circle has no corners");
@@ -425,11 +425,11 @@ static void wrong_input(void **state) {
   input.throat_area = 9000e-6; // with which the spiral has room
   input.outlet_diameter = 130 * mm;
   assert_near(designed(&input).throat_area, 9000e-6, 1e-12);
-  input = paper();
+  input = volute_of_paper();
   input.discharge = CW_DISCHARGE_RADIAL;
   input.diffuser_length = 35 * mm;
   refuse(input, "diffuser_length_mm 35 mm");
-  input = paper();
+  input = volute_of_paper();
   input.area_law = CW_AREA_LAW_VELOCITY;
   input.section_speed = 0.2;
   input.throat_area = NAN;
