@@ -22,9 +22,10 @@ of its room's and the others than fit into T seconds of the processor: the other
 A mutation is caught where a test fails or takes 10 times as long as without it (a test that fails without it is left
 out); one that the compiler refuses, or makes the same code of (Papadakis et al. 2015), does not count, nor does one of
 a template for other compilers. What each came to is a line of DIR/mutations.jsonl, and not tried again but with
---again, which tries what survived before the tests and sources as they are now. At the end, or with --report alone:
-caught of tried by room, and the survivors. Those that docs/testing.md gives a reason for are marked. Tests in C start a
-program where it was built: a mutant of a program's own main.c is seen by tests of whole runs alone."""
+--again, which tries what survived before the tests and sources as they are now, and draws anew those whose line is
+gone. At the end, or with --report alone: caught of tried by room, and the survivors. Those that docs/testing.md gives a
+reason for are marked. Tests in C start a program where it was built: a mutant of a program's own main.c is seen by
+tests of whole runs alone."""
 import argparse
 import json
 import os
@@ -374,12 +375,12 @@ def main():
                  for path in sorted((bench.tree / stage).rglob("*")) if path.suffix in (".c", ".cpp")}
 
         def attempt(number):
-            known = rows.get((options.seed, options.room, number))
-            if known and not (options.again and known["end"] == "survived"):
+            row = rows.get((options.seed, options.room, number))
+            gone = not row or mutated(row, files.get(row["file"], "")) is None
+            if row and not (options.again and (gone or row["end"] == "survived")):
                 return
-            row = known or draw(options.seed, number, files, options.room)
-            if row["file"] not in files or mutated(row, files[row["file"]]) is None:
-                return
+            if gone:
+                row = draw(options.seed, number, files, options.room)
             bench.judge(row, options.seconds)
             with bench.lock:
                 rows[(options.seed, options.room, number)] = row
