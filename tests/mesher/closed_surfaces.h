@@ -3,24 +3,8 @@
 #ifndef CUTWATER_TESTS_MESHER_CLOSED_SURFACES_H
 #define CUTWATER_TESTS_MESHER_CLOSED_SURFACES_H
 
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "mesher/fill/fill.h"
-
-typedef struct {
-  int32_t point_count, triangle_count;
-  double (*x)[3];
-  int32_t (*triangle)[3];
-} Surface;
-
-static inline void surface_free(Surface *s) {
-  free(s->x);
-  free(s->triangle);
-  memset(s, 0, sizeof *s);
-}
+#include "surfaces.h"
 
 // The surface as a boundary to fill, with `size` at every place; NULL for steps that need none.
 static inline CwFillInput surface_fill_input(const Surface *s, CwSizeAt size, const void *context) {
@@ -33,19 +17,16 @@ static inline CwFillInput surface_fill_input(const Surface *s, CwSizeAt size, co
                        .name = "rotor region 3"};
 }
 
-static inline int32_t surface_point(Surface *s, const double p[3], int32_t search_from) {
+// The point from `search_from` on that is there already, or a new one.
+static inline int32_t surface_point_from(Surface *s, const double p[3], int32_t search_from) {
   for (int32_t i = search_from; i < s->point_count; i++) {
     if (fabs(s->x[i][0] - p[0]) + fabs(s->x[i][1] - p[1]) + fabs(s->x[i][2] - p[2]) < 1e-9) return i;
   }
-  s->x = realloc(s->x, (size_t)(s->point_count + 1) * sizeof *s->x);
-  memcpy(s->x[s->point_count], p, sizeof *s->x);
-  return s->point_count++;
+  return surface_point(s, p);
 }
 
-static inline void surface_triangle(Surface *s, int32_t a, int32_t b, int32_t c, int outward) {
-  s->triangle = realloc(s->triangle, (size_t)(s->triangle_count + 1) * sizeof *s->triangle);
-  int32_t *t = s->triangle[s->triangle_count++];
-  t[0] = a, t[1] = outward ? b : c, t[2] = outward ? c : b;
+static inline void surface_facing(Surface *s, int32_t a, int32_t b, int32_t c, int outward) {
+  surface_triangle(s, a, outward ? b : c, outward ? c : b);
 }
 
 // A box with n[i] edges along axis i; each square has the same diagonal (cocircular points everywhere).
@@ -62,10 +43,10 @@ static inline void surface_add_box(Surface *s, const double low[3], const double
             p[axis] = side ? high[axis] : low[axis];
             p[u] = low[u] + (high[u] - low[u]) * (i + (k == 1 || k == 2)) / n[u];
             p[v] = low[v] + (high[v] - low[v]) * (j + (k >= 2)) / n[v];
-            corner[k] = surface_point(s, p, from);
+            corner[k] = surface_point_from(s, p, from);
           }
-          surface_triangle(s, corner[0], corner[1], corner[2], side == outward);
-          surface_triangle(s, corner[0], corner[2], corner[3], side == outward);
+          surface_facing(s, corner[0], corner[1], corner[2], side == outward);
+          surface_facing(s, corner[0], corner[2], corner[3], side == outward);
         }
       }
     }
@@ -94,10 +75,10 @@ static inline void surface_add_sphere(Surface *s, const double centre[3], double
             length += p[c] * p[c];
           }
           for (int c = 0; c < 3; c++) p[c] = centre[c] + radius * p[c] / sqrt(length);
-          at[k] = surface_point(s, p, from);
+          at[k] = surface_point_from(s, p, from);
         }
-        surface_triangle(s, at[0], at[1], at[2], outward);
-        if (i + j < n - 1) surface_triangle(s, at[1], at[3], at[2], outward);
+        surface_facing(s, at[0], at[1], at[2], outward);
+        if (i + j < n - 1) surface_facing(s, at[1], at[3], at[2], outward);
       }
     }
   }

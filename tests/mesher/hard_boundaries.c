@@ -154,8 +154,8 @@ static void needle_of_a_cone(Surface *s, double *size) {
   int32_t tip = shape_point(s, 0, 0, 0.1), foot = shape_point(s, 0, 0, 0), first = s->point_count;
   for (int k = 0; k < n; k++) shape_point(s, 0.002 * cos(2 * PI * k / n), 0.002 * sin(2 * PI * k / n), 0);
   for (int k = 0; k < n; k++) {
-    surface_triangle(s, first + k, first + (k + 1) % n, tip, 1);
-    surface_triangle(s, first + (k + 1) % n, first + k, foot, 1);
+    surface_facing(s, first + k, first + (k + 1) % n, tip, 1);
+    surface_facing(s, first + (k + 1) % n, first + k, foot, 1);
   }
   *size = 0.001;
 }
@@ -296,11 +296,11 @@ static void sphere_of_poles(Surface *s, double *size) {
     int q = (r + 1) % rows;
     for (int c = 0; c + 2 < columns; c++) {
       int32_t a = base + c * rows;
-      surface_triangle(s, a + r, a + q, a + rows + q, 1);
-      surface_triangle(s, a + r, a + rows + q, a + rows + r, 1);
+      surface_facing(s, a + r, a + q, a + rows + q, 1);
+      surface_facing(s, a + r, a + rows + q, a + rows + r, 1);
     }
-    surface_triangle(s, south, base + q, base + r, 1);
-    surface_triangle(s, north, base + (columns - 2) * rows + r, base + (columns - 2) * rows + q, 1);
+    surface_facing(s, south, base + q, base + r, 1);
+    surface_facing(s, north, base + (columns - 2) * rows + r, base + (columns - 2) * rows + q, 1);
   }
   *size = 0.004;
 }
@@ -344,7 +344,7 @@ static void add_touching_box(Surface *s, double x, double y, double z) {
     if (number[p] < 0) number[p] = shape_point(s, other.x[p][0], other.x[p][1], other.x[p][2]);
   }
   for (int32_t t = 0; t < other.triangle_count; t++)
-    surface_triangle(s, number[other.triangle[t][0]], number[other.triangle[t][1]], number[other.triangle[t][2]], 1);
+    surface_facing(s, number[other.triangle[t][0]], number[other.triangle[t][1]], number[other.triangle[t][2]], 1);
   free(number);
   surface_free(&other);
 }

@@ -13,11 +13,11 @@ static void twisted_prism(Surface *s, int n, double degrees, double height) {
   }
   for (int k = 0; k < n; k++) {
     int32_t a = k, b = (k + 1) % n;
-    surface_triangle(s, a, b, a + n, 1);
-    surface_triangle(s, b, b + n, a + n, 1);
+    surface_facing(s, a, b, a + n, 1);
+    surface_facing(s, b, b + n, a + n, 1);
     if (k > 0 && k < n - 1) {
-      surface_triangle(s, 0, b, a, 1);
-      surface_triangle(s, n, n + a, n + b, 1);
+      surface_facing(s, 0, b, a, 1);
+      surface_facing(s, n, n + a, n + b, 1);
     }
   }
 }
@@ -80,10 +80,10 @@ static void chazelle(Surface *s, double *size) {
     }
   }
   for (int k = 0; k < 3 * N + 1; k++) {
-    surface_triangle(s, low[0][k], low[1][k], low[1][k + 1], 1);
-    surface_triangle(s, low[0][k], low[1][k + 1], low[0][k + 1], 1);
-    surface_triangle(s, top[0][k], top[1][k], top[1][k + 1], 1);
-    surface_triangle(s, top[0][k], top[1][k + 1], top[0][k + 1], 1);
+    surface_facing(s, low[0][k], low[1][k], low[1][k + 1], 1);
+    surface_facing(s, low[0][k], low[1][k + 1], low[0][k + 1], 1);
+    surface_facing(s, top[0][k], top[1][k], top[1][k + 1], 1);
+    surface_facing(s, top[0][k], top[1][k + 1], top[0][k + 1], 1);
   }
   // Walls: two with the zigzag below and a straight edge above, two the other way.
   for (int end = 0; end < 2; end++) {
@@ -104,7 +104,7 @@ static void chazelle(Surface *s, double *size) {
     }
     int count = shape_ears(n + 2, (const double(*)[2])p, triangle);
     for (int t = 0; t < count; t++)
-      surface_triangle(s, at[0][triangle[t][0]], at[0][triangle[t][1]], at[0][triangle[t][2]], end == 0);
+      surface_facing(s, at[0][triangle[t][0]], at[0][triangle[t][1]], at[0][triangle[t][2]], end == 0);
     for (int k = 0; k < n; k++) { // turned over, to be counter-clockwise too
       at[1][k] = top[end][n - 1 - k];
       p[k][0] = s->x[at[1][k]][1];
@@ -118,7 +118,7 @@ static void chazelle(Surface *s, double *size) {
     }
     count = shape_ears(n + 2, (const double(*)[2])p, triangle);
     for (int t = 0; t < count; t++)
-      surface_triangle(s, at[1][triangle[t][0]], at[1][triangle[t][1]], at[1][triangle[t][2]], end == 1);
+      surface_facing(s, at[1][triangle[t][0]], at[1][triangle[t][1]], at[1][triangle[t][2]], end == 1);
   }
   shape_scale(s, 0.01, 0.01, 0.002);
   *size = 0.01;

@@ -13,7 +13,7 @@ void shape_ball(Surface *s, double x, double y, double z, double radius, int lev
 }
 
 int32_t shape_point(Surface *s, double x, double y, double z) {
-  return surface_point(s, (double[3]){x, y, z}, s->point_count);
+  return surface_point(s, (double[3]){x, y, z});
 }
 
 static void curve_frame(Curve curve, const void *context, double u, double t[3]) {
@@ -70,16 +70,15 @@ void shape_tube(Surface *s, Curve curve, const void *context, int rows, int colu
       if (closed && c + 1 == columns) turn = (int)floor(shift * columns + 0.5);
       int32_t a = base + c * rows + r, b = base + c * rows + (r + 1) % rows, next = base + (c + 1) % stations * rows;
       int32_t d = next + (r + turn) % rows, e = next + (r + 1 + turn) % rows;
-      surface_triangle(s, a, b, e, outward);
-      surface_triangle(s, a, e, d, outward);
+      surface_facing(s, a, b, e, outward);
+      surface_facing(s, a, e, d, outward);
     }
   }
   for (int end = 0; end < 2 && !closed; end++) {
     double x[3], radius;
     curve(context, end, x, &radius);
     int32_t middle = shape_point(s, x[0], x[1], x[2]), ring = base + end * columns * rows;
-    for (int r = 0; r < rows; r++)
-      surface_triangle(s, ring + r, middle, ring + (r + 1) % rows, end ? !outward : outward);
+    for (int r = 0; r < rows; r++) surface_facing(s, ring + r, middle, ring + (r + 1) % rows, end ? !outward : outward);
   }
 }
 
@@ -159,16 +158,16 @@ void shape_extrude(Surface *s, int corners, const double (*corner)[2], double ed
   for (int l = 0; l < layers; l++) {
     for (int k = 0; k < n; k++) {
       int32_t a = base + l * n + k, b = base + l * n + (k + 1) % n;
-      surface_triangle(s, a, b, b + n, outward);
-      surface_triangle(s, a, b + n, a + n, outward);
+      surface_facing(s, a, b, b + n, outward);
+      surface_facing(s, a, b + n, a + n, outward);
     }
   }
   int count = shape_ears(n, (const double(*)[2])p, triangle);
   for (int t = 0; t < count; t++) {
     const int *q = triangle[t];
-    surface_triangle(s, base + q[0], base + q[1], base + q[2], !outward);
+    surface_facing(s, base + q[0], base + q[1], base + q[2], !outward);
     int32_t top = base + layers * n;
-    surface_triangle(s, top + q[0], top + q[1], top + q[2], outward);
+    surface_facing(s, top + q[0], top + q[1], top + q[2], outward);
   }
   free(p);
   free(triangle);
@@ -230,8 +229,8 @@ void shape_refine(Surface *s, const double place[3], double least, double growth
         const int32_t one[3] = {a, n, c}, two[3] = {b, n, d};
         memcpy(s->triangle[t], one, sizeof one);
         memcpy(s->triangle[o], two, sizeof two);
-        surface_triangle(s, n, b, c, 1);
-        surface_triangle(s, n, a, d, 1);
+        surface_facing(s, n, b, c, 1);
+        surface_facing(s, n, a, d, 1);
         again = 1;
       }
     }

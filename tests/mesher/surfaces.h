@@ -11,7 +11,7 @@
 #define MM 1e-3
 
 typedef struct {
-  int32_t point_count, triangle_count, point_capacity, triangle_capacity;
+  int32_t point_count, triangle_count;
   double (*x)[3];
   int32_t (*triangle)[3];
 } Surface;
@@ -19,19 +19,13 @@ typedef struct {
 typedef void (*SurfaceMap)(const void *context, double u, double v, double x[3]);
 
 static inline int32_t surface_point(Surface *s, const double x[3]) {
-  if (s->point_count == s->point_capacity) {
-    s->point_capacity = s->point_capacity ? 2 * s->point_capacity : 1024;
-    s->x = realloc(s->x, s->point_capacity * sizeof *s->x);
-  }
+  s->x = realloc(s->x, (size_t)(s->point_count + 1) * sizeof *s->x);
   memcpy(s->x[s->point_count], x, sizeof *s->x);
   return s->point_count++;
 }
 
 static inline void surface_triangle(Surface *s, int32_t a, int32_t b, int32_t c) {
-  if (s->triangle_count == s->triangle_capacity) {
-    s->triangle_capacity = s->triangle_capacity ? 2 * s->triangle_capacity : 1024;
-    s->triangle = realloc(s->triangle, s->triangle_capacity * sizeof *s->triangle);
-  }
+  s->triangle = realloc(s->triangle, (size_t)(s->triangle_count + 1) * sizeof *s->triangle);
   int32_t *t = s->triangle[s->triangle_count++];
   t[0] = a, t[1] = b, t[2] = c;
 }

@@ -66,7 +66,7 @@ static void slit(void **unused) { // a point doubled: the boundary is torn along
   int32_t t = 17, p = s.triangle[t][0];
   const double x[3] = {s.x[p][0] + 1e-4, s.x[p][1], s.x[p][2]};
   const double at[3] = {1e3 * x[0], 1e3 * x[1], 1e3 * x[2]};
-  int32_t q = surface_point(&s, x, s.point_count);
+  int32_t q = surface_point(&s, x);
   s.triangle[t][0] = q;
   refused(&s, 0.01, "open", at, 15.0);
   surface_free(&s);
@@ -76,10 +76,10 @@ static void fin_on_an_edge(void **unused) { // three triangles at an edge
   Surface s = cube_of_8();
   int32_t a = s.triangle[40][0], b = s.triangle[40][1];
   double x[3] = {0.1, 0.1, 0.1};
-  int32_t c = surface_point(&s, x, 0);
-  surface_triangle(&s, a, b, c, 1);
+  int32_t c = surface_point_from(&s, x, 0);
+  surface_facing(&s, a, b, c, 1);
   refused(&s, 0.01, "open", NULL, 0.0);
-  surface_triangle(&s, a, b, c, 0); // and its back: closed, but twice the same
+  surface_facing(&s, a, b, c, 0); // and its back: closed, but twice the same
   refused(&s, 0.01, "", (double[3]){1e3 * s.x[a][0], 1e3 * s.x[a][1], 1e3 * s.x[a][2]}, 100.0);
   surface_free(&s);
 }
@@ -88,7 +88,7 @@ static void doubled_triangle(void **unused) {
   Surface s = cube_of_8();
   double at[3];
   middle_of(&s, 33, at);
-  surface_triangle(&s, s.triangle[33][0], s.triangle[33][1], s.triangle[33][2], 1);
+  surface_facing(&s, s.triangle[33][0], s.triangle[33][1], s.triangle[33][2], 1);
   refused(&s, 0.01, "open or turned over", at, 11.0);
   surface_free(&s);
 }
@@ -157,11 +157,11 @@ static void corner_on_a_face(void **unused) {
   surface_add_box(&s, origin, (double[3]){0.04, 0.04, 0.04}, (int[3]){1, 1, 1}, 1);
   int32_t p[4];
   const double x[4][3] = {{0.02, 0.015, 0.04}, {0.01, 0.01, 0.06}, {0.03, 0.01, 0.06}, {0.02, 0.03, 0.06}};
-  for (int k = 0; k < 4; k++) p[k] = surface_point(&s, x[k], s.point_count);
-  surface_triangle(&s, p[1], p[2], p[3], 1);
-  surface_triangle(&s, p[0], p[2], p[1], 1);
-  surface_triangle(&s, p[0], p[3], p[2], 1);
-  surface_triangle(&s, p[0], p[1], p[3], 1);
+  for (int k = 0; k < 4; k++) p[k] = surface_point(&s, x[k]);
+  surface_facing(&s, p[1], p[2], p[3], 1);
+  surface_facing(&s, p[0], p[2], p[1], 1);
+  surface_facing(&s, p[0], p[3], p[2], 1);
+  surface_facing(&s, p[0], p[1], p[3], 1);
   assert_true(surface_volume(&s) > 6.4e-5);
   refused(&s, 0.04, "crosses itself", (double[3]){20, 20, 40}, 30.0);
   surface_free(&s);
@@ -188,10 +188,10 @@ static void triangle_without_area(void **unused) { // a point on an edge of a tr
   int32_t a = s.triangle[0][0], b = s.triangle[0][1], c = s.triangle[0][2];
   double x[3];
   for (int i = 0; i < 3; i++) x[i] = 0.5 * (s.x[a][i] + s.x[b][i]);
-  int32_t n = surface_point(&s, x, s.point_count);
+  int32_t n = surface_point(&s, x);
   s.triangle[0][1] = n; // a n c, n b c, and a b n without area
-  surface_triangle(&s, n, b, c, 1);
-  surface_triangle(&s, a, b, n, 1);
+  surface_facing(&s, n, b, c, 1);
+  surface_facing(&s, a, b, n, 1);
   refused(&s, 0.04, "no area", (double[3]){1e3 * x[0], 1e3 * x[1], 1e3 * x[2]}, 1e-3);
   surface_free(&s);
 }

@@ -141,11 +141,11 @@ static void a_polyhedron_that_needs_a_point_inside(void **unused) {
       shape_point(&s, size * cos(a), size * sin(a), k < 3 ? 0 : size);
     }
     for (int k = 0; k < 3; k++) {
-      surface_triangle(&s, k, (k + 1) % 3, k + 3, 1);
-      surface_triangle(&s, (k + 1) % 3, (k + 1) % 3 + 3, k + 3, 1);
+      surface_facing(&s, k, (k + 1) % 3, k + 3, 1);
+      surface_facing(&s, (k + 1) % 3, (k + 1) % 3 + 3, k + 3, 1);
     }
-    surface_triangle(&s, 0, 2, 1, 1);
-    surface_triangle(&s, 3, 4, 5, 1);
+    surface_facing(&s, 0, 2, 1, 1);
+    surface_facing(&s, 3, 4, 5, 1);
     CwFillInput input = fill_input(&s, &size);
     CwFill fill;
     CwKernelOutcome outcome;
