@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/bisection.h"
 
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 // A box of 4 x 2 x 1 points, out of order, in four groups of two: halved along x, then again along x, as a half is 1
@@ -32,10 +33,7 @@ static void two_groups_have_a_plane_between_them(void **state) {
   int32_t order[COUNT], group[COUNT];
   uint64_t seed = 1;
   for (int i = 0; i < COUNT; ++i)
-    for (int k = 0; k < 3; ++k) {
-      seed = seed * 6364136223846793005u + 1442695040888963407u;
-      points[i][k] = (double)(seed >> 11) / 9007199254740992.0 * (k == 1 ? 3 : 1);
-    }
+    for (int k = 0; k < 3; ++k) points[i][k] = draw(&seed) * (k == 1 ? 3 : 1);
   const int64_t sizes[] = {1234, COUNT - 1234};
   cw_bisection((const double(*)[3])points, COUNT, sizes, 2, order, group);
   double last = -1, first = 9;

@@ -17,20 +17,19 @@
 #include "geometry/solid.hpp"
 #include "geometry/volute_design.h"
 #include "geometry/stator.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static const double degree = M_PI / 180, gravity = 9.80665;
 static int draws = 24;
 
-// Knuth's linear congruential generator, so that the draw is the same everywhere.
 static uint64_t state;
 static double uniform(double a, double b) {
-  state = state * 6364136223846793005u + 1442695040888963407u;
-  return a + (b - a) * double(state >> 11) / 9007199254740992.0;
+  return a + (b - a) * draw(&state);
 }
 
 // A pump of the specific speed nq = 8 to 55 (ns = 30 to 200) with usual main dimensions.
-static CwVoluteInput draw() {
+static CwVoluteInput draw_volute() {
   CwVoluteInput in;
   double rpm = uniform(0, 1) < 0.5 ? 1450 : 2900, d2 = 0.12 * std::pow(4, uniform(0, 1)), nq = uniform(8, 55);
   double u2 = rpm * M_PI / 30 * d2 / 2, head = uniform(0.9, 1.1) * u2 * u2 / (2 * gravity);
@@ -91,7 +90,7 @@ static void random_volutes(void **) {
   double shortest = HUGE_VAL;
   state = 20;
   for (int i = 0; i < draws; i++) {
-    CwVoluteInput in = draw();
+    CwVoluteInput in = draw_volute();
     CwVolute volute;
     CwSolid *solid = NULL;
     CwStatus status = cw_volute_design(&in, &volute);

@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "draw.h"
 #include "mesher/fill/delaunay.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 // A body-centred lattice of n cubes along each edge, shaken by so much of a cube, those on the outside first, and its

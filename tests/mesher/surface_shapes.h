@@ -5,7 +5,7 @@
 #define CUTWATER_TESTS_MESHER_SURFACE_SHAPES_H
 
 #include "closed_surfaces.h"
-#include "draw.h"
+#include "tests/draw.h"
 
 int32_t shape_point(Surface *s, double x, double y, double z);
 

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "draw.h"
 #include "mesher/cad/rays.h"
 #include "octahedron.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static CwRays *rays_through(const CwBackground *background) {

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "mesher/common/box_tree.h"
 #include "mesher/common/vec.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 enum { COUNT = 700 };

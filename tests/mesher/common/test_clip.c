@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "mesher/common/clip.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static void assert_point(const double *x, double a, double b) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
-#include "draw.h"
 #include "mesher/common/cubes.h"
 #include "mesher/common/vec.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 enum { POINTS = 3000 };

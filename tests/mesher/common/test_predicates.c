@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "mesher/common/predicates.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 // The same determinants in rational numbers: row k is point k minus the last one, with its square where

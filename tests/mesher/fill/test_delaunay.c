@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static uint64_t state;

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel_flips.h"
 #include "mesher/fill/tet_improve.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static int never_in_the_way(const void *context, int count, const int32_t *point) {

@@ -3,12 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "fill_fault.h"
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel_recover.h"
 #include "surface_shapes.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static const double origin[3] = {0, 0, 0};

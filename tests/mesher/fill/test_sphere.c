@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
 
-#include "draw.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/sphere.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static uint64_t state;

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "joined_mesh.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/tet_topology.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static CwTetMesh random_mesh(uint64_t seed) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The hard places of a pump: neck and step behind the interface, cylinder open patches, blades on hub and shroud,
 // bumpy surfaces.
-#include "draw.h"
 #include "layers_case.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/prism_quality.h"
+#include "tests/draw.h"
 
 // Meridional polyline (r,z) turned about z from angle a0 to a1.
 typedef struct {

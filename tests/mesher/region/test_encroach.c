@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "mesher/region/encroach.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static void flat_map(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
-#include "draw.h"
 #include "mesher/region/region_number.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static void chain_needs_two_colours(void **state) {

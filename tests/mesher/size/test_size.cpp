@@ -13,9 +13,9 @@
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
-#include "draw.h"
 #include "mesher/cad/background_make.h"
 #include "mesher/size/size.h"
+#include "tests/draw.h"
 
 #include "solids.h"
 

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw.h"
 #include "mesher/common/vec.h"
 #include "mesher/surface/patch_mesh.h"
 #include "patch_plan.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 static void unit_square(void **state) {

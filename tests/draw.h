@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Random numbers of a fixed start, the same on every machine (Knuth's linear congruential generator).
-#ifndef CUTWATER_TESTS_MESHER_DRAW_H
-#define CUTWATER_TESTS_MESHER_DRAW_H
+#ifndef CUTWATER_TESTS_DRAW_H
+#define CUTWATER_TESTS_DRAW_H
 
 #include <stdint.h>
 
