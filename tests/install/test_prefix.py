@@ -4,12 +4,11 @@ source is hidden from that run where mount namespaces are allowed. Manual pages 
 import os
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from cutwater import BIN, SOURCE
+from cutwater import BIN, SOURCE, execute, without_make
 
 PROGRAMS = ["cutwater", *(f"cutwater-{stage}" for stage in ("geometry", "mesh", "export", "report"))]
 HIDE = ["unshare", "--mount", "--propagation", "private",
@@ -17,10 +16,7 @@ HIDE = ["unshare", "--mount", "--propagation", "private",
 
 
 def call(*line, folder="/", path=""):
-    clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
-    clean["PATH"] = f"{path}:{clean['PATH']}"
-    return subprocess.run([str(word) for word in line], cwd=folder, env=clean, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=900)
+    return execute(line, folder, 900, without_make(path))
 
 
 class Prefix(unittest.TestCase):

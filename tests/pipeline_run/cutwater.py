@@ -39,9 +39,15 @@ def start(stage, run, **options):
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
-def execute(line, folder=None, timeout=1500):
-    return subprocess.run([str(word) for word in line], cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+def execute(line, folder=None, timeout=1500, environment=ENVIRONMENT):
+    return subprocess.run([str(word) for word in line], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=timeout)
+
+
+def without_make(path=None):
+    """The environment without what a make above has put there; with a path, programs are looked for there first."""
+    clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
+    return clean | ({"PATH": f"{path}:{clean['PATH']}"} if path else {})
 
 
 def said(test, line, folder=None, timeout=1500):

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The make rules with stages that only note their call: what runs when, and what a failing stage does."""
 import json
-import os
 import shutil
-import subprocess
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
-SOURCE = Path(os.environ["CUTWATER_SOURCE"])
+from cutwater import SOURCE, execute, without_make
+
 STAGES = ("geometry", "mesh", "export", "report")
 STAGE = """#!/bin/sh
 # NAME ARGUMENTS...: notes its call and writes what the stage would write last.
@@ -73,10 +72,8 @@ class MakeRules(unittest.TestCase):
         self.calls.write_text("")
         time.sleep(0.02)  # file times must differ
         self.launches.write_text("")
-        clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
-        clean["PATH"] = f"{self.bin}:{clean['PATH']}"
-        result = subprocess.run(["make", "-f", self.makefile, "pump", *words], env=clean, cwd=self.holder.name,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        result = execute(["make", "-f", self.makefile, "pump", *words], self.holder.name,
+                         environment=without_make(self.bin))
         return result, [line.split()[0] for line in self.calls.read_text().splitlines()]
 
     def test_all_stages_in_turn_and_then_none(self):
@@ -165,9 +162,7 @@ class MakeRules(unittest.TestCase):
 
 class FrontDoor(unittest.TestCase):
     def make(self, *words):
-        clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
-        return subprocess.run(["make", "-C", SOURCE, "-n", "-B", *words], env=clean, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
+        return execute(["make", "-C", SOURCE, "-n", "-B", *words], environment=without_make())
 
     def test_options_reach_the_stages(self):
         told = self.make("paper", "CELLS=2M", "NP=3", "OUT=/nowhere/run").stdout

@@ -13,7 +13,7 @@ import time
 import unittest
 from unittest import mock
 
-from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, fresh, record
+from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, record
 
 sys.path.insert(0, str(SOURCE / "pipeline/solve"))
 import foam  # noqa: E402
@@ -147,8 +147,7 @@ class Flow(unittest.TestCase):
                 "1", "--bin", BIN, *more]
 
     def call(self, *more, **options):
-        return subprocess.run([str(word) for word in self.line(*more)], env=ENVIRONMENT, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
+        return execute(self.line(*more), **options)
 
     def test_a_flow_that_was_killed_goes_on_and_obeys_the_energy_balance(self):
         shutil.rmtree(self.pump / "solve", ignore_errors=True)
@@ -222,9 +221,7 @@ class Flow(unittest.TestCase):
         result = self.call("--run", self.pump.parent / "none")
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stdout, r"^cutwater-solve: error: .*export/openfoam: no case; make it first.*\n$")
-        poor = {**ENVIRONMENT, "PATH": "/nonexistent"}
-        result = subprocess.run([str(word) for word in self.line()], env=poor, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True, check=False)
+        result = self.call(environment={**ENVIRONMENT, "PATH": "/nonexistent"})
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stdout, r"^cutwater-solve: error: \w+ is not there; install OpenFOAM.*\n$")
 

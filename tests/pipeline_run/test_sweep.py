@@ -8,7 +8,7 @@ import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from cutwater import CELLS, RUN, SOURCE, WORK, fresh, record
+from cutwater import CELLS, RUN, SOURCE, WORK, execute, fresh, record, said
 
 sys.path.insert(0, str(SOURCE / "pipeline"))
 import needs  # noqa: E402
@@ -50,11 +50,10 @@ class Sweep(unittest.TestCase):
                 (folder / name / stage).mkdir(parents=True)
                 (folder / name / stage / "record.json").write_text(json.dumps(text))
         table = folder / "sweep.csv"
-        result = subprocess.run([sys.executable, SOURCE / "pipeline/sweep.py", table, *(folder / n for n in "cab")],
-                                stdout=subprocess.PIPE, text=True, check=True)
+        told = said(self, [sys.executable, SOURCE / "pipeline/sweep.py", table, *(folder / name for name in "cab")])
         # Equal ratios of cells: the order is ln(0.2 / 0.1) / ln(3^(1/3)), and as far again is left beyond the finest.
-        self.assertRegex(result.stdout, r"head_m +order 1\.89, extrapolated 10, grid convergence index 1\.24 %")
-        self.assertRegex(result.stdout, r"torque_n_m +does not converge")
+        self.assertRegex(told, r"head_m +order 1\.89, extrapolated 10, grid convergence index 1\.24 %")
+        self.assertRegex(told, r"torque_n_m +does not converge")
         self.assertEqual([row["y_plus_most"] for row in csv.DictReader(table.open())], ["41.5"] * 3)
         root = ElementTree.parse(folder / "sweep.svg").getroot()
         words = [element.text for element in root.iter() if element.tag.endswith("text")]
@@ -82,8 +81,7 @@ class Sweep(unittest.TestCase):
 
     def test_the_table_of_the_documents_is_that_of_the_script(self):
         command = re.search(r"`pipeline/(needs.py --table [^`]+)`", (SOURCE / "docs/cluster.md").read_text())[1].split()
-        told = subprocess.run([sys.executable, SOURCE / "pipeline" / command[0], *command[1:]], stdout=subprocess.PIPE,
-                              text=True, check=True).stdout
+        told = said(self, [sys.executable, SOURCE / "pipeline" / command[0], *command[1:]])
         self.assertIn(told, (SOURCE / "docs/cluster.md").read_text())
 
     def test_the_parts_of_a_run_on_the_disk_are_about_what_is_told(self):
@@ -98,8 +96,7 @@ class Sweep(unittest.TestCase):
 
         def call(formats, *cells):
             case.write_text(text + formats)
-            return subprocess.run([sys.executable, SOURCE / "pipeline/needs.py", WORK, "--case", case, *cells],
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            return execute([sys.executable, SOURCE / "pipeline/needs.py", WORK, "--case", case, *cells])
         self.assertEqual((call("").returncode, call("").stdout), (0, ""))  # a small one
         *disk, code_saturne = [
             float(re.search(r"about ([\d.]+) GB", call(formats, "100M").stdout)[1])
@@ -114,9 +111,7 @@ class Sweep(unittest.TestCase):
     def test_table_of_a_run(self):
         table = WORK / "sweep.csv"
         table.parent.mkdir(parents=True, exist_ok=True)
-        result = subprocess.run([sys.executable, SOURCE / "pipeline/sweep.py", table, RUN], stdout=subprocess.PIPE,
-                                text=True, check=True)
-        self.assertIn(RUN.name, result.stdout)
+        self.assertIn(RUN.name, said(self, [sys.executable, SOURCE / "pipeline/sweep.py", table, RUN]))
         rows = list(csv.DictReader(table.open()))
         self.assertEqual([row["run"] for row in rows], [RUN.name])
         self.assertAlmostEqual(int(rows[0]["cells"]) / CELLS, 1, delta=0.02)
