@@ -19,15 +19,13 @@ import json
 import os
 import pathlib
 import re
-import resource
 import shutil
 import signal
 import statistics
-import subprocess
 import tempfile
 import zipfile
 
-from programs import ENVIRONMENT, SOURCE, options_of
+from programs import SOURCE, execute, options_of
 from runs import record
 
 BIN = pathlib.Path(os.environ.get("CUTWATER_BIN", SOURCE / "build/bin"))
@@ -68,21 +66,10 @@ print(len(t), round(float(least), 1))
 
 
 def run(line, seconds):
-    """What a program said, how it ended ("timeout" where it took more of the processor), and its seconds there."""
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-
-    with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen([str(word) for word in line], env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=said,
-                                 stderr=subprocess.STDOUT, preexec_fn=limit)
-        _, status, used = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
-        said.seek(0)
-        text = said.read().decode(errors="replace")
-    took = used.ru_utime + used.ru_stime
-    over = took >= seconds or child.returncode == -signal.SIGXCPU
-    return ("timeout" if over else child.returncode), text, took
+    """How a program ended ("timeout" where it took more of the processor), what it said, and its seconds there."""
+    done = execute(*line, check=False, processor=seconds)
+    over = done.processor >= seconds or done.status == -signal.SIGXCPU
+    return ("timeout" if over else done.status), done.text, done.processor
 
 
 def files(folder):

@@ -13,43 +13,21 @@ worst   patch with the fewest of them, of those with 100 faces or more
 beside  how much greater the mean aspect of the tetrahedra beside partition planes is than that of the others, %
 
 Every run is removed before the next one begins. With --mesh-only nothing is exported, and checkMesh not asked."""
-import re
 import tempfile
 from pathlib import Path
 
 from programs import execute, options_of
-from runs import BIN, cases_named, record, stage_line
-
-
-def judged(run):
-    """The failed checks of checkMesh in a few words, or that there are none."""
-    text = execute("checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam").text
-    if "Mesh OK." in text:
-        return "Mesh OK"
-    return "; ".join(line.strip(" *") for line in re.findall(r"^ *\*\*\*.*", text, re.M))
-
-
-def percent(part, whole):
-    return f"{100 * part / whole:.2f}" if whole else "-"
-
-
-def even_faces(patches):
-    """Share of faces of the layer top with volumes alike, the greatest ratio, and the patch that has the fewest."""
-    faces = sum(p["wall_faces"] for p in patches)
-    shares = [(1 - (p["thin_last_layer_faces"] + p["thick_last_layer_faces"]) / p["wall_faces"], p)
-              for p in patches if p["wall_faces"]]
-    even = sum(share * p["wall_faces"] for share, p in shares)
-    large = [(share, p["patch"]) for share, p in shares if p["wall_faces"] >= 100]
-    worst = f"{100 * min(large)[0]:.1f} {min(large)[1]}" if large else "-"
-    return f"{percent(even, faces)} ({max(p['volume_ratio_greatest'] for p in patches):.1f})", worst
+from runs import BIN, cases_named, failed_checks, quality, record, stage_line
 
 
 def table_row(name, run, told):
     results = record(run)["results"]
-    domains = results["domains"]
+    domains, shares = results["domains"], quality(results)
     patches = [patch for domain in domains for patch in domain["layer_coverage"]]
-    first = percent(sum(p["first_height_met_faces"] for p in patches), sum(p["wall_faces"] for p in patches))
-    even, worst = even_faces(patches)
+    even = f"{100 * shares['even']:.2f} ({max(p['volume_ratio_greatest'] for p in patches):.1f})"
+    large = [(1 - (p["thin_last_layer_faces"] + p["thick_last_layer_faces"]) / p["wall_faces"], p["patch"])
+             for p in patches if p["wall_faces"] >= 100]
+    worst = f"{100 * min(large)[0]:.1f} {min(large)[1]}" if large else "-"
 
     def of_domains(key, form):
         return " / ".join(form.format(domain[key]) for domain in domains)
@@ -59,7 +37,8 @@ def table_row(name, run, told):
         near, apart = domain["tetrahedra_beside_planes"], domain["tetrahedra_apart"]
         beside.append(f"{100 * (near['aspect_mean'] / apart['aspect_mean'] - 1):+.1f}")
     print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}{results['layers']:>7}"
-          f"  {first:>6}  {even:>15}  {worst:22} {of_domains('least_dihedral_deg', '{:.1f}'):>12} "
+          f"  {100 * shares['first_height']:>6.2f}  {even:>15}  {worst:22} "
+          f"{of_domains('least_dihedral_deg', '{:.1f}'):>12} "
           f"{of_domains('tetrahedron_aspect_mean', '{:.2f}'):>12} {' / '.join(beside):>12}  {told}", flush=True)
 
 
@@ -77,7 +56,7 @@ def main():
                 run = Path(folder) / "run"
                 for stage in ("geometry", "mesh") + ("export",) * (not options.mesh_only):
                     execute(*stage_line(options.bin, stage, case, run, cells, options.ranks))
-                table_row(name, run, "" if options.mesh_only else judged(run))
+                table_row(name, run, "" if options.mesh_only else "; ".join(failed_checks(run)) or "Mesh OK")
 
 
 main()

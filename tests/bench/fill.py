@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Compares the ways to fill a closed surface: our kernel, TetGen behind the same call, and gmsh's HXT (with
---delaunay its older Delaunay mesher on the first surface, too).
+"""Compares the ways to fill a closed surface: our kernel, TetGen behind the same call, and gmsh's HXT.
 
 Use, from the top of the source:
-  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...]
-    [--growth G] [--repeat N] [--cores N ...] [--ways kernel|tetgen|hxt ...] [--delaunay] [--equal]
+  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--growth G] [--repeat N] [--cores N ...]
+    [--equal]
 Surfaces are a ring (0.26 m across) with six blade-shaped voids, for each edge length in m, and the inner
 boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Sizes grow from the surface by G a
 length, 0.15 by default; gmsh follows its own rule. Seconds are user time of one core, the
@@ -64,11 +63,11 @@ def run_gmsh(folder, surface, shells, sizes, *options, limit=LIMIT):
     return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False, limit=limit), mesh
 
 
-def fill_by_gmsh(program, surface, shells, algorithm, sizes=None):
+def fill_by_hxt(program, surface, shells, sizes=None):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         before, _ = run_gmsh(folder, surface, shells, sizes, "-2")
-        run, mesh = run_gmsh(folder, surface, shells, sizes, "-3", "-algo", algorithm)
+        run, mesh = run_gmsh(folder, surface, shells, sizes, "-3", "-algo", "hxt")
         steps = gmsh_steps(run.text)
         if "meshing 3D" not in steps or not mesh.exists():
             return "failed" if run.wall < LIMIT else f"not done in {LIMIT} s"
@@ -99,7 +98,7 @@ def equal_sizes(program, surface, shells, growth, folder):
     scale = 1.0
     for _ in range(TRIES):
         execute(program, "sizes", surface, growth, f"{scale:.6g}", sizes)
-        row = fill_by_gmsh(program, surface, shells, "hxt", sizes)
+        row = fill_by_hxt(program, surface, shells, sizes)
         if isinstance(row, str):
             return None, f"{row}, sizes times {scale:.3g}"
         if abs(row[1] / ours[1] - 1) <= NEAR:
@@ -108,17 +107,14 @@ def equal_sizes(program, surface, shells, growth, folder):
     return None, f"no scale of the sizes gives {ours[1]} tetrahedra"
 
 
-def compare(program, title, surface, shells, words, delaunay, folder):
+def compare(program, title, surface, shells, words, folder):
     """Prints the rows of a surface. Those of the kernel on one core."""
-    ways = [(name, lambda name=name: run_ours(program, name, surface, words.growth))
-            for name in ("kernel", "tetgen") if name in words.ways]
-    if shutil.which("gmsh") and "hxt" in words.ways:
-        ways.append(("hxt", lambda: fill_by_gmsh(program, surface, shells, "hxt")))
-    if shutil.which("gmsh") and delaunay:
-        ways.append(("delaunay", lambda: fill_by_gmsh(program, surface, shells, "del3d")))
+    ways = [(name, lambda name=name: run_ours(program, name, surface, words.growth)) for name in ("kernel", "tetgen")]
+    if shutil.which("gmsh"):
+        ways.append(("hxt", lambda: fill_by_hxt(program, surface, shells)))
     if shutil.which("gmsh") and words.equal:
         sizes, reason = equal_sizes(program, surface, shells, words.growth, folder)
-        ways.append(("hxt, =", lambda: reason or fill_by_gmsh(program, surface, shells, "hxt", sizes)))
+        ways.append(("hxt, =", lambda: reason or fill_by_hxt(program, surface, shells, sizes)))
     best = {}
     for _ in range(words.repeat):
         for cores in words.cores:
@@ -129,7 +125,7 @@ def compare(program, title, surface, shells, words, delaunay, folder):
                         (not isinstance(row, str) and row[2] < best[key][2]):
                     best[key] = row
     for cores in words.cores:
-        ours = best.get(("kernel", cores), "not asked for")
+        ours = best["kernel", cores]
         for name, _ in ways:
             row = best[name, cores]
             if isinstance(row, str):
@@ -148,10 +144,7 @@ def main():
     parser.add_argument("build", type=Path)
     parser.add_argument("--ring", type=float, nargs="*", default=[0.004, 0.0025, 0.0016])
     parser.add_argument("--run", type=Path, nargs="*", default=[])
-    parser.add_argument("--regions", nargs="*", help="names such as rotor-0001; all by default")
     parser.add_argument("--cores", type=int, nargs="*", default=[1, 2])
-    parser.add_argument("--ways", nargs="*", choices=["kernel", "tetgen", "hxt"], default=["kernel", "tetgen", "hxt"])
-    parser.add_argument("--delaunay", action="store_true", help="gmsh's Delaunay mesher on the first surface")
     parser.add_argument("--equal", action="store_true", help="HXT with as many tetrahedra as the kernel, too")
     words = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -159,18 +152,14 @@ def main():
         program = compile_program(words.build, folder)
         print(HEAD, flush=True)
         surface = folder / "surface.msh"
-        first, kernel = True, []
+        kernel = []
         for edge in words.ring:
             execute(program, "ring", edge, surface)
-            kernel += compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first, folder)
-            first = False
+            kernel += compare(program, f"ring {edge}", surface, 7, words, folder)
         for run in words.run:
             for region in sorted((run / "mesh").glob("[!.]*.h5")):
-                if words.regions and region.stem not in words.regions:
-                    continue
                 execute(program, "region", region, surface)
-                kernel += compare(program, region.stem, surface, 1, words, words.delaunay and first, folder)
-                first = False
+                kernel += compare(program, region.stem, surface, 1, words, folder)
         if kernel:
             print(f"kernel, {len(kernel)} surfaces: at most {max(row[3] for row in kernel):.0f} bytes a tetrahedron, "
                   f"at least {min(row[1] / row[2] for row in kernel):.0f} tetrahedra a second; aspect at most "

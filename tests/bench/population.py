@@ -29,7 +29,7 @@ from collections import defaultdict
 
 import random_pumps
 from programs import SOURCE, execute, options_of
-from runs import BIN, quality, record, rows_before, run_tasks, stage_line
+from runs import BIN, failed_checks, quality, record, rows_before, run_tasks, stage_line
 
 STAGES = ("geometry", "mesh", "export")
 COUNT_OFF = 0.02
@@ -171,10 +171,7 @@ def judge_files(run, check_mesh, figures):
         errors = re.findall(r"^.*ERROR.*", execute("cgnscheck", run / "export/pump.cgns", check=False).text, re.M)
         bad += [f"cgnscheck: {errors[0].strip()}"] if errors else []
     if check_mesh and shutil.which("checkMesh"):
-        text = execute("checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam", check=False).text
-        failed = [line.strip(" *") for line in re.findall(r"^ *\*\*\*.*", text, re.M)]
-        if not failed and "Mesh OK." not in text:
-            failed = ["ends without a verdict"]
+        failed = failed_checks(run)
         figures["check_mesh"] = failed or ["Mesh OK"]
         bad += [f"checkMesh: {line}" for line in failed
                 if not prisms_explain(line, zones, figures["flat_as_told"])]

@@ -31,12 +31,14 @@ def options_of(text, **defaults):
     return parser
 
 
-def execute(*line, folder=None, check=True, limit=None):
-    """Runs a program to its end, or for `limit` seconds; with `check` the benchmark ends where it fails."""
+def execute(*line, folder=None, check=True, limit=None, processor=None):
+    """Runs a program to its end, or for `limit` seconds, or until one of its processes has had `processor` seconds of
+    the processor; with `check` the benchmark ends where it fails."""
+    line = ["prlimit", f"--cpu={processor}:{processor + 1}", *line] if processor else line
     line = [str(word) for word in line]
     began = time.monotonic()
     child = subprocess.Popen(line, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                             stderr=subprocess.STDOUT, text=True)
+                             stderr=subprocess.STDOUT, text=True, errors="replace")
     timer = threading.Timer(limit, child.kill) if limit else None
     if timer:
         timer.start()

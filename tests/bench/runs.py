@@ -9,7 +9,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from programs import MPIRUN, SOURCE
+from programs import MPIRUN, SOURCE, execute
 
 BIN, PAPER_CASE = SOURCE / "build/bin", SOURCE / "cases/paper/case.yaml"
 
@@ -57,6 +57,13 @@ def quality(results):
     return {"aspect": sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"] for domain in domains) / tetrahedra,
             "first_height": sum(wall["first_height_met_faces"] for wall in walls) / faces,
             "even": 1 - sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls) / faces}
+
+
+def failed_checks(run):
+    """The checks of OpenFOAM's checkMesh that a run's mesh fails."""
+    text = execute("checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam", check=False).text
+    failed = [line.strip(" *") for line in re.findall(r"^ *\*\*\*.*", text, re.M)]
+    return failed or ([] if "Mesh OK." in text else ["ends without a verdict"])
 
 
 def save_picture(run, title, path):

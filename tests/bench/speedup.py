@@ -296,7 +296,6 @@ def main():
     parser.add_argument("--check", type=int)
     parser.add_argument("--cells-per-region")
     parser.add_argument("--gmsh", nargs="?", const="del3d", choices=["del3d", "hxt"])
-    parser.add_argument("--gmsh-seconds", type=float)
     arguments = parser.parse_args()
     measured, check = {}, None
     if arguments.record:
@@ -320,9 +319,7 @@ def main():
                 check = mesh(arguments, run / "geometry", arguments.check)[1]["results"]
         measured = {1: min(seconds for seconds, _ in ones), 2: min(seconds for seconds, _ in twos)}
         model = Model(ones)
-    serial = arguments.gmsh_seconds
-    if arguments.gmsh:
-        serial = serial_gmsh(arguments, model.results["cells"])
+    serial = serial_gmsh(arguments, model.results["cells"]) if arguments.gmsh else None
     print_table(model, arguments.ranks, measured, serial)
     print_losses(model, [ranks for ranks in arguments.ranks if ranks <= 96])
     if check:
