@@ -3,7 +3,7 @@
 """Table 2 of the paper again: time, speed-up and parallel efficiency of the mesher.
 
   tests/bench/speedup.py [--cells 2M] [--repeat 1] [--case FILE] [--bin build/bin] [--ranks 6 12 ...] [--record FILE]
-    [--gmsh [del3d | hxt] | --gmsh-seconds S]
+    [--gmsh [del3d | hxt]]
 
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs
@@ -22,7 +22,7 @@ longest rank beside the model, step by step. --cells-per-region takes the place 
 many cells, so that a mesher faster than Gmsh has more than 100 % of it on few cores. --gmsh measures that T1 here:
 processor seconds of gmsh's own steps, without reading the STEP file and writing, on one core, on the same solids for as
 many tetrahedra as the run has cells, by its Delaunay mesher unless `hxt` is named; `by paper` is the efficiency T1 / (N
-TN) with it. Gmsh makes tetrahedra of one size and no layers. --gmsh-seconds gives a T1 that is known.
+TN) with it. Gmsh makes tetrahedra of one size and no layers.
 
 `waiting` is the efficiency if regions waited for the fills of their smaller-numbered neighbours, as section 2.3 reads,
 in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring."""
