@@ -121,58 +121,42 @@ static void read_mesh(const char *path, Mesh *mesh) {
 }
 
 // A torus of triangles; rows are shifted by half a triangle.
-static void add_torus(Mesh *mesh, double great, double small, double edge) {
+static void add_torus(Surface *s, double great, double small, double edge) {
   int rows = 2 * (int)ceil(3.141592653589793 * 2.0 * small / (edge * 0.8660254) / 2.0);
   int columns = (int)ceil(6.283185307179586 * great / edge);
-  int32_t base = mesh->point_count;
-  size_t points = (size_t)base + (size_t)(rows * columns), triangles = (size_t)mesh->triangle_count;
-  mesh->x = realloc(mesh->x, points * sizeof *mesh->x);
-  mesh->triangle = realloc(mesh->triangle, (triangles + 2 * (size_t)(rows * columns)) * sizeof *mesh->triangle);
-  if (!mesh->x || !mesh->triangle) exit(5);
+  int32_t base = s->point_count;
   for (int r = 0; r < rows; r++) {
     for (int c = 0; c < columns; c++) {
       double u = 6.283185307179586 * (c + 0.5 * (r % 2)) / columns, v = 6.283185307179586 * r / rows;
-      double *x = mesh->x[mesh->point_count++];
-      x[0] = (great + small * cos(v)) * cos(u);
-      x[1] = (great + small * cos(v)) * sin(u);
-      x[2] = small * sin(v);
+      const double x[3] = {(great + small * cos(v)) * cos(u), (great + small * cos(v)) * sin(u), small * sin(v)};
       int d = (c + 1) % columns, above = (r + 1) % rows;
       int32_t a = base + r * columns + c, b = base + r * columns + d;
       int32_t e = base + above * columns + c, f = base + above * columns + d;
-      const int32_t even[2][3] = {{a, b, e}, {b, f, e}}, odd[2][3] = {{a, b, f}, {a, f, e}};
-      for (int k = 0; k < 2; k++) {
-        int32_t *t = mesh->triangle[mesh->triangle_count++];
-        memcpy(t, r % 2 ? odd[k] : even[k], sizeof *mesh->triangle);
-      }
+      surface_point(s, x);
+      surface_triangle(s, a, b, r % 2 ? f : e);
+      surface_triangle(s, r % 2 ? a : b, f, e);
     }
   }
 }
 
 // An ellipsoid across the ring at angle `turn`, its chord at 35 degrees to the way round; normals inward.
-static void add_blade(Mesh *mesh, double great, double turn, double edge) {
+static void add_blade(Surface *s, double great, double turn, double edge) {
   static const double half[3] = {0.018, 0.013, 0.006}; // chord, span, thickness
-  Surface ball = {0};
   int level = 0;
+  int32_t point = s->point_count, triangle = s->triangle_count;
   while (level < 5 && 1.05 * 0.015 / (1 << level) > edge) level++;
-  surface_add_sphere(&ball, (double[3]){0, 0, 0}, 1.0, level, 0);
-  int32_t base = mesh->point_count;
-  mesh->x = realloc(mesh->x, (size_t)(base + ball.point_count) * sizeof *mesh->x);
-  mesh->triangle =
-      realloc(mesh->triangle, (size_t)(mesh->triangle_count + ball.triangle_count) * sizeof *mesh->triangle);
-  if (!mesh->x || !mesh->triangle) exit(5);
-  for (int32_t p = 0; p < ball.point_count; p++) {
-    double c = half[0] * ball.x[p][0], r = half[1] * ball.x[p][1], n = half[2] * ball.x[p][2];
+  surface_add_sphere(s, (double[3]){0, 0, 0}, 1.0, level, 0);
+  for (; point < s->point_count; point++) {
+    double *x = s->x[point], c = half[0] * x[0], r = half[1] * x[1], n = half[2] * x[2];
     double round = c * cos(0.61) - n * sin(0.61), up = c * sin(0.61) + n * cos(0.61);
-    double *x = mesh->x[mesh->point_count++];
     x[0] = (great + r) * cos(turn) - round * sin(turn);
     x[1] = (great + r) * sin(turn) + round * cos(turn);
     x[2] = up;
   }
-  for (int32_t t = 0; t < ball.triangle_count; t++, mesh->triangle_count++) {
-    for (int k = 0; k < 3; k++) // the map to (round, outward, up) mirrors
-      mesh->triangle[mesh->triangle_count][k] = base + ball.triangle[t][2 - k];
+  for (; triangle < s->triangle_count; triangle++) { // the map to (round, outward, up) mirrors
+    int32_t *t = s->triangle[triangle], first = t[0];
+    t[0] = t[2], t[2] = first;
   }
-  surface_free(&ball);
 }
 
 // Open faces of the tetrahedra of a region: its layer top, open patches and faces on partition planes.
@@ -238,13 +222,8 @@ static void fill_box(void) {
   Surface box = {0};
   CwFill fill;
   surface_add_box(&box, (double[3]){0, 0, 0}, (double[3]){1, 1, 1}, (int[3]){3, 3, 3}, 1);
-  CwFillInput input = {.point_count = box.point_count,
-                       .x = (const double(*)[3])box.x,
-                       .triangle_count = box.triangle_count,
-                       .triangle = (const int32_t(*)[3])box.triangle,
-                       .offset_count = box.triangle_count,
-                       .size = third,
-                       .name = "box"};
+  CwFillInput input = surface_fill_input(&box, third, NULL);
+  input.offset_count = box.triangle_count;
   check_kernel(&input, &fill);
   cw_fill_free(&fill);
   surface_free(&box);
@@ -378,12 +357,14 @@ int main(int argc, char **argv) {
   if (argc == 4 && !strcmp(argv[1], "ring")) {
     double edge = atof(argv[2]);
     int32_t shell_end[1 + BLADES];
-    add_torus(&mesh, 0.1, 0.03, edge);
-    shell_end[0] = mesh.triangle_count;
+    Surface ring = {0};
+    add_torus(&ring, 0.1, 0.03, edge);
+    shell_end[0] = ring.triangle_count;
     for (int k = 0; k < BLADES; k++) {
-      add_blade(&mesh, 0.1, 6.283185307179586 * k / BLADES, 0.7 * edge);
-      shell_end[k + 1] = mesh.triangle_count;
+      add_blade(&ring, 0.1, 6.283185307179586 * k / BLADES, 0.7 * edge);
+      shell_end[k + 1] = ring.triangle_count;
     }
+    mesh = (Mesh){ring.point_count, ring.triangle_count, 0, ring.x, ring.triangle, NULL};
     write_surface(argv[3], &mesh, shell_end);
   } else if (argc == 4 && !strcmp(argv[1], "region")) {
     region_surface(argv[2], &mesh);

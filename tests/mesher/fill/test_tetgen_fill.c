@@ -187,8 +187,8 @@ static void graded_size(void **state) {
   CwFillInput input = input_of(&s, &field);
   CwFill fill;
   if (cw_tetgen_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
-  CwQuality q = check_fill(&s, &fill);
-  double wanted = 0.0, near_volume = 0.0;
+  check_fill(&s, &fill);
+  double wanted = 0.0;
   int32_t near_count = 0;
   for (int32_t t = 0; t < fill.tetrahedron_count; t++) {
     double mean[3] = {0, 0, 0};
@@ -201,10 +201,8 @@ static void graded_size(void **state) {
   for (int k = 0; k < 1000; k++) {
     double r = 0.01 * (k + 0.5) / 1000.0, h = field.size + field.growth * r;
     wanted += 6.0 * sqrt(2.0) * 4.0 * 3.141592653589793 * r * r * 0.01 / 1000.0 / (h * h * h);
-    near_volume += 4.0 * 3.141592653589793 * r * r * 0.01 / 1000.0;
   }
   assert_true(near_count > 0.6 * wanted && near_count < 1.7 * wanted); // sizes come in powers of two
-  assert_true((double)q.cells > 0.0);
   cw_fill_free(&fill);
   surface_free(&s);
 }
