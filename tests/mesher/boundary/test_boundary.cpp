@@ -38,26 +38,12 @@ static double finer_size(const void *, const double *) {
 // its own, two cuts of the first divided, one line. A third on the other side likewise, and where both lines cross on
 // the first plane each is divided: two pieces of each.
 static void network_of_a_box(void **) {
-  {
-    Box box(1);
-    assert_int_equal(box.count(CW_CURVE_EDGE), 16);
-    assert_int_equal(box.count(CW_CURVE_CUT), 4);
-    assert_int_equal(box.count(CW_CURVE_LINE), 0);
-    assert_int_equal(box.boundary.network.corner_count, 12);
-  }
-  {
-    Box box(2);
-    assert_int_equal(box.count(CW_CURVE_EDGE), 18);
-    assert_int_equal(box.count(CW_CURVE_CUT), 9);
-    assert_int_equal(box.count(CW_CURVE_LINE), 1);
-    assert_int_equal(box.boundary.network.corner_count, 16);
-  }
-  {
-    Box box(3);
-    assert_int_equal(box.count(CW_CURVE_EDGE), 20);
-    assert_int_equal(box.count(CW_CURVE_CUT), 14);
-    assert_int_equal(box.count(CW_CURVE_LINE), 4);
-    assert_int_equal(box.boundary.network.corner_count, 21);
+  const int wanted[3][4] = {{16, 4, 0, 12}, {18, 9, 1, 16}, {20, 14, 4, 21}};
+  for (int planes = 1; planes <= 3; planes++) {
+    Box box(planes);
+    const int found[4] = {box.count(CW_CURVE_EDGE), box.count(CW_CURVE_CUT), box.count(CW_CURVE_LINE),
+                          box.boundary.network.corner_count};
+    for (int k = 0; k < 4; k++) assert_int_equal(found[k], wanted[planes - 1][k]);
   }
 }
 
@@ -205,6 +191,29 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
   assert_int_equal(arcs, 2);
 }
 
+// What regions of the box are made from: four layers, the first 0.2 mm.
+struct Regions {
+  std::vector<double> first, growth;
+  CwSharedNodes shared;
+  CwRegionContext context = {};
+
+  explicit Regions(const DomainSurfaces &boundary)
+      : first(boundary.surface.vertex_count, 2e-4), growth(boundary.surface.vertex_count, 1.5) {
+    context.from = boundary.regions();
+    context.domain = "box";
+    context.layer_count = 4;
+    context.growth = growth.data();
+    context.first_height = first.data();
+    Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared));
+    context.shared = &shared;
+    Box::check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
+  }
+  ~Regions() {
+    cw_open_edge_places_free(&context.open_edge_places);
+    cw_shared_nodes_free(&shared);
+  }
+};
+
 // Regions of the whole box: audited, together as large as the box, with shared points and faces that agree to the last
 // bit.
 static void fill_the_box(int rule) {
@@ -212,7 +221,6 @@ static void fill_the_box(int rule) {
   DomainSurfaces &boundary = box.boundary;
   make_surfaces(box);
   assert_int_equal(boundary.interfaces.outline_count, 6); // four pieces of plane 0, one of each other
-  std::vector<double> first(boundary.surface.vertex_count, 2e-4);
   int pair_count, colours, number[4];
   int32_t(*pair)[2];
   Box::check(cw_interfaces_adjacency(&boundary.interfaces, 4, &pair_count, &pair));
@@ -220,24 +228,14 @@ static void fill_the_box(int rule) {
   Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
   if (rule) refine_interfaces(boundary, number);
   Box::check(cw_interfaces_audit(&boundary.interfaces, 4));
-  CwRegionContext context = {};
-  context.from = boundary.regions();
-  context.domain = "box";
-  context.layer_count = 4;
-  std::vector<double> growth(boundary.surface.vertex_count, 1.5);
-  context.growth = growth.data();
-  context.first_height = first.data();
-  CwSharedNodes shared_nodes;
-  Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
-  context.shared = &shared_nodes;
-  Box::check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
+  const Regions regions(boundary);
   double volume = 0;
   uint64_t open_faces = 0;
   SharedPoints shared;
   for (int r = 0; r < 4; r++) {
     CwRegionMesh mesh;
     CwQuality quality;
-    Box::check(cw_region_build(&context, r, number[r], &mesh));
+    Box::check(cw_region_build(&regions.context, r, number[r], &mesh));
     Box::check(cw_audit_region(&mesh, &quality));
     assert_int_equal(mesh.cells.prism_count % 4, 0);
     volume += quality.volume;
@@ -251,9 +249,7 @@ static void fill_the_box(int rule) {
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
   assert_int_equal(open_faces, 0);
-  shared.check(shared_nodes.count);
-  cw_open_edge_places_free(&context.open_edge_places);
-  cw_shared_nodes_free(&shared_nodes);
+  shared.check(regions.shared.count);
   free(pair);
 }
 
@@ -342,24 +338,12 @@ static void a_crossing_boundary_is_examined(void **) {
   const double through[3] = {0.0235, 0.015, 0.010};
   cw_copy(through, boundary.layers.top[best]);
   cw_copy(through, boundary.interfaces.nodes.x[best]);
-  std::vector<double> first(boundary.surface.vertex_count, 2e-4);
-  CwRegionContext context = {};
-  context.from = boundary.regions();
-  context.domain = "box";
-  context.layer_count = 4;
-  std::vector<double> growth(boundary.surface.vertex_count, 1.5);
-  context.growth = growth.data();
-  context.first_height = first.data();
-  CwSharedNodes shared_nodes;
-  Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
-  context.shared = &shared_nodes;
-  Box::check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
+  const Regions regions(boundary);
   CwRegionMesh mesh;
-  assert_int_equal(cw_region_build(&context, 0, 1, &mesh), CW_ERR_MESH);
-  const CwRegionInput regions = boundary.regions();
+  assert_int_equal(cw_region_build(&regions.context, 0, 1, &mesh), CW_ERR_MESH);
   std::string message = cw_fail_message(), path = "failed-box-0001.vtk";
   CwRegionFailure failure;
-  Box::check(cw_region_failure_examine(&regions, 0, message.c_str(), path.c_str(), &failure));
+  Box::check(cw_region_failure_examine(&regions.context.from, 0, message.c_str(), path.c_str(), &failure));
   assert_int_equal(failure.failed, 1);
   assert_int_equal(failure.everywhere, 0);
   assert_string_equal(failure.message, message.c_str());
@@ -373,10 +357,8 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
   boundary.layers.top[best][2] -= 1.5e-3;
   cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
-  Box::check(cw_region_failure_examine(&regions, 0, "none", path.c_str(), &failure));
+  Box::check(cw_region_failure_examine(&regions.context.from, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
-  cw_open_edge_places_free(&context.open_edge_places);
-  cw_shared_nodes_free(&shared_nodes);
   std::remove(path.c_str());
 }
 

@@ -15,12 +15,31 @@ static const double HEIGHT = 0.6e-3;
 
 static void leave(const void *context, int32_t v, double x[3]) {}
 
+// Layers on the ring as images of those on its first passage.
+static void grow(FlatRing *ring, const double *target, const int32_t *constraints, double (*constraint)[2][3],
+                 CwLayers *layers) {
+  static const uint8_t stays[POINTS];
+  CwPeriodicImages images = {.symmetry = &ring->symmetry};
+  CwSurfaceMesh surface = {.source = ring->source, .images = ring_images(ring)};
+  CwLayerInput in = {.point_count = POINTS,
+                     .x = (const double(*)[3])ring->x,
+                     .triangle_count = TRIANGLES,
+                     .triangle = (const int32_t(*)[3])ring->triangle,
+                     .target = target,
+                     .constraint_count = constraints,
+                     .constraint_normal = (const double(*)[2][3])constraint,
+                     .constraint_stays = stays,
+                     .snap = leave};
+  CwOutcome outcome = {0};
+  assert_int_equal(cw_image_layers(&images, &surface, &in, layers, &outcome), CW_OK);
+  assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
+}
+
 // In the middle of the first seam the column of one member stands on a line that leans, that of the other is free.
 static void seams_get_the_sounder_column(void **state) {
   static FlatRing ring;
   static double target[POINTS], constraint[POINTS][2][3];
   static int32_t constraints[POINTS];
-  static uint8_t stays[POINTS];
   const int32_t middle = RINGS / 2;
   flat_ring(&ring);
   const double(*x)[3] = (const double(*)[3])ring.x;
@@ -32,21 +51,8 @@ static void seams_get_the_sounder_column(void **state) {
     const double across[2][3] = {{-out[1], out[0], 0}, {0.6 * out[0], 0.6 * out[1], -0.8}};
     memcpy(constraint[held], across, sizeof across);
     constraints[held] = 2;
-    CwPeriodicImages images = {.symmetry = &ring.symmetry};
-    CwSurfaceMesh surface = {.source = ring.source, .images = ring_images(&ring)};
-    CwLayerInput in = {.point_count = POINTS,
-                       .x = x,
-                       .triangle_count = TRIANGLES,
-                       .triangle = (const int32_t(*)[3])ring.triangle,
-                       .target = target,
-                       .constraint_count = constraints,
-                       .constraint_normal = constraint,
-                       .constraint_stays = stays,
-                       .snap = leave};
     CwLayers layers;
-    CwOutcome outcome = {0};
-    assert_int_equal(cw_image_layers(&images, &surface, &in, &layers, &outcome), CW_OK);
-    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
+    grow(&ring, target, constraints, constraint, &layers);
     for (int k = 0; k < PASSAGES; k++) {
       int32_t v = ring_point(k * OF_PASSAGE, middle);
       const double *end = layers.top[v];
@@ -98,7 +104,6 @@ static void columns_that_images_leave_no_room_are_lowered(void **state) {
   static FlatRing ring;
   static double target[POINTS], constraint[POINTS][2][3];
   static int32_t constraints[POINTS];
-  static uint8_t stays[POINTS];
   const double height = 1.2e-3, lean = 0.75;
   flat_ring(&ring);
   const double(*x)[3] = (const double(*)[3])ring.x;
@@ -112,21 +117,8 @@ static void columns_that_images_leave_no_room_are_lowered(void **state) {
       memcpy(constraint[v], held, sizeof held);
       constraints[v] = 2;
     }
-  CwPeriodicImages images = {.symmetry = &ring.symmetry};
-  CwSurfaceMesh surface = {.source = ring.source, .images = ring_images(&ring)};
-  CwLayerInput in = {.point_count = POINTS,
-                     .x = x,
-                     .triangle_count = TRIANGLES,
-                     .triangle = (const int32_t(*)[3])ring.triangle,
-                     .target = target,
-                     .constraint_count = constraints,
-                     .constraint_normal = (const double(*)[2][3])constraint,
-                     .constraint_stays = stays,
-                     .snap = leave};
   CwLayers layers;
-  CwOutcome outcome = {0};
-  assert_int_equal(cw_image_layers(&images, &surface, &in, &layers, &outcome), CW_OK);
-  assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
+  grow(&ring, target, constraints, constraint, &layers);
   check_lowered(&ring, &layers, height);
   cw_layers_free(&layers);
 }
