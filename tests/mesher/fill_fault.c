@@ -4,6 +4,7 @@
 #include "mesher/common/predicates.h"
 #include "mesher/common/quality.h"
 #include "mesher/fill/fill_shape.h"
+#include "tests/unit_test.h"
 
 static double constant_size(const void *length, const double x[3]) {
   return *(const double *)length;
@@ -73,4 +74,21 @@ const char *fill_fault(const Surface *s, const CwFill *fill) {
   free(given);
   free(used);
   return fault;
+}
+
+FillShape check_fill(const Surface *s, const CwFill *fill) {
+  FillShape found = {180.0, 0.0, 0.0};
+  const char *fault = fill_fault(s, fill);
+  if (fault) fail_msg("%s", fault);
+  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
+    const double *x[4];
+    CwTetShape shape;
+    for (int i = 0; i < 4; i++) x[i] = fill->x[fill->tetrahedron[t][i]];
+    cw_tet_shape(x, &shape);
+    const double aspect = shape.edge_longest / shape.edge_shortest;
+    found.dihedral_least = fmin(found.dihedral_least, shape.dihedral_least);
+    found.aspect_mean += aspect / fill->tetrahedron_count;
+    found.aspect_most = fmax(found.aspect_most, aspect);
+  }
+  return found;
 }

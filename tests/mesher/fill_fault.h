@@ -13,4 +13,10 @@ CwFillInput fill_input(const Surface *surface, const double *size);
 // triangles as they are turned, and none more, every point in use, and the volume the enclosed one.
 const char *fill_fault(const Surface *surface, const CwFill *fill);
 
+// Fails the test where there is a fault; the shape of the cells: degrees, and longest over shortest edge.
+typedef struct {
+  double dihedral_least, aspect_mean, aspect_most;
+} FillShape;
+FillShape check_fill(const Surface *surface, const CwFill *fill);
+
 #endif

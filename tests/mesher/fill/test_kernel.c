@@ -4,39 +4,18 @@
 #include <string.h>
 
 #include "fill_fault.h"
-#include "mesher/common/quality.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/kernel.h"
 #include "surface_shapes.h"
 #include "tests/unit_test.h"
 
-typedef struct {
-  double dihedral_least, aspect_mean;
-} Shape;
-
-// All that a fill promises, and its shape.
-static Shape check(const Surface *s, const CwFill *fill) {
-  Shape worst = {180.0, 0.0};
-  const char *fault = fill_fault(s, fill);
-  if (fault) fail_msg("%s", fault);
-  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
-    const double *x[4];
-    CwTetShape shape;
-    for (int i = 0; i < 4; i++) x[i] = fill->x[fill->tetrahedron[t][i]];
-    cw_tet_shape(x, &shape);
-    worst.dihedral_least = fmin(worst.dihedral_least, shape.dihedral_least);
-    worst.aspect_mean += shape.edge_longest / shape.edge_shortest / fill->tetrahedron_count;
-  }
-  return worst;
-}
-
-static Shape fill_and_check(const Surface *s, double size) {
+static FillShape fill_and_check(const Surface *s, double size) {
   CwFillInput input = fill_input(s, &size);
   CwFill fill;
   CwKernelOutcome outcome;
   if (cw_kernel_fill(&input, &fill, &outcome) != CW_OK) fail_msg("%s", cw_fail_message());
   assert_int_equal(outcome, CW_KERNEL_FILLED);
-  Shape shape = check(s, &fill);
+  FillShape shape = check_fill(s, &fill);
   cw_fill_free(&fill);
   return shape;
 }
@@ -46,7 +25,7 @@ static const double origin[3] = {0, 0, 0};
 static void sphere(void **unused) {
   Surface s = {0};
   surface_add_sphere(&s, origin, 0.05, 4, 1);
-  Shape shape = fill_and_check(&s, 0.0036);
+  FillShape shape = fill_and_check(&s, 0.0036);
   assert_true(shape.dihedral_least > 15.0);
   assert_true(shape.aspect_mean < 1.5);
   surface_free(&s);
@@ -56,7 +35,7 @@ static void sphere(void **unused) {
 static void cube(void **unused) {
   Surface s = {0};
   surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){12, 12, 12}, 1);
-  Shape shape = fill_and_check(&s, 0.04 / 12);
+  FillShape shape = fill_and_check(&s, 0.04 / 12);
   assert_true(shape.dihedral_least > 10.0);
   surface_free(&s);
 }
@@ -81,7 +60,7 @@ static void from_a_delaunay_mesh(void **unused) {
   if (cw_kernel_finish(&input, &mesh, input.point_count + 1, &fill, &outcome) != CW_OK)
     fail_msg("%s", cw_fail_message());
   assert_int_equal(outcome, CW_KERNEL_FILLED);
-  assert_true(check(&s, &fill).dihedral_least > 5.0);
+  assert_true(check_fill(&s, &fill).dihedral_least > 5.0);
   cw_fill_free(&fill);
   surface_free(&s);
 }
@@ -152,7 +131,7 @@ static void a_polyhedron_that_needs_a_point_inside(void **unused) {
     assert_int_equal(cw_kernel_fill(&input, &fill, &outcome), CW_OK);
     assert_int_equal(outcome, CW_KERNEL_FILLED);
     assert_true(fill.recovery.missing > 0 && fill.point_count > 6);
-    check(&s, &fill);
+    check_fill(&s, &fill);
     cw_fill_free(&fill);
     surface_free(&s);
   }
