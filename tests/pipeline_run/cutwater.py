@@ -50,6 +50,12 @@ def without_make(path=None):
     return clean | ({"PATH": f"{path}:{clean['PATH']}"} if path else {})
 
 
+def within(words, line):
+    """The line of a stage whose program these words start, on each rank."""
+    program = next(k for k, word in enumerate(line) if word.startswith(f"{BIN}/cutwater-"))
+    return [*line[:program], *words, *line[program:]]
+
+
 def said(test, line, folder=None, timeout=1500):
     """Runs a program that must succeed; what it says."""
     result = execute(line, folder, timeout)
@@ -66,6 +72,25 @@ def done(test, name, run, **options):
     """Runs a stage that must succeed."""
     result = stage(name, run, **options)
     test.assertEqual(result.returncode, 0, f"cutwater-{name}:\n{result.stdout}")
+    return result
+
+
+def said_until(test, process, words):
+    """Reads what a stage that was started says, until a line holds these words."""
+    test.assertTrue(any(words in line for line in process.stderr), f"not said: {words}")
+
+
+def on_a_small_disk(test, name, run, size, **options):
+    """Runs a stage whose folder is a file system of so many bytes while it lasts, and then holds what was in that."""
+    folder, left = run / name, run / "left"
+    folder.mkdir(parents=True)
+    if execute(["unshare", "-rm", "mount", "-t", "tmpfs", "tmpfs", folder]).returncode:
+        test.skipTest("no file system can be mounted here")
+    line = " ".join(f"'{word}'" for word in command(name, run, **options))
+    result = execute(["unshare", "-rm", "sh", "-c", f"mount -t tmpfs -o size={size} tmpfs '{folder}' && {line}; "
+                      f"code=$?; cp -a '{folder}' '{left}'; exit $code"])
+    folder.rmdir()
+    left.rename(folder)
     return result
 
 

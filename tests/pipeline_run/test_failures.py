@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from cutwater import (CELLS, RUN, changed_case, digests, done, error_lines, fresh, left_behind, ranks_of, record,
-                      seal, stage, start, with_geometry)
+                      said_until, seal, stage, start, with_geometry)
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
@@ -161,9 +161,7 @@ class Failures(unittest.TestCase):
         """It ends in one line that names the holder, whose files, log and end stay as they would have been."""
         run = with_geometry("locked")
         holder = start("mesh", run, cells="20M", ranks=2)
-        for line in holder.stderr:
-            if "size field" in line:
-                break
+        said_until(self, holder, "size field")
         text = (run / "log/mesh.log").read_text()
         for name in ("mesh", "geometry", "report"):
             with self.subTest(name):
@@ -181,9 +179,7 @@ class Failures(unittest.TestCase):
     def test_a_run_that_is_stopped_says_so_once(self):
         run = with_geometry("stopped")
         process = start("mesh", run, cells="2M", ranks=3)
-        for line in process.stderr:
-            if "size field" in line:
-                break
+        said_until(self, process, "size field")
         os.kill(process.pid, signal.SIGTERM)
         _, text = process.communicate(timeout=60)
         self.assertGreater(process.returncode, 0)

@@ -7,11 +7,11 @@ import os
 import random
 import shutil
 import signal
-import subprocess
 import time
 import unittest
 
-from cutwater import command, digests, done, error_lines, execute, fresh, left_behind, ranks_of, stage, start
+from cutwater import (command, digests, done, error_lines, execute, fresh, left_behind, on_a_small_disk, ranks_of, stage,
+                      start, within)
 
 LIMITS = int(os.environ.get("CUTWATER_LIMITS", 2))
 KILLS = int(os.environ.get("CUTWATER_KILLS", 0))
@@ -21,8 +21,7 @@ STAGES = ("geometry", "mesh", "export", "report")
 
 def limited(limit, line):
     """The line of a stage under a limit of the shell; of one under mpirun the limit is the rank's."""
-    program = next(k for k, word in enumerate(line) if "/cutwater-" in word)
-    return line[:program] + ["sh", "-c", f'{limit}; exec "$@"', "sh"] + line[program:]
+    return within(["sh", "-c", f'{limit}; exec "$@"', "sh"], line)
 
 
 def size_of(path):
@@ -71,24 +70,12 @@ class Limits(unittest.TestCase):
                     self.goes_on(name, run, f"files of {512 * blocks} bytes")
 
     def test_a_full_disk(self):
-        """The stage's folder is a small file system of its own while the first run lasts."""
-        probe = fresh("limits-probe")
-        if subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "tmpfs", probe], check=False,
-                          capture_output=True).returncode:
-            self.skipTest("no file system can be mounted here")
         for name in STAGES:
             for share in self.shares():
                 with self.subTest(stage=name, share=share):
                     run = self.before(name)
-                    folder, left = run / name, run / "left"
-                    folder.mkdir(parents=True)
                     size = max(int(share * size_of(self.whole / name)), 8192)
-                    line = " ".join(f"'{word}'" for word in command(name, run, cells=CELLS))
-                    result = execute(["unshare", "-rm", "sh", "-c",
-                                      f"mount -t tmpfs -o size={size} tmpfs '{folder}' && {line}; code=$?; "
-                                      f"cp -a '{folder}' '{left}'; exit $code"])
-                    folder.rmdir()
-                    left.rename(folder)
+                    result = on_a_small_disk(self, name, run, size, cells=CELLS)
                     self.ended_well(name, run, result, f"a disk of {size} bytes")
                     self.goes_on(name, run, f"a disk of {size} bytes")
 

@@ -5,16 +5,14 @@ import os
 import shutil
 import unittest
 
-from cutwater import CELLS, RUN, command, digests, said, with_geometry
+from cutwater import CELLS, RUN, command, digests, said, with_geometry, within
 
 LIMIT = os.environ["CUTWATER_MESSAGE_LIMIT"]
 
 
 class Messages(unittest.TestCase):
     def limited(self, stage, run):
-        line = command(stage, run, cells=CELLS, ranks=3)
-        program = next(i for i, word in enumerate(line) if word.endswith(f"/cutwater-{stage}"))
-        said(self, line[:program] + ["env", f"LD_PRELOAD={LIMIT}"] + line[program:])
+        said(self, within(["env", f"LD_PRELOAD={LIMIT}"], command(stage, run, cells=CELLS, ranks=3)))
 
     def test_every_stage_with_small_messages(self):
         run = with_geometry("messages")

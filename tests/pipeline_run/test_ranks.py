@@ -3,12 +3,11 @@
 import os
 import shutil
 import signal
-import subprocess
 import time
 import unittest
 
-from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, left_behind, ranks_of, record, regions,
-                      start, with_geometry)
+from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, left_behind, on_a_small_disk, ranks_of,
+                      record, regions, start, with_geometry)
 
 
 def page_of(run):
@@ -98,23 +97,12 @@ class Resume(unittest.TestCase):
         self.goes_on(run, ranks=3)
 
     def test_a_run_on_a_full_disk_called_again(self):
-        """The folder of the mesh is a small file system of its own while the first run lasts."""
         size = sum(path.stat().st_size for path in (RUN / "mesh").iterdir())
         run = with_geometry("resume-full")
-        mesh, left = run / "mesh", run / "left"
-        mesh.mkdir()
-        if subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "tmpfs", mesh], check=False,
-                          capture_output=True).returncode:
-            self.skipTest("no file system can be mounted here")
-        line = " ".join(f"'{word}'" for word in command("mesh", run, cells=CELLS, ranks=2))
-        result = execute(["unshare", "-rm", "sh", "-c",
-                          f"mount -t tmpfs -o size={size // 2} tmpfs '{mesh}' && {line}; code=$?; "
-                          f"cp -p -r '{mesh}' '{left}'; exit $code"])
+        result = on_a_small_disk(self, "mesh", run, size // 2, cells=CELLS, ranks=2)
         self.assertNotEqual(result.returncode, 0)
         self.assertEqual(len(error_lines(result.stdout, "mesh")), 1, result.stdout)
-        self.assertIn(str(mesh), error_lines(result.stdout, "mesh")[0])
-        mesh.rmdir()
-        left.rename(mesh)
+        self.assertIn(str(run / "mesh"), error_lines(result.stdout, "mesh")[0])
         self.goes_on(run)
 
     def test_a_second_call_makes_no_region_again(self):

@@ -5,7 +5,7 @@ skipped, where no such IPC namespaces can be made."""
 import sys
 import unittest
 
-from cutwater import CELLS, RUN, command, digests, execute, with_geometry
+from cutwater import CELLS, RUN, command, digests, execute, with_geometry, within
 
 RANKS = 3
 APART = ["unshare", "--ipc", "sh", "-c"]
@@ -18,9 +18,7 @@ OTHERS = [*APART, 'test "$OMPI_COMM_WORLD_RANK$PMI_RANK" = 0 || for i in 1 2 3 4
 class SharedMemory(unittest.TestCase):
     def expect_copies(self, name, before, inside):
         run = with_geometry(f"shared-memory-{name}")
-        line = command("mesh", run, cells=CELLS, ranks=RANKS)
-        program = line.index(next(word for word in line if word.endswith("cutwater-mesh")))
-        result = execute([*before, *line[:program], *inside, *line[program:]])
+        result = execute([*before, *within(inside, command("mesh", run, cells=CELLS, ranks=RANKS))])
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertEqual(result.stdout.count("the system shares no memory between the ranks"), 1, result.stdout)
         self.assertEqual(digests(run / "mesh"), digests(RUN / "mesh"))

@@ -7,7 +7,7 @@ import signal
 import sys
 import unittest
 
-from cutwater import SOURCE, digests, done, fresh, left_behind, ranks_of, record, start
+from cutwater import SOURCE, digests, done, fresh, left_behind, ranks_of, record, said_until, start
 
 sys.path.insert(0, str(SOURCE / "tests/bench"))
 import random_pumps  # noqa: E402
@@ -27,11 +27,7 @@ class ShorterEdges(unittest.TestCase):
 
     def kill_in_a_round(self, run, options):
         mesher = start("mesh", run, ranks=2, **options)
-        for line in mesher.stderr:
-            if ROUND in line:
-                break
-        else:
-            self.fail("there was no round to be killed in")
+        said_until(self, mesher, ROUND)
         ranks = ranks_of(mesher.pid)
         os.killpg(mesher.pid, signal.SIGKILL)
         mesher.communicate()
