@@ -12,10 +12,12 @@
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <gp_Ax2.hxx>
@@ -23,6 +25,12 @@
 
 inline TopoDS_Shape small_solid_of(const TopoDS_Shape &shape) {
   return TopExp_Explorer(shape, TopAbs_SOLID).Current();
+}
+
+inline double small_volume(const TopoDS_Shape &shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
 }
 
 inline TopoDS_Shape small_cylinder(double z, double radius, double height) {

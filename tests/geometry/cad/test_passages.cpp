@@ -30,12 +30,6 @@ static TopoDS_Shape ring_less(const TopoDS_Shape &tool, int count) {
 
 static const double ring_volume = M_PI * (3600 - 400) * 10;
 
-static double volume_of(const TopoDS_Shape &solid) {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(solid, properties);
-  return properties.Mass();
-}
-
 static CwCadPart made_of(const TopoDS_Shape &solid, int count) {
   SmallParts small({{"wheel", solid}});
   const int pieces = count;
@@ -48,7 +42,7 @@ static void check(const TopoDS_Shape &solid, int count, double volume) {
   const CwCadPart made = made_of(solid, count);
   CwImagesOfSolid images;
   assert_true(BRepCheck_Analyzer(made.solid).IsValid());
-  assert_near(volume_of(made.solid), volume, 1e-6 * volume);
+  assert_near(small_volume(made.solid), volume, 1e-6 * volume);
   const std::string why = images.find(made.solid, count, 1e-10, 1e-3);
   if (!why.empty()) fail_msg("%s", why.c_str());
   assert_int_equal(made.origin.size(), images.faces.Extent());
@@ -87,24 +81,24 @@ static void a_disc_with_blades(void **) {
 static void a_seam_that_ends_at_a_blade(void **) {
   TopoDS_Shape cone = BRepPrimAPI_MakeCone(60, 30, 30).Shape();
   for (int k = 0; k < 3; k++) cone = BRepAlgoAPI_Cut(cone, turned(small_box(45, -2, -1, 30, 4, 12), 120 * k)).Shape();
-  check(cone, 3, volume_of(cone));
+  check(cone, 3, small_volume(cone));
 }
 
 // A cone up to its tip, and half a ball: all passages meet in a corner on the axis, where their faces have poles.
 static void a_nose_that_ends_on_the_axis(void **) {
   for (TopoDS_Shape nose : {BRepPrimAPI_MakeCone(60, 0, 40).Shape(), BRepPrimAPI_MakeSphere(60, 0, M_PI / 2).Shape()}) {
     for (int k = 0; k < 5; k++) nose = BRepAlgoAPI_Cut(nose, turned(small_box(45, -2, -1, 30, 4, 40), 72 * k)).Shape();
-    check(nose, 5, volume_of(nose));
+    check(nose, 5, small_volume(nose));
   }
 }
 
 static void what_is_not_symmetric_stays(void **) {
   TopoDS_Shape ring = ring_less(small_box(40, -2, -1, 30, 4, 12), 5);
   ring = BRepAlgoAPI_Cut(ring, turned(small_box(39.9, -2, -1, 30, 4, 12), 72)).Shape(); // one is deeper by 0.1 mm
-  const double volume = volume_of(ring);
+  const double volume = small_volume(ring);
   const CwCadPart made = made_of(ring, 5);
   CwImagesOfSolid images;
-  assert_near(volume_of(made.solid), volume, 1e-9 * volume);
+  assert_near(small_volume(made.solid), volume, 1e-9 * volume);
   const std::string why = images.find(made.solid, 5, tolerance, 1e-3);
   if (why.find("is 0.1 mm off its image") == std::string::npos) fail_msg("%s", why.c_str());
 }
