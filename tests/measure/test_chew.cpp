@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-
 extern "C" {
 #include "chew_domain.h"
 #include "mesher/common/vec.h"
@@ -52,8 +51,8 @@ static void a_split_is_as_good_as_can_be_had(void **) {
   CwChewInterface interface;
   CwChewSphere *sphere = nullptr;
   int32_t count = 0, space = 0, added;
-  Box::check(cw_chew_interface_make(&from, 0, &interface));
-  Box::check(cw_chew_interface_spheres(&interface, 0, &sphere, &count, &space));
+  check(cw_chew_interface_make(&from, 0, &interface));
+  check(cw_chew_interface_spheres(&interface, 0, &sphere, &count, &space));
   int planned = interface.point_count, triangles = interface.triangle_count, widest = 0;
   assert_int_equal(count, triangles);
   for (int k = 0; k < count; k++) widest = sphere[k].radius > sphere[widest].radius ? k : widest;
@@ -61,7 +60,7 @@ static void a_split_is_as_good_as_can_be_had(void **) {
   for (int k = 0; k < 3; k++)
     asked.x[k] = sphere[widest].centre[k] + 0.5 * sphere[widest].radius * interface.map.axis[2][k];
   for (int again = 0; again < 2; again++) {
-    Box::check(cw_chew_interface_split(&from, 1, &asked, &interface, &added));
+    check(cw_chew_interface_split(&from, 1, &asked, &interface, &added));
     if (again) assert_int_equal(added, 0);
     if (!again) assert_true(added > 0);
     assert_int_equal(interface.triangle_count, triangles + 2 * (interface.point_count - planned));
@@ -72,7 +71,7 @@ static void a_split_is_as_good_as_can_be_had(void **) {
     assert_near(cw_dot(d, interface.map.axis[2]), 0, 1e-15);
   }
   count = 0;
-  Box::check(cw_chew_interface_spheres(&interface, 0, &sphere, &count, &space));
+  check(cw_chew_interface_spheres(&interface, 0, &sphere, &count, &space));
   for (int k = 0; k < count; k++) {
     double d[3];
     cw_sub(asked.x, sphere[k].centre, d);
@@ -92,8 +91,8 @@ static int be_a_rank(int argc, char **argv) {
   const CwChewBounds bounds = {0.71, 1.4};
   CwChewOwners owners;
   CwChewFigures figures;
-  Box::check(cw_chew_owners_make(&surfaces.boundary.interfaces, REGIONS, cost, &owners));
-  Box::check(cw_chew_domain(&from, &owners, &bounds, "box", folder.c_str(), &figures));
+  check(cw_chew_owners_make(&surfaces.boundary.interfaces, REGIONS, cost, &owners));
+  check(cw_chew_domain(&from, &owners, &bounds, "box", folder.c_str(), &figures));
   cw_chew_sum(&owners, &figures);
   if (owners.rank == 0) {
     printf(" ROUNDS %lld INSERTED %lld MESSAGES %lld SENT %lld BYTES %lld\n", (long long)figures.rounds,
@@ -163,7 +162,7 @@ static void any_number_of_ranks_makes_the_same(void **) {
     for (int r = 1; r <= REGIONS; r++) {
       std::string path = std::string(folder.path) + "/box-000" + std::to_string(r) + ".h5";
       CwRegionMesh mesh;
-      Box::check(cw_region_read(path.c_str(), &mesh));
+      check(cw_region_read(path.c_str(), &mesh));
       add_open_faces(mesh, faces);
       cw_region_free(&mesh);
       std::vector<char> made = bytes_of(path);

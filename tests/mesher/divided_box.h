@@ -61,9 +61,6 @@ struct Box {
     cw_background_free(&background);
     cw_cad_close(&cad);
   }
-  static void check(CwStatus status) {
-    if (status != CW_OK) fail_msg("%s", cw_fail_message());
-  }
   int count(CwCurveKind kind) const {
     int found = 0;
     for (int i = 0; i < boundary.network.curve_count; i++) found += boundary.network.curve[i].kind == kind;
@@ -76,16 +73,16 @@ static inline void make_walls(Box &box) {
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr);
   int64_t size;
-  Box::check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
-  Box::check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
+  check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
+  check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
   for (int f = 0; f < faces; f++) {
     if (cw_cad_face_is_wall(box.cad, f))
-      Box::check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
+      check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
   }
-  Box::check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
-                                  &box.outcome));
+  check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
+                             &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
-  Box::check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
+  check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
   for (void *bytes : walls) free(bytes);
 }
 
@@ -94,10 +91,10 @@ static inline void make_layers(Box &box) {
   DomainSurfaces &boundary = box.boundary;
   make_walls(box);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  Box::check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &box.background, target.data(), nullptr,
-                              nullptr, &boundary.layers, &box.outcome));
+  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &box.background, target.data(), nullptr, nullptr,
+                         &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
-  Box::check(cw_layers_audit(&boundary.layers, boundary.surface.x));
+  check(cw_layers_audit(&boundary.layers, boundary.surface.x));
 }
 
 // All surfaces of the box, as far as the inner ones.
@@ -113,21 +110,21 @@ static inline void make_surfaces(Box &box) {
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
     }
   }
-  Box::check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
-                                 &boundary.free_curves, &box.outcome));
+  check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
+                            &boundary.free_curves, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (!cw_cad_face_is_wall(box.cad, f))
-      Box::check(cw_interfaces_open_patch(&boundary.input, &boundary.wall_curves, &boundary.free_curves, f,
-                                          &open_patches[f], &size));
+      check(cw_interfaces_open_patch(&boundary.input, &boundary.wall_curves, &boundary.free_curves, f, &open_patches[f],
+                                     &size));
   }
   interfaces.resize(boundary.free_curves.outline_count);
   for (int i = 0; i < boundary.free_curves.outline_count; i++)
-    Box::check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
-  Box::check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
-                                &boundary.interfaces, &box.outcome));
+    check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
+  check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
+                           &boundary.interfaces, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
-  Box::check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
+  check(cw_interfaces_audit(&boundary.interfaces, box.plan.region_count));
   for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);
 }

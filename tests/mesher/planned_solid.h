@@ -21,9 +21,6 @@ struct PlannedSolid {
   CwPlanModel model;
   CwPlanPart whole;
 
-  static void check(CwStatus status) {
-    if (status != CW_OK) fail_msg("%s", cw_fail_message());
-  }
   explicit PlannedSolid(const TopoDS_Shape &shape, double thickness = 1e-3) : cad(open_solid(shape)) {
     CwMeshTable table = {};
     const double relative = 1;

@@ -23,6 +23,10 @@
 // Last: its macro named fail breaks the C++ headers. So this header comes last in a test as well.
 #include "tests/unit_test.h"
 
+inline void check(CwStatus status) {
+  if (status != CW_OK) fail_msg("status %d: %s", status, cw_fail_message());
+}
+
 // Volume of the solid, m3, from all its faces.
 static inline double solid_volume(const CwCad *cad) {
   double volume = 0;
@@ -76,7 +80,7 @@ inline CwCad *open_solid(const TopoDS_Shape &solid, const PatchOfFace &patch_of 
   TemporaryFolder folder;
   CwCad *cad = nullptr;
   write_solid(folder, solid, patch_of);
-  if (cw_cad_open(folder.path, "part", &cad) != CW_OK) fail_msg("%s", cw_fail_message());
+  check(cw_cad_open(folder.path, "part", &cad));
   return cad;
 }
 

@@ -31,10 +31,6 @@ inline double even_size(const void *, const double *) {
   return 4e-3;
 }
 
-inline void check(CwStatus status) {
-  if (status != CW_OK) fail_msg("status %d: %s", status, cw_fail_message());
-}
-
 // Casing: a prism with n sides, 40 mm to its corners, z = 0 to 40 mm. Hub: a frustum on its floor, 20 mm to the corners
 // below, 14 mm above, 15 mm high; on its top the flow meets the axis, or on its tip 6 mm above that. The floor is cut
 // into one face a side.

@@ -76,8 +76,8 @@ static void refine_interfaces(DomainSurfaces &boundary, const int32_t *number) {
     assert_true(owner == region[0] || owner == region[1]);
     assert_true(number[owner] < number[other]);
   }
-  for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&from, number, r, "box", &refined[r], &size));
-  Box::check(cw_interface_rule_merge(boundary.input.images, &boundary.interfaces, 4, refined.data(), &counts));
+  for (int r = 0; r < 4; r++) check(cw_interface_rule(&from, number, r, "box", &refined[r], &size));
+  check(cw_interface_rule_merge(boundary.input.images, &boundary.interfaces, 4, refined.data(), &counts));
   assert_true(counts.encroached > 20);
   assert_true(counts.inserted > 20);
   assert_int_equal(boundary.interfaces.nodes.count, nodes + counts.inserted);
@@ -100,7 +100,7 @@ static void refine_interfaces(DomainSurfaces &boundary, const int32_t *number) {
     int32_t count;
     double(*x)[3];
     CwLatticeSite *site;
-    Box::check(cw_interface_rule_points(&from, r, "box", &count, &x, &site));
+    check(cw_interface_rule_points(&from, r, "box", &count, &x, &site));
     assert_true(count > 100);
     for (int t = 0; t < boundary.interfaces.refined.count; t++) {
       if (boundary.interfaces.refined.region[t][0] != r && boundary.interfaces.refined.region[t][1] != r) continue;
@@ -135,8 +135,8 @@ static void layers_that_cross_a_line_are_found(void **) {
   Box box(3, 0.001);
   DomainSurfaces &boundary = box.boundary;
   make_layers(box);
-  Box::check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
-                                 &boundary.free_curves, &box.outcome));
+  check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
+                            &boundary.free_curves, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
   assert_near(box.outcome.place[0], 0.021, 1e-9);
   assert_true(boundary.free_curves.tight_count > 0);
@@ -204,9 +204,9 @@ struct Regions {
     context.layer_count = 4;
     context.growth = growth.data();
     context.first_height = first.data();
-    Box::check(cw_shared_nodes_make(&context.from, context.layer_count, &shared));
+    check(cw_shared_nodes_make(&context.from, context.layer_count, &shared));
     context.shared = &shared;
-    Box::check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
+    check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
   }
   ~Regions() {
     cw_open_edge_places_free(&context.open_edge_places);
@@ -223,11 +223,11 @@ static void fill_the_box(int rule) {
   assert_int_equal(boundary.interfaces.outline_count, 6); // four pieces of plane 0, one of each other
   int pair_count, colours, number[4];
   int32_t(*pair)[2];
-  Box::check(cw_interfaces_adjacency(&boundary.interfaces, 4, &pair_count, &pair));
+  check(cw_interfaces_adjacency(&boundary.interfaces, 4, &pair_count, &pair));
   assert_int_equal(pair_count, 6); // all four regions touch one another on plane 0
-  Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
+  check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
   if (rule) refine_interfaces(boundary, number);
-  Box::check(cw_interfaces_audit(&boundary.interfaces, 4));
+  check(cw_interfaces_audit(&boundary.interfaces, 4));
   const Regions regions(boundary);
   double volume = 0;
   uint64_t open_faces = 0;
@@ -235,8 +235,8 @@ static void fill_the_box(int rule) {
   for (int r = 0; r < 4; r++) {
     CwRegionMesh mesh;
     CwQuality quality;
-    Box::check(cw_region_build(&regions.context, r, number[r], &mesh));
-    Box::check(cw_audit_region(&mesh, &quality));
+    check(cw_region_build(&regions.context, r, number[r], &mesh));
+    check(cw_audit_region(&mesh, &quality));
     assert_int_equal(mesh.cells.prism_count % 4, 0);
     volume += quality.volume;
     assert_true(quality.open_faces != 0);
@@ -288,7 +288,7 @@ static void check_failure_file(const DomainSurfaces &boundary, const std::string
     crossing += one;
   }
   CwRegionBoundary inner;
-  Box::check(cw_region_boundary_make(&from, 0, 0, &inner));
+  check(cw_region_boundary_make(&from, 0, 0, &inner));
   assert_int_equal(points, inner.node_count);
   assert_int_equal(of_surface[0], inner.wall_count);
   assert_int_equal(of_surface[1], inner.open_patch_count);
@@ -343,7 +343,7 @@ static void a_crossing_boundary_is_examined(void **) {
   assert_int_equal(cw_region_build(&regions.context, 0, 1, &mesh), CW_ERR_MESH);
   std::string message = cw_fail_message(), path = "failed-box-0001.vtk";
   CwRegionFailure failure;
-  Box::check(cw_region_failure_examine(&regions.context.from, 0, message.c_str(), path.c_str(), &failure));
+  check(cw_region_failure_examine(&regions.context.from, 0, message.c_str(), path.c_str(), &failure));
   assert_int_equal(failure.failed, 1);
   assert_int_equal(failure.everywhere, 0);
   assert_string_equal(failure.message, message.c_str());
@@ -357,7 +357,7 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
   boundary.layers.top[best][2] -= 1.5e-3;
   cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
-  Box::check(cw_region_failure_examine(&regions.context.from, 0, "none", path.c_str(), &failure));
+  check(cw_region_failure_examine(&regions.context.from, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
   std::remove(path.c_str());
 }

@@ -40,7 +40,7 @@ struct Wedge : PlannedSolid {
 static void leaning_lines_are_raised(void **) {
   Wedge wedge(16, 12);
   assert_near(wedge.cosine(), 16 / std::hypot(16, 40), 1e-6);
-  wedge.check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
+  check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
   assert_true(wedge.cosine() > 0.42);
   assert_near(cw_norm(wedge.node[1].plane.normal), 1, 1e-12);
   assert_near(wedge.cells[0] + wedge.cells[1] + wedge.cells[2], wedge.whole.work, 1e-9 * wedge.whole.work);
@@ -50,14 +50,14 @@ static void leaning_lines_are_raised(void **) {
 static void slantwise_planes_are_turned(void **) {
   Wedge wedge(30, 25);
   assert_true(wedge.cosine() > cw_policy.upright_cosine);
-  wedge.check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
+  check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
   assert_false(cw_plan_is_sharp(wedge.node[1].worst));
 }
 
 static void planes_that_stand_well_are_left(void **) {
   Wedge wedge(40, 25);
   const CwPlane before[2] = {wedge.node[0].plane, wedge.node[1].plane};
-  wedge.check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
+  check(cw_plan_improve(&wedge.model, &wedge.plan, &wedge.whole, 0));
   for (int n = 0; n < 2; n++) assert_memory_equal(&before[n], &wedge.node[n].plane, sizeof before[n]);
 }
 

@@ -100,7 +100,7 @@ static void halves_make_the_whole(void **) {
   const CwPlane plane = {{1, 0, 0}, 0.013};
   CwPlanPart half[2];
   for (int side = 0; side < 2; side++) {
-    Box::check(cw_plan_part_clip(&box.model, &box.whole, &plane, side, &half[side]));
+    check(cw_plan_part_clip(&box.model, &box.whole, &plane, side, &half[side]));
     for (int32_t i = 0; i < half[side].sample_count; i++) {
       assert_int_equal(box.model.sample[half[side].sample[i]].x[0] > 0.013, side);
     }

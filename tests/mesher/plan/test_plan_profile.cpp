@@ -80,7 +80,7 @@ static void parts_keep_the_edges_beside_them(void **) {
   const double x[] = {0, 0.02, 0.01}, h = cw_size_at(ring.size, x);
   const CwPlane above = {{0, 0, 1}, 0.01 - 0.1 * h}, below = {{0, 0, 1}, 0.01 - 0.2 * h};
   CwPlanPart half;
-  Ring::check(cw_plan_part_clip(&ring.model, &ring.whole, &above, 0, &half));
+  check(cw_plan_part_clip(&ring.model, &ring.whole, &above, 0, &half));
   assert_near(cw_plan_touch(&ring.model, &half, &below, nullptr), 1, 1e-6);
   cw_plan_part_free(&half);
 }

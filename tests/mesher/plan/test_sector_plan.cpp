@@ -70,7 +70,7 @@ struct PlannedTank : PlannedSolid {
 static void pitches_are_planned_alike(void **) {
   const int turns = 5;
   PlannedTank tank(tank_solid(turns), turns, 11);
-  PlannedSolid::check(tank.status);
+  check(tank.status);
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   const CwPlan &plan = tank.plan;
   double sum = 0;
@@ -107,7 +107,7 @@ static void slices_are_as_large_as_regions(void **) {
   const int turns = 5;
   for (int asked : {7, 16}) {
     PlannedTank tank(tank_solid(turns), turns, asked);
-    PlannedSolid::check(tank.status);
+    check(tank.status);
     assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
     const int slices = tank.plan.sector_region, regions = (tank.plan.region_count - slices) / turns;
     double pipe = 0, pitch = 0;
@@ -135,7 +135,7 @@ static void a_shaft_leaves_sectors(void **) {
         BRepAlgoAPI_Fuse(pipe, BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, wheel), 40, 40, 30).Shape()).Shape();
     const TopoDS_Shape shaft = BRepPrimAPI_MakeBox(gp_Pnt(-3, -3, -1), 6, 6, 80).Shape();
     PlannedTank tank(BRepAlgoAPI_Cut(water, shaft).Shape(), turns, 9);
-    PlannedSolid::check(tank.status);
+    check(tank.status);
     assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
     assert_int_equal(tank.plan.sector_turns, turns);
     assert_near(tank.plan.node[0].plane.normal[2], upside_down ? -1 : 1, 1e-12);

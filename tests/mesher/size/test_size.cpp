@@ -21,10 +21,6 @@
 
 static const double gradation = 0.2;
 
-static void check(CwStatus status) {
-  if (status != CW_OK) fail_msg("%s", cw_fail_message());
-}
-
 // Everything of one solid; lengths in mm for the reader, as the field takes metres.
 struct Model {
   CwCad *cad;
