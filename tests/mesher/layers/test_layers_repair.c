@@ -11,6 +11,18 @@
 #include "mesher/layers/layers_turn.h"
 #include "mesher/layers/prism_quality.h"
 
+static void begin(Case *c, CwLayerWork *work, CwBoxTree *tree) {
+  assert_int_equal(cw_layers_topology(&c->in, work), CW_OK);
+  assert_int_equal(cw_layers_normals(work, &c->outcome), CW_OK);
+  assert_int_equal(cw_gap_tree_make(work, tree), CW_OK);
+}
+
+static void end(CwLayerWork *work, CwBoxTree *tree) {
+  cw_box_tree_free(tree);
+  cw_smoothing_free(&work->smoothing);
+  cw_layers_work_free(work);
+}
+
 // A column on a plate leans so far over its neighbour that the prisms are sound and layer top triangles are not: it is
 // turned back. Where it may not turn, the columns are thinned, but not below what they are asked to keep.
 static void leaning_column(void **state) {
@@ -34,9 +46,7 @@ static void leaning_column(void **state) {
     c.in.least = least; // freed with the case
     CwLayerWork work = {0};
     CwBoxTree tree = {0};
-    assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
-    assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
-    assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
+    begin(&c, &work, &tree);
     for (int32_t v = 0; v < n; v++) work.t[v] = c.target;
     const double leaning[3] = {0.87 / 0.6, 0, 1};
     memcpy(work.column[centre], leaning, sizeof leaning);
@@ -62,9 +72,7 @@ static void leaning_column(void **state) {
       if (after && i == 1) assert_true(thickness < 0.55 * MM);
       if (after && i == 2) assert_near(thickness, 0.55 * MM, 1e-15);
     }
-    cw_box_tree_free(&tree);
-    cw_smoothing_free(&work.smoothing);
-    cw_layers_work_free(&work);
+    end(&work, &tree);
     free(top);
     case_free(&c);
   }
@@ -84,28 +92,24 @@ static void sheared_prism(void **state) {
     c.in.division.count = layers;
     CwLayerWork work = {0};
     CwBoxTree tree = {0};
-    assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
-    assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
-    assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
+    begin(&c, &work, &tree);
     for (int v = 0; v < 3; v++) {
       work.t[v] = c.target;
       memcpy(work.column[v], lean, sizeof lean);
     }
     assert_int_equal(cw_layers_repair(&work, &tree, top, &rounds, &c.outcome), CW_OK);
     const int32_t *corner = c.wall.triangle[0];
-    const double *wall[3], *end[3], whole[3] = {1, 1, 1};
+    const double *wall[3], *up[3], whole[3] = {1, 1, 1};
     for (int k = 0; k < 3; k++) {
-      wall[k] = c.wall.x[corner[k]], end[k] = top[corner[k]];
-      assert_near(end[k][2], c.target, 1e-15);
-      if (!layers) assert_true(fabs(end[k][1] - wall[k][1] - c.target * lean[1]) < 1e-12);
+      wall[k] = c.wall.x[corner[k]], up[k] = top[corner[k]];
+      assert_near(up[k][2], c.target, 1e-15);
+      if (!layers) assert_true(fabs(up[k][1] - wall[k][1] - c.target * lean[1]) < 1e-12);
     }
-    assert_true(cw_prism_top_quality(wall, end) >= 0.3);
-    print_message("  sheared prism: %.3f of the determinant asked for\n", cw_prism_shear_quality(wall, end, 1, whole));
-    assert_true(layers ? cw_prism_shear_quality(wall, end, 1, whole) == 1
-                       : cw_prism_shear_quality(wall, end, 1, whole) < 0.1);
-    cw_box_tree_free(&tree);
-    cw_smoothing_free(&work.smoothing);
-    cw_layers_work_free(&work);
+    assert_true(cw_prism_top_quality(wall, up) >= 0.3);
+    print_message("  sheared prism: %.3f of the determinant asked for\n", cw_prism_shear_quality(wall, up, 1, whole));
+    assert_true(layers ? cw_prism_shear_quality(wall, up, 1, whole) == 1
+                       : cw_prism_shear_quality(wall, up, 1, whole) < 0.1);
+    end(&work, &tree);
     case_free(&c);
   }
 }
@@ -132,9 +136,7 @@ static void wedge_beside_plane(void **state) {
     }
     CwLayerWork work = {0};
     CwBoxTree tree = {0};
-    assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
-    assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
-    assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
+    begin(&c, &work, &tree);
     for (int v = 0; v < points; v++) {
       work.t[v] = v == 2 ? c.target : v < 2 ? 0.5 * MM : 0.2 * MM;
       if (v < 3) memcpy(work.column[v], up, sizeof up);
@@ -147,9 +149,7 @@ static void wedge_beside_plane(void **state) {
                   wedge);
     assert_true(i == 1 ? wedge >= 54 : wedge < 52 && column[0] == 0);
     if (faced) assert_near(top[3][0], 8.1 * MM, 1e-15);
-    cw_box_tree_free(&tree);
-    cw_smoothing_free(&work.smoothing);
-    cw_layers_work_free(&work);
+    end(&work, &tree);
     case_free(&c);
   }
 }
