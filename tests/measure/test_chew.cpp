@@ -148,7 +148,7 @@ static void any_number_of_ranks_makes_the_same(void **) {
   int lines, messages[4] = {}, rounds[4] = {}, inserted[4] = {}, bytes[4] = {};
   for (int ranks = 1; ranks <= 3; ranks++) {
     TemporaryFolder folder;
-    int code = launch(ranks, folder.path, output, sizeof output);
+    int code = launch(ranks, folder.path.c_str(), output, sizeof output);
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
     rounds[ranks] = sum_of(output, " ROUNDS ", &lines);
     inserted[ranks] = sum_of(output, " INSERTED ", &lines);
@@ -160,7 +160,7 @@ static void any_number_of_ranks_makes_the_same(void **) {
     for (int *of : {rounds, inserted, messages, bytes}) assert_int_equal(of[ranks], of[1]);
     Faces faces;
     for (int r = 1; r <= REGIONS; r++) {
-      std::string path = std::string(folder.path) + "/box-000" + std::to_string(r) + ".h5";
+      std::string path = folder.path + "/box-000" + std::to_string(r) + ".h5";
       CwRegionMesh mesh;
       check(cw_region_read(path.c_str(), &mesh));
       add_open_faces(mesh, faces);

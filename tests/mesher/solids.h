@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Small exact solids for the tests of the mesher, written as the geometry stage writes its own: a B-rep in mm
-// and faces.csv, in a temporary folder under the current one.
+// and faces.csv, in a temporary folder.
 #ifndef CUTWATER_TESTS_MESHER_SOLIDS_H
 #define CUTWATER_TESTS_MESHER_SOLIDS_H
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -35,14 +36,12 @@ static inline double solid_volume(const CwCad *cad) {
 }
 
 struct TemporaryFolder {
-  char path[64] = "cutwater-test-XXXXXX";
+  std::string path = std::filesystem::temp_directory_path() / "cutwater-test-XXXXXX";
   TemporaryFolder() {
-    assert_non_null(mkdtemp(path));
+    assert_non_null(mkdtemp(path.data()));
   }
   ~TemporaryFolder() {
-    std::remove((std::string(path) + "/part.brep").c_str());
-    std::remove((std::string(path) + "/faces.csv").c_str());
-    std::remove(path);
+    std::filesystem::remove_all(path);
   }
 };
 
@@ -58,14 +57,14 @@ inline std::string by_shape(const TopoDS_Face &face) {
 }
 
 inline void write_text(const TemporaryFolder &folder, const char *text) {
-  FILE *file = std::fopen((std::string(folder.path) + "/faces.csv").c_str(), "w");
+  FILE *file = std::fopen((folder.path + "/faces.csv").c_str(), "w");
   assert_non_null(file);
   std::fputs(text, file);
   std::fclose(file);
 }
 
 inline void write_solid(const TemporaryFolder &folder, const TopoDS_Shape &solid, const PatchOfFace &patch_of) {
-  assert_true(BRepTools::Write(solid, (std::string(folder.path) + "/part.brep").c_str()));
+  assert_true(BRepTools::Write(solid, (folder.path + "/part.brep").c_str()));
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid, TopAbs_FACE, faces);
   std::string text = "domain,face,patch,kind,name\nother,1,elsewhere,inlet,elsewhere\n";
@@ -80,7 +79,7 @@ inline CwCad *open_solid(const TopoDS_Shape &solid, const PatchOfFace &patch_of 
   TemporaryFolder folder;
   CwCad *cad = nullptr;
   write_solid(folder, solid, patch_of);
-  check(cw_cad_open(folder.path, "part", &cad));
+  check(cw_cad_open(folder.path.c_str(), "part", &cad));
   return cad;
 }
 

@@ -7,6 +7,7 @@
 #include "pipeline/log.h"
 #include "pipeline/run_lock.h"
 #include "pipeline/stage_args.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static const CwStageOption own_options[] = {
@@ -140,13 +141,12 @@ static void help_and_version_are_answered(void **state) {
 }
 
 static void stage_begins_with_log_and_case(void **state) {
-  char folder[] = CUTWATER_BIN_DIR "/stage-XXXXXX", path[sizeof folder + 32];
-  assert_non_null(mkdtemp(folder));
+  const char *const record = in_test_folder("export/record.json");
   char *argv[] = {"cutwater-export",
                   "--case",
                   CUTWATER_SOURCE_DIR "/cases/paper/case.yaml",
                   "--run",
-                  folder,
+                  test_folder,
                   "--cells",
                   "300k",
                   NULL};
@@ -157,31 +157,21 @@ static void stage_begins_with_log_and_case(void **state) {
     assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_OK);
     cw_log_close(&args.log);
     cw_run_unlock(&args.lock);
-    snprintf(path, sizeof path, "%s/export/record.json", folder);
-    assert_int_equal(access(path, F_OK), -1);
-    FILE *record = fopen(path, "w");
-    assert_non_null(record);
-    fclose(record);
+    assert_int_equal(access(record, F_OK), -1);
+    FILE *file = fopen(record, "w");
+    assert_non_null(file);
+    fclose(file);
   }
-  assert_int_equal(unlink(path), 0);
-  snprintf(path, sizeof path, "%s/export", folder);
-  assert_int_equal(rmdir(path), 0);
   assert_string_equal(table.name, "paper");
   assert_int_equal(table.mesh.cells, 300000);
-  snprintf(path, sizeof path, "%s/log/export.log", folder);
-  assert_int_equal(unlink(path), 0);
+  assert_int_equal(unlink(in_test_folder("log/export.log")), 0);
   // A case that is not there ends the stage with the message of the reader.
   argv[2] = "/nowhere.yaml";
   assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_ERR_IO);
   cw_log_close(&args.log);
   assert_int_equal(strncmp(cw_fail_message(), "/nowhere.yaml: ", 15), 0);
-  assert_int_equal(unlink(path), 0);
+  assert_int_equal(unlink(in_test_folder("log/export.log")), 0);
   cw_run_unlock(&args.lock);
-  snprintf(path, sizeof path, "%s/log/run.lock", folder);
-  assert_int_equal(unlink(path), 0);
-  snprintf(path, sizeof path, "%s/log", folder);
-  assert_int_equal(rmdir(path), 0);
-  assert_int_equal(rmdir(folder), 0);
 }
 
 int main(void) {
@@ -192,5 +182,5 @@ int main(void) {
       cmocka_unit_test(help_and_version_are_answered),
       cmocka_unit_test(stage_begins_with_log_and_case),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, clear_test_folder);
 }

@@ -140,7 +140,7 @@ static void two_poles_are_too_many(void **) {
   TemporaryFolder folder;
   CwCad *cad = nullptr;
   write_solid(folder, BRepPrimAPI_MakeSphere(5, M_PI / 2).Shape(), all_wall);
-  assert_int_equal(cw_cad_open(folder.path, "part", &cad), CW_ERR_INPUT);
+  assert_int_equal(cw_cad_open(folder.path.c_str(), "part", &cad), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "is degenerate (a point), and so is another"));
 }
 

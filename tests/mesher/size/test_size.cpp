@@ -224,12 +224,14 @@ static void two_runs_are_the_same(void **state) {
   }
 }
 
+// Of a box 30 mm high.
+static std::string open_top(const TopoDS_Face &face) {
+  gp_Pln plane = BRepAdaptor_Surface(face).Plane();
+  int top = std::fabs(plane.Axis().Direction().Z()) > 0.5 && plane.Location().Z() > 29;
+  return top ? "top,inlet" : "rest,wall";
+}
+
 static void rims_hold_at_any_scale(void **state) {
-  const PatchOfFace open_top = [](const TopoDS_Face &face) {
-    gp_Pln plane = BRepAdaptor_Surface(face).Plane();
-    int top = std::fabs(plane.Axis().Direction().Z()) > 0.5 && plane.Location().Z() > 29;
-    return std::string(top ? "top,inlet" : "rest,wall");
-  };
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
   const Model plain(box, 3, 0.5, 1, {1, 1}, open_top), open_edge(box, 3, 0.5, 1, {1, 1}, open_top, {1e-3, 1e-3});
   for (double scale : {0.5, 0.8}) {
@@ -249,11 +251,6 @@ static void rims_hold_at_any_scale(void **state) {
 
 static void walls_hold_their_edges(void **state) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
-  const PatchOfFace open_top = [](const TopoDS_Face &face) {
-    gp_Pln plane = BRepAdaptor_Surface(face).Plane();
-    int top = std::fabs(plane.Axis().Direction().Z()) > 0.5 && plane.Location().Z() > 29;
-    return std::string(top ? "top,inlet" : "rest,wall");
-  };
   const Model held(box, 3, 0.5, 1, {1, 1}, open_top, {1, 1}, {2e-3, 2e-3});
   assert_near(held.at(15, 15, 0), 2, 1e-5);
   assert_near(held.at(0, 15, 15), 2, 1e-5);
