@@ -125,7 +125,10 @@ static double height_over(const CwPatchMesh *mesh, int32_t p, int32_t a, int32_t
   return sqrt(fmax(ap * ap - along * along, 0));
 }
 
-double check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler) {
+// Every triangle has three sides; a side belongs to one triangle exactly where it is a boundary edge, to two
+// elsewhere; the given edges are among the sides; vertices - edges + triangles is as expected; components
+// meet at given edges only. Returns the clearance of the free points over the given edges.
+static double check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler) {
   double clearance = 1;
   int32_t count = 3 * mesh->triangle_count, edges = 0, points = 0, given = plan->input.edge_count, found = 0;
   Side *side = calloc((size_t)(count + given), sizeof *side);
@@ -175,7 +178,7 @@ double check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler) {
   return clearance;
 }
 
-void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area) {
+static void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area) {
   double sum = 0;
   assert_memory_equal(mesh->x, plan->x, sizeof plan->x[0] * (size_t)plan->input.point_count);
   assert_memory_equal(mesh->uv, plan->uv, sizeof plan->uv[0] * (size_t)plan->input.point_count);
@@ -218,12 +221,17 @@ static Figures measure(const Plan *plan, const CwPatchMesh *mesh) {
   return figures;
 }
 
+double mesh_plan(Plan *plan, const char *title, double uv_area, int euler, CwPatchMesh *mesh) {
+  if (cw_patch_mesh(&plan->input, mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s: %s", title, cw_fail_message());
+  const double clearance = check_topology(plan, mesh, euler);
+  check_places(plan, mesh, uv_area);
+  return clearance;
+}
+
 Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int euler, int components,
                        int32_t *triangle_count) {
   CwPatchMesh mesh, again;
-  if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s: %s", title, cw_fail_message());
-  double clearance = check_topology(plan, &mesh, euler);
-  check_places(plan, &mesh, uv_area);
+  double clearance = mesh_plan(plan, title, uv_area, euler, &mesh);
   assert_int_equal(mesh.component_count, components);
   assert_int_equal(cw_patch_mesh(&plan->input, &again, &(CwOutcome){0}), CW_OK);
   assert_int_equal(again.point_count, mesh.point_count);

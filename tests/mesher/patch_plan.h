@@ -44,12 +44,8 @@ void add_loop(Plan *plan, int count, const double (*corner)[2]);
 
 void add_rectangle(Plan *plan, double u0, double v0, double u1, double v1);
 
-// Every triangle has three sides; a side belongs to one triangle exactly where it is a boundary edge, to two
-// elsewhere; the given edges are among the sides; vertices - edges + triangles is as expected; components
-// meet at given edges only. Returns the clearance of the free points over the given edges.
-double check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler);
-
-void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area);
+// Meshes the plan and checks its topology and places. Returns the clearance of the free points over the given edges.
+double mesh_plan(Plan *plan, const char *title, double uv_area, int euler, CwPatchMesh *mesh);
 
 // Meshes the plan twice, checks all that must hold of any mesh, prints its figures, and frees the plan.
 Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int euler, int components,

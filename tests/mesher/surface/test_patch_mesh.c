@@ -179,9 +179,7 @@ static void triangles_follow_a_narrow_nose(void **state) {
     for (int k = parts; k > 0; k--) add_point(plan, 0, 1.2 * k / parts);
     int32_t count = plan->input.point_count;
     for (int32_t p = 0; p < count; p++) add_edge(plan, p, (p + 1) % count, 1);
-    if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s", cw_fail_message());
-    check_topology(plan, &mesh, 1);
-    check_places(plan, &mesh, 1.2 * M_PI);
+    mesh_plan(plan, "narrow nose", 1.2 * M_PI, 1, &mesh);
     check_not_steep(&mesh);
     cw_patch_mesh_free(&mesh);
     free(plan);
@@ -206,9 +204,7 @@ static void no_triangle_lies_in_a_cut(void **state) {
       last = p;
     }
     add_edge(plan, last, 10, 0);
-    if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s", cw_fail_message());
-    check_topology(plan, &mesh, 1);
-    check_places(plan, &mesh, M_PI);
+    mesh_plan(plan, "cut fillet", M_PI, 1, &mesh);
     check_not_steep(&mesh);
     for (int32_t t = 0; t < mesh.triangle_count; t++) {
       int on_cut = 0;
@@ -247,9 +243,7 @@ static void large_triangles_are_halved(void **state) {
     add_rectangle(plan, -1, 0, 1, 1);
     plan->input.largest = i % 2 ? largest : 0;
     CwPatchMesh mesh;
-    if (cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}) != CW_OK) fail_msg("%s", cw_fail_message());
-    check_topology(plan, &mesh, 1);
-    check_places(plan, &mesh, 2);
+    mesh_plan(plan, "large triangles", 2, 1, &mesh);
     count[i % 2] += mesh.triangle_count;
     for (int32_t t = 0; t < mesh.triangle_count; t++) {
       double size, area = area_and_size(plan, &mesh, t, &size);
