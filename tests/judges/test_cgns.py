@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""pump.cgns before CGNS's own cgnscheck, and before gmsh, which reads it with its own code."""
+"""pump.cgns before CGNS's own cgnscheck and cgnslist."""
 import unittest
 
-from cutwater import RUN, execute, record
+from cutwater import RUN, said
 from judges import cgns_is_sound
 
 PUMP = RUN / "export/pump.cgns"
@@ -12,10 +12,8 @@ class Cgns(unittest.TestCase):
     def test_cgnscheck_has_nothing_to_say(self):
         cgns_is_sound(self, PUMP, 2)
 
-    def test_the_file_is_plain_hdf5_with_two_zones(self):
-        listing = execute(["cgnslist", PUMP]).stdout
-        sizes = [domain["points"] for domain in record(RUN, "mesh")["results"]["domains"]]
-        self.assertEqual(len(sizes), 2)
+    def test_cgnslist_shows_both_zones(self):
+        listing = said(self, ["cgnslist", PUMP])
         for name in ("rotor", "stator", "rotor_interface", "stator_interface", "ZoneGridConnectivity"):
             self.assertIn(name, listing)
 

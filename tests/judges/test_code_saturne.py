@@ -26,8 +26,7 @@ class CodeSaturne(unittest.TestCase):
         cls.case = cls.run_folder / "export/code_saturne"
 
     def test_1_what_is_missing_is_told_in_one_line(self):
-        nowhere = {**ENVIRONMENT, "CODE_SATURNE_PROGRAMS": "/nonexistent"}
-        result = execute(["env", *(f"{name}={value}" for name, value in nowhere.items()), "./run"], self.case)
+        result = execute(["./run"], self.case, environment={**ENVIRONMENT, "CODE_SATURNE_PROGRAMS": "/nonexistent"})
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stdout, r"^run: error: code_saturne is not there; install it .*\n$")
 

@@ -2,13 +2,12 @@
 """The exported case before OpenFOAM: its checkMesh, the weights of its AMI, and its solver.
 
 CUTWATER_ITERATIONS tells how far simpleFoam goes; from CONVERGED on it must converge, to the head of this pump."""
-import json
 import os
 import re
 import shutil
 import unittest
 
-from cutwater import CELLS, RUN, execute, fresh, record, said
+from cutwater import CELLS, RUN, execute, fresh, read_json, record, said
 from judges import (CHECK_MESH, continuity_errors, failed_checks, flow_begins, interfaces_are_covered, reports,
                     set_iterations)
 
@@ -88,7 +87,7 @@ class OpenFoam(unittest.TestCase):
 
     def pumps(self):
         """Head, torque and flows of the last report."""
-        design = json.loads((RUN / "geometry/design.json").read_text())
+        design = read_json(RUN, "geometry/design.json")
         heads = [row[1] for row in reports(self.case, "head", "fieldValueDelta.dat")]
         # Between the head that the pump is designed for and the one that the correlations predict for its blades, which
         # know no volute; a coarse mesh and a run that has not settled may miss either by a tenth.

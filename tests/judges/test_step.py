@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """pump.step before another program: gmsh reads two solids with the designed volumes and the right extent."""
 import collections
-import json
 import math
 import re
 import unittest
 
 import gmsh
 
-from cutwater import RUN
+from cutwater import RUN, read_json
 
 
 class Step(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.design = json.loads((RUN / "geometry/design.json").read_text())
+        cls.design = read_json(RUN, "geometry/design.json")
         gmsh.initialize()
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.option.setString("Geometry.OCCTargetUnit", "MM")

@@ -63,6 +63,12 @@ def said(test, line, folder=None, timeout=1500):
     return result.stdout
 
 
+def rows_said(test, line):
+    """The rows of the table that a program writes, by the names in its first line."""
+    head, *lines = said(test, line).splitlines()
+    return [dict(zip(head.split(), words.split())) for words in lines]
+
+
 def stage(name, run, **options):
     """Runs a stage to its end; gives what it returned, its lines in .stdout."""
     return execute(command(name, run, **options))
@@ -94,8 +100,12 @@ def on_a_small_disk(test, name, run, size, **options):
     return result
 
 
+def read_json(run, name):
+    return json.loads((Path(run) / name).read_text())
+
+
 def record(run, name):
-    return json.loads((Path(run) / name / "record.json").read_text())
+    return read_json(run, f"{name}/record.json")
 
 
 def fresh(name):

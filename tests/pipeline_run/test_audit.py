@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Figures of the shared run: the count that was asked, the volume of the solids, equal interfaces, layers."""
-import json
 import shutil
 import unittest
 
-from cutwater import BIN, CELLS, RUN, execute, fresh, interfaces_agree, record
+from cutwater import BIN, CELLS, RUN, execute, fresh, interfaces_agree, read_json, record
 
 # Chords cut the curved walls: the volume comes short by about h2/8R2, which a coarse mesh shows.
 VOLUME_TOLERANCE = 0.002 if CELLS >= 500000 else 0.008
@@ -15,8 +14,8 @@ class Audit(unittest.TestCase):
     def setUpClass(cls):
         cls.mesh = record(RUN, "mesh")["results"]
         cls.export = record(RUN, "export")["results"]
-        cls.manifest = json.loads((RUN / "mesh/manifest.json").read_text())
-        cls.design = json.loads((RUN / "geometry/design.json").read_text())
+        cls.manifest = read_json(RUN, "mesh/manifest.json")
+        cls.design = read_json(RUN, "geometry/design.json")
 
     def test_count_is_as_asked(self):
         self.assertEqual(self.mesh["asked_cells"], CELLS)

@@ -2,13 +2,12 @@
 """The pumps of tests/cad, drawn with the OpenCASCADE kernel of gmsh as a designer would draw them: each from its STEP
 file through all stages to the start of a flow. CUTWATER_DRAWINGS names them, CUTWATER_DRAWING_CELLS the size."""
 import importlib.util
-import json
 import os
 import re
 import sys
 import unittest
 
-from cutwater import SOURCE, done, execute, fresh, record, said
+from cutwater import SOURCE, done, execute, fresh, read_json, record, said
 from judges import CHECK_MESH, continuity_errors, failed_checks, flow_begins, interfaces_are_covered
 
 DRAWINGS = os.environ["CUTWATER_DRAWINGS"].split()
@@ -36,7 +35,7 @@ class Drawn(unittest.TestCase):
         return run
 
     def meshed(self, name, run):
-        model = json.loads((run / "geometry/model.json").read_text())
+        model = read_json(run, "geometry/model.json")
         self.assertEqual([domain["name"] for domain in model["domains"]], DOMAINS.get(name, ["rotor", "stator"]))
         self.assertEqual({domain["name"] for domain in model["domains"] if domain["rotating"]}, ROTATING)
         kinds = [patch["kind"] for domain in model["domains"] for patch in domain["patches"]]

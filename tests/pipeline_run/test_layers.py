@@ -5,7 +5,7 @@ import re
 import shutil
 import unittest
 
-from cutwater import BIN, PAPER, RUN, changed_case, done, fresh, record, said, with_geometry
+from cutwater import BIN, PAPER, RUN, changed_case, done, fresh, record, rows_said, with_geometry
 
 # Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves
 # 1 mm for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
@@ -16,8 +16,7 @@ PLACES = {"trailing_edge", "trailing_edge_hub", "trailing_edge_shroud", "neck", 
 
 class Layers(unittest.TestCase):
     def test_hard_places(self):
-        head, *lines = said(self, [BIN / "layer_places", RUN / "geometry", RUN / "mesh", RUN]).splitlines()
-        rows = [dict(zip(head.split(), line.split())) for line in lines]
+        rows = rows_said(self, [BIN / "layer_places", RUN / "geometry", RUN / "mesh", RUN])
         self.assertEqual({row["place"] for row in rows}, PLACES)
         for row in rows:
             name = row["place"]

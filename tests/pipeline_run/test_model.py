@@ -2,11 +2,10 @@
 """A machine that no generator made (tests/measure/turned_zones.cpp), through mesher and exporter and before the judges:
 zones in an order of their own, the third of which turns, two inlets and outlets, a plane of symmetry, and a cone, a
 plane and a cylinder as interfaces."""
-import json
 import re
 import unittest
 
-from cutwater import BIN, PAPER, done, fresh, record, said
+from cutwater import BIN, PAPER, done, fresh, read_json, record, said
 from judges import cgns_is_sound, failed_checks, reports
 
 CELLS = 60000
@@ -25,7 +24,7 @@ class Model(unittest.TestCase):
         cls.foam = cls.run_folder / "export/openfoam"
 
     def test_1_the_zones_keep_their_order(self):
-        manifest = json.loads((self.run_folder / "mesh/manifest.json").read_text())
+        manifest = read_json(self.run_folder, "mesh/manifest.json")
         self.assertEqual([domain["name"] for domain in manifest["domains"]], ["casing", "pipe", "wheel", "ring"])
         self.assertEqual([domain["rotating"] for domain in manifest["domains"]], [False, False, True, False])
         # Rings of quarter circles, exact: pi (R^2 - r^2) h, and a frustum.

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The paper's pump with root fillets, at few cells: fillets narrower than half an edge are left out, which log, record
 and headline tell, and the mesh is as sound as without them. Cells enough show them."""
-import json
 import re
 import unittest
 
-from cutwater import changed_case, command, done, execute, fresh, record, said
+from cutwater import changed_case, command, done, execute, fresh, read_json, record, said
 
 COARSE = 120000
 RADIUS = 0.5  # mm
@@ -40,11 +39,9 @@ class NarrowFaces(unittest.TestCase):
             self.assertLess(abs(domain["volume_error"]), 0.03)
         done(self, "export", folder, case=case)
 
-        digests = [json.loads((folder / "mesh/manifest.json").read_text())["domains"]]
         other, _ = self.pump("narrow-faces-ranks")
         done(self, "mesh", other, case=case, cells=COARSE, ranks=2)
-        digests.append(json.loads((other / "mesh/manifest.json").read_text())["domains"])
-        self.assertEqual(*digests)
+        self.assertEqual(*(read_json(run, "mesh/manifest.json")["domains"] for run in (folder, other)))
 
     def test_as_many_cells_as_told_show_them(self):
         folder, case = self.pump("shown-faces")

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The periodic impeller: periodic images in the shared run, their files as checkpoints, and the way back to the whole
 impeller where the case asks for it or the passages are not equal."""
-import json
 import shutil
 import unittest
 
-from cutwater import CELLS, RUN, changed_case, digests, done, record, seal, with_geometry
+from cutwater import CELLS, RUN, changed_case, digests, done, read_json, record, seal, with_geometry
 
 PASSAGES = 6
 
@@ -74,8 +73,7 @@ class Periodic(unittest.TestCase):
         lines = [line for line in result.stdout.splitlines() if "passages" in line]
         self.assertEqual(lines, ["cutwater-mesh: rotor: no equal passages; it is meshed whole"])
         whole(self, run)
-        manifest = json.loads((run / "mesh/manifest.json").read_text())
-        self.assertEqual(manifest["domains"][0]["name"], "rotor")
+        self.assertEqual(read_json(run, "mesh/manifest.json")["domains"][0]["name"], "rotor")
         shutil.rmtree(run)
 
 

@@ -2,13 +2,12 @@
 """Generated pumps, read back from their STEP file as somebody's CAD: by names alone the same domains and patches,
 groups of walls, what turns, and passages, and nearly the same mesh, through all stages. CUTWATER_READ_BACK names cases
 of cases/; without it the pump is that of the shared run."""
-import json
 import os
 import re
 import shutil
 import unittest
 
-from cutwater import CELLS, PAPER, RUN, SOURCE, done, fresh, record
+from cutwater import CELLS, PAPER, RUN, SOURCE, done, fresh, read_json, record
 
 NAMES = os.environ.get("CUTWATER_READ_BACK", "").split()
 ASKED = ("name", "operating_point", "fluid", "walls", "mesh")  # sections that say what is asked of any pump
@@ -25,12 +24,9 @@ def as_cad(case, model):
         "\ncad:\n  files: [pump.step]\n  domains:\n" + domains)
 
 
-def read_model(run):
-    return json.loads((run / "geometry/model.json").read_text())
-
-
-def parts(model):
+def parts(run):
     """What has to be the same whether a design or a file made the pump."""
+    model = read_json(run, "geometry/model.json")
     same = ("name", "kind", "group", "size", "turns", "monitored")
     patches = {(domain["name"], domain["rotating"], *(patch.get(key) for key in same))
                for domain in model["domains"] for patch in domain["patches"]}
@@ -47,10 +43,10 @@ class ReadBack(unittest.TestCase):
     def read_back(self, name, case, made):
         run = fresh(f"read-back-{name}")
         read = run / "case.yaml"
-        read.write_text(as_cad(case.read_text(), read_model(made)))
+        read.write_text(as_cad(case.read_text(), read_json(made, "geometry/model.json")))
         shutil.copy(made / "geometry/pump.step", run)
         done(self, "geometry", run, case=read)
-        self.assertEqual(parts(read_model(run)), parts(read_model(made)))
+        self.assertEqual(parts(run), parts(made))
         rows = (run / "geometry/faces_sheet.csv").read_text().splitlines()
         faces = (run / "geometry/faces.csv").read_text().splitlines()
         self.assertEqual(len(rows), len(faces))

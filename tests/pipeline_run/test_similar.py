@@ -7,7 +7,7 @@ import os
 import shutil
 import unittest
 
-from cutwater import BIN, done, fresh, record, said, seal
+from cutwater import BIN, done, fresh, read_json, record, said, seal
 
 CELLS = int(os.environ["CUTWATER_SIMILAR_CELLS"])
 # What rounding may do. It moves small meshes more, and the least angle is that of a single tetrahedron.
@@ -86,7 +86,7 @@ class Similar(unittest.TestCase):
             with self.subTest(power=power):
                 run = similar(2.0 ** power, f"solid-2^{power}")
                 self.meshed(run, ["geometry"])
-                model, one = (json.loads((folder / "geometry/model.json").read_text()) for folder in (run, self.one))
+                model, one = (read_json(folder, "geometry/model.json") for folder in (run, self.one))
                 (run / "geometry/model.json").write_text(json.dumps({**model, "unit_m": one["unit_m"]}))
                 for domain in ("rotor", "stator"):
                     solid = f"geometry/{domain}.brep"

@@ -13,7 +13,7 @@ import time
 import unittest
 from unittest import mock
 
-from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, record
+from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, record, said
 
 sys.path.insert(0, str(SOURCE / "pipeline/solve"))
 import foam  # noqa: E402
@@ -159,8 +159,7 @@ class Flow(unittest.TestCase):
         child.send_signal(signal.SIGTERM)
         self.assertNotEqual(child.wait(), 0)
         self.assertFalse((self.pump / "solve/record.json").exists())
-        result = self.call()
-        self.assertEqual(result.returncode, 0, result.stdout)
+        said(self, self.line())
         log = (self.pump / "solve/steady/log.simpleFoam").read_text()
         self.assertEqual(log.count("\nTime = 50\n"), 1, "begun anew")
         found = record(self.pump, "solve")["results"]
@@ -177,8 +176,7 @@ class Flow(unittest.TestCase):
         self.assertEqual(found["iterations"], found["history"]["iteration"][-1])
         # Called again there is nothing to do but the points of the curve. Of a radial pump whose blades lean back the
         # head falls with the flow, and the power rises.
-        again = self.call("--curve")
-        self.assertEqual(again.returncode, 0, again.stdout)
+        said(self, self.line("--curve"))
         curve = record(self.pump, "solve")["results"].pop("curve")
         self.assertEqual({**record(self.pump, "solve")["results"], "curve": []}, found)
         self.assertEqual([point["point"] for point in curve], ["q0700", "q1000"])
@@ -192,7 +190,7 @@ class Flow(unittest.TestCase):
             for row, flow in zip(csv.DictReader(file), (17.5, 25), strict=True):
                 self.assertAlmostEqual(float(row["flow_m3_per_h"]), flow, places=9)
         # A call for the operating point alone keeps the curve, and the report shows it.
-        self.assertEqual(self.call().returncode, 0)
+        said(self, self.line())
         self.assertEqual(record(self.pump, "solve")["results"]["curve"], curve)
         pages = []
         for ranks in (1, 3):
@@ -211,8 +209,7 @@ class Flow(unittest.TestCase):
     def test_few_iterations_leave_whole_fields(self):
         few = fresh("solve_few") / "run"
         shutil.copytree(self.pump, few, ignore=shutil.ignore_patterns("solve"))
-        result = self.call("--run", few, "--most", 15)  # no multiple of what lies between two reports or two fields
-        self.assertEqual(result.returncode, 0, result.stdout)
+        said(self, self.line("--run", few, "--most", 15))  # no multiple of what lies between two reports or two fields
         found = record(few, "solve")["results"]
         self.assertEqual((found["iterations"], found["settled"]), (20, False))
         self.assertTrue((few / "solve/steady/20/U").exists())

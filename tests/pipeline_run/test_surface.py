@@ -2,24 +2,15 @@
 """The surface mesh of the shared run against the exact geometry: nodes on it, angles, cells across narrow places."""
 import unittest
 
-from cutwater import BIN, CELLS, RUN, execute
+from cutwater import BIN, CELLS, RUN, rows_said
 
 CELLS_ACROSS = 3  # mesh.cells_across_gap of the case
 LEAST_ANGLE = 20 if CELLS >= 1000000 else 10  # degrees; a coarse triangle beside a cut may be sharper
 
 
-def rows(program, *more):
-    result = execute([BIN / program, RUN / "geometry", RUN / "mesh", *more])
-    if result.returncode:
-        raise AssertionError(result.stdout)
-    head, *lines = result.stdout.splitlines()
-    names = head.split()
-    return [dict(zip(names, line.split())) for line in lines]
-
-
 class Surface(unittest.TestCase):
     def test_nodes_and_angles(self):
-        patches = rows("surface_shape")
+        patches = rows_said(self, [BIN / "surface_shape", RUN / "geometry", RUN / "mesh"])
         self.assertEqual({row["domain"] for row in patches}, {"rotor", "stator"})
         for row in patches:
             with self.subTest(row["patch"]):
@@ -31,7 +22,7 @@ class Surface(unittest.TestCase):
         self.assertLess(sum(int(row["below20"]) for row in patches), 1e-3 * triangles)
 
     def test_cells_across(self):
-        pairs = rows("cells_across", 12)
+        pairs = rows_said(self, [BIN / "cells_across", RUN / "geometry", RUN / "mesh", 12])
         found = {(row["from"], row["to"]) for row in pairs}
         self.assertIn(("hub", "shroud"), found)
         self.assertIn(("tongue", "stator_interface"), found)
