@@ -17,8 +17,8 @@ extern "C" {
 #include "mesher/region/region_file.h"
 }
 
-#include "launch.h"
 #include "divided_box.h"
+#include "launch.h"
 
 static const int REGIONS = 4;
 
@@ -144,17 +144,15 @@ static std::vector<char> bytes_of(const std::string &path) {
 
 static void any_number_of_ranks_makes_the_same(void **) {
   std::vector<std::vector<char>> first;
-  char output[20000];
   int lines, messages[4] = {}, rounds[4] = {}, inserted[4] = {}, bytes[4] = {};
   for (int ranks = 1; ranks <= 3; ranks++) {
     TemporaryFolder folder;
-    int code = launch(ranks, folder.path.c_str(), output, sizeof output);
-    if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
-    rounds[ranks] = sum_of(output, " ROUNDS ", &lines);
-    inserted[ranks] = sum_of(output, " INSERTED ", &lines);
-    messages[ranks] = sum_of(output, " MESSAGES ", &lines);
-    bytes[ranks] = sum_of(output, " BYTES ", &lines);
-    assert_int_equal(sum_of(output, " SENT ", &lines) > 0, ranks > 1);
+    launch_well(ranks, folder.path.c_str());
+    rounds[ranks] = sum_of(" ROUNDS ", &lines);
+    inserted[ranks] = sum_of(" INSERTED ", &lines);
+    messages[ranks] = sum_of(" MESSAGES ", &lines);
+    bytes[ranks] = sum_of(" BYTES ", &lines);
+    assert_int_equal(sum_of(" SENT ", &lines) > 0, ranks > 1);
     assert_true(rounds[ranks] > 1 && inserted[ranks] > 20 && bytes[ranks] > 0);
     assert_int_equal(messages[ranks], 12 * rounds[ranks]); // six pairs of regions
     for (int *of : {rounds, inserted, messages, bytes}) assert_int_equal(of[ranks], of[1]);

@@ -13,6 +13,10 @@
 #include "mesher/parallel/ranks.h"
 #include "pipeline/stop_line.h"
 #include "tests/test_folder.h"
+#include "tests/unit_test.h"
+
+// All that the ranks of the last launch printed.
+static char output[100000];
 
 // Whether this process is such a rank.
 static inline int launched(int argc) {
@@ -32,8 +36,8 @@ static inline int end_as_rank(CwTeam *all, int code) {
   return code;
 }
 
-// Starts ranks of this program; gives all they print and mpirun's exit status, -1 where it has none.
-static inline int launch(int ranks, const char *mode, char *output, size_t output_size) {
+// Starts ranks of this program; gives mpirun's exit status, -1 where it has none.
+static inline int launch(int ranks, const char *mode) {
   char command[4300], self[4000] = {0};
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
@@ -44,7 +48,7 @@ static inline int launch(int ranks, const char *mode, char *output, size_t outpu
   FILE *pipe = popen(command, "r");
   if (!pipe) return -1;
   size_t used = 0, got;
-  while ((got = fread(output + used, 1, output_size - 1 - used, pipe)) > 0) used += got;
+  while ((got = fread(output + used, 1, sizeof output - 1 - used, pipe)) > 0) used += got;
   output[used] = '\0';
   int status = pclose(pipe);
   clear_test_folder(NULL); // with the file of ranks that were killed
@@ -52,7 +56,7 @@ static inline int launch(int ranks, const char *mode, char *output, size_t outpu
 }
 
 // The sum of the numbers that follow `key`, and how often it stands there.
-static inline int sum_of(const char *output, const char *key, int *lines) {
+static inline int sum_of(const char *key, int *lines) {
   int sum = 0;
   *lines = 0;
   for (const char *at = strstr(output, key); at; at = strstr(at + 1, key)) {
@@ -62,10 +66,23 @@ static inline int sum_of(const char *output, const char *key, int *lines) {
   return sum;
 }
 
-static inline int count_lines_with(const char *text, const char *key) {
+static inline int count_lines_with(const char *key) {
   int lines;
-  sum_of(text, key, &lines);
+  sum_of(key, &lines);
   return lines;
+}
+
+static inline void launch_well(int ranks, const char *mode) {
+  const int code = launch(ranks, mode);
+  if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
+}
+
+// Each rank tells so many times that nothing is wrong.
+static inline void launch_and_find_right(int ranks, const char *mode, int times) {
+  int lines;
+  launch_well(ranks, mode);
+  assert_int_equal(sum_of(" WRONG ", &lines), 0);
+  assert_int_equal(lines, times * ranks);
 }
 
 #endif

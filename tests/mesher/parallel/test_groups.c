@@ -212,40 +212,33 @@ static int be_a_rank(int argc, char **argv) {
   return end_as_rank(all, wrong != 0);
 }
 
-static char output[100000];
-
 static void all_ranks_get_all(void **state) {
   const int ranks[4] = {1, 2, 3, 5}, ran[4] = {6, 12, 18, 14}; // domains that all ranks ran, in two steps
   for (int i = 0; i < 4; i++) {
-    int lines, code = launch(ranks[i], "work", output, sizeof output);
-    if (code) fail_msg("%d ranks, exit status %d: %s", ranks[i], code, output);
-    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
-    assert_int_equal(lines, ranks[i]);
-    assert_int_equal(count_lines_with(output, "cutwater-test: work on domain "), 2 * DOMAINS); // whichever rank it was
-    assert_int_equal(sum_of(output, " HELD ", &lines), DOMAINS);
-    assert_int_equal(sum_of(output, " RAN ", &lines), ran[i]); // 5: three of them on one domain, two on the others
+    int lines;
+    launch_and_find_right(ranks[i], "work", 1);
+    assert_int_equal(count_lines_with("cutwater-test: work on domain "), 2 * DOMAINS); // whichever rank it was
+    assert_int_equal(sum_of(" HELD ", &lines), DOMAINS);
+    assert_int_equal(sum_of(" RAN ", &lines), ran[i]); // 5: three of them on one domain, two on the others
   }
 }
 
 static void a_domain_that_wants_another_try_is_known_to_all(void **state) {
   for (int ranks = 1; ranks <= 5; ranks += 2) {
-    int lines, code = launch(ranks, "retry", output, sizeof output);
-    if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
-    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
-    assert_int_equal(lines, ranks);
+    launch_and_find_right(ranks, "retry", 1);
   }
 }
 
 static void a_failing_domain_ends_the_run_with_one_line(void **state) {
   for (int ranks = 1; ranks <= 5; ranks += 2) {
-    assert_int_equal(launch(ranks, "fail", output, sizeof output), CW_ERR_MESH);
-    assert_int_equal(count_lines_with(output, "error:"), 1);
+    assert_int_equal(launch(ranks, "fail"), CW_ERR_MESH);
+    assert_int_equal(count_lines_with("error:"), 1);
     assert_non_null(strstr(output, "cutwater-test: error: domain 1 is too thin at (1, 2, 3) mm"));
   }
 }
 
 static void a_killed_rank_ends_the_run(void **state) {
-  assert_int_equal(launch(5, "killed", output, sizeof output), 128 + SIGKILL);
+  assert_int_equal(launch(5, "killed"), 128 + SIGKILL);
 }
 
 static void check_groups(int count, const double *cost, double own, int ranks, int least, int groups,

@@ -56,14 +56,9 @@ static int be_a_rank(int argc, char **argv) {
   return end_as_rank(all, wrong != 0);
 }
 
-static char output[100000];
-
 static void what_one_writes_all_have_once(void **state) {
   for (int ranks = 1; ranks <= 4; ranks++) {
-    int lines, code = launch(ranks, "share", output, sizeof output);
-    if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
-    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
-    assert_int_equal(lines, ranks);
+    launch_and_find_right(ranks, "share", 1);
   }
 }
 

@@ -73,11 +73,7 @@ static int be_a_rank(int argc, char **argv) {
 }
 
 static void blocks_may_be_empty(void **state) {
-  char output[2000];
-  int lines;
-  assert_int_equal(launch(3, "empty", output, sizeof output), 0);
-  assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
-  assert_int_equal(lines, 3);
+  launch_and_find_right(3, "empty", 1);
 }
 
 static void a_failure_is_given_back(void **state) {

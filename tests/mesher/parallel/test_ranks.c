@@ -78,20 +78,15 @@ static int be_a_rank(int argc, char **argv) {
   return wrong != 0;
 }
 
-static char output[10000];
-
 static void ranks_spread_and_split(void **state) {
   for (int ranks = 1; ranks <= 5; ranks += 2) {
-    int lines, code = launch(ranks, "spread", output, sizeof output);
-    if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
-    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
-    assert_int_equal(lines, ranks);
+    launch_and_find_right(ranks, "spread", 1);
   }
 }
 
 static void the_first_that_fails_says_so(void **state) {
-  assert_int_equal(launch(3, "disagree", output, sizeof output), CW_ERR_INPUT);
-  assert_int_equal(count_lines_with(output, "error:"), 1);
+  assert_int_equal(launch(3, "disagree"), CW_ERR_INPUT);
+  assert_int_equal(count_lines_with("error:"), 1);
   assert_non_null(strstr(output, "error: rank 1 has no case file"));
 }
 

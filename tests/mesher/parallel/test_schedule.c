@@ -197,14 +197,10 @@ static int be_a_rank(int argc, char **argv) {
   return end_as_rank(all, wrong != 0);
 }
 
-static char output[100000];
-
 static void check_work(const char *mode, int ranks) {
-  int lines, code = launch(ranks, mode, output, sizeof output);
-  if (code) fail_msg("%d ranks, exit status %d: %s", ranks, code, output);
-  assert_int_equal(sum_of(output, " RAN ", &lines), 3 * TASKS);
-  assert_int_equal(lines, 3 * ranks);
-  assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+  int lines;
+  launch_and_find_right(ranks, mode, 3);
+  assert_int_equal(sum_of(" RAN ", &lines), 3 * TASKS);
 }
 
 static void every_task_runs_once_and_all_get_all(void **state) {
@@ -223,38 +219,38 @@ static void nobody_waits_for_a_task_of_the_rank_that_serves(void **state) {
 
 static void a_failure_ends_the_task_of_the_rank_that_serves(void **state) {
   for (int ranks = 2; ranks <= 5; ranks++) {
-    assert_int_equal(launch(ranks, "slow-fails", output, sizeof output), CW_ERR_MESH);
-    assert_int_equal(count_lines_with(output, "error: region 17 is too thin"), 1);
-    assert_int_equal(count_lines_with(output, "error:"), 1);
+    assert_int_equal(launch(ranks, "slow-fails"), CW_ERR_MESH);
+    assert_int_equal(count_lines_with("error: region 17 is too thin"), 1);
+    assert_int_equal(count_lines_with("error:"), 1);
     assert_null(strstr(output, "SLEPT"));
   }
 }
 
 static void large_results_come_whole(void **state) {
   int lines;
-  assert_int_equal(launch(2, "large", output, sizeof output), 0);
-  assert_int_equal(sum_of(output, " RAN ", &lines), TASKS);
+  launch_well(2, "large");
+  assert_int_equal(sum_of(" RAN ", &lines), TASKS);
 }
 
 static void failing_task_ends_the_run_with_one_line(void **state) {
-  assert_int_equal(launch(4, "fail", output, sizeof output), CW_ERR_MESH);
+  assert_int_equal(launch(4, "fail"), CW_ERR_MESH);
   assert_null(strstr(output, " RAN "));
-  assert_int_equal(count_lines_with(output, "error:"), 1);
+  assert_int_equal(count_lines_with("error:"), 1);
   assert_non_null(strstr(output, "cutwater-test: error: region 17 is too thin at (1, 2, 3) mm"));
   assert_null(strstr(output, "MPI_ABORT"));
 }
 
 static void many_failing_tasks_print_one_line(void **state) {
-  assert_int_equal(launch(4, "all-fail", output, sizeof output), CW_ERR_MESH);
-  assert_int_equal(count_lines_with(output, "error:"), 1);
+  assert_int_equal(launch(4, "all-fail"), CW_ERR_MESH);
+  assert_int_equal(count_lines_with("error:"), 1);
 }
 
 static void tasks_wait_for_those_they_come_after(void **state) {
   assert_int_equal(began_too_early(NULL, "after"), 0);
   for (int i = 2; i <= 11; i++) {
-    int lines, ranks = i / 2, code = launch(ranks, i % 2 ? "after" : "dealt-after", output, sizeof output);
-    if (code) fail_msg("exit status %d: %s", code, output);
-    assert_int_equal(sum_of(output, " EARLY ", &lines), 0);
+    int lines, ranks = i / 2;
+    launch_well(ranks, i % 2 ? "after" : "dealt-after");
+    assert_int_equal(sum_of(" EARLY ", &lines), 0);
     assert_int_equal(lines, ranks);
   }
 }
@@ -262,8 +258,8 @@ static void tasks_wait_for_those_they_come_after(void **state) {
 // Those that wait do not wait for ever.
 static void failing_task_ends_those_that_wait(void **state) {
   assert_int_equal(began_too_early(NULL, "first-fails"), -1);
-  assert_int_equal(launch(3, "first-fails", output, sizeof output), CW_ERR_MESH);
-  assert_int_equal(count_lines_with(output, "error: the first task fails"), 1);
+  assert_int_equal(launch(3, "first-fails"), CW_ERR_MESH);
+  assert_int_equal(count_lines_with("error: the first task fails"), 1);
 }
 
 // Tasks that would wait for one another without end are refused.
@@ -298,15 +294,15 @@ static void what_others_wait_for_is_taken_first(void **state) {
 }
 
 static void killed_rank_ends_the_run(void **state) {
-  assert_int_equal(launch(4, "killed", output, sizeof output), 128 + SIGKILL);
+  assert_int_equal(launch(4, "killed"), 128 + SIGKILL);
   assert_null(strstr(output, " RAN "));
 }
 
 // Four ranks wait for the task of the fifth, which looks at them: one that polls without end never goes to sleep.
 static void waiting_ranks_sleep(void **state) {
   int looks;
-  assert_int_equal(launch(5, "idle", output, sizeof output), 0);
-  assert_int_equal(sum_of(output, "ASLEEP ", &looks), 4);
+  launch_well(5, "idle");
+  assert_int_equal(sum_of("ASLEEP ", &looks), 4);
   assert_int_equal(looks, 1);
 }
 
