@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "mesher/surface/patch_mesh.h"
+#include "pipeline/log.h"
 #include "pipeline/order.h"
 
 typedef struct {
@@ -25,12 +25,6 @@ static double length_at(const void *context, const double x[3]) {
   const Field *field = context;
   if (!field->graded) return field->length;
   return fmin(0.05, field->length + 0.2 * fabs(hypot(x[0] - 0.5, x[1] - 0.5) - 0.3));
-}
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 int main(int argc, char **argv) {
@@ -61,9 +55,9 @@ int main(int argc, char **argv) {
                         .boundary = boundary,
                         .name = "square"};
   CwPatchMesh mesh;
-  double start = now();
+  double start = cw_processor_seconds();
   CwStatus status = cw_patch_mesh(&input, &mesh, &(CwOutcome){0});
-  double seconds = now() - start;
+  double seconds = cw_processor_seconds() - start;
   if (status != CW_OK) return fprintf(stderr, "%s\n", cw_fail_message()), (int)status;
   double *angle = calloc((size_t)mesh.triangle_count, sizeof *angle), mean = 0;
   for (int32_t t = 0; angle && t < mesh.triangle_count; t++) {

@@ -4,18 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "chew_fill.h"
 #include "mesher/fill/fill_with_fallback.h"
 #include "mesher/region/audit.h"
 #include "mesher/region/interface_rule.h"
-
-static double processor_seconds(void) {
-  struct timespec at;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &at);
-  return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
-}
+#include "pipeline/log.h"
 
 static int owned(const CwChewOwners *owners, int32_t region) {
   return owners->owner[region] == owners->rank;
@@ -78,20 +72,20 @@ static CwStatus refine(Domain *domain, const CwChewBounds *bounds, CwChewFigures
   CwChewAsked *asked = NULL;
   for (long long any = 1; any;) {
     int32_t count;
-    double start = processor_seconds();
+    double start = cw_processor_seconds();
     for (int32_t r = 0; r < domain->owners->region_count; r++) {
       if (!owned(domain->owners, r)) continue;
       if (figures->rounds == 0) CW_TRY(cw_chew_region_open(domain->from, r, &domain->region[r]));
       CW_TRY(
           cw_chew_region_refine(domain->from, bounds, domain->interface_count, domain->interface, &domain->region[r]));
     }
-    figures->refine_seconds += processor_seconds() - start;
+    figures->refine_seconds += cw_processor_seconds() - start;
     free(asked);
     asked = NULL;
     CW_TRY(cw_chew_exchange(domain->owners, domain->interface, domain->region, &figures->traffic, &count, &asked));
-    start = processor_seconds();
+    start = cw_processor_seconds();
     CW_TRY(split_interfaces(domain, count, asked, &figures->inserted));
-    figures->interface_seconds += processor_seconds() - start;
+    figures->interface_seconds += cw_processor_seconds() - start;
     figures->rounds++;
     any = count;
     MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_LONG_LONG, MPI_MAX, domain->owners->ranks);
@@ -115,11 +109,11 @@ static CwStatus finish(Domain *domain, int32_t r, const char *name, const char *
   CwRegionMesh mesh = {0};
   CwQuality quality;
   char text[4200];
-  double start = processor_seconds();
+  double start = cw_processor_seconds();
   snprintf(text, sizeof text, "%s region %d", name, r + 1);
   CW_TRY(cw_chew_surface_make(domain->from, domain->interface_count, domain->interface, &domain->region[r], &surface));
   CW_TRY(cw_chew_fill(domain->from, &surface, text, &domain->region[r].mesh, &fill));
-  figures->fill_seconds += processor_seconds() - start;
+  figures->fill_seconds += cw_processor_seconds() - start;
   figures->tetrahedra += fill.tetrahedron_count;
   cw_chew_region_close(&domain->region[r]);
   double wall = MPI_Wtime();
@@ -143,9 +137,9 @@ CwStatus cw_chew_domain(const CwRegionInput *from, const CwChewOwners *owners, c
   uint64_t open_faces = 0;
   *figures = (CwChewFigures){0};
   MPI_Barrier(owners->ranks);
-  double start = MPI_Wtime(), before = processor_seconds();
+  double start = MPI_Wtime(), before = cw_processor_seconds();
   CW_TRY(open_domain(&domain));
-  figures->interface_seconds += processor_seconds() - before;
+  figures->interface_seconds += cw_processor_seconds() - before;
   CW_TRY(refine(&domain, bounds, figures));
   for (int32_t r = 0; r < owners->region_count; r++) {
     if (owned(owners, r)) CW_TRY(finish(&domain, r, name, path, figures, &open_faces));
@@ -200,16 +194,16 @@ static CwStatus fill_by_rule(const CwRegionInput *from, int32_t r, CwChewFigures
   CwLatticeSite *site = NULL;
   char name[64];
   snprintf(name, sizeof name, "region %d", r + 1);
-  double start = processor_seconds();
+  double start = cw_processor_seconds();
   CW_TRY(cw_region_boundary_make(from, r, 0, &inner));
   CwFillInput input = cw_region_fill_input(from, &inner, name);
   CW_TRY(cw_interface_rule_points(from, r, name, &input.inner_count, &x, &site));
-  figures->refine_seconds += processor_seconds() - start;
+  figures->refine_seconds += cw_processor_seconds() - start;
   input.inner = (const double(*)[3])x;
   input.inner_site = site;
-  start = processor_seconds();
+  start = cw_processor_seconds();
   CW_TRY(cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill));
-  figures->fill_seconds += processor_seconds() - start;
+  figures->fill_seconds += cw_processor_seconds() - start;
   figures->tetrahedra += fill.tetrahedron_count;
 done:
   cw_region_boundary_free(&inner);
@@ -236,9 +230,9 @@ CwStatus cw_rule_domain(const CwRegionInput *from, const CwChewOwners *owners, c
     int refines = 0;
     for (int32_t i = 0; i < planned.outline_count; i++) refines |= cw_interface_refiner(&before, number, i) == r;
     if (!refines || !owned(owners, r)) continue;
-    double began = processor_seconds();
+    double began = cw_processor_seconds();
     CW_TRY(cw_interface_rule(&before, number, r, "region", &bytes, &size));
-    figures->interface_seconds += processor_seconds() - began;
+    figures->interface_seconds += cw_processor_seconds() - began;
     CW_TRY(count_rule(&before, owners, r, bytes, figures));
     free(bytes);
     bytes = NULL;

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "fill_fault.h"
 #include "hard_boundaries.h"
@@ -61,15 +60,14 @@ static int is_told(const char *fault, const char *region) {
 static const char *fill_one(const Surface *s, const char *name, double size, Count *count) {
   CwFillInput input = fill_input(s, &size);
   CwFill fill;
-  struct timespec from, to;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
+  double seconds = cw_processor_seconds();
   if (cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill) != CW_OK) return cw_fail_message();
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
+  seconds = cw_processor_seconds() - seconds;
   const char *fault = fill_fault(s, &fill);
   if (getenv("CUTWATER_VERBOSE"))
     printf("%-32s %6d triangles %7d cells %5d missing %6d flips%s, flatness %.2g, %.2f s\n", name, s->triangle_count,
            fill.tetrahedron_count, fill.recovery.missing, fill.recovery.flips, fill.recovery.tetgen ? ", TetGen" : "",
-           cw_fill_flatness(&fill), (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
+           cw_fill_flatness(&fill), seconds);
   add(count, &fill.recovery);
   cw_fill_free(&fill);
   return fault;

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 #include <mpi.h>
 
@@ -96,21 +95,15 @@ static CwSchedule schedule_of(Work *work, const double *cost) {
       .step = "tasks", .unit = "tasks", .count = TASKS, .cost = cost, .run = run, .context = work, .gather = 1};
 }
 
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 // Gives when it began and ended. The first takes long, so that whoever is free reaches the tasks that wait for it.
 static CwStatus run_timed(void *context, int32_t task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   double *time = NULL;
   CW_NEW(time, 2);
-  time[0] = now();
+  time[0] = cw_seconds();
   usleep(task == 0 ? 300000 : 1000);
   CW_REQUIRE(strcmp(context, "first-fails") || task != 0, CW_ERR_MESH, "the first task fails");
-  time[1] = now();
+  time[1] = cw_seconds();
   *bytes = time;
   *size = sizeof(double[2]);
   time = NULL;
