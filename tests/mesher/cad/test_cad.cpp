@@ -27,10 +27,6 @@ static TopoDS_Shape quarter_cylinder_as_splines() {
   return BRepBuilderAPI_NurbsConvert(quarter_cylinder()).Shape();
 }
 
-static double distance(const double a[3], const double b[3]) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 // Mid of the (u,v) of a face's edges: a point inside for the convex faces here.
 static void inner_uv(const CwCad *cad, int face, double uv[2]) {
   double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
@@ -179,7 +175,7 @@ static void cylinder_has_curvature_and_projection(void **state) {
     assert_near(cw_cad_face_project(cad, face, target, guess), std::fabs(r[i] - radius), 1e-13);
     cw_cad_face_point(cad, face, guess, on, nullptr, nullptr);
     const double nearest[3] = {radius * std::cos(0.9), radius * std::sin(0.9), 0.004};
-    assert_true(distance(on, nearest) < 1e-11);
+    assert_true(cw_distance(on, nearest) < 1e-11);
   }
   cw_cad_close(&cad);
 }
@@ -202,7 +198,7 @@ static void spline_faces_do_the_same(void **state) {
   assert_near(cw_cad_face_project(cad, face, target, uv), 0.001, 1e-13);
   cw_cad_face_point(cad, face, uv, x, nullptr, nullptr);
   const double nearest[3] = {radius * std::cos(0.3), radius * std::sin(0.3), 0.011};
-  assert_true(distance(x, nearest) < 1e-11);
+  assert_true(cw_distance(x, nearest) < 1e-11);
 
   // The same bits whatever was evaluated before, even a rounding error off a knot.
   double t[2];
@@ -230,13 +226,13 @@ static void check_edges(const CwCad *cad) {
       for (int side = 0; side < 2; side++) {
         cw_cad_edge_uv(cad, e, face[side], at, uv);
         cw_cad_face_point(cad, face[side], uv, on, nullptr, nullptr);
-        assert_true(distance(x, on) < 1e-7);
+        assert_true(cw_distance(x, on) < 1e-7);
       }
     }
     for (int end = 0; end < 2; end++) {
       cw_cad_edge_point(cad, e, t[end], x, nullptr);
       cw_cad_vertex_point(cad, vertex[end], on);
-      assert_true(distance(x, on) < 1e-9);
+      assert_true(cw_distance(x, on) < 1e-9);
     }
   }
 }

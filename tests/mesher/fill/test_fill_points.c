@@ -141,10 +141,7 @@ static void equal_bits_twice_and_no_duplicates(void **unused) {
   assert_memory_equal(one, two, (size_t)count * sizeof *one);
   for (int32_t p = 0; p < count; p++) {
     for (int i = 0; i < 3; i++) assert_true(one[p][i] > 0.0 && one[p][i] < 0.04);
-    for (int32_t q = 0; q < p; q++) {
-      double d = hypot(hypot(one[p][0] - one[q][0], one[p][1] - one[q][1]), one[p][2] - one[q][2]);
-      assert_true(d > 0.001);
-    }
+    for (int32_t q = 0; q < p; q++) assert_true(cw_distance(one[p], one[q]) > 0.001);
   }
   free(one);
   free(two);

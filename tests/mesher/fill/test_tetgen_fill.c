@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fill_fault.h"
+#include "mesher/common/vec.h"
 #include "mesher/fill/tetgen_fill.h"
 #include "tests/unit_test.h"
 
@@ -14,9 +15,7 @@ typedef struct {
 
 static double size_at(const void *context, const double x[3]) {
   const Field *f = context;
-  double square = 0.0;
-  for (int i = 0; i < 3; i++) square += (x[i] - f->place[i]) * (x[i] - f->place[i]);
-  return f->size + f->growth * sqrt(square);
+  return f->size + f->growth * cw_distance(x, f->place);
 }
 
 static CwFillInput input_of(const Surface *s, const Field *field) {
