@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <jansson.h>
@@ -7,6 +9,7 @@
 #include "geometry/design_file.h"
 #include "geometry/hydraulic_design.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static double number(const json_t *root, const char *key) {
@@ -23,10 +26,10 @@ static void keys_of_the_format(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
   CwMeasuredPump measured = {.solid = {{.volume = 5e-4}, {.volume = 7e-4}}, .rotor.wrap_angle = 71 * M_PI / 180};
-  assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
+  assert_int_equal(cw_design_file_write(&design, &measured, in_test_folder("design.json")), CW_OK);
   json_error_t error;
-  json_t *root = json_load_file("design-file-test.json", 0, &error);
-  unlink("design-file-test.json");
+  json_t *root = json_load_file(in_test_folder("design.json"), 0, &error);
+  unlink(in_test_folder("design.json"));
   assert_non_null(root);
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) assert_true(number(root, keys[i]) > 0);
   assert_true(fabs(number(root, "wrap_angle_deg") - 71) < 1e-9);
@@ -65,10 +68,10 @@ static void splitters_are_counted(void **state) {
   for (int splitters = 0; splitters < 2; splitters++) {
     CwDesign design = design_of(&table);
     if (splitters) design.splitter_start = 0.4;
-    assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
+    assert_int_equal(cw_design_file_write(&design, &measured, in_test_folder("design.json")), CW_OK);
     json_error_t error;
-    json_t *root = json_load_file("design-file-test.json", 0, &error);
-    unlink("design-file-test.json");
+    json_t *root = json_load_file(in_test_folder("design.json"), 0, &error);
+    unlink(in_test_folder("design.json"));
     assert_non_null(root);
     assert_true(number(root, "blade_count") == 6);
     assert_true(number(root, "splitter_count") == 6 * splitters);
@@ -78,5 +81,5 @@ static void splitters_are_counted(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_the_format), cmocka_unit_test(splitters_are_counted)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -8,13 +8,13 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/picture.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 #include "tests/whole_file.h"
 
 // Each picture is whole, has no undefined number and no point outside its sheet.
 static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design, const char *words) {
-  char path[64];
-  snprintf(path, sizeof path, "picture-test-%ld.svg", (long)getpid());
+  const char *path = in_test_folder("picture.svg");
   if (draw(design, path) != CW_OK) fail_msg("%s", cw_fail_message());
   char *text = read_whole(path, NULL);
   unlink(path);
@@ -57,9 +57,9 @@ static void blades_end_at_the_outlet_diameter(void **state) {
   const CwDesign design = design_of(&table);
   double centre[2], circle, x, y, most = 0;
   int used;
-  assert_int_equal(cw_picture_blade_plan(&design, "picture-test-blades.svg"), CW_OK);
-  char *text = read_whole("picture-test-blades.svg", NULL);
-  unlink("picture-test-blades.svg");
+  assert_int_equal(cw_picture_blade_plan(&design, in_test_folder("blades.svg")), CW_OK);
+  char *text = read_whole(in_test_folder("blades.svg"), NULL);
+  unlink(in_test_folder("blades.svg"));
   assert_int_equal(
       sscanf(strstr(text, "<circle"), "<circle cx=\"%lf\" cy=\"%lf\" r=\"%lf", centre, centre + 1, &circle), 3);
   for (const char *list = text; (list = strstr(list, "<polygon fill=\"#d6e8f2\""));)
@@ -84,26 +84,26 @@ static double height_of_text(const char *svg, const char *start) {
 static void names_of_arrows_stand_apart(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
-  assert_int_equal(cw_picture_velocity_triangles(&design, "picture-test-names.svg"), CW_OK);
-  char *text = read_whole("picture-test-names.svg", NULL);
-  unlink("picture-test-names.svg");
+  assert_int_equal(cw_picture_velocity_triangles(&design, in_test_folder("names.svg")), CW_OK);
+  char *text = read_whole(in_test_folder("names.svg"), NULL);
+  unlink(in_test_folder("names.svg"));
   assert_true(height_of_text(text, ">w = ") < height_of_text(text, ">u = ") - 20);
   free(text);
 }
 
 static void text_is_escaped(void **state) {
   CwPicture picture = {0};
-  assert_int_equal(cw_picture_begin(&picture, "picture-test-escape.svg", 10, 10), CW_OK);
+  assert_int_equal(cw_picture_begin(&picture, in_test_folder("escape.svg"), 10, 10), CW_OK);
   cw_picture_text(&picture, CW_TEXT_LEFT, 1, 1, "%s", "a<b & c>d");
   assert_int_equal(cw_picture_end(&picture), CW_OK);
-  char *text = read_whole("picture-test-escape.svg", NULL);
+  char *text = read_whole(in_test_folder("escape.svg"), NULL);
   assert_non_null(strstr(text, "a&lt;b &amp; c&gt;d"));
   free(text);
-  unlink("picture-test-escape.svg");
+  unlink(in_test_folder("escape.svg"));
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(blades_end_at_the_outlet_diameter),
                                      cmocka_unit_test(names_of_arrows_stand_apart), cmocka_unit_test(text_is_escaped)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

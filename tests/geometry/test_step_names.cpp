@@ -14,6 +14,7 @@
 #include "geometry/stator.h"
 #include "geometry/step_file.h"
 #include "tests/geometry/paper_rotor.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 static void names_and_volumes_survive(void **) {
@@ -21,10 +22,11 @@ static void names_and_volumes_survive(void **) {
   const CwDesign design = design_of(&table);
   CwSolid *solids[2];
   CwCadBodies *bodies = nullptr;
+  const char *path = in_test_folder("names.step");
   if (cw_rotor_build(&design, &solids[0]) || cw_stator_build(&design.volute, cw_solid_unit(solids[0]), &solids[1]) ||
-      cw_step_write(solids, 2, "names-test.step") || cw_cad_file_read("names-test.step", 0, 1e-5, &bodies))
+      cw_step_write(solids, 2, path) || cw_cad_file_read(path, 0, 1e-5, &bodies))
     fail_msg("%s", cw_fail_message());
-  remove("names-test.step");
+  remove(path);
   assert_int_equal(bodies->body.size(), 2);
   for (int i = 0; i < 2; i++) {
     const CwCadBody &body = bodies->body[i];
@@ -51,5 +53,5 @@ static void names_and_volumes_survive(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(names_and_volumes_survive)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -56,6 +56,15 @@ inline std::string by_shape(const TopoDS_Face &face) {
   return BRepAdaptor_Surface(face).GetType() == GeomAbs_Plane ? "flat,wall" : "curved,wall";
 }
 
+// Of a solid with its patches by shape.
+inline int curved_face(const CwCad *cad) {
+  for (int f = 0; f < cw_cad_face_count(cad); f++) {
+    if (std::string(cw_cad_patch_name(cad, cw_cad_face_patch(cad, f))) == "curved") return f;
+  }
+  fail_msg("no face is curved");
+  return -1;
+}
+
 inline void write_text(const TemporaryFolder &folder, const char *text) {
   FILE *file = std::fopen((folder.path + "/faces.csv").c_str(), "w");
   assert_non_null(file);

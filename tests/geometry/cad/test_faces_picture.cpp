@@ -3,16 +3,15 @@
 #include <fstream>
 #include <iterator>
 
-#include <unistd.h>
-
 #include "cad/small_parts.hpp"
+#include "tests/test_folder.h"
 
 extern "C" {
 #include "geometry/cad/faces_picture.h"
 }
 
 static std::string picture_of(SmallParts &small, int part, const double *place) {
-  const std::string path = "faces-picture-" + std::to_string(getpid()) + ".svg";
+  const std::string path = in_test_folder("faces.svg");
   if (small.look() || cw_faces_picture_write(&small.survey, part, "of a <test>", place, path.c_str()))
     fail_msg("%s", cw_fail_message());
   std::ifstream in(path);
@@ -52,5 +51,5 @@ static void a_place_is_marked_in_each_view(void **) {
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(each_face_has_its_number),
                                      cmocka_unit_test(a_place_is_marked_in_each_view)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

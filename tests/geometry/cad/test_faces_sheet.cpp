@@ -4,16 +4,15 @@
 #include <sstream>
 #include <vector>
 
-#include <unistd.h>
-
 #include "cad/small_parts.hpp"
+#include "tests/test_folder.h"
 
 extern "C" {
 #include "geometry/cad/faces_sheet.h"
 }
 
 static std::vector<std::string> rows_of(SmallParts &small, const CwFaceRole *role) {
-  const std::string path = "faces-sheet-" + std::to_string(getpid()) + ".csv";
+  const std::string path = in_test_folder("faces.csv");
   if (cw_faces_sheet_write(&small.cad, &small_frame, &small.parts, &small.survey, role, nullptr, path.c_str()))
     fail_msg("%s", cw_fail_message());
   std::ifstream in(path);
@@ -60,5 +59,5 @@ static void a_row_tells_a_face(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_row_tells_a_face)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

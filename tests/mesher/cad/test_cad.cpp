@@ -149,14 +149,6 @@ static void derivatives_match_differences(void **state) {
   cw_cad_close(&cad);
 }
 
-static int curved_face(const CwCad *cad) {
-  for (int f = 0; f < cw_cad_face_count(cad); f++) {
-    if (std::strcmp(cw_cad_patch_name(cad, cw_cad_face_patch(cad, f)), "curved") == 0) return f;
-  }
-  fail_msg("no curved face");
-  return -1;
-}
-
 static void cylinder_has_curvature_and_projection(void **state) {
   CwCad *cad = open_solid(quarter_cylinder(), by_shape);
   int face = curved_face(cad);

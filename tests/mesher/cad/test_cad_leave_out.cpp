@@ -2,20 +2,11 @@
 // A tank with a filleted step in its floor: the fillet is the one strip that cad_strips finds, and is left out.
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 #include "filleted_step.h"
 #include "solids.h"
-
-static int curved_face(const CwCad *cad) {
-  for (int f = 0; f < cw_cad_face_count(cad); f++) {
-    if (!std::strcmp(cw_cad_patch_name(cad, cw_cad_face_patch(cad, f)), "curved")) return f;
-  }
-  fail_msg("no face is curved");
-  return -1;
-}
 
 static void finds_the_fillet(void **) {
   CwCad *cad = open_solid(filleted_step(false), by_shape);

@@ -21,7 +21,7 @@ static TopoDS_Shape quarter_of_a_cone() {
   return BRepPrimAPI_MakeCone(1e3 * radius, 0, 1e3 * height, M_PI / 2).Shape();
 }
 
-static int curved_face(const CwCad *cad) {
+static int face_with_pole(const CwCad *cad) {
   for (int f = 0; f < cw_cad_face_count(cad); f++)
     if (cad->face[f].pole.is) return f;
   fail_msg("no face has a pole");
@@ -78,7 +78,7 @@ static void check_derivatives(const CwCad *cad, int face) {
 
 static void check_sphere(const TopoDS_Shape &solid, double most_off) {
   CwCad *cad = open_solid(solid);
-  const int face = curved_face(cad);
+  const int face = face_with_pole(cad);
   check_outline(cad, face, radius);
   check_derivatives(cad, face);
   assert_near(solid_volume(cad), M_PI / 6 * radius * radius * radius, 1e-6 * radius * radius * radius);
@@ -112,7 +112,7 @@ static void so_is_a_spline_with_three_sides(void **) {
 
 static void the_tip_of_a_cone_is_a_vertex(void **) {
   CwCad *cad = open_solid(quarter_of_a_cone());
-  const int face = curved_face(cad);
+  const int face = face_with_pole(cad);
   check_outline(cad, face, height);
   check_derivatives(cad, face);
   // Its plane is the cone unrolled: lengths and angles of two generators are those in space.
@@ -132,7 +132,7 @@ static void the_tip_of_a_cone_is_a_vertex(void **) {
 static void rescaled_solids_keep_their_poles(void **) {
   CwCad *cad = open_solid(quarter_of_a_cone());
   assert_int_equal(cw_cad_rescale(cad, 3), CW_OK);
-  check_outline(cad, curved_face(cad), 8 * height);
+  check_outline(cad, face_with_pole(cad), 8 * height);
   cw_cad_close(&cad);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/network/network_audit.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 #include "tests/whole_file.h"
 
@@ -76,7 +77,7 @@ static void spoiled_ones_are_told(void **state) {
 }
 
 static void pictures_have_the_lines(void **state) {
-  const char *path = "network-audit.vtk";
+  const char *path = in_test_folder("network.vtk");
   Lines lines;
   make(&lines);
   assert_int_equal(cw_network_vtk(&lines.network, path), CW_OK);
@@ -95,5 +96,5 @@ int main(void) {
       cmocka_unit_test(spoiled_ones_are_told),
       cmocka_unit_test(pictures_have_the_lines),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/plan/plan_audit.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 typedef struct {
@@ -86,7 +87,7 @@ static void pictures_name_the_regions(void **state) {
   Made made;
   FILE *file;
   char line[100];
-  const char *path = "plan-audit.vtk";
+  const char *path = in_test_folder("plan.vtk");
   make_box(&made);
   for (int i = 0; i < 12; i++) {
     memcpy(x[i], at[i / 3], sizeof x[i]);
@@ -111,5 +112,5 @@ int main(void) {
       cmocka_unit_test(spoiled_ones_are_told),
       cmocka_unit_test(pictures_name_the_regions),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -7,6 +7,7 @@
 
 #include "mesher/fill/boundary_check.h"
 #include "mesher/region/region_boundary.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
 enum { NODES = 6, WALLS = 4, OPEN = 2 };
@@ -95,7 +96,7 @@ static void expect(const char *path, const char *word, int count, const int *wan
 
 static void pictures_name_the_kinds(void **state) {
   CwRegionBoundary inner;
-  const char *path = "region-boundary.vtk";
+  const char *path = in_test_folder("boundary.vtk");
   const int kinds[4] = {0, 0, 1, 2}, crossings[4] = {0, 1, 0, 1};
   assert_int_equal(cw_region_boundary_make(&from, 0, 1, &inner), CW_OK);
   assert_int_equal(cw_region_boundary_vtk(&inner, crossings, "a tetrahedron", path), CW_OK);
@@ -111,5 +112,5 @@ int main(void) {
       cmocka_unit_test(faults_are_told),
       cmocka_unit_test(pictures_name_the_kinds),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -12,6 +12,7 @@ extern "C" {
 }
 
 #include "planned_solid.h"
+#include "tests/test_folder.h"
 
 static void fields_are_positive(void **) {
   PlannedSolid box(BRepPrimAPI_MakeBox(40, 30, 20).Shape());
@@ -25,7 +26,7 @@ static void fields_are_positive(void **) {
 
 static void pictures_have_the_sizes(void **) {
   PlannedSolid box(BRepPrimAPI_MakeBox(40, 30, 20).Shape());
-  const char *path = "size-audit.vtk";
+  const char *path = in_test_folder("size.vtk");
   assert_int_equal(cw_size_vtk(box.size, &box.background, path), CW_OK);
   std::ifstream file(path);
   std::string word;
@@ -48,5 +49,5 @@ int main() {
       cmocka_unit_test(fields_are_positive),
       cmocka_unit_test(pictures_have_the_sizes),
   };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
