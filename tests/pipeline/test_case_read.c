@@ -10,6 +10,7 @@
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/wall_group.h"
+#include "tests/test_folder.h"
 #include "tests/whole_file.h"
 
 static const double pi = 3.14159265358979323846;
@@ -38,16 +39,12 @@ static const char *const good[] = {
 };
 enum { GOOD_COUNT = sizeof good / sizeof *good };
 
-static char path[] = CUTWATER_BIN_DIR "/case-XXXXXX";
+static char path[sizeof test_folder + 100];
 
 static int make_path(void **state) {
-  int file = mkstemp(path);
-  if (file < 0) return -1;
-  return close(file);
-}
-
-static int remove_path(void **state) {
-  return unlink(path);
+  if (make_test_folder(state)) return -1;
+  strcpy(path, in_test_folder("case.yaml"));
+  return 0;
 }
 
 // Writes the good case with line `line` (1-based) replaced; "" removes it, line 0 changes nothing.
@@ -303,5 +300,5 @@ int main(void) {
       cmocka_unit_test(forms_that_yaml_allows),
       cmocka_unit_test(case_of_the_paper_is_valid),
   };
-  return cmocka_run_group_tests(tests, make_path, remove_path);
+  return cmocka_run_group_tests(tests, make_path, clear_test_folder);
 }
