@@ -10,8 +10,8 @@ import signal
 import time
 import unittest
 
-from cutwater import (command, digests, done, error_lines, execute, fresh, left_behind, on_a_small_disk, ranks_of, stage,
-                      start, within)
+from cutwater import (command, digests, done, error_lines, execute, fresh, left_behind, on_a_small_disk, ranks_of,
+                      stage, start, within)
 
 LIMITS = int(os.environ.get("CUTWATER_LIMITS", 2))
 KILLS = int(os.environ.get("CUTWATER_KILLS", 0))
