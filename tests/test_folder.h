@@ -21,7 +21,7 @@ static inline const char *in_test_folder(const char *name) {
   static char path[8][sizeof test_folder + 100];
   static int next;
   next = (next + 1) % 8;
-  snprintf(path[next], sizeof *path, "%s/%s", test_folder, name);
+  if (snprintf(path[next], sizeof *path, "%s/%s", test_folder, name) >= (int)sizeof *path) abort();
   return path[next];
 }
 
