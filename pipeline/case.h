@@ -200,7 +200,7 @@ typedef struct {
   CwWalls walls;
   CwMeshTable mesh;
   CwExportTable output;
-  struct CwCaseCad *cad; // case_cad.h; NULL: the pump is designed. Copies of the case share it
+  struct CwCaseCad *cad;                  // case_cad.h; NULL: the pump is designed. Copies of the case share it
   unsigned char given[CW_CASE_KEYS_MOST]; // of each of cw_case_keys (case_schema.h): 1: the case file has it
 } CwCase;
 

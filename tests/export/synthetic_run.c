@@ -377,9 +377,9 @@ static json_t *patch_json(const Patch *of, int is_rotor) {
   json_object_set_new(patch, "turns", json_boolean(is_rotor && strcmp(of->name, "suction_pipe") != 0));
   json_object_set_new(patch, "monitored", json_boolean(!strcmp(of->name, "tongue")));
   json_object_set_new(patch, "y_plus", json_real(30));
-  json_object_set_new(patch, "flow",
-                      json_pack("{s:f, s:f, s:f, s:f}", "speed_m_per_s", 7.8, "length_m", 0.1, "diameter_m", 0.01,
-                                "width_m", 0.008));
+  json_object_set_new(
+      patch, "flow",
+      json_pack("{s:f, s:f, s:f, s:f}", "speed_m_per_s", 7.8, "length_m", 0.1, "diameter_m", 0.01, "width_m", 0.008));
   return patch;
 }
 
@@ -432,9 +432,9 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
     json_decref(stator);
     return -1;
   }
-  json_t *flow = json_pack("{s:f, s:f, s:f, s:f, s:f, s:i}", "inlet_speed_m_per_s", 1.6, "inlet_diameter_m", 0.074,
-                           "passage_speed_m_per_s", 7.8, "passage_width_m", 0.008, "reference_length_m", 0.2,
-                           "blade_count", 6);
+  json_t *flow =
+      json_pack("{s:f, s:f, s:f, s:f, s:f, s:i}", "inlet_speed_m_per_s", 1.6, "inlet_diameter_m", 0.074,
+                "passage_speed_m_per_s", 7.8, "passage_width_m", 0.008, "reference_length_m", 0.2, "blade_count", 6);
   json_t *root = json_pack("{s:i, s:[o, o], s:[{s:[s, s], s:s, s:f}], s:o}", "format", CW_MANIFEST_FORMAT, "domains",
                            rotor, stator, "interfaces", "patches", "rotor_interface", "stator_interface", "surface",
                            "cylinder", "radius_m", pump->rotor.outer, "flow", flow);
