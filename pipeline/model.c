@@ -300,7 +300,7 @@ CwStatus cw_model_unpack(json_t *root, const char *where, CwModel *model) {
   CW_TRY(cw_json_count(flow, where, "blade_count", &blades));
   model->flow.blade_count = blades < 1 ? 1 : (int)blades;
 done:
-  if (status == CW_ERR_INPUT && strncmp(cw_fail_message(), where, strlen(where)) != 0) cw_fail_place(where);
+  if (status == CW_ERR_INPUT) cw_fail_place(where);
   return status;
 }
 

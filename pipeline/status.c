@@ -63,6 +63,7 @@ void cw_fail_passed(const char *source_file, int line, const char *function) {
 
 void cw_fail_place(const char *place) {
   char fresh[sizeof failure.message];
+  if (!strncmp(failure.message, place, strlen(place))) return;
   snprintf(fresh, sizeof fresh, "%s: ", place);
   size_t used = strlen(fresh);
   memcpy(fresh + used, failure.message, sizeof fresh - used);

@@ -67,7 +67,8 @@ const char *cw_fail_message(void);
 const char *cw_fail_trace(void);
 void cw_fail_passed(const char *source_file, int line, const char *function);
 
-// Puts "PLACE: " before the message of the last failure, which keeps its code and its trace.
+// Puts "PLACE: " before the message of the last failure, which keeps its code and its trace, unless it begins with that
+// place already.
 void cw_fail_place(const char *place);
 
 // Forgets the last failure: for callers that recover.

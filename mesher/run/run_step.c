@@ -16,9 +16,8 @@ typedef struct {
 
 // The status of work on a domain, whose name a failure tells.
 static CwStatus in_domain(const CwMeshRun *run, int32_t domain, CwStatus status) {
-  const char *name = run->domain[domain].name;
-  int has_place = status == CW_ERR_GEOMETRY || status == CW_ERR_MESH || status == CW_ERR_LIBRARY;
-  if (has_place && strncmp(cw_fail_message(), name, strlen(name)) != 0) cw_fail_place(name);
+  if (status == CW_ERR_GEOMETRY || status == CW_ERR_MESH || status == CW_ERR_LIBRARY)
+    cw_fail_place(run->domain[domain].name);
   return status;
 }
 

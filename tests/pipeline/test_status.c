@@ -39,6 +39,8 @@ static void message_may_be_built_from_the_old_one(void **state) {
   snprintf(trace, sizeof trace, "%s", cw_fail_trace());
   cw_fail_place("case.yaml");
   assert_string_equal(cw_fail_message(), "case.yaml: rotor: cannot read");
+  cw_fail_place("case.yaml"); // told once
+  assert_string_equal(cw_fail_message(), "case.yaml: rotor: cannot read");
   assert_string_equal(cw_fail_trace(), trace);
 }
 
