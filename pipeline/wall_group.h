@@ -10,6 +10,9 @@
 // What the case asks of the walls of a group, blade to pipe.
 const CwWallGroup *cw_wall_group(const CwWalls *walls, CwPatchGroup group);
 
+// The same of a patch, whose own y+, where it has one, stands for a y+ or first height of its group.
+CwWallGroup cw_patch_walls(const CwWalls *walls, const CwModelPatch *patch);
+
 // Whether a first height is left open: neither given nor by a y+.
 int cw_walls_auto(const CwWalls *walls);
 #endif

@@ -31,10 +31,6 @@ CwPatchTarget cw_patch_target(const CwCase *table, const CwModelPatch *patch) {
                          [CW_GROUP_PIPE] = mesh->size_pipe,
                          [CW_GROUP_INTERFACE] = mesh->size_interface};
   CwPatchTarget target = {.relative_size = size[patch->size], .flow = patch->flow};
-  target.walls = *cw_wall_group(&table->walls, patch->group);
-  if (cw_case_given(patch->y_plus_asked)) {
-    target.walls.y_plus = patch->y_plus_asked;
-    target.walls.first_height = NAN;
-  }
+  target.walls = cw_patch_walls(&table->walls, patch);
   return target;
 }

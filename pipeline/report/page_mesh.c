@@ -398,10 +398,8 @@ static double asked_y_plus(const CwReportData *data, const json_t *patch) {
   const char *name = json_string_value(json_object_get(patch, "patch"));
   const int p = name ? cw_mesh_patch_find(&data->mesh, name) : -1;
   if (p < 0) return NAN;
-  const CwModelPatch *wall = &data->mesh.patches[p];
-  const CwWallGroup *group = cw_wall_group(&data->table->walls, wall->group);
-  if (cw_case_given(wall->y_plus_asked)) return wall->y_plus_asked;
-  return cw_case_given(group->first_height) ? NAN : group->y_plus;
+  const CwWallGroup asked = cw_patch_walls(&data->table->walls, &data->mesh.patches[p]);
+  return cw_case_given(asked.first_height) ? NAN : asked.y_plus;
 }
 
 // The first layer as asked and as made, the last against the tetrahedra.
