@@ -67,7 +67,7 @@ CwStatus cw_picture_blade_plan(const CwDesign *design, const char *path) {
   CwBladeSection section, splitter;
   double polar[OUTLINE][2], x[OUTLINE][2], line[ARC][2];
   const double scale = 320 / design->interface_radius, centre = 360, tip = design->outlet_diameter / 2;
-  const int right = design->rotation == CW_ROTATION_CLOCKWISE ? -1 : 1;
+  const int right = -cw_suction_side(design->rotation);
   const Sheet sheet = {scale, centre, centre + 20, right};
   CW_TRY(cw_meridian_make(design, &m));
   CW_TRY(cw_blade_section(design, &m, 0.5, &section));

@@ -8,7 +8,6 @@
 #include "geometry/volute_tongue.h"
 
 enum { SPIRAL_POINTS = 181, NOSE_POINTS = 25, WALL_POINTS = 33, LINE_MOST = 512, STEP = 45 };
-static const double degree = M_PI / 180;
 static const double largest = 640; // px
 
 // From the tongue's frame to pixels: turned by minus the lean of the discharge, then scaled. Seen from the suction
@@ -105,7 +104,7 @@ static void make_walls(const CwVolute *volute, Walls *walls) {
 static void rays(CwPicture *picture, const Frame *frame, const CwVolute *volute) {
   const double r3 = volute->input.base_diameter / 2;
   for (int i = STEP; i <= 360; i += STEP) {
-    const double phi = i * degree, r = cw_volute_section(volute, phi).outer_radius;
+    const double phi = i * CW_DEGREE, r = cw_volute_section(volute, phi).outer_radius;
     const double a[2] = {r3 * cos(phi), r3 * sin(phi)}, b[2] = {r * cos(phi), r * sin(phi)};
     const double c[2] = {(r3 - 26 / frame->scale) * cos(phi), (r3 - 26 / frame->scale) * sin(phi)};
     double p[2];
@@ -120,7 +119,7 @@ CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path) {
   CwPicture picture = {0};
   const CwVolute *volute = &design->volute;
   const CwVoluteInput *in = &volute->input;
-  const int right = design->rotation == CW_ROTATION_CLOCKWISE ? -1 : 1;
+  const int right = -cw_suction_side(design->rotation);
   Walls walls;
   Frame frame = {volute->discharge_lean, 1, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 60, 70, right};
   make_walls(volute, &walls);
@@ -156,10 +155,10 @@ CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path) {
                   in->base_diameter * 1e3, volute->throat_area * 1e6, volute->throat_width * 1e3);
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, bottom + 60,
                   "tongue: nose radius %.2f mm, tip at r = %.1f mm and %.1f deg", in->tongue_radius * 1e3,
-                  volute->tip_radius * 1e3, volute->tip_angle / degree);
+                  volute->tip_radius * 1e3, volute->tip_angle / CW_DEGREE);
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, bottom + 82,
                   "diffuser %.1f mm, %.1f deg, area ratio %.2f; discharge DN = %.1f mm, pipe %.0f mm",
-                  volute->diffuser_length * 1e3, volute->diffuser_angle / degree, volute->diffuser_area_ratio,
+                  volute->diffuser_length * 1e3, volute->diffuser_angle / CW_DEGREE, volute->diffuser_area_ratio,
                   in->outlet_diameter * 1e3, in->discharge_pipe_length * 1e3);
   cw_picture_scale(&picture, 20, bottom + 124, pixels_per_mm);
   CW_TRY(cw_picture_end(&picture));

@@ -5,7 +5,7 @@
 #include "geometry/volute_section.h"
 
 enum { STEP = 45, COUNT = 360 / STEP, POINTS = 96, SIDE_POINTS = 48 };
-static const double degree = M_PI / 180, left = 80, width = 620, chart = 250;
+static const double left = 80, width = 620, chart = 250;
 
 // A length or area to end an axis at: 1, 2 or 5 times a power of ten, five steps of which reach `largest`.
 static double round_top(double largest) {
@@ -25,7 +25,7 @@ static void area_chart(CwPicture *picture, const CwVolute *volute, double bottom
     cw_picture_text(picture, CW_TEXT_RIGHT, left - 8, y + 4, "%.4g", top * i / 5);
   }
   for (int i = 0; i <= COUNT; i++) {
-    const double x = left + width * i / COUNT, area = cw_volute_section(volute, i * STEP * degree).area * 1e6;
+    const double x = left + width * i / COUNT, area = cw_volute_section(volute, i * STEP * CW_DEGREE).area * 1e6;
     cw_picture_segment(picture, CW_STROKE_THIN, x, bottom, x, bottom - chart * area / top);
     cw_picture_text(picture, CW_TEXT_MIDDLE, x, bottom + 18, "%d", i * STEP);
     cw_picture_circle(picture, CW_STROKE_BLADE, x, bottom - chart * area / top, 3);
@@ -42,7 +42,7 @@ static void area_chart(CwPicture *picture, const CwVolute *volute, double bottom
   }
   const double x = left + width * tip / (2 * M_PI);
   cw_picture_segment(picture, CW_STROKE_FLOW, x, bottom, x, bottom - 0.55 * chart);
-  cw_picture_text(picture, CW_TEXT_LEFT, x + 6, bottom - 0.55 * chart + 10, "tongue, %.1f deg", tip / degree);
+  cw_picture_text(picture, CW_TEXT_LEFT, x + 6, bottom - 0.55 * chart + 10, "tongue, %.1f deg", tip / CW_DEGREE);
 }
 
 // Half outline from the base circle along the side wall and over the outer wall to z = 0; (r, z) in m.
@@ -63,7 +63,7 @@ static void outlines(CwPicture *picture, const CwVolute *volute, double bottom, 
   const double r3 = volute->input.base_diameter / 2, middle = left + 0.42 * width;
   double half[SIDE_POINTS + 2][2], whole[2 * (SIDE_POINTS + 2)][2];
   for (int i = COUNT; i >= 1; i--) {
-    const int count = outline(volute, i * STEP * degree, half);
+    const int count = outline(volute, i * STEP * CW_DEGREE, half);
     for (int k = 0; k < count; k++) {
       whole[k][0] = middle - scale * half[k][1];
       whole[2 * count - 1 - k][0] = middle + scale * half[k][1];
@@ -71,7 +71,7 @@ static void outlines(CwPicture *picture, const CwVolute *volute, double bottom, 
     }
     cw_picture_line(picture, i % 2 ? CW_STROKE_BLADE : CW_STROKE_WALL, (const double(*)[2])whole, 2 * count,
                     i == COUNT);
-    const CwVoluteSection s = cw_volute_section(volute, i * STEP * degree);
+    const CwVoluteSection s = cw_volute_section(volute, i * STEP * CW_DEGREE);
     const double y = bottom - scale * (s.outer_radius - r3);
     cw_picture_segment(picture, CW_STROKE_THIN, middle, y, left + 0.80 * width, y);
     cw_picture_text(picture, CW_TEXT_LEFT, left + 0.81 * width, y + 4, "%d deg: %.0f mm2, r = %.1f mm", i * STEP,

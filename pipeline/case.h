@@ -24,6 +24,10 @@ typedef enum { CW_SLIP_WIESNER, CW_SLIP_PFLEIDERER } CwSlip;
 typedef enum { CW_BLADE_TWISTED, CW_BLADE_CYLINDRICAL } CwBladeForm;
 typedef enum { CW_EDGE_BEVELLED, CW_EDGE_BLUNT, CW_EDGE_ROUNDED, CW_EDGE_SHARP } CwTrailingEdge;
 typedef enum { CW_ROTATION_COUNTER_CLOCKWISE, CW_ROTATION_CLOCKWISE } CwRotation; // seen from the drive
+// -1 or 1: the sign of z on the suction side: a wheel that turns clockwise, seen from the drive, has it at z > 0.
+static inline int cw_suction_side(CwRotation rotation) {
+  return rotation == CW_ROTATION_CLOCKWISE ? 1 : -1;
+}
 typedef enum { CW_AREA_LAW_ANGULAR_MOMENTUM, CW_AREA_LAW_VELOCITY } CwAreaLaw;
 typedef enum { CW_SECTION_TRAPEZOID, CW_SECTION_RECTANGLE, CW_SECTION_CIRCLE } CwVoluteSectionKind;
 typedef enum { CW_DISCHARGE_TANGENTIAL, CW_DISCHARGE_RADIAL } CwDischarge;

@@ -18,10 +18,10 @@ typedef struct {
 // The design's head away from its point, for the hydraulic efficiency there (Euler's equation with a slip that does not
 // depend on the flow): c_u2 falls with the share q of the flow as u2 f - (u2 f - c_u2) q, f the slip factor.
 static double design_head(const json_t *design, double share) {
-  const double u2 = cw_json_real(design, "impeller_tip_speed_m_per_s"), gravity = 9.80665;
+  const double u2 = cw_json_real(design, "impeller_tip_speed_m_per_s");
   const double most = cw_json_real(design, "slip_factor") * u2;
   const double swirl = most - (most - cw_json_real(design, "outlet_swirl_speed_m_per_s")) * share;
-  return cw_json_real(design, "hydraulic_efficiency") * u2 * swirl / gravity;
+  return cw_json_real(design, "hydraulic_efficiency") * u2 * swirl / CW_GRAVITY;
 }
 
 static CwStatus curve_read(json_t *points, const char *where, const json_t *design, Curve *curve) {

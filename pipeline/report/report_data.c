@@ -89,10 +89,6 @@ void cw_report_data_free(CwReportData *data) {
   *data = (CwReportData){0};
 }
 
-int cw_report_suction(const CwReportData *data) {
-  return data->table->impeller.rotation == CW_ROTATION_CLOCKWISE ? 1 : -1;
-}
-
 // Of a pump that no generator made: what the model says of it.
 static CwPumpSizes sizes_of_model(const CwMesh *mesh, int suction) {
   CwPumpSizes sizes = {.blade_count = mesh->flow.blade_count,
@@ -110,7 +106,7 @@ static CwPumpSizes sizes_of_model(const CwMesh *mesh, int suction) {
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
   if (!data->design) {
-    *sizes = sizes_of_model(&data->mesh, cw_report_suction(data));
+    *sizes = sizes_of_model(&data->mesh, cw_suction_side(data->table->impeller.rotation));
     return CW_OK;
   }
   static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
@@ -125,7 +121,7 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
                          .outlet_radius = 0.5 * value[1],
                          .interface_radius = value[2],
                          .base_radius = 0.5 * value[3],
-                         .suction = cw_report_suction(data)};
+                         .suction = cw_suction_side(data->table->impeller.rotation)};
 done:
   return status;
 }

@@ -34,9 +34,6 @@ void cw_report_data_free(CwReportData *data);
 // Whether the flow was solved, on the files of this export.
 int cw_report_is_solved(const CwReportData *data);
 
-// -1 or 1: the sign of z on the suction side. A wheel that turns clockwise, seen from the drive, has it at z > 0.
-int cw_report_suction(const CwReportData *data);
-
 // What the pictures need of case and design. CW_ERR_INPUT.
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);
 
