@@ -6,14 +6,12 @@
 
 #include <unistd.h>
 
-#include "tests/remove_folder.h"
+#include "tests/folders.h"
 
 static char test_folder[100];
 
 static inline int make_test_folder(void **state) {
-  const char *place = getenv("TMPDIR");
-  const int length = snprintf(test_folder, sizeof test_folder, "%s/cutwater-test-XXXXXX", place ? place : "/tmp");
-  return length < (int)sizeof test_folder && mkdtemp(test_folder) ? 0 : -1;
+  return make_temporary_folder(test_folder, sizeof test_folder);
 }
 
 // The path of a file in it, until the eighth call after.

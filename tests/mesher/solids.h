@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -24,6 +23,8 @@
 // Last: its macro named fail breaks the C++ headers. So this header comes last in a test as well.
 #include "tests/unit_test.h"
 
+#include "tests/folders.h"
+
 inline void check(CwStatus status) {
   if (status != CW_OK) fail_msg("status %d: %s", status, cw_fail_message());
 }
@@ -36,12 +37,14 @@ static inline double solid_volume(const CwCad *cad) {
 }
 
 struct TemporaryFolder {
-  std::string path = std::filesystem::temp_directory_path() / "cutwater-test-XXXXXX";
+  std::string path;
   TemporaryFolder() {
-    assert_non_null(mkdtemp(path.data()));
+    char made[100];
+    assert_int_equal(make_temporary_folder(made, sizeof made), 0);
+    path = made;
   }
   ~TemporaryFolder() {
-    std::filesystem::remove_all(path);
+    remove_folder(path.c_str());
   }
 };
 
