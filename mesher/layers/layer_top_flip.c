@@ -6,10 +6,12 @@
 
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
+#include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
 enum { SWEEPS = 12 };
+static const double SHARE = 1.05 * CW_SMALL_WEIGHT; // of a triangle beside its neighbour, at least
 
 // Least angle of a triangle: the one across from its shortest edge.
 static double least_angle(const double (*x)[3], int32_t a, int32_t b, int32_t c) {
@@ -48,6 +50,16 @@ static double prism_quality(const double (*wall)[3], const double (*top)[3], int
   return least;
 }
 
+// The least share of two triangles in the area of both: where they are flat, the weight that checkMesh gives the face
+// between the cells on them.
+static double least_share(const double (*x)[3], const int32_t p[3], const int32_t q[3]) {
+  double n[3], m[3];
+  cw_normal(x[p[0]], x[p[1]], x[p[2]], n);
+  cw_normal(x[q[0]], x[q[1]], x[q[2]], m);
+  double a = cw_norm(n), b = cw_norm(m);
+  return fmin(a, b) / (a + b);
+}
+
 static int flat_pair(const double (*x)[3], const int32_t p[3], const int32_t q[3]) {
   double n[3], m[3];
   cw_normal(x[p[0]], x[p[1]], x[p[2]], n);
@@ -66,6 +78,7 @@ static int flip_helps(const double (*wall)[3], const double (*top)[3], double be
   double wall_after = fmin(least_angle(wall, c, d, b), least_angle(wall, d, c, a));
   if (wall_after < cw_policy.wanted_angle * CW_DEGREE && wall_after < cw_policy.top_flip_wall * wall_before) return 0;
   const int32_t old[2][3] = {{a, b, c}, {b, a, d}}, new[2][3] = {{c, d, b}, {d, c, a}};
+  if (least_share(top, new[0], new[1]) < SHARE) return 0;
   if (!flat_pair(top, old[0], old[1]) || !flat_pair(top, new[0], new[1])) return 0;
   if (!flat_pair(wall, old[0], old[1]) || !flat_pair(wall, new[0], new[1])) return 0;
   for (int k = 0; k < 2; k++) {

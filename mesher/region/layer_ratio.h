@@ -15,8 +15,6 @@ extern "C" {
 // Policy: volumes may change by 4 across 95 % of the faces and by 10 across any.
 #define CW_RATIO_FAIR 4.0
 #define CW_RATIO_MOST 10.0
-// checkMesh of OpenFOAM calls the weight of a face small below this.
-#define CW_SMALL_WEIGHT 0.05
 
 enum { CW_RATIO_BINS = 80 };
 
@@ -26,7 +24,7 @@ typedef struct {
   int64_t thin_over_fair;          // faces over CW_RATIO_FAIR whose prism is the lesser cell
   int64_t thick_over_fair;         // faces over CW_RATIO_FAIR whose prism is the greater cell
   int64_t over_most;               // faces over CW_RATIO_MOST
-  int64_t small_weight;            // faces of a weight below CW_SMALL_WEIGHT
+  int64_t small_weight;            // faces of a weight below CW_SMALL_WEIGHT (thin_prism.h)
   double greatest, greatest_at[3]; // greatest ratio; centre of its face
 } CwLayerRatio;
 

@@ -9,6 +9,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "mesher/layers/layers_normal.h"
+#include "mesher/layers/thin_prism.h"
 #include "mesher/run/layer_coverage.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"

@@ -14,7 +14,7 @@ static const double LEAST = 1.05 * CW_SMALL_DETERMINANT;   // asked for
 static const double ENOUGH = 1.005 * CW_SMALL_DETERMINANT; // of columns as even as they may become
 static const double STEP = 0.05;                           // of a first height, in a round
 static const double LESS = 0.91, MORE = 1.09; // of the first height asked, within the tenth that counts as met
-static const double LEAN = 20; // a right prism of so many times LEAST: columns do not lean so much that it is small
+static const double SURE = 2; // times LEAST at both ends of columns: no prism between has less than that
 
 // First height of the column as divided, m; fraction: of its layers.
 static double divide(const CwColumnTargets *targets, const CwLayers *layers, int32_t v, double first,
@@ -65,24 +65,25 @@ static double least_determinant(const Columns *columns, int32_t t, const double 
   return least;
 }
 
-// Whether all layers over a wall triangle are so high that no prism can be small. Of layers that shrink the last is the
-// lowest, and over their first at least the cube of what the mean is over that.
+// Whether all layers over a wall triangle are so high that no prism can be small: one as low as the lowest is not,
+// where the columns begin or where they end. Of layers that shrink the last is the lowest, and over their first at
+// least the cube of what the mean is over that.
 static int is_thick(const Columns *columns, int32_t t) {
-  const CwColumnTargets *targets = columns->targets;
-  const int32_t *corner = columns->layers->triangle[t];
-  double lowest = INFINITY, base[3][3], top[3][3], normal[3];
+  const CwLayers *layers = columns->layers;
+  double wall[2][3][3], end[2][3][3];
   for (int k = 0; k < 3; k++) {
-    double first = targets->first_height[corner[k]];
-    double mean = fmin(columns->layers->thickness[corner[k]] / (targets->layer_count * first), 1);
-    lowest = fmin(lowest, first * mean * mean * mean);
-    cw_copy(columns->surface->x[corner[k]], base[k]);
+    int32_t v = layers->triangle[t][k];
+    const double *x = columns->surface->x[v], *top = layers->top[v];
+    double thickness = layers->thickness[v], first = columns->targets->first_height[v];
+    double mean = fmin(thickness / (columns->targets->layer_count * first), 1);
+    double share = first * mean * mean * mean / thickness;
+    cw_copy(x, wall[0][k]);
+    cw_lerp(x, top, share, wall[1][k]);
+    cw_lerp(x, top, 1 - share, end[0][k]);
+    cw_copy(top, end[1][k]);
   }
-  cw_normal(base[0], base[1], base[2], normal);
-  cw_unit(normal);
-  for (int k = 0; k < 3; k++) {
-    for (int c = 0; c < 3; c++) top[k][c] = base[k][c] - lowest * normal[c];
-  }
-  return cw_prism_determinant((const double(*)[3])base, (const double(*)[3])top, 0) > LEAN * LEAST;
+  return cw_prism_determinant((const double(*)[3])wall[0], (const double(*)[3])wall[1], 1) > SURE * LEAST &&
+         cw_prism_determinant((const double(*)[3])end[0], (const double(*)[3])end[1], 0) > SURE * LEAST;
 }
 
 // Copies are as their first.

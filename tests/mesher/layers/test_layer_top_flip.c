@@ -76,6 +76,23 @@ static double angles_least(const double a[3], const double b[3], const double c[
   return least;
 }
 
+// Kites, long along the diagonal 0-2, whose least angle the diagonal 1-3 raises. With corner 0 near that diagonal it
+// would leave a triangle with a twenty-fifth of the other's area.
+static void no_small_triangle_beside_a_large_one(void **state) {
+  for (int near = 0; near < 2; near++) {
+    double corner = near ? 0 : -0.1;
+    const double top[4][3] = {{corner, corner, -2}, {0.32, -0.08, -2}, {1.24, 1.24, -2}, {-0.26, 0.2, -2}};
+    int32_t triangle[2][3], flips;
+    double now = fmin(angles_least(top[0], top[1], top[2]), angles_least(top[0], top[2], top[3]));
+    double then = fmin(angles_least(top[0], top[1], top[3]), angles_least(top[1], top[2], top[3]));
+    print_message("  least angle %.1f, then %.1f degrees\n", now, then);
+    assert_true(then > 1.1 * now);
+    start(triangle);
+    assert_int_equal(flip(top, triangle, TOGETHER, &flips), CW_OK);
+    assert_int_equal(flips, !near);
+  }
+}
+
 // Flat tops that are moved by up to a third of a side: a diagonal that gains much is turned, one that loses is not.
 static void the_diagonal_of_the_larger_angles_is_taken(void **state) {
   int turned = 0, kept = 0;
@@ -100,6 +117,7 @@ int main(void) {
       cmocka_unit_test(stretched_top_turns_its_diagonal),
       cmocka_unit_test(even_top_and_borders_stay),
       cmocka_unit_test(bent_top_stays),
+      cmocka_unit_test(no_small_triangle_beside_a_large_one),
       cmocka_unit_test(the_diagonal_of_the_larger_angles_is_taken),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

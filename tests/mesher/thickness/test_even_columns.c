@@ -10,20 +10,33 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "tests/unit_test.h"
 
-// First height made of the four columns of so many layers where `asked` is; corners 0 and 2 are on both triangles.
-static void make(int layers, double asked, const double thickness[4], double made[4]) {
+// First height made of the four columns of so many layers where `asked` is, and the least determinant then; corners 0
+// and 2 are on both triangles. spread: of the square that the columns end in.
+static double make_spread(int layers, double asked, const double thickness[4], double spread, double made[4]) {
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, top[4][3];
-  double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
+  double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4], least = 1;
   int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
   CwSurfaceMesh surface = {.vertex_count = 4, .x = x, .triangle_count = 2, .source = source};
   CwLayers columns = {.triangle = triangle, .top = top, .thickness = own};
   CwColumnTargets targets = {.layer_count = layers, .first_height = first, .growth = growth};
   memcpy(own, thickness, sizeof own);
   memcpy(top, x, sizeof top);
+  for (int k = 0; k < 8; k++) top[k / 2][k % 2] += (spread - 1) * (x[k / 2][k % 2] - 0.5);
   for (int v = 0; v < 4; v++) top[v][2] = thickness[v];
   assert_int_equal(cw_columns_divide(NULL, &targets, &surface, &columns), CW_OK);
   memcpy(made, columns.first_height, sizeof own);
+  for (int t = 0; t < 2; t++) {
+    double of[CW_LAYERS_MOST], corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = made[triangle[t][k]];
+    cw_column_determinants(&targets, &surface, &columns, t, corner, of);
+    for (int i = 0; i < layers; i++) least = fmin(least, of[i]);
+  }
   free(columns.first_height);
+  return least;
+}
+
+static void make(int layers, double asked, const double thickness[4], double made[4]) {
+  make_spread(layers, asked, thickness, 1, made);
 }
 
 static double determinant(double thickness) {
@@ -82,8 +95,22 @@ static void growing_ones_within_a_tenth(void **state) {
   }
 }
 
+// Right prisms over the wall would be tall enough; over the layer top, six times as wide, they are not.
+static void those_that_lean_apart(void **state) {
+  const double asked = 0.4, thickness = 0.54;
+  double made[4];
+  assert_true(make_spread(2, asked, (double[4]){thickness, thickness, thickness, thickness}, 1, made) >
+              20 * CW_SMALL_DETERMINANT);
+  for (int v = 0; v < 4; v++) assert_near(made[v], asked, 1e-12);
+  double least = make_spread(2, asked, (double[4]){thickness, thickness, thickness, thickness}, 6, made);
+  print_message("  least determinant %.5f with %.2f of the first height\n", least, made[0] / asked);
+  assert_true(made[0] < asked);
+  assert_true(least > CW_SMALL_DETERMINANT);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small), cmocka_unit_test(others_stay),
-                                     cmocka_unit_test(growing_ones_within_a_tenth)};
+                                     cmocka_unit_test(growing_ones_within_a_tenth),
+                                     cmocka_unit_test(those_that_lean_apart)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
