@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/model.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -59,12 +60,26 @@ static CwStatus check_name(const char *what, const char *name, int most, const c
              : CW_FAIL(CW_ERR_INPUT, "%s '%s'; allowed are 1 to %d %s, digits and _", what, name, most, text);
 }
 
+// In CGNS the zone of a domain has its name in capitals, and its family one in _domain, beside the families of patches.
+static CwStatus check_patch_name(const char *patch, const char *domain) {
+  CwStatus status = CW_OK;
+  size_t length = strlen(domain), k = 0;
+  while (patch[k] && patch[k] == toupper((unsigned char)domain[k])) k++;
+  int zone = !patch[k] && !domain[k], family = !strncmp(patch, domain, length) && !strcmp(patch + length, "_domain");
+  CW_REQUIRE(!zone && !family, CW_ERR_INPUT,
+             "patch '%s' has a name that domain '%s' has in CGNS; any other will do, such as '%s_wall'", patch, domain,
+             domain);
+done:
+  return status;
+}
+
 CwStatus cw_model_add_domain(CwModel *model, const char *name, int rotating) {
   CwStatus status = CW_OK;
   CW_TRY(check_name("domain name", name, CW_DOMAIN_NAME_MOST, SMALL DIGITS, "small letters"));
   CW_REQUIRE(cw_model_domain_find(model, name) < 0, CW_ERR_INPUT, "domain '%s' is named twice", name);
   CW_REQUIRE(model->domain_count < CW_DOMAINS_MOST, CW_ERR_INPUT, "domain '%s' is one more than %d, which are allowed",
              name, CW_DOMAINS_MOST);
+  for (int p = 0; p < model->patch_count; p++) CW_TRY(check_patch_name(model->patch[p].name, name));
   CwModelDomain *domain = &model->domain[model->domain_count++];
   *domain = (CwModelDomain){.rotating = rotating, .first_patch = model->patch_count};
   strcpy(domain->name, name);
@@ -78,6 +93,7 @@ CwStatus cw_model_add_patch(CwModel *model, const char *name, CwPatchKind kind, 
   CwModelDomain *domain = &model->domain[model->domain_count - 1];
   CW_TRY(check_name("patch name", name, CW_PATCH_NAME_MOST, SMALL CAPITALS DIGITS, "letters"));
   CW_REQUIRE(cw_model_patch_find(model, name) < 0, CW_ERR_INPUT, "patch '%s' is named twice", name);
+  for (int d = 0; d < model->domain_count; d++) CW_TRY(check_patch_name(name, model->domain[d].name));
   CW_REQUIRE(domain->patch_count < CW_PATCHES_MOST, CW_ERR_INPUT, "domain '%s' has more than %d patches", domain->name,
              CW_PATCHES_MOST);
   CwModelPatch *grown = realloc(model->patch, (size_t)(model->patch_count + 1) * sizeof *grown);

@@ -116,6 +116,12 @@ static void names_and_sides_are_held_against_the_rules(void **state) {
   refused(cw_model_add_domain(&model, "Wheel", 0), "domain name 'Wheel'; allowed are 1 to 14 small letters");
   refused(cw_model_add_domain(&model, "fifteen_letters", 0), "allowed are 1 to 14");
   refused(cw_model_add_patch(&model, "out", CW_PATCH_WALL, &patch), "patch 'out' is named twice");
+  refused(cw_model_add_patch(&model, "WHEEL", CW_PATCH_WALL, &patch),
+          "'WHEEL' has a name that domain 'wheel' has in CGNS");
+  refused(cw_model_add_patch(&model, "casing_domain", CW_PATCH_WALL, &patch), "such as 'casing_wall'");
+  add(&model, "Wheel", CW_PATCH_WALL);
+  add(&model, "LATER", CW_PATCH_WALL);
+  refused(cw_model_add_domain(&model, "later", 0), "patch 'LATER' has a name that domain 'later' has");
   refused(cw_model_add_patch(&model, "to wheel", CW_PATCH_WALL, &patch), "allowed are 1 to 22 letters, digits and _");
   refused(cw_model_add_interface(&model, taken, CW_SURFACE_PLANE, 0), "'to_wheel' is a side of another");
   refused(cw_model_add_interface(&model, no_side, CW_SURFACE_PLANE, 0), "'pipe' is no patch of kind interface");
