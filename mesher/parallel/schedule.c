@@ -308,10 +308,11 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   }
   cw_profiler_part(context, part);
 done:
+  // Before anything is freed: the thread that serves tasks reads the order until the end.
+  if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(cw_log_of(context), status);
   free(time);
   free(work.end);
   free_order(&order);
-  if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(cw_log_of(context), status);
   return status;
 }
 

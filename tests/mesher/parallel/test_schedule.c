@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <dirent.h>
+#include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -152,6 +153,23 @@ static int results_wrong(const Work *work, void **bytes, const int64_t *size) {
   return wrong;
 }
 
+static CwStatus fail_on_first_rank(void *context, int32_t task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(*(const int *)context > 0, CW_ERR_MESH, "the rank that serves fails");
+done:
+  return status;
+}
+
+// The rank that serves fails at once, but another one is to say why: it waits for that, and its thread serves
+// meanwhile. Large arrays that it frees are no memory of its own any more.
+static CwStatus fail_behind_another(const CwContext *context) {
+  int rank = cw_team_rank(context->team);
+  CwSchedule schedule = {.step = "tasks", .count = 400000, .run = fail_on_first_rank, .context = &rank};
+  mallopt(M_MMAP_THRESHOLD, 1 << 16);
+  if (rank == 0) cw_stop_claim();
+  return cw_schedule_run(context, &schedule, NULL, NULL, NULL);
+}
+
 static int be_a_rank(int argc, char **argv) {
   int wrong = 0;
   if (!strncmp(argv[1], "dealt", 5)) MPI_Init(&argc, &argv); // one thread: no server
@@ -161,6 +179,7 @@ static int be_a_rank(int argc, char **argv) {
   int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   cw_log_open("test", NULL, rank == 0, 0, &test_log);
   context.log = test_log;
+  if (!strcmp(argv[1], "server-fails")) return fail_behind_another(&context) == CW_OK; // ends inside
   if (strstr(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
     printf("RANK %d EARLY %d\n", rank, began_too_early(&context, argv[1]));
     cw_log_close(&test_log);
@@ -231,6 +250,12 @@ static void failing_task_ends_the_run_with_one_line(void **state) {
   assert_int_equal(count_lines_with("error:"), 1);
   assert_non_null(strstr(output, "cutwater-test: error: region 17 is too thin at (1, 2, 3) mm"));
   assert_null(strstr(output, "MPI_ABORT"));
+}
+
+static void a_rank_that_fails_serves_until_its_end(void **state) {
+  assert_int_equal(launch(2, "server-fails"), CW_ERR_MESH);
+  assert_int_equal(count_lines_with("error:"), 1);
+  assert_non_null(strstr(output, "error: the rank that serves fails"));
 }
 
 static void many_failing_tasks_print_one_line(void **state) {
@@ -337,6 +362,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(a_failure_ends_the_task_of_the_rank_that_serves),
       cmocka_unit_test(large_results_come_whole),
       cmocka_unit_test(failing_task_ends_the_run_with_one_line),
+      cmocka_unit_test(a_rank_that_fails_serves_until_its_end),
       cmocka_unit_test(many_failing_tasks_print_one_line),
       cmocka_unit_test(tasks_wait_for_those_they_come_after),
       cmocka_unit_test(failing_task_ends_those_that_wait),
