@@ -49,6 +49,7 @@ void cw_shared_nodes_free(CwSharedNodes *shared) {
 
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]) {
   const CwRegionInput *from = &context->from;
+  const CwCad *cad = from->in->cad;
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared->count, context->fill};
   cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
@@ -57,6 +58,10 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 #endif
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
+  for (int f = 0; f < cw_cad_face_count(cad); f++) { // the file knows patches by their numbers
+    int32_t patch = cw_cad_face_patch(cad, f);
+    cw_hash_bytes(&hash, &patch, sizeof patch);
+  }
   for (int32_t i = from->surface->region_start[region]; i < from->surface->region_start[region + 1]; i++) {
     int32_t t = from->surface->region_triangle[i];
     cw_hash_bytes(&hash, &from->surface->face[t], sizeof(int32_t));

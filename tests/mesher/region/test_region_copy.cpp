@@ -108,6 +108,20 @@ static void refine(Tank &tank, const int32_t *number) {
   for (void *bytes : refined) free(bytes);
 }
 
+// A region of the same surfaces whose faces belong to other patches is another one: its file names them by number.
+static void check_patches(Tank &tank, const CwRegionContext &context) {
+  char before[33], after[33];
+  CwCad *other = open_tank(5, true);
+  cw_region_fingerprint(&context, 0, before);
+  tank.boundary.input.cad = other;
+  cw_region_fingerprint(&context, 0, after);
+  tank.boundary.input.cad = tank.cad;
+  assert_string_not_equal(before, after);
+  cw_region_fingerprint(&context, 0, after);
+  assert_string_equal(before, after);
+  cw_cad_close(&other);
+}
+
 // All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last
 // bit.
 static void fill_the_tank(bool divided, bool rule) {
@@ -133,6 +147,7 @@ static void fill_the_tank(bool divided, bool rule) {
   check(cw_shared_nodes_make(&context.from, context.layer_count, &shared_nodes));
   context.shared = &shared_nodes;
   check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
+  check_patches(tank, context);
   double volume = 0;
   SharedPoints shared;
   CwRegionMesh mesh;
