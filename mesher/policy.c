@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/source_hash.h"
+
 static const char VARIABLE[] = "CUTWATER_POLICY";
 
 #ifdef CUTWATER_EXPERIMENT
@@ -78,4 +80,11 @@ CwStatus cw_policy_start(void) {
 done:
   if (file) fclose(file);
   return status;
+}
+
+void cw_policy_hash(CwHash *hash) {
+  cw_hash_bytes(hash, cw_source_hash, sizeof cw_source_hash);
+#ifdef CUTWATER_EXPERIMENT
+  cw_hash_bytes(hash, &cw_policy, sizeof cw_policy);
+#endif
 }

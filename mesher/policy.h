@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The tuned numbers of the mesher, which policy_table.h lists. In normal builds they are constants that the compiler
 // folds. With -DCUTWATER_EXPERIMENT=ON they are variables, and a file named by $CUTWATER_POLICY changes some: lines
-// `name value`, # begins a comment. Another policy gives regions another fingerprint.
+// `name value`, # begins a comment.
 #ifndef CUTWATER_MESHER_POLICY_H
 #define CUTWATER_MESHER_POLICY_H
 
 #include <stdint.h>
 #include <stdio.h>
 
+#include "pipeline/hash.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -37,6 +38,9 @@ CwStatus cw_policy_start(void);
 
 // Changes numbers by the lines of an open file; `path` is for messages.
 CwStatus cw_policy_read(FILE *file, const char *path, CwPolicy *policy);
+
+// Adds to a fingerprint what the program makes differ: its sources and, where they are variables, these numbers.
+void cw_policy_hash(CwHash *hash);
 
 #ifdef __cplusplus
 }

@@ -14,7 +14,6 @@
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/region/tets_on.h"
-#include "mesher/source_hash.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/hash.h"
 #include "pipeline/mesh/cell.h"
@@ -52,10 +51,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   const CwCad *cad = from->in->cad;
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared->count, context->fill};
-  cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
-#ifdef CUTWATER_EXPERIMENT
-  cw_hash_bytes(&hash, &cw_policy, sizeof cw_policy);
-#endif
+  cw_policy_hash(&hash);
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int f = 0; f < cw_cad_face_count(cad); f++) { // the file knows patches by their numbers

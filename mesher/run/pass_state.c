@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "mesher/policy.h"
 #include "pipeline/hash.h"
 #include "pipeline/log.h"
 #include "pipeline/sealed_json.h"
@@ -44,6 +45,7 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
                           mesh->size_blade,        mesh->size_hub_shroud,
                           mesh->size_volute,       mesh->size_pipe,
                           mesh->size_interface,    table->fluid.kinematic_viscosity};
+  cw_policy_hash(&hash);
   cw_hash_bytes(&hash, value, sizeof value);
   const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
   for (size_t i = 0; i < sizeof group / sizeof *group; i++) {

@@ -31,7 +31,8 @@ typedef struct {
   CwFinerPlaces finer;
 } CwPassState;
 
-// Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.
+// Hex fingerprint of what the passes follow from: the mesher's sources, the case's walls and mesh tables and the files
+// of the geometry stage.
 CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwModel *model,
                              char fingerprint[CW_HASH_TEXT]);
 
