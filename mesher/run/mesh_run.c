@@ -249,7 +249,8 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   CW_TRY(cw_mesh_open(run));
   CwPassState state = {0};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->model, fingerprint));
-  CW_TRY(cw_pass_state_read(run->context.log, run->run_path, fingerprint, &state));
+  if (run->rank == 0) CW_TRY(cw_pass_state_read(run->context.log, run->run_path, fingerprint, &state));
+  CW_TRY(cw_pass_state_share(run->context.team, &state));
   run->finer = state.finer;
   for (int d = 0; d < run->model.domain_count; d++) run->domain[d].more_regions = state.more_regions[d];
   if (state.pass > 0) cw_log(run->context.log, "going on with pass %d of an earlier run", state.pass);

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "mesher/parallel/ranks.h"
 #include "mesher/policy.h"
 #include "pipeline/hash.h"
 #include "pipeline/log.h"
@@ -136,6 +137,21 @@ CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *finger
   CW_TRY(places_in(json_object_get(file, "finer"), &state->finer));
 done:
   json_decref(file);
+  return status;
+}
+
+CwStatus cw_pass_state_share(const CwTeam *team, CwPassState *state) {
+  CwStatus status = CW_OK;
+  CwFinerPlaces *finer = &state->finer;
+  CwFinerPlace *own = finer->place;
+  cw_team_broadcast(team, state, sizeof *state, 0);
+  finer->place = own;
+  if (cw_team_rank(team) > 0) {
+    CW_NEW(finer->place, finer->count);
+    finer->capacity = finer->count;
+  }
+  cw_team_broadcast(team, finer->place, finer->count * (int64_t)sizeof *finer->place, 0);
+done:
   return status;
 }
 

@@ -4,6 +4,7 @@
 #ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
 #define CUTWATER_MESHER_RUN_PASS_STATE_H
 
+#include "mesher/parallel/context.h"
 #include "mesher/run/cell_law.h"
 #include "mesher/run/finer_places.h"
 #include "pipeline/hash.h"
@@ -39,6 +40,10 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
 // Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise, with a
 // warning where it is damaged. Caller frees the places. CW_ERR_MEMORY alone.
 CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state);
+
+// The state of the first rank to the others, for which it is zeroed before: the file that they see may be an older one,
+// or none. Collective over the team. CW_ERR_MEMORY.
+CwStatus cw_pass_state_share(const CwTeam *team, CwPassState *state);
 
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state);
 

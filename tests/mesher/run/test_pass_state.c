@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "launch.h"
 #include "mesher/run/pass_state.h"
 #include "pipeline/case_schema.h"
 #include "tests/test_folder.h"
@@ -142,6 +143,32 @@ static void broken_state_is_left_aside(void **unused) {
   assert_int_equal(read.pass, 0);
 }
 
+// One rank has read the file, the others none.
+static int be_a_rank(int argc, char **argv) {
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  CwFinerPlace place[2] = {{0, {{0.1, 0.2, 0.3}, 0.4}}, {1, {{1, 2, 3}, 4}}};
+  CwPassState state = {0};
+  const int rank = cw_team_rank(all);
+  if (rank == 0) state = (CwPassState){.pass = 3, .best_round = 2, .more_regions = {0, 7}, .finer = {2, 2, place}};
+  int wrong = cw_pass_state_share(all, &state) != CW_OK;
+  wrong += state.pass != 3 || state.best_round != 2 || state.more_regions[1] != 7 || state.finer.count != 2;
+  for (int i = 0; wrong == 0 && i < 2; i++) {
+    wrong += state.finer.place[i].domain != place[i].domain;
+    wrong += memcmp(&state.finer.place[i].point, &place[i].point, sizeof place[i].point) != 0;
+  }
+  if (rank > 0) cw_finer_places_free(&state.finer);
+  printf("RANK %d WRONG %d\n", rank, wrong);
+  return end_as_rank(all, wrong != 0);
+}
+
+static void all_ranks_go_on_alike(void **unused) {
+  char run[sizeof test_folder]; // a launch has a folder of its own
+  memcpy(run, test_folder, sizeof run);
+  for (int ranks = 1; ranks <= 3; ranks++) launch_and_find_right(ranks, "share", 1);
+  memcpy(test_folder, run, sizeof run);
+}
+
 static void missing_geometry_is_named(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
@@ -150,11 +177,12 @@ static void missing_geometry_is_named(void **unused) {
   assert_non_null(strstr(cw_fail_message(), "nowhere/geometry/faces.csv"));
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+  if (launched(argc)) return be_a_rank(argc, argv);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(state_comes_back_as_written), cmocka_unit_test(another_case_or_geometry_starts_anew),
       cmocka_unit_test(other_sources_start_anew),    cmocka_unit_test(broken_state_is_left_aside),
-      cmocka_unit_test(missing_geometry_is_named),
+      cmocka_unit_test(all_ranks_go_on_alike),       cmocka_unit_test(missing_geometry_is_named),
   };
   return cmocka_run_group_tests(tests, make_run, remove_run);
 }
