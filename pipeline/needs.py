@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""needs.py FOLDER [--solve] [--case FILE] CELLS...: tells what runs of so many cells need of disk and memory, before
-they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. With --case the formats
-of the export are those of the case, and its number of cells where none is given; what a run in FOLDER has on the disk
-already counts as free, and small runs say nothing. needs.py --table CELLS...: prints a row of a table for each number.
+"""needs.py FOLDER [--solve] [--case FILE] [--ranks N] CELLS...: tells what runs of so many cells need of disk and
+memory, before they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. With
+--case the formats of the export are those of the case, and its number of cells where none is given; what a run in
+FOLDER has on the disk already counts as free, and small runs say nothing. --ranks: of the mesher on this machine, 2
+unless given. needs.py --table CELLS...: prints a row of a table for each number.
 
-The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 100 million cells, on 2 ranks
-(tests/bench/scale.py prints them); layers and size change them by a third."""
+The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 100 million cells (tests/bench/scale.py prints
+them, tests/bench/memory.py the memory over the ranks); layers and size change them by a third."""
 import argparse
 import os
 import re
@@ -18,8 +19,10 @@ from pathlib import Path
 DISK = {"mesh": (22, 1250), "cgns": (22, 1000), "openfoam": (76, 0), "fluent": (200, 0)}
 FORMATS = ("cgns", "openfoam", "cfx")  # where a case asks for none
 SOLVED_BYTES_A_CELL = 500              # the case, in parts and whole, with the fields of two times
-# Bytes of memory of both ranks of the mesher: at least, and by cells to the power 2/3, as they hold the surfaces.
-MEMORY = (0.25e9, 8300)
+# Bytes of memory of the mesher. Of a host, whatever its ranks: at least, and by cells to the power 2/3, for the
+# surfaces. Of a rank: at least, and by cells of the region that it fills.
+HOST_MEMORY, RANK_MEMORY = (170e6, 2700), (68e6, 100)
+REGION_CELLS, REGIONS_MOST = 270e3, 140  # of a region at least, and of a mesh at most (mesher/policy_table.h)
 SOLVE_MEMORY_A_CELL = 2000
 UNITS = {"k": 10**3, "M": 10**6, "G": 10**9}
 SMALL = 10**9  # bytes of disk below which a run says nothing
@@ -42,8 +45,17 @@ def export_disk(cells, formats=FORMATS):
     return sum(disk_of(part, cells) for part in with_cgns if part in DISK)
 
 
-def mesher_memory(cells):
-    return MEMORY[0] + MEMORY[1] * cells ** (2 / 3)
+def host_memory(cells):
+    return HOST_MEMORY[0] + HOST_MEMORY[1] * cells ** (2 / 3)
+
+
+def rank_memory(cells):
+    return RANK_MEMORY[0] + RANK_MEMORY[1] * max(REGION_CELLS, cells / REGIONS_MOST)
+
+
+def mesher_memory(cells, ranks):
+    """Of a host."""
+    return host_memory(cells) + ranks * rank_memory(cells)
 
 
 def existing(folder):
@@ -60,7 +72,7 @@ def row(text):
     """What a run of so many cells needs, in a row of a table."""
     cells = read_count(text)
     values = (disk_of("mesh", cells), disk_of("cgns", cells), export_disk(cells), cells * SOLVED_BYTES_A_CELL,
-              mesher_memory(cells), 0.3e9 + cells * SOLVE_MEMORY_A_CELL)
+              host_memory(cells), rank_memory(cells), 0.3e9 + cells * SOLVE_MEMORY_A_CELL)
     return f"| {text} | " + " | ".join(f"{value / 1e9:,.2g}" if value < 1e11 else f"{value / 1e9:,.0f}"
                                        for value in values) + " |"
 
@@ -79,19 +91,21 @@ def main():
     parser.add_argument("words", nargs="+")
     parser.add_argument("--solve", action="store_true")
     parser.add_argument("--case")
+    parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--table", action="store_true")
     options = parser.parse_intermixed_args()
     if options.table:
         print("| cells | disk: mesh, GB | CGNS alone, GB | export, GB | solved flow, GB | "
-              "memory: mesher, all ranks, GB | OpenFOAM, GB |")
-        print("|---|---|---|---|---|---|---|")
+              "memory: mesher, a host, GB | and each rank, GB | OpenFOAM, GB |")
+        print("|---|---|---|---|---|---|---|---|")
         print("\n".join(row(text) for text in options.words))
         return
     folder, *sizes = options.words
     formats, of_case = case_says(options.case) if options.case else (FORMATS, [])
     cells = [read_count(text) for text in sizes or of_case]
     disk = sum(disk_of("mesh", n) + export_disk(n, formats) + n * SOLVED_BYTES_A_CELL * options.solve for n in cells)
-    memory = mesher_memory(max(cells)) if not options.solve else 0.3e9 + max(cells) * SOLVE_MEMORY_A_CELL
+    most = max(cells)
+    memory = 0.3e9 + most * SOLVE_MEMORY_A_CELL if options.solve else mesher_memory(most, options.ranks)
     if options.case and disk < SMALL:
         return
     free = shutil.disk_usage(existing(folder)).free + (size_of(folder) if options.case else 0)

@@ -6,9 +6,10 @@ include $(ROOT)/pipeline/require.mk
 
 # How the stages that run over MPI are started: by LAUNCHER, which brings its own number of ranks (srun -n 256); else by
 # mpirun with NP ranks, on the hosts of the file HOSTS where that is given, as many as it has slots where NP is not. The
-# flow is solved on this machine by NP ranks.
+# flow is solved on this machine by NP ranks. cutwater_ranks_here: for needs.py, where all ranks are on this machine.
 ifeq ($(HOSTS)$(LAUNCHER),)
 NP ?= 2
+cutwater_ranks_here = --ranks $(NP)
 endif
 ifneq ($(origin NP),undefined)
 $(call cutwater_require,NP,$(NP),[1-9][0-9]*,a number of ranks from 1 on)
@@ -70,7 +71,7 @@ $(3)/log/cells: FORCE
 	@$$(call cutwater_note,$(4))
 
 $(3)/mesh/record.json: $(2) $(3)/log/cells $(3)/geometry/record.json $(BIN)/cutwater-mesh
-	@python3 $(ROOT)/pipeline/needs.py $(3) --case $(2) $(4)
+	@python3 $(ROOT)/pipeline/needs.py $(3) --case $(2) $(cutwater_ranks_here) $(4)
 	@$(LAUNCHER) $(BIN)/cutwater-mesh --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 $(3)/export/record.json: $(2) $(3)/mesh/record.json $(BIN)/cutwater-export

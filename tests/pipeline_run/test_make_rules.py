@@ -89,6 +89,14 @@ class MakeRules(unittest.TestCase):
         self.assertIn("note       laminar flow", result.stdout)
         self.assertIn("report/index.html", result.stdout)
 
+    def test_memory_is_told_for_the_ranks_of_this_machine(self):
+        for words, told in (((), "--ranks 2"), (("NP=5",), "--ranks 5")):
+            self.assertRegex(self.make("-n", *words)[0].stdout, rf"needs\.py .* {told}")
+        hosts = self.case.with_name("hosts")
+        hosts.write_text("node01 slots=24\n")
+        for words in (("LAUNCHER=srun -n 256",), (f"HOSTS={hosts}", "NP=48")):
+            self.assertNotRegex(self.make("-n", *words)[0].stdout, r"needs\.py .*--ranks")
+
     def test_another_count_leaves_the_geometry(self):
         self.make("CELLS=100k")
         self.assertEqual(self.calls.read_text().count("--cells 100k"), 4)

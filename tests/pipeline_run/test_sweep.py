@@ -78,6 +78,16 @@ class Sweep(unittest.TestCase):
         self.assertRegex(told.stderr, r"^2 runs, 300,000 cells: about 0\.0\d+ GB of the .* GB free on the disk, .*\n$")
         self.assertRegex(call(WORK, "2G", "2000G").stderr, r"needs: error: .* make room, or ask for fewer cells\n$")
         self.assertEqual(call(WORK, "2000G").returncode, 1)
+        self.assertIn(" on the disk, 0.47 GB of ", call(WORK, "8M").stderr)
+        self.assertIn(" on the disk, 1.8 GB of ", call(WORK, "--ranks", "16", "8M").stderr)
+
+    def test_the_memory_of_the_mesher_is_about_what_was_measured(self):
+        for cells, ranks, measured in ((8e6, 2, 0.47e9), (8e6, 16, 1.8e9), (100e6, 1, 0.9e9), (100e6, 16, 3e9)):
+            self.assertLess(abs(needs.mesher_memory(cells, ranks) / measured - 1), 0.02, (cells, ranks))
+        table = (SOURCE / "mesher/policy_table.h").read_text()
+        policy = dict(re.findall(r"^NUMBER\(double, (\w+), ([\d.e]+)", table, re.M))
+        self.assertEqual([needs.REGION_CELLS, needs.REGIONS_MOST],
+                         [float(policy[name]) for name in ("region_cells", "regions_most")])
 
     def test_the_table_of_the_documents_is_that_of_the_script(self):
         command = re.search(r"`pipeline/(needs.py --table [^`]+)`", (SOURCE / "docs/cluster.md").read_text())[1].split()
