@@ -303,8 +303,7 @@ CwStatus cw_case_cad_read(const char *path, const char *case_path, const CwCaseN
   const CwUnit *unit;
   const CwCaseNode *item;
   CW_NEW(cad, 1);
-  *cad =
-      (CwCaseCad){.unit = 1e-3, .axis = {0, 0, 1}, .tolerance = NAN, .names_are_patches = 1, .place = section->place};
+  *cad = (CwCaseCad){.axis = {0, 0, 1}, .tolerance = NAN, .names_are_patches = 1, .place = section->place};
   CW_TRY(require_map(path, section, section_keys));
   if (!(item = member(section, "files", &unit))) {
     status = FAIL_AT(section, "the key files is missing; allowed: %s", "files: [pump.step]");

@@ -70,6 +70,7 @@ static void what_is_left_out_has_its_default(void **state) {
   CwCase table;
   if (read_text("  files: pump.step\n  cut: {radius_cm: 10}\n  domains: {a: {solid: 1}}\n", &table))
     fail_msg("%s", cw_fail_message());
+  assert_true(table.cad->unit == 0); // the file's own
   assert_true(isnan(table.cad->tolerance));
   assert_near(table.cad->axis[2], 1, 1e-12);
   assert_near(table.cad->cut.radius, 0.1, 1e-12);
