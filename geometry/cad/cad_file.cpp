@@ -206,8 +206,8 @@ CwStatus read_step(const char *path, double unit, double tolerance, CwCadBodies 
     all.push_back(document.shapes->GetShape(labels(i)));
   }
   if (bodies.body.size() == before) {
-    const CwStatus status = sew(path, all, tolerance, bodies);
-    if (status != CW_OK) return status;
+    for (TopoDS_Shape &shape : all) shape = scaled(shape, factor);
+    return sew(path, all, tolerance, bodies);
   }
   for (size_t i = before; i < bodies.body.size(); i++) bodies.body[i].solid = scaled(bodies.body[i].solid, factor);
   return CW_OK;

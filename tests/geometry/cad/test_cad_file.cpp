@@ -12,6 +12,7 @@
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Writer.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <XCAFApp_Application.hxx>
@@ -164,9 +165,38 @@ static void shells_are_sewn_or_refused(void **) {
   remove(path.c_str());
 }
 
+// The lid of the box stands off by half a percent of a unit of the file: within the tolerance in mm, not in m.
+static void shells_are_sewn_in_the_unit_that_counts(void **) {
+  const std::string path = std::string(test_folder) + "/faces.step";
+  CwCadBodies *bodies = nullptr;
+  BRep_Builder builder;
+  TopoDS_Compound faces;
+  builder.MakeCompound(faces);
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  for (int i = 1; i <= 6; i++) {
+    gp_Trsf motion;
+    if (i == 6) motion.SetTranslation(gp_Vec(0, 0, 0.005));
+    builder.Add(faces, BRepBuilderAPI_Transform(cw_cad_faces(box)(i), motion, Standard_True).Shape());
+  }
+  STEPControl_Writer writer;
+  assert_int_equal(writer.Transfer(faces, STEPControl_AsIs), IFSelect_RetDone);
+  assert_int_equal(writer.Write(path.c_str()), IFSelect_RetDone);
+  if (cw_cad_file_read(path.c_str(), 0, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(cw_cad_body_count(bodies), 1);
+  cw_cad_bodies_free(&bodies);
+  assert_int_equal(cw_cad_file_read(path.c_str(), 1, 1e-5, &bodies), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "do not close within 0.01 mm"));
+  cw_cad_bodies_free(&bodies);
+  if (cw_cad_file_read(path.c_str(), 1, 1e-2, &bodies)) fail_msg("%s", cw_fail_message());
+  assert_near(small_volume(bodies->body[0].solid), 1e9, 1e7);
+  cw_cad_bodies_free(&bodies);
+  remove(path.c_str());
+}
+
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all), cmocka_unit_test(step_files_have_their_own_unit),
                                      cmocka_unit_test(points_and_units_of_brep_files),
-                                     cmocka_unit_test(shells_are_sewn_or_refused)};
+                                     cmocka_unit_test(shells_are_sewn_or_refused),
+                                     cmocka_unit_test(shells_are_sewn_in_the_unit_that_counts)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
