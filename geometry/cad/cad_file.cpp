@@ -10,11 +10,13 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepGProp.hxx>
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
+#include <GProp_GProps.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
@@ -283,7 +285,9 @@ CwStatus cw_cad_body_holds(const CwCadBodies *bodies, int body, const double poi
   return cw_cad_guard(bodies->body[body].file, [&] {
     const gp_Pnt at(point[0] / millimetre, point[1] / millimetre, point[2] / millimetre);
     BRepClass3d_SolidClassifier classifier(bodies->body[body].solid, at, 1e-6);
-    *holds = classifier.State() == TopAbs_IN;
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(bodies->body[body].solid, properties);
+    *holds = classifier.State() == (properties.Mass() < 0 ? TopAbs_OUT : TopAbs_IN); // inside out: heal turns it
     return CW_OK;
   });
 }

@@ -23,7 +23,7 @@ int cw_cad_body_count(const CwCadBodies *bodies);
 // Of the product and of its place in an assembly; "" where the file has none.
 const char *cw_cad_body_name(const CwCadBodies *bodies, int body);
 const char *cw_cad_body_instance(const CwCadBodies *bodies, int body);
-// Whether a point, m, lies inside.
+// Whether a point, m, lies inside, also of a solid whose faces point into it.
 CwStatus cw_cad_body_holds(const CwCadBodies *bodies, int body, const double point[3], int *holds);
 
 #ifdef __cplusplus

@@ -142,6 +142,20 @@ static void points_and_units_of_brep_files(void **) {
   remove(path.c_str());
 }
 
+// Faces that point into their solid leave its inside where it is.
+static void solids_inside_out_hold_the_same_points(void **) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  const double inside[] = {0.0005, 0.0005, 0.0005}, outside[] = {0.002, 0.0005, 0.0005};
+  for (const TopoDS_Shape &solid : {box, box.Reversed()}) {
+    const CwCadBodies bodies = {{{"box.step", "", "", small_solid_of(solid), {}}}};
+    int holds;
+    assert_int_equal(cw_cad_body_holds(&bodies, 0, inside, &holds), CW_OK);
+    assert_true(holds);
+    assert_int_equal(cw_cad_body_holds(&bodies, 0, outside, &holds), CW_OK);
+    assert_false(holds);
+  }
+}
+
 static void write_faces(const std::string &path, int count) {
   BRep_Builder builder;
   TopoDS_Compound faces;
@@ -194,8 +208,10 @@ static void shells_are_sewn_in_the_unit_that_counts(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all), cmocka_unit_test(step_files_have_their_own_unit),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(step_tells_all),
+                                     cmocka_unit_test(step_files_have_their_own_unit),
                                      cmocka_unit_test(points_and_units_of_brep_files),
+                                     cmocka_unit_test(solids_inside_out_hold_the_same_points),
                                      cmocka_unit_test(shells_are_sewn_or_refused),
                                      cmocka_unit_test(shells_are_sewn_in_the_unit_that_counts)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
