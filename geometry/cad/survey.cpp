@@ -262,13 +262,13 @@ CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[
   return cw_cad_guard("cad", [&] {
     const double unit = survey->data->unit;
     const gp_Pnt at(point[0] / unit, point[1] / unit, point[2] / unit);
-    double best = reach, next = reach;
+    double best = reach / unit, next = best; // in model units, so that what is not nearer comes back as it is
     *face = -1;
     for (int i = 0; i < survey->face_count; i++) {
       const CwSurveyFace &of = survey->face[i];
-      if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= next) continue;
-      if (std::isfinite(next) && !may_reach(*survey, of, point, next)) continue;
-      const double d = unit * survey->data->part[of.part].at(of.face, at, next / unit);
+      if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= unit * next) continue;
+      if (std::isfinite(next) && !may_reach(*survey, of, point, unit * next)) continue;
+      const double d = survey->data->part[of.part].at(of.face, at, next);
       if (d < best) {
         next = best;
         best = d;
@@ -277,8 +277,8 @@ CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[
         next = d;
       }
     }
-    *distance = best;
-    if (second) *second = next;
+    *distance = unit * best;
+    if (second) *second = unit * next;
     return CW_OK;
   });
 }

@@ -83,10 +83,29 @@ static void the_nearest_face_is_found(void **) {
   assert_int_equal(face, -1);
 }
 
+// A place 0.55 mm off a pipe is not within a little less, however the quotient of reach and unit is rounded.
+static void no_face_is_nearer_than_it_is(void **) {
+  SmallParts small({{"water", small_cylinder(0, 10, 20)}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  const double at[] = {10.55 * mm * std::sqrt(0.5), 10.55 * mm * std::sqrt(0.5), 10 * mm};
+  int face;
+  double distance;
+  for (int i = 1; i < 1000; i++) {
+    assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 0.55 * mm * (1 - 1e-5 * i), &face, &distance, nullptr),
+                     CW_OK);
+    assert_int_equal(face, -1);
+  }
+  assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 0.56 * mm, &face, &distance, nullptr), CW_OK);
+  assert_int_equal(small.survey.face[face].form, CW_FORM_REVOLVED);
+  assert_near(distance, 0.55 * mm, 1e-9);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_has_planes_and_right_angles),
-                                     cmocka_unit_test(notches_are_concave), cmocka_unit_test(pipes_are_revolved),
+                                     cmocka_unit_test(notches_are_concave),
+                                     cmocka_unit_test(pipes_are_revolved),
                                      cmocka_unit_test(off_the_axis_nothing_is_revolved),
-                                     cmocka_unit_test(the_nearest_face_is_found)};
+                                     cmocka_unit_test(the_nearest_face_is_found),
+                                     cmocka_unit_test(no_face_is_nearer_than_it_is)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
