@@ -250,8 +250,10 @@ CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, con
     const CwPatchSource source = name_of(&work, f, name);
     int *patch = &patches->of_face[f];
     CW_TRY(patch_for(patches, name, survey->face[f].part, kind_of(&work, f, name), patch));
-    patches->patch[*patch].source = source;
-    patches->patch[*patch].rule = work.rule[f];
+    CwFacePatch *of = &patches->patch[*patch];
+    if (of->rule >= 0) continue; // what the case says of a patch holds for faces of its name from elsewhere
+    of->source = source;
+    of->rule = work.rule[f];
   }
   set_roles(&work, patches);
 done:

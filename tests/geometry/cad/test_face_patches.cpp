@@ -84,6 +84,19 @@ static void the_first_rule_has_a_face(void **) {
   assert_int_equal(second, 1);
 }
 
+// A rule for one wall, by the name that the others are proposed: its patch is the rule's.
+static void rules_hold_for_proposals_of_their_name(void **) {
+  Blocks blocks;
+  char number[16], *texts[] = {number};
+  snprintf(number, sizeof number, "%d", blocks.contact[0].part < 0 ? 1 : 2);
+  blocks.rule("rotor_wall").faces = {1, texts};
+  if (blocks.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(blocks.count("rotor_wall", CW_PATCH_WALL), 5);
+  const CwFacePatch &of = blocks.made.patch[blocks.made.of_face[atoi(number) - 1]];
+  assert_int_equal(of.rule, 0);
+  assert_int_equal(of.source, CW_FROM_RULE);
+}
+
 // All pieces of a face of the file come with the one that the point is on.
 static void points_take_all_pieces_of_a_face(void **) {
   Blocks blocks;
@@ -146,11 +159,10 @@ static void rules_without_a_face_are_told(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(without_rules_faces_are_proposed),
-                                     cmocka_unit_test(names_of_the_file_are_cleaned),
-                                     cmocka_unit_test(the_first_rule_has_a_face),
-                                     cmocka_unit_test(points_take_all_pieces_of_a_face),
-                                     cmocka_unit_test(kinds_must_fit),
-                                     cmocka_unit_test(rules_without_a_face_are_told)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(without_rules_faces_are_proposed), cmocka_unit_test(names_of_the_file_are_cleaned),
+      cmocka_unit_test(the_first_rule_has_a_face),        cmocka_unit_test(rules_hold_for_proposals_of_their_name),
+      cmocka_unit_test(points_take_all_pieces_of_a_face), cmocka_unit_test(kinds_must_fit),
+      cmocka_unit_test(rules_without_a_face_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
