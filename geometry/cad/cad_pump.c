@@ -62,11 +62,18 @@ static int number_of(const CwCadPump *pump, int face) {
   return cw_cad_part_face(pump->parts, of->part, of->face).number;
 }
 
-// What the faces of the file are, by their numbers, as long as none is divided: a piece does not show it. `role` holds
-// `count`.
-static void note_roles(const CwCadPump *pump, int count, CwFaceRole *role) {
+// More than there are faces, where solids are fused or small faces go.
+static int count_numbers(const CwCadPump *pump) {
+  int count = 0;
   for (int f = 0; f < pump->survey.face_count; f++)
-    if (number_of(pump, f) >= 0 && number_of(pump, f) < count) role[number_of(pump, f)] = pump->role[f];
+    if (number_of(pump, f) >= count) count = number_of(pump, f) + 1;
+  return count;
+}
+
+// What the faces of the file are, by their numbers, as long as none is divided: a piece does not show it.
+static void note_roles(const CwCadPump *pump, CwFaceRole *role) {
+  for (int f = 0; f < pump->survey.face_count; f++)
+    if (number_of(pump, f) >= 0) role[number_of(pump, f)] = pump->role[f];
 }
 
 // Pieces of blades are blades, and those of openings are openings.
@@ -101,10 +108,10 @@ CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwFaceRole *role = NULL;
   CW_TRY(read_parts(cad, log, pump));
   CW_TRY(look(cad, pump));
-  const int faces = pump->survey.face_count, blades = pump->blade_count;
+  const int numbers = count_numbers(pump), blades = pump->blade_count;
   CW_NEW(pieces, cad->domain_count);
-  CW_NEW(role, faces);
-  note_roles(pump, faces, role);
+  CW_NEW(role, numbers);
+  note_roles(pump, role);
   for (int d = 0; d < cad->domain_count; d++)
     pieces[d] = cad->domain[d].rotating && pump->blade_count > 1 ? pump->blade_count : PIECES;
   CW_TRY(cw_cad_divide(pieces, &pump->frame, log, pump->parts));
@@ -114,7 +121,7 @@ CwStatus cw_cad_pump_read(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   }
   CW_TRY(look(cad, pump));
   CW_TRY(cut_contacts(cad, log, pump));
-  keep_roles(pump, faces, role);
+  keep_roles(pump, numbers, role);
   if (blades > 1) pump->blade_count = blades;
 done:
   free(pieces);

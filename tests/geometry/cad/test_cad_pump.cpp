@@ -70,8 +70,7 @@ static void patches_are_proposed(void **) {
 }
 
 // Round posts for blades, the seam of each elsewhere: the pieces that they are divided into are no turned copies.
-static TopoDS_Shape rotor_with_posts() {
-  TopoDS_Shape water = BRepAlgoAPI_Fuse(small_cylinder(-5, 50, 10), small_cylinder(-60, 20, 55)).Shape();
+static TopoDS_Shape with_posts(TopoDS_Shape water) {
   for (int k = 0; k < 6; k++) {
     const double at = k * M_PI / 3, seam = 0.7 * k;
     const gp_Ax2 place(gp_Pnt(35 * std::cos(at), 35 * std::sin(at), -20), gp::DZ(),
@@ -81,11 +80,9 @@ static TopoDS_Shape rotor_with_posts() {
   return small_solid_of(water);
 }
 
-static void pieces_of_blades_are_blades(void **) {
+static void check_posts(const std::string &posts) {
   CwCase table;
   CwCadPump pump = {};
-  std::string posts(whole);
-  posts.replace(posts.find("pump.brep"), 9, "posts.brep");
   if (read_case(posts, &table) || cw_cad_pump_read(table.cad, NULL, &pump) || cw_cad_pump_name(table.cad, &pump))
     fail_msg("%s", cw_fail_message());
   assert_int_equal(pump.blade_count, 6);
@@ -93,6 +90,18 @@ static void pieces_of_blades_are_blades(void **) {
   assert_true(area_of(pump, "rotor_wall", CW_PATCH_WALL) == 0);
   cw_cad_pump_free(&pump);
   cw_case_free(&table);
+}
+
+static void pieces_of_blades_are_blades(void **) {
+  std::string posts(whole);
+  posts.replace(posts.find("pump.brep"), 9, "posts.brep");
+  check_posts(posts);
+}
+
+// Five lengths of pipe and the wheel, fused: the wheel's faces have greater numbers in the file than there are faces.
+static void numbers_of_fused_solids_may_be_great(void **) {
+  check_posts("  files: lengths.brep\n  domains:\n    stator: {solid: 1}\n"
+              "    rotor: {solid: [2, 3, 4, 5, 6, 7], rotating: true}\n");
 }
 
 // The first rule that takes a face has it; a point chooses one; a number is that of the sheet.
@@ -171,7 +180,12 @@ static int make_files(void **) {
   if (make_test_folder(nullptr)) return -1;
   folder = test_folder;
   const TopoDS_Shape rotor = small_rotor(), stator = small_stator();
-  small_write(folder + "/posts.brep", {rotor_with_posts(), stator});
+  const auto length = [](int number) { return small_cylinder(-60 + 11 * number, 20, 11); };
+  const TopoDS_Shape disc = small_cylinder(-5, 50, 10),
+                     wheel = BRepAlgoAPI_Fuse(disc, small_cylinder(-60, 20, 55)).Shape();
+  small_write(folder + "/posts.brep", {with_posts(wheel), stator});
+  small_write(folder + "/lengths.brep",
+              {stator, length(0), length(1), length(2), length(3), length(4), with_posts(disc)});
   gp_Trsf wider;
   wider.SetScale(gp::Origin(), 50.02 / 50);
   small_write(folder + "/pump.brep", {rotor, stator});
@@ -195,6 +209,7 @@ static int make_files(void **) {
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_proposed),
                                      cmocka_unit_test(pieces_of_blades_are_blades),
+                                     cmocka_unit_test(numbers_of_fused_solids_may_be_great),
                                      cmocka_unit_test(rules_name_patches), cmocka_unit_test(wrong_input_is_told)};
   return cmocka_run_group_tests(tests, make_files, clear_test_folder);
 }
