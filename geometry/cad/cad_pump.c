@@ -92,12 +92,16 @@ static CwStatus cut_contacts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) 
   CW_TRY(cw_contact_imprint(&pump->survey, pump->contact, pump->tolerance, log, pump->parts, &cut));
   if (!cut) goto done;
   CW_TRY(look(cad, pump));
-  for (int f = 0; f < pump->survey.face_count; f++)
-    CW_REQUIRE(pump->contact[f].part < 0 || pump->contact[f].share >= 1, CW_ERR_GEOMETRY,
-               "cad.domains: face %d of %s still touches %s with a part of it; allowed: domains that touch along whole "
-               "faces",
-               pump->survey.face[f].face + 1, cad->domain[pump->survey.face[f].part].name,
-               cad->domain[pump->contact[f].part].name);
+  for (int f = 0; f < pump->survey.face_count; f++) {
+    double at[3];
+    cw_cad_frame_to_file(&pump->frame, pump->survey.face[f].at, at);
+    CW_REQUIRE(
+        pump->contact[f].part < 0 || pump->contact[f].share >= 1, CW_ERR_GEOMETRY,
+        "cad.domains: a face of %s still touches %s with a part of it, at (%.3f, %.3f, %.3f) mm; allowed: domains "
+        "that touch along whole faces",
+        cad->domain[pump->survey.face[f].part].name, cad->domain[pump->contact[f].part].name, 1e3 * at[0], 1e3 * at[1],
+        1e3 * at[2]);
+  }
 done:
   return status;
 }

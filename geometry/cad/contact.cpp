@@ -101,6 +101,10 @@ int most_touched(const CwSurvey &survey, const CwContact *contact, int face, con
   return best;
 }
 
+std::string place_of(const double at[3], const CwCadFrame &frame) {
+  return cw_cad_place(gp_Pnt(at[0], at[1], at[2]), 1, frame);
+}
+
 TopoDS_Shape unified(const std::vector<TopoDS_Shape> &faces) {
   BRep_Builder builder;
   TopoDS_Shell shell;
@@ -142,16 +146,16 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
         return CW_FAIL(CW_ERR_GEOMETRY,
                        "cad.domains: between %s and %s is a gap or an overlap of %.4g mm, %s; "
                        "allowed: at the most cad.tolerance_mm, %.3g; draw the interface once and use it for both",
-                       cad->domain[own].name, cad->domain[p].name, 1e3 * seen.gap,
-                       cw_cad_place(gp_Pnt(seen.at[0], seen.at[1], seen.at[2]), 1, *frame).c_str(), 1e3 * tolerance);
+                       cad->domain[own].name, cad->domain[p].name, 1e3 * seen.gap, place_of(seen.at, *frame).c_str(),
+                       1e3 * tolerance);
       if (!seen.touching) continue;
       const double share = (double)seen.touching / seen.looked;
       if (std::min(contact[f].share, share) > MOST)
         return CW_FAIL(CW_ERR_GEOMETRY,
-                       "cad.domains: face %d of %s touches both %s and %s; allowed: one neighbour at any "
+                       "cad.domains: a face of %s touches both %s and %s, %s; allowed: one neighbour at any "
                        "place, domains must not overlap",
-                       survey->face[f].face + 1, cad->domain[own].name, cad->domain[contact[f].part].name,
-                       cad->domain[p].name);
+                       cad->domain[own].name, cad->domain[contact[f].part].name, cad->domain[p].name,
+                       place_of(survey->face[f].at, *frame).c_str());
       if (share <= contact[f].share) continue; // points near the outline may touch a part beside
       contact[f] = {p, share, -1};
       others[f] = seen.others;

@@ -50,6 +50,15 @@ static void gaps_are_told_with_their_size(void **) {
   assert_non_null(strstr(cw_fail_message(), "between a and b is a gap or an overlap of 0.05 mm, at (100.000"));
 }
 
+// Two domains that overlap, beside a third: its face is told by its place in the file.
+static void faces_that_touch_two_parts_are_told(void **) {
+  SmallParts small({{"a", small_box(0, 0, 0, 10, 10, 10)},
+                    {"b", small_box(10, 0, 0, 10, 10, 10)},
+                    {"c", small_box(10, 0, 0, 5, 10, 10)}});
+  assert_int_equal(small.look(), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "cad.domains: a face of a touches both b and c, at (10.000, "));
+}
+
 static void far_parts_do_not_touch(void **) {
   double share;
   SmallParts small({{"a", small_box(0, 0, 0, 100, 100, 100)}, {"b", small_box(110, 0, 0, 50, 100, 100)}});
@@ -82,7 +91,8 @@ static void edges_alone_do_not_touch(void **) {
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equal_faces_touch_wholly),      cmocka_unit_test(faces_that_touch_in_part_are_cut),
-      cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(far_parts_do_not_touch),
-      cmocka_unit_test(edges_alone_do_not_touch),      cmocka_unit_test(thin_rings_touch_wholly)};
+      cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(faces_that_touch_two_parts_are_told),
+      cmocka_unit_test(far_parts_do_not_touch),        cmocka_unit_test(edges_alone_do_not_touch),
+      cmocka_unit_test(thin_rings_touch_wholly)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
