@@ -47,6 +47,11 @@ static void set_surface(const CwSurvey *survey, const CwFacePatches *patches, Cw
   between->radius = cylinder ? radius[1] : 0;
 }
 
+// The other side of the interface, where one is that patch; else -1.
+static int beyond(const CwCadInterface *between, int patch) {
+  return between->patch[0] == patch ? between->patch[1] : between->patch[1] == patch ? between->patch[0] : -1;
+}
+
 CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, const CwContact *contact,
                                 const CwFacePatches *patches, int *count, CwCadInterface **interfaces) {
   CwStatus status = CW_OK;
@@ -58,15 +63,13 @@ CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, co
     const int own = patches->of_face[f], other = patches->of_face[contact[f].other];
     CW_TRY(check_turned(cad, survey, f, contact));
     int i = 0;
-    while (i < *count && made[i].patch[0] != own && made[i].patch[1] != own) i++;
+    while (i < *count && beyond(&made[i], own) < 0 && beyond(&made[i], other) < 0) i++;
     if (i == *count) made[(*count)++] = (CwCadInterface){.patch = {own, other}};
-    const int fits = (made[i].patch[0] == own && made[i].patch[1] == other) ||
-                     (made[i].patch[1] == own && made[i].patch[0] == other);
-    CW_REQUIRE(fits, CW_ERR_INPUT,
+    const int shared = beyond(&made[i], own) < 0 ? other : own, third = shared == own ? other : own;
+    CW_REQUIRE(beyond(&made[i], shared) == third, CW_ERR_INPUT,
                "cad.patches: patch %s touches both %s and %s; allowed: one patch on either side of an interface, give "
                "them names in cad.patches with domain",
-               patches->patch[own].name, patches->patch[other].name,
-               patches->patch[made[i].patch[made[i].patch[0] == own]].name);
+               patches->patch[shared].name, patches->patch[third].name, patches->patch[beyond(&made[i], shared)].name);
   }
   for (int i = 0; i < *count; i++) {
     set_surface(survey, patches, &made[i]);

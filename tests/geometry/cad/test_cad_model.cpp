@@ -144,6 +144,23 @@ static void names_are_those_of_generated_walls(void **) {
   assert_int_equal(patch.monitored, 0);
 }
 
+// One side of an interface as two patches, the greater above or below.
+static void interfaces_of_three_patches_are_told(void **) {
+  for (const double y : {3, 7}) {
+    const TopoDS_Shape halves = BRepAlgoAPI_Fuse(small_box(0, 0, 0, 10, y, 10), small_box(0, y, 0, 10, 10 - y, 10));
+    Made made({{"a", halves}, {"b", small_box(10, 0, 0, 5, 10, 10)}});
+    double point[][3] = {{10 * mm, (y + 10) / 2 * mm, 5 * mm}};
+    CwCadPatch rule = back_as("upper");
+    rule.near = {1, point};
+    strcpy(rule.domain, "a");
+    made.cad.patch = &rule;
+    made.cad.patch_count = 1;
+    made.cad.domain[0].rotating = made.rotating[0] = 0;
+    assert_int_equal(made.make(), CW_ERR_INPUT);
+    if (!strstr(cw_fail_message(), "cad.patches: patch b_to_a touches both ")) fail_msg("%s", cw_fail_message());
+  }
+}
+
 static void pumps_that_cannot_be_are_told(void **) {
   Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
   both.cad.domain[1].rotating = both.rotating[1] = 1;
@@ -166,8 +183,10 @@ static void pumps_that_cannot_be_are_told(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(speeds_follow_from_the_operating_point),
-                                     cmocka_unit_test(the_spiral_has_a_free_vortex), cmocka_unit_test(rules_go_before),
+                                     cmocka_unit_test(the_spiral_has_a_free_vortex),
+                                     cmocka_unit_test(rules_go_before),
                                      cmocka_unit_test(names_are_those_of_generated_walls),
+                                     cmocka_unit_test(interfaces_of_three_patches_are_told),
                                      cmocka_unit_test(pumps_that_cannot_be_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
