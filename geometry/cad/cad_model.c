@@ -8,6 +8,8 @@
 
 static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medium pumps
 static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
+static const double REACHES = 0.99;              // of the wheel's radius: a blade that ends at its outlet
+static const double LOOKS = 0.01;                // sine of the angle by which a side of a blade leaves the meridian
 
 typedef struct {
   double inlet_area, outlet_area, wheel_radius, interface_radius, interface_width;
@@ -165,6 +167,66 @@ static void measure(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePa
   }
 }
 
+// A blade: its faces that hang together.
+typedef struct {
+  double radius, height[2], area;
+  int sides; // 1: it has faces that look the way the wheel turns, 2: others that look back
+} Blade;
+
+// Of each face of a blade the least of those that it hangs together with; -1 of others.
+static void join_blades(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches, int *first) {
+  for (int f = 0; f < survey->face_count; f++) {
+    const int blade = patches->patch[patches->of_face[f]].role == CW_ROLE_BLADE;
+    first[f] = blade && cad->domain[survey->face[f].part].rotating ? f : -1;
+  }
+  for (int changed = 1; changed;) {
+    changed = 0;
+    for (int e = 0; e < survey->edge_count; e++) {
+      int *a = &first[survey->edge[e].face[0]], *b = &first[survey->edge[e].face[1]];
+      if (*a < 0 || *b < 0 || *a == *b) continue;
+      *a = *b = *a < *b ? *a : *b;
+      changed = 1;
+    }
+  }
+}
+
+static void add_to_blade(const CwSurveyFace *face, Blade *blade) {
+  const int begun = blade->area > 0;
+  blade->area += face->area;
+  blade->radius = fmax(blade->radius, face->radius[1]);
+  blade->height[0] = begun ? fmin(blade->height[0], face->height[0]) : face->height[0];
+  blade->height[1] = begun ? fmax(blade->height[1], face->height[1]) : face->height[1];
+  if (fabs(face->twist) > LOOKS) blade->sides |= face->twist > 0 ? 1 : 2;
+}
+
+// Blades side by side at the wheel's outlet, splitters among them: a multiple of the passages. Not counted are those of
+// a wheel's other half, whose middle lies beside the largest blade, and single sides, which no edge joins.
+static CwStatus count_at_outlet(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches,
+                                double radius, int passages, int *count) {
+  CwStatus status = CW_OK;
+  int *first = NULL, most = -1;
+  Blade *blade = NULL;
+  CW_NEW(first, survey->face_count);
+  CW_NEW(blade, survey->face_count);
+  join_blades(cad, survey, patches, first);
+  for (int f = 0; f < survey->face_count; f++)
+    if (first[f] >= 0) add_to_blade(&survey->face[f], &blade[first[f]]);
+  *count = 0;
+  for (int f = 0; f < survey->face_count; f++) {
+    if (blade[f].sides != 3 || blade[f].radius < REACHES * radius) blade[f].area = 0;
+    if (blade[f].area > (most < 0 ? 0 : blade[most].area)) most = f;
+  }
+  for (int f = 0; f < survey->face_count; f++) {
+    const double middle = (blade[f].height[0] + blade[f].height[1]) / 2;
+    *count += blade[f].area > 0 && middle > blade[most].height[0] && middle < blade[most].height[1];
+  }
+  if (*count == 0 || *count % passages) *count = passages;
+done:
+  free(first);
+  free(blade);
+  return status;
+}
+
 static double diameter(double area) {
   return sqrt(4 * area / M_PI);
 }
@@ -172,13 +234,13 @@ static double diameter(double area) {
 // The swirl behind the wheel is that of the head; in the spiral it goes on as a free vortex (r times swirl stays) to
 // the throat, whose middle is about as far out as the spiral's walls in the mean. The spiral's speed is the mean of
 // both ends, as in a designed pump.
-static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int blade_count) {
+static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int blades) {
   const double r2 = of->wheel_radius, r3 = of->interface_radius, u2 = point->speed * r2, width = of->interface_width;
   const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
   const double swirl = fmin(CW_GRAVITY * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
   const double w2 = hypot(u2 - swirl, meridional), before = point->flow_rate / of->inlet_area;
   const double eye = diameter(of->inlet_area), w1 = hypot(point->speed * eye / 2, before);
-  const double pitch = 2 * M_PI * r2 / blade_count * fmin(1, meridional / w2); // at the outlet, across w2
+  const double pitch = 2 * M_PI * r2 / blades * fmin(1, meridional / w2); // at the outlet, across w2
   const double outlet = diameter(of->outlet_area), after = point->flow_rate / of->outlet_area;
   const double around = fmax(swirl * r2 / r3, after);
   const double throat = fmax(swirl * r2 / fmax(r3, of->volute_radius), after);
@@ -271,7 +333,9 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
   measure(cad, survey, patches, interface_count, interfaces, &sizes);
   CW_TRY(check(cad, &table->operating_point, patches, interface_count, &sizes));
   CwWallFlow flow[CW_ALONG_COUNT];
-  const CwWaterWay way = water_way(&table->operating_point, &sizes, blade_count);
+  int blades; // with splitters
+  CW_TRY(count_at_outlet(cad, survey, patches, sizes.wheel_radius, blade_count, &blades));
+  const CwWaterWay way = water_way(&table->operating_point, &sizes, blades);
   cw_wall_flows(&way, flow);
   model->unit = unit;
   for (int d = 0; d < cad->domain_count; d++) {

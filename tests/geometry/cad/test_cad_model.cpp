@@ -69,6 +69,7 @@ static void speeds_follow_from_the_operating_point(void **) {
   assert_true(swirl * r2 / (50 * mm) < after);
   assert_near(made.patch("stator_wall").flow.speed, after, 1e-5);
   assert_near(made.patch("stator_pipe").flow.speed, flow / (320 * mm * mm), 1e-5);
+  assert_near(made.patch("blade").flow.width, 2 * M_PI * r2 / 6 * meridional / w2, 1e-7); // less than 10 mm
   assert_int_equal(made.patch("blade").group, CW_GROUP_BLADE);
   assert_int_equal(made.patch("shroud").group, CW_GROUP_HUB_SHROUD);
   assert_int_equal(made.patch("stator_wall").group, CW_GROUP_VOLUTE);
@@ -78,6 +79,33 @@ static void speeds_follow_from_the_operating_point(void **) {
   assert_near(made.patch("outlet").flow_share, 1, 1e-9);
   assert_int_equal(made.model.flow.blade_count, 6);
   assert_near(made.model.flow.reference_length, 2 * r2, 1e-6);
+}
+
+// A shorter blade between each two: the passages stay six, and at the outlet they are half as wide.
+static void splitters_halve_the_pitch(void **) {
+  TopoDS_Shape water = small_rotor();
+  for (int k = 0; k < 6; k++) {
+    gp_Trsf turn;
+    turn.SetRotation(gp::OZ(), (k + 0.5) * M_PI / 3);
+    const TopoDS_Shape splitter = small_box(35, -1.5, -20, 10, 3, 40);
+    water = BRepAlgoAPI_Cut(water, BRepBuilderAPI_Transform(splitter, turn, Standard_True).Shape()).Shape();
+  }
+  Made made({{"rotor", water}, {"stator", small_stator()}});
+  Made without({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  if (made.make() || without.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(made.model.flow.blade_count, 6);
+  assert_near(made.patch("blade").flow.width, without.patch("blade").flow.width / 2, 1e-7);
+}
+
+// Two wheels back to back on one disc: their blades, twelve in all, are six at each outlet.
+static void halves_of_a_wheel_have_their_own_blades(void **) {
+  TopoDS_Shape water = small_rotor();
+  water = BRepAlgoAPI_Cut(water, BRepAlgoAPI_Cut(small_cylinder(-1, 48, 2), small_cylinder(-2, 22, 4)).Shape()).Shape();
+  Made made({{"rotor", water}, {"stator", small_stator()}});
+  Made without({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  if (made.make() || without.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(made.model.flow.blade_count, 6);
+  assert_near(made.patch("blade").flow.width, without.patch("blade").flow.width, 1e-7);
 }
 
 // Of a greater head in half the flow the vortex is the faster.
@@ -183,6 +211,8 @@ static void pumps_that_cannot_be_are_told(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(speeds_follow_from_the_operating_point),
+                                     cmocka_unit_test(splitters_halve_the_pitch),
+                                     cmocka_unit_test(halves_of_a_wheel_have_their_own_blades),
                                      cmocka_unit_test(the_spiral_has_a_free_vortex),
                                      cmocka_unit_test(rules_go_before),
                                      cmocka_unit_test(names_are_those_of_generated_walls),
