@@ -66,14 +66,15 @@ CwStatus fuse(CwCadPart &part, const CwCadPart &other) {
   return CW_OK;
 }
 
-CwStatus check_size(const CwCaseCad &cad, double radius) {
+// `file`: of the part that reaches farthest.
+CwStatus check_size(const std::string &file, double radius) {
   if (!(radius > 0)) return CW_FAIL(CW_ERR_INPUT, "cad.domains: none rotates; allowed: rotating: true in the wheel's");
   if (radius * millimetre > 5 || radius * millimetre < 2.5e-3)
     return CW_FAIL(
         CW_ERR_INPUT,
         "cad.files: the rotating domain reaches %.6g mm from the axis, so that the wheel would have a diameter "
         "of %.4g m; allowed: 5 mm to 10 m; where %s has another unit give cad.unit_mm, such as %s",
-        radius, 2 * radius * millimetre, cad.files.text[0], radius > 5e3 ? "0.001" : "1000");
+        radius, 2 * radius * millimetre, file.c_str(), radius > 5e3 ? "1 for millimetres" : "1000 for metres");
   return CW_OK;
 }
 
@@ -85,9 +86,11 @@ CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const 
   return cw_cad_guard("cad.domains", [&]() -> CwStatus {
     CwStatus status = CW_OK;
     double radius = 0;
+    std::string file;
     int faces = 0;
     for (int d = 0; d < cad->domain_count; d++) {
       bool begun = false;
+      std::string its_file;
       for (size_t i = 0; i < bodies->body.size(); i++) {
         if (domain[i] != d) continue;
         const CwCadPart part = placed(bodies->body[i], *frame, cad->domain[d].name, faces);
@@ -98,10 +101,13 @@ CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const 
           (*parts)->part.push_back(part);
         }
         begun = true;
+        its_file = bodies->body[i].file;
       }
-      if (cad->domain[d].rotating) radius = std::max(radius, radius_of((*parts)->part.back().solid));
+      if (!cad->domain[d].rotating) continue;
+      const double reach = radius_of((*parts)->part.back().solid);
+      if (reach > radius) radius = reach, file = its_file;
     }
-    status = check_size(*cad, radius);
+    status = check_size(file, radius);
     if (status != CW_OK) return status;
     (*parts)->unit = cw_solid_unit_of_pump(2 * radius * millimetre);
     const double factor = millimetre / (*parts)->unit;

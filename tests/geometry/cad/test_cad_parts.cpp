@@ -77,11 +77,13 @@ static void wrong_parts_are_told(void **) {
   assert_non_null(
       strstr(cw_fail_message(), "cad.domains.rotor: its solids do not make one when they are fused, but 2"));
   cw_cad_parts_free(&parts);
-  const CwCadBodies huge = {{body(small_cylinder(0, 1e5, 1e4), "metres"), body(small_box(0, 0, 0, 1, 1, 1), "b")}};
+  CwCadBodies huge = {{body(small_cylinder(0, 1e5, 1e4), "metres"), body(small_box(0, 0, 0, 1, 1, 1), "b")}};
+  huge.body[0].file = "wheel.step"; // and the other is the first that the case names
   const int first[] = {0, -1};
   assert_int_equal(make(huge, first, small_frame, 1, &parts), CW_ERR_INPUT);
-  assert_non_null(
-      strstr(cw_fail_message(), "a diameter of 200 m; allowed: 5 mm to 10 m; where pump.step has another unit"));
+  assert_non_null(strstr(cw_fail_message(),
+                         "a diameter of 200 m; allowed: 5 mm to 10 m; where wheel.step has another unit give "
+                         "cad.unit_mm, such as 1 for millimetres"));
   cw_cad_parts_free(&parts);
 }
 
