@@ -47,9 +47,12 @@ static CwStatus require_map(const char *path, const CwCaseNode *node, const char
     snprintf(words, sizeof words, "free names, one a line");
   if (node->type != CW_NODE_MAP) return FAIL_AT(node, "it is no mapping; allowed: the keys %s", words);
   for (int i = 0; known && i < node->count; i++) {
-    int found = 0;
-    for (int k = 0; known[k]; k++) found |= is_key(node->item[i].key, known[k], &unit);
-    if (!found) return FAIL_AT(&node->item[i], "no such key; allowed: %s", words);
+    int k = 0;
+    while (known[k] && !is_key(node->item[i].key, known[k], &unit)) k++;
+    if (!known[k]) return FAIL_AT(&node->item[i], "no such key; allowed: %s", words);
+    for (int j = 0; j < i; j++)
+      if (is_key(node->item[j].key, known[k], &unit))
+        return FAIL_AT(&node->item[i], "given twice, first in line %d; allowed: once", node->item[j].place.line);
   }
   return status;
 }
