@@ -21,6 +21,7 @@
 #include <TopoDS_Vertex.hxx>
 
 #include "mesher/cad/cad_shape.h"
+#include "mesher/common/model_unit.h"
 
 static bool is_binary(const char *path) {
   char head[64] = {0};
@@ -90,8 +91,9 @@ template <class Curve> static CwCadKnots knots_of_curve(Curve &curve) {
 static CwStatus edge_failure(const CwCad *cad, const TopoDS_Edge &edge, int face, const char *what) {
   TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
   gp_Pnt p = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
+  const double x[3] = {p.X() * cad->unit, p.Y() * cad->unit, p.Z() * cad->unit};
   return CW_FAIL(CW_ERR_INPUT, "%s: face '%s': the edge at (%.3f, %.3f, %.3f) mm %s", cad->path.c_str(),
-                 face >= 0 ? cad->table.face[face].name : "?", p.X(), p.Y(), p.Z(), what);
+                 face >= 0 ? cad->table.face[face].name : "?", CW_MM(x), what);
 }
 
 static CwStatus read_face(CwCad *cad, int index) {

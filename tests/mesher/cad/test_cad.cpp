@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <unistd.h>
 
@@ -258,6 +259,14 @@ static void bad_solids_are_refused(void **state) {
   expect_refusal(folder, CW_ERR_INPUT, "holds 0 solids");
 }
 
+// The seam begins at (5, 0, 0) of a unit of 2 mm.
+static void places_are_told_in_millimetres(void **state) {
+  TemporaryFolder folder;
+  write_solid(folder, BRepPrimAPI_MakeCylinder(5, 12).Shape(), all_wall);
+  std::ofstream(folder.path + "/model.json") << "{\"unit_m\": 0.002}";
+  expect_refusal(folder, CW_ERR_INPUT, "the edge at (10.000, ");
+}
+
 static void binary_file_is_read_and_half_of_it_refused(void **state) {
   TemporaryFolder folder;
   TopoDS_Shape solid = quarter_cylinder();
@@ -316,6 +325,7 @@ int main(void) {
       cmocka_unit_test(spline_faces_do_the_same),
       cmocka_unit_test(edges_lie_on_both_faces),
       cmocka_unit_test(bad_solids_are_refused),
+      cmocka_unit_test(places_are_told_in_millimetres),
       cmocka_unit_test(places_are_one_within_the_tolerance),
       cmocka_unit_test(bad_face_tables_are_refused),
   };
