@@ -12,6 +12,7 @@
 #include "pipeline/log.h"
 
 enum { MESSAGE_SIZE = 1000 };
+static const double ALIKE = 0.01; // of the size
 
 typedef struct {
   const CwCaseCad *cad;
@@ -83,6 +84,20 @@ static void show(CwLog *log, const Work *work) {
   }
 }
 
+// -1 or 1: the sign of z from the middle of what rotates to that of the inlets; -1 where both lie alike, as of a wheel
+// with two eyes.
+static int suction_side(const CwCaseCad *cad, const CwCadPump *pump) {
+  double area[2] = {0}, moment[2] = {0}; // of what rotates, of inlets
+  for (int f = 0; f < pump->survey.face_count; f++) {
+    const CwSurveyFace *face = &pump->survey.face[f];
+    const int inlet = pump->patches.patch[pump->patches.of_face[f]].kind == CW_PATCH_INLET;
+    if (!inlet && !cad->domain[face->part].rotating) continue;
+    area[inlet] += face->area;
+    moment[inlet] += face->area * face->centre[2];
+  }
+  return moment[1] / area[1] - moment[0] / area[0] > ALIKE * pump->survey.size ? 1 : -1;
+}
+
 static CwStatus note(CwLog *log, const Work *work, const CwCase *table, CwRecord *record) {
   CwStatus status = CW_OK;
   const CwCadPump *pump = &work->pump;
@@ -98,6 +113,7 @@ static CwStatus note(CwLog *log, const Work *work, const CwCase *table, CwRecord
   CW_TRY(cw_record_number(record, "proposed_patches", proposed));
   CW_TRY(cw_record_number(record, "tolerance_m", pump->tolerance));
   CW_TRY(cw_record_number(record, "blade_count", pump->blade_count));
+  CW_TRY(cw_record_integer(record, "suction_side", suction_side(work->cad, pump)));
 done:
   return status;
 }

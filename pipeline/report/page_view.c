@@ -168,7 +168,7 @@ CwStatus cw_page_view(FILE *page, const CwReportData *data) {
           "zoom; with Shift, the right button or two fingers: shift. The walls, inlet and outlet of the mesh%s "
           "%d triangles.</figcaption>\n",
           view->decimated ? ", decimated to" : ":", (int)triangles);
-  CW_TRY(write_data(page, mesh, view, cw_suction_side(data->table->impeller.rotation)));
+  CW_TRY(write_data(page, mesh, view, cw_report_suction(data)));
   fprintf(page, "<script>\n%s</script>\n</figure>\n", cw_page_viewer);
 done:
   return status;

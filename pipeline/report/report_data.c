@@ -89,6 +89,11 @@ void cw_report_data_free(CwReportData *data) {
   *data = (CwReportData){0};
 }
 
+int cw_report_suction(const CwReportData *data) {
+  const double side = cw_json_real(json_object_get(data->record[0], "results"), "suction_side");
+  return side > 0 ? 1 : side < 0 ? -1 : cw_suction_side(data->table->impeller.rotation);
+}
+
 // Of a pump that no generator made: what the model says of it.
 static CwPumpSizes sizes_of_model(const CwMesh *mesh, int suction) {
   CwPumpSizes sizes = {.blade_count = mesh->flow.blade_count,
@@ -106,7 +111,7 @@ static CwPumpSizes sizes_of_model(const CwMesh *mesh, int suction) {
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
   if (!data->design) {
-    *sizes = sizes_of_model(&data->mesh, cw_suction_side(data->table->impeller.rotation));
+    *sizes = sizes_of_model(&data->mesh, cw_report_suction(data));
     return CW_OK;
   }
   static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
@@ -121,7 +126,7 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
                          .outlet_radius = 0.5 * value[1],
                          .interface_radius = value[2],
                          .base_radius = 0.5 * value[3],
-                         .suction = cw_suction_side(data->table->impeller.rotation)};
+                         .suction = cw_report_suction(data)};
 done:
   return status;
 }

@@ -34,6 +34,9 @@ void cw_report_data_free(CwReportData *data);
 // Whether the flow was solved, on the files of this export.
 int cw_report_is_solved(const CwReportData *data);
 
+// -1 or 1: the sign of z on the suction side, by the geometry's record where it says so, else by the rotation.
+int cw_report_suction(const CwReportData *data);
+
 // What the pictures need of case and design. CW_ERR_INPUT.
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);
 

@@ -12,6 +12,7 @@
 #include "pipeline/report/html.h"
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/quantity.h"
+#include "pipeline/report/report_data.h"
 #include "pipeline/report/survey.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
@@ -337,6 +338,20 @@ static void pictures_are_turned_alike(void **state) {
   free(survey);
 }
 
+// The rotation tells it of a designed pump, the geometry's record of one from CAD files.
+static void the_suction_side_is_known(void **state) {
+  CwCase table = {.impeller.rotation = CW_ROTATION_COUNTER_CLOCKWISE};
+  CwReportData data = {.table = &table};
+  assert_int_equal(cw_report_suction(&data), -1);
+  table.impeller.rotation = CW_ROTATION_CLOCKWISE;
+  assert_int_equal(cw_report_suction(&data), 1);
+  for (int side = -1; side <= 1; side += 2) {
+    data.record[0] = json_pack("{s:{s:i}}", "results", "suction_side", side);
+    assert_int_equal(cw_report_suction(&data), side);
+    json_decref(data.record[0]);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(numbers_read_well),
@@ -350,6 +365,7 @@ int main(void) {
       cmocka_unit_test(cut_cells_of_a_region_are_listed),
       cmocka_unit_test(survey_finds_places),
       cmocka_unit_test(pictures_are_turned_alike),
+      cmocka_unit_test(the_suction_side_is_known),
   };
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

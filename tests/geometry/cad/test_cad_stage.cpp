@@ -2,6 +2,7 @@
 // The stage writes what later stages and people read; where it fails it leaves the sheet, or the place of the fault.
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "cad/small_parts.hpp"
 #include "tests/test_folder.h"
@@ -27,7 +28,8 @@ static CwStatus run(const std::string &cad) {
                       << cad;
   CW_TRY(cw_case_read(path.c_str(), &table));
   CW_TRY(cw_record_start("geometry", NULL, &record));
-  status = cw_cad_stage(&args, &table, record);
+  CW_TRY(cw_cad_stage(&args, &table, record));
+  CW_TRY(cw_record_write(record, (folder + "/geometry/record.json").c_str()));
 done:
   cw_record_free(record);
   cw_case_free(&table);
@@ -47,6 +49,19 @@ static void all_files_are_written(void **) {
                            "faces_rotor.svg", "faces_stator.svg"})
     if (!is_there(name)) fail_msg("%s is missing", name);
   assert_false(is_there("fault.svg"));
+}
+
+static bool record_says(const char *text) {
+  std::ifstream in(folder + "/geometry/record.json");
+  return std::string(std::istreambuf_iterator<char>(in), {}).find(text) != std::string::npos;
+}
+
+// The small pump's inlet lies at z = -60 mm; about the axis that runs the other way at 60 mm.
+static void the_suction_side_follows_the_axis(void **) {
+  if (run(whole)) fail_msg("%s", cw_fail_message());
+  assert_true(record_says("\"suction_side\": -1"));
+  if (run(std::string("  axis: {direction: [0, 0, -1]}\n") + whole)) fail_msg("%s", cw_fail_message());
+  assert_true(record_says("\"suction_side\": 1"));
 }
 
 static void the_sheet_is_there_where_a_rule_fails(void **) {
@@ -86,8 +101,8 @@ static int make_files(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(all_files_are_written),
-                                     cmocka_unit_test(the_sheet_is_there_where_a_rule_fails),
-                                     cmocka_unit_test(the_place_of_a_fault_is_drawn)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(all_files_are_written), cmocka_unit_test(the_suction_side_follows_the_axis),
+      cmocka_unit_test(the_sheet_is_there_where_a_rule_fails), cmocka_unit_test(the_place_of_a_fault_is_drawn)};
   return cmocka_run_group_tests(tests, make_files, clear_test_folder);
 }
