@@ -66,6 +66,17 @@ static void show_fault(const CwStageArgs *args, const Work *work) {
   free(path);
 }
 
+// What an earlier run has drawn of a solid that is mended now.
+static CwStatus remove_old_fault(const CwStageArgs *args) {
+  CwStatus status = CW_OK;
+  char *path = NULL;
+  CW_TRY(cw_geometry_path(args, "fault.svg", &path));
+  remove(path);
+done:
+  free(path);
+  return status;
+}
+
 static void show(CwLog *log, const Work *work) {
   const CwCadPump *pump = &work->pump;
   for (int d = 0; d < work->cad->domain_count; d++)
@@ -123,6 +134,7 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   Work work = {.cad = table->cad};
   const double begin = cw_seconds();
   CW_NEW(work.solid, work.cad->domain_count);
+  CW_TRY(remove_old_fault(args));
   status = cw_cad_pump_read(work.cad, args->log, &work.pump);
   if (status != CW_OK && work.pump.fault.found) show_fault(args, &work);
   if (status != CW_OK) goto done;

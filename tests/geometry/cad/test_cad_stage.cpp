@@ -14,7 +14,8 @@ extern "C" {
 
 static std::string folder;
 
-static CwStatus run(const std::string &cad) {
+// `anew`: into an empty folder, not into that of the run before.
+static CwStatus run(const std::string &cad, bool anew = true) {
   CwStatus status = CW_OK;
   CwCase table = {};
   CwRecord *record = nullptr;
@@ -22,7 +23,7 @@ static CwStatus run(const std::string &cad) {
   const std::string path = folder + "/case.yaml";
   args.case_path = path.c_str();
   args.run_path = folder.c_str();
-  std::filesystem::remove_all(folder + "/geometry");
+  if (anew) std::filesystem::remove_all(folder + "/geometry");
   std::filesystem::create_directory(folder + "/geometry");
   std::ofstream(path) << "name: small\noperating_point: {flow_rate_m3_per_h: 4, head_m: 2, speed_rpm: 1450}\ncad:\n"
                       << cad;
@@ -76,6 +77,8 @@ static void the_place_of_a_fault_is_drawn(void **) {
   assert_non_null(strstr(cw_fail_message(), "cad.domains.rotor: the solid cannot be healed"));
   assert_true(is_there("fault.svg"));
   assert_false(is_there("faces_sheet.csv"));
+  assert_int_equal(run(whole, false), CW_OK);
+  assert_false(is_there("fault.svg"));
 }
 
 // A disc that lacks a lid, as a solid.
