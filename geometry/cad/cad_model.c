@@ -102,7 +102,7 @@ static CwPatchGroup group_of(const CwCaseCad *cad, const CwFacePatch *patch) {
   return cad->domain[patch->part].rotating ? CW_GROUP_HUB_SHROUD : CW_GROUP_VOLUTE;
 }
 
-// Whether the water in a part has not yet been through the wheel: it has the inlet, or none of both openings.
+// Whether the water in a part has not yet been through the wheel: it has an inlet and no outlet.
 static int is_before(const CwFacePatches *patches, int part) {
   int before = 0;
   for (int i = 0; i < patches->count; i++) {
