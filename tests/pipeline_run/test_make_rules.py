@@ -199,6 +199,7 @@ class FrontDoor(unittest.TestCase):
                             (["CELL=2M"], "CELL is no variable of this project; allowed: BUILD CELLS "),
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),
                             (["-C", "cases", "OUT="], "OUT is ''"),
+                            (["-C", "cases", "ns40-solve", "OUT=x"], "but there are several: ns40 paper"),
                             (["-C", "cases", "nothing"], "no case is called 'nothing'; allowed: ")):
             with self.subTest(words):
                 result = self.make("paper", *words)
@@ -211,7 +212,8 @@ class FrontDoor(unittest.TestCase):
         told = self.make("-C", "cases", "paper").stdout
         self.assertIn(f"--run {SOURCE}/runs/paper", told)
         told = self.make("-C", "cases", "paper", "OUT=elsewhere").stdout
-        self.assertIn(f"--run {SOURCE}/elsewhere", told)
+        self.assertIn(f"--case {SOURCE}/cases/paper/case.yaml --run {SOURCE}/elsewhere", told)
+        self.assertNotIn("overriding", told, "rules of another case for the same folder")
         told = self.make("-C", "cases", "paper-sweep", "SWEEP=100k 200k").stdout
         for cells in ("100k", "200k"):
             self.assertIn(f"--run {SOURCE}/runs/paper-{cells} --cells {cells}", told)
