@@ -24,12 +24,15 @@ SOLVED_BYTES_A_CELL = 500              # the case, in parts and whole, with the 
 HOST_MEMORY, RANK_MEMORY = (170e6, 2700), (68e6, 100)
 REGION_CELLS, REGIONS_MOST = 270e3, 140  # of a region at least, and of a mesh at most (mesher/policy_table.h)
 SOLVE_MEMORY_A_CELL = 2000
-UNITS = {"k": 10**3, "M": 10**6, "G": 10**9}
+UNITS = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 SMALL = 10**9  # bytes of disk below which a run says nothing
 
 
 def read_count(text):
-    return round(float(text[:-1]) * UNITS[text[-1]]) if text[-1] in UNITS else int(text)
+    try:
+        return round(float(text[:-1]) * UNITS[text[-1]] if text[-1] in UNITS else float(text))
+    except ValueError:
+        sys.exit(f"needs: error: '{text}' is no number of cells; allowed: 500000, 500k or 2M")
 
 
 def memory_of_machine():
@@ -79,10 +82,9 @@ def row(text):
 
 def case_says(path):
     """Formats and cells of a case file, as far as it has them; the schema has judged or will judge it."""
-    text = re.sub(r"#.*", "", Path(path).read_text())
-    formats = re.search(r"^\s+formats:\s*\[?([\w, ]+)\]?", text, re.M)
-    formats = formats or re.search(r"^export:\s*\{[^}]*formats:\s*\[?([\w, ]+)\]?", text, re.M)
-    cells = re.search(r"^\s+cells:\s*([\d.]+[kMG]?)\s*$", text, re.M)
+    text = re.sub(r"#.*", "", Path(path).read_text(encoding="utf-8"))
+    formats = re.search(r"\bformats:\s*(\[[^]]*\]|(?:\s*-\s*[\w\"']+)+|[\w\"']+)", text)
+    cells = re.search(r"\bcells:\s*([\d.]+(?:[kKMG]|e\d+)?)(?=[\s,}]|$)", text)
     return (re.findall(r"[a-z_]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"])
 
 

@@ -68,7 +68,8 @@ class Sweep(unittest.TestCase):
         self.assertGreater(y[0], y[1])
 
     def test_what_a_sweep_needs_is_told_and_refused_where_it_is_not_there(self):
-        self.assertEqual([needs.read_count(text) for text in ("500k", "1.5M", "20000")], [500000, 1500000, 20000])
+        counts = [needs.read_count(text) for text in ("500k", "1.5M", "20000", "40K", "3e6")]
+        self.assertEqual(counts, [500000, 1500000, 20000, 40000, 3000000])
 
         def call(*words):
             return subprocess.run([sys.executable, SOURCE / "pipeline/needs.py", *words], stdout=subprocess.PIPE,
@@ -80,6 +81,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(call(WORK, "2000G").returncode, 1)
         self.assertIn(" on the disk, 0.47 GB of ", call(WORK, "8M").stderr)
         self.assertIn(" on the disk, 1.8 GB of ", call(WORK, "--ranks", "16", "8M").stderr)
+        self.assertRegex(call(WORK, "1.5.5M").stderr, r"^needs: error: '1\.5\.5M' is no number of cells; allowed: .*")
 
     def test_the_memory_of_the_mesher_is_about_what_was_measured(self):
         for cells, ranks, measured in ((8e6, 2, 0.47e9), (8e6, 16, 1.8e9), (100e6, 1, 0.9e9), (100e6, 16, 3e9)):
@@ -88,6 +90,20 @@ class Sweep(unittest.TestCase):
         policy = dict(re.findall(r"^NUMBER\(double, (\w+), ([\d.e]+)", table, re.M))
         self.assertEqual([needs.REGION_CELLS, needs.REGIONS_MOST],
                          [float(policy[name]) for name in ("region_cells", "regions_most")])
+
+    def test_formats_and_cells_are_found_however_yaml_has_them(self):
+        case = fresh("needs_case") / "case.yaml"
+        both = ["cgns", "fluent"]
+        for text, formats, cells in (
+                ("export:\n  formats: [cgns, fluent]\ncgns:\n  integers: 64\n", both, "1M"),
+                ("export:\n  formats:\n    - cgns\n    - fluent\nopenfoam: {processors: 2}\n", both, "1M"),
+                ("export: {formats: [cgns,\n  fluent]}\nmesh: {cells: 2M, fill: kernel}\n", both, "2M"),
+                ("export:\n  formats: fluent  # alone\nmesh:\n  cells_per_region: 9000\n  cells: 30K # all\n",
+                 ["fluent"], "30K"),
+                ("mesh:\r\n  cells: 5e7\r\n", list(needs.FORMATS), "5e7")):
+            case.write_bytes(text.encode())
+            found = needs.case_says(case)
+            self.assertEqual((list(found[0]), found[1]), (formats, [cells]), text)
 
     def test_the_table_of_the_documents_is_that_of_the_script(self):
         command = re.search(r"`pipeline/(needs.py --table [^`]+)`", (SOURCE / "docs/cluster.md").read_text())[1].split()
