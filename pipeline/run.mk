@@ -15,6 +15,7 @@ ifneq ($(origin NP),undefined)
 $(call cutwater_require,NP,$(NP),[1-9][0-9]*,a number of ranks from 1 on)
 endif
 $(if $(and $(HOSTS),$(LAUNCHER)),$(error HOSTS is for mpirun, and LAUNCHER is given; allowed: one of them))
+$(call cutwater_require,SOLVE,$(SOLVE),1?,1 where a sweep solves its runs too)
 cutwater_solves := $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS))
 $(if $(and $(NP),$(LAUNCHER)),$(if $(cutwater_solves),,$\
   $(error NP is for mpirun, and LAUNCHER is given; allowed: the number of ranks in LAUNCHER, as 'srun -n 256')))

@@ -200,6 +200,7 @@ class FrontDoor(unittest.TestCase):
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),
                             (["-C", "cases", "OUT="], "OUT is ''"),
                             (["-C", "cases", "ns40-solve", "OUT=x"], "but there are several: ns40 paper"),
+                            (["-C", "cases", "SOLVE=0"], "SOLVE is '0'; allowed: 1 where a sweep solves"),
                             (["-C", "cases", "nothing"], "no case is called 'nothing'; allowed: ")):
             with self.subTest(words):
                 result = self.make("paper", *words)
