@@ -4,33 +4,45 @@
 GRAVITY = 9.80665  # m/s2, standard
 
 
-def lines(case, name, file):
-    """(names of the columns, words) of each line of a function object's file, those of later starts after the others.
-    A line may be unfinished where the solver is at work."""
+def files(case, name, file):
+    """(first iteration, lines) of each file of a function object, those of later starts after the others. A second
+    start from the same fields writes NAME_START.dat, for NAME.dat is there; a third writes it anew."""
     folder = case / "postProcessing" / name
     for start in sorted(folder.iterdir(), key=lambda path: float(path.name)) if folder.is_dir() else ():
-        names = []
-        for text in (start / file).read_text().splitlines() if (start / file).exists() else ():
-            words = text.lstrip("# ").replace("(", " ").replace(")", " ").split()
-            if text.startswith("#"):
-                names = words
-            elif words:
-                yield names, words
+        for path in (start / file, start / file.replace(".dat", f"_{start.name}.dat")):
+            if path.exists():
+                yield float(start.name), path.read_text().splitlines()
+
+
+def words_of(lines):
+    """(names of the columns, words) of each line. A line may be unfinished where the solver is at work."""
+    names = []
+    for text in lines:
+        words = text.lstrip("# ").replace("(", " ").replace(")", " ").split()
+        if text.startswith("#"):
+            names = words
+        elif words:
+            yield names, words
 
 
 def column(case, name, file, read):
-    """By iteration what `read` makes of (names, words); lines that are still being written are left out."""
+    """By iteration what `read` makes of (names, words); lines that are still being written are left out, and what a
+    solver reported that was stopped, behind the fields from which the next one has started."""
     found = {}
-    for names, words in lines(case, name, file):
-        try:
-            found[int(float(words[0]))] = read(names, words)
-        except (ValueError, IndexError, KeyError):
-            continue
+    for first, lines in files(case, name, file):
+        found = {iteration: row for iteration, row in found.items() if iteration <= first}
+        for names, words in words_of(lines):
+            try:
+                found[int(float(words[0]))] = read(names, words)
+            except (ValueError, IndexError, KeyError):
+                continue
     return found
 
 
 def residuals(names, words):
-    row = dict(zip(names, words, strict=True))
+    if len(words) != len(names):
+        raise ValueError("unfinished")
+    row = dict(zip(names, words))
     return {"residual_p": float(row["p_initial"]), "residual_u": max(float(row[f"U{axis}_initial"]) for axis in "xyz")}
 
 
@@ -50,9 +62,10 @@ def history(case):
 def y_plus(case):
     """Least, mean and greatest y+ of each wall, of the last report."""
     rows = {}
-    for _, words in lines(case, "yPlus", "yPlus.dat"):
-        if len(words) >= 5:
-            rows[words[1]] = {"least": float(words[2]), "most": float(words[3]), "mean": float(words[4])}
+    for _, lines in files(case, "yPlus", "yPlus.dat"):
+        for _, words in words_of(lines):
+            if len(words) >= 5:
+                rows[words[1]] = {"least": float(words[2]), "most": float(words[3]), "mean": float(words[4])}
     return rows
 
 

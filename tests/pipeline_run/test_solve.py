@@ -72,13 +72,17 @@ class LastMean(unittest.TestCase):
 
 
 class Reports(unittest.TestCase):
+    @staticmethod
+    def write(case, name, start, file, text):
+        folder = case / "postProcessing" / name / start
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / file).write_text(text)
+
     def test_files_of_later_starts_go_before_and_unfinished_lines_do_not_count(self):
         case = fresh("solve_reports")
 
-        def write(name, start, file, text):
-            folder = case / "postProcessing" / name / start
-            folder.mkdir(parents=True)
-            (folder / file).write_text(text)
+        def write(*given):
+            self.write(case, *given)
 
         write("head", "0", "fieldValueDelta.dat", "# head\n# Time\tsubtract(totalHead)\n10\t1.5\n20\t2.5\n30\t9\n")
         write("head", "20", "fieldValueDelta.dat", "# Time\n30\t3.5\n40\t")
@@ -92,6 +96,32 @@ class Reports(unittest.TestCase):
                  "residual_p": 5e-2, "residual_u": 3e-3},
             20: {"head_m": 2.5, "torque_n_m": 8}, 30: {"head_m": 3.5, "torque_n_m": 9}})
         self.assertEqual(reports.history(case / "none"), {})
+
+    def test_a_solver_that_started_again_goes_before_the_one_that_was_stopped(self):
+        case = fresh("solve_again")
+
+        def write(start, end, values):
+            heads = "# Time\n" + "".join(f"{iteration}\t{head}\n" for iteration, head in values)
+            moments = "# Time\n" + "".join(f"{iteration}\t(0 0 -{head}) (0 0 0)\n" for iteration, head in values)
+            self.write(case, "head", start, f"fieldValueDelta{end}.dat", heads)
+            self.write(case, "torque", start, f"moment{end}.dat", moments)
+
+        def heads():
+            return {iteration: row["head_m"] for iteration, row in reports.history(case).items()}
+
+        # Stopped at 30, before the first fields: OpenFOAM keeps the file, and begins another one beside it.
+        write("0", "", [(10, 1), (20, 2), (30, 3)])
+        write("0", "_0", [(10, 5)])
+        self.assertEqual(heads(), {10: 5})
+        write("0", "_0", [(iteration, 5) for iteration in range(10, 160, 10)])
+        # Stopped at 150, with fields of 100.
+        write("100", "", [])
+        self.assertEqual(heads(), {iteration: 5 for iteration in range(10, 110, 10)})
+        write("100", "", [(110, 7)])
+        self.assertEqual(max(heads()), 110)
+        self.write(case, "yPlus", "100", "yPlus.dat", "# Time\tpatch\n200\thub\t1\t9\t5\n")
+        self.write(case, "yPlus", "100", "yPlus_100.dat", "# Time\tpatch\n200\thub\t2\t8\t4\n")
+        self.assertEqual(reports.y_plus(case), {"hub": {"least": 2, "most": 8, "mean": 4}})
 
     def test_a_solver_that_ended_by_itself_has_converged(self):
         case = fresh("solve_converged")
