@@ -118,8 +118,13 @@ def progress(table, most, rate, name):
         f"{row['torque_n_m']:.4g} N m{residual}; {way}; at most {minutes:.0f} min left")
 
 
-def diverged(row):
-    return not math.isfinite(row["head_m"]) or abs(row["head_m"]) > 1e6
+def require_bounded(table, case, name):
+    """Ends where the last report is of a flow that diverges."""
+    last = max(table)
+    head, torque = (table[last][key] for key in ("head_m", "torque_n_m"))
+    if not math.isfinite(head + torque) or abs(head) > 1e6:
+        raise Trouble(f"{name}: the flow diverges at iteration {last}: see {case / 'log.simpleFoam'}; "
+                      f"try relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells")
 
 
 def watch(child, case, most, within, name):
@@ -134,9 +139,8 @@ def watch(child, case, most, within, name):
         if not table:
             continue
         last = max(table)
-        if diverged(table[last]):
-            raise Trouble(f"{name}: the flow diverges at iteration {last}: see {case / 'log.simpleFoam'}; "
-                          f"try relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells")
+        if last != first:  # else it may be what a solver reported that diverged before
+            require_bounded(table, case, name)
         if last > first and time.monotonic() - told > TELL_EVERY:
             told = time.monotonic()
             progress(table, most, (last - first) / (told - began), name)
@@ -179,6 +183,7 @@ def iterate(case, ranks, most, within, name):
         done = max(table, default=0)
         run_solver(case, ranks, most, within, name)
         table = reports.history(case)
+    require_bounded(table, case, name)
     if ranks > 1:
         call(case, "log.reconstructPar", "reconstructPar", "-latestTime")
     return table

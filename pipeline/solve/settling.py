@@ -47,7 +47,8 @@ def settled(table, within):
     for key in ("head_m", "torque_n_m"):
         for length in (WINDOW, WINDOW // 2):
             found = windows(table, key, length)
-            if not found:
+            share = left_of_way(found[0]) / max(abs(found[0][-1]), 1e-300) if found else math.inf
+            if not math.isfinite(share):
                 return False, math.inf
-            worst = max(worst, left_of_way(found[0]) / max(abs(found[0][-1]), 1e-300))
+            worst = max(worst, share)
     return worst <= within, worst

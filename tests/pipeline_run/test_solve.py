@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import unittest
+from pathlib import Path
 from unittest import mock
 
 from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, record, said
@@ -60,6 +61,12 @@ class Settled(unittest.TestCase):
     def test_three_windows_are_needed(self):
         self.assertEqual(settling.settled(history(lambda i: 10, count=250), 0.003), (False, math.inf))
         self.assertTrue(settling.settled(history(lambda i: 10, count=310), 0.003)[0])
+
+    def test_what_is_no_number_has_not_settled(self):
+        self.assertEqual(settling.settled(history(lambda i: math.nan), 0.003), (False, math.inf))
+        table = history(lambda i: 10.0)
+        table[1000]["torque_n_m"] = math.nan
+        self.assertEqual(settling.settled(table, 0.003), (False, math.inf))
 
 
 class LastMean(unittest.TestCase):
@@ -161,6 +168,35 @@ class Stop(unittest.TestCase):
                 mock.patch.object(reports, "history", lambda _: history(lambda i: 10.0)):
             foam.watch(child, case, 4000, 0.003, "flow")
         self.assertEqual((child.returncode, asked), (0, [("stopAt", "writeNow")]))
+
+
+class Divergence(unittest.TestCase):
+    def watch(self, *tables):
+        """Watches a solver that ends by itself, and reports these, one at each look."""
+        child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(0.5)"])
+        left = list(tables)
+        try:
+            with mock.patch.object(foam, "LOOK_EVERY", 0.01), \
+                    mock.patch.object(reports, "history", lambda _: left.pop(0) if len(left) > 1 else left[0]):
+                foam.watch(child, Path("case"), 4000, 0.003, "flow")
+        finally:
+            child.wait()
+
+    def test_a_flow_that_diverges_is_told(self):
+        for bad in (math.nan, 1e7):
+            with self.assertRaisesRegex(foam.Trouble, "the flow diverges at iteration 30: see case/log.simpleFoam"):
+                self.watch({}, history(lambda i: 10, 20), history(lambda i, bad=bad: bad if i == 30 else 10, 30))
+
+    def test_one_that_goes_on_is_not_ended_by_what_was_reported_before(self):
+        before = history(lambda i: math.nan if i == 150 else 10, 150)
+        self.watch(before, before, before, history(lambda i: 10, 100), history(lambda i: 10, 110))
+
+    def test_its_end_is_no_result(self):
+        table = history(lambda i: math.nan if i == 4000 else 10, 4000)
+        with mock.patch.object(foam, "set_entry", lambda *_: None), \
+                mock.patch.object(reports, "history", lambda _: table):
+            with self.assertRaisesRegex(foam.Trouble, "diverges at iteration 4000"):
+                foam.iterate(Path("case"), 1, 4000, 0.003, "flow")
 
 
 class Flow(unittest.TestCase):
