@@ -118,13 +118,16 @@ def progress(table, most, rate, name):
         f"{row['torque_n_m']:.4g} N m{residual}; {way}; at most {minutes:.0f} min left")
 
 
+def remedy(case):
+    return f"the flow diverges: try relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells"
+
+
 def require_bounded(table, case, name):
     """Ends where the last report is of a flow that diverges."""
     last = max(table)
     head, torque = (table[last][key] for key in ("head_m", "torque_n_m"))
     if not math.isfinite(head + torque) or abs(head) > 1e6:
-        raise Trouble(f"{name}: the flow diverges at iteration {last}: see {case / 'log.simpleFoam'}; "
-                      f"try relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells")
+        raise Trouble(f"{name}: iteration {last}: see {case / 'log.simpleFoam'}; {remedy(case)}")
 
 
 def watch(child, case, most, within, name):
@@ -164,11 +167,10 @@ def run_solver(case, ranks, most, within, name):
         stop_solver(child)
         raise
     if child.returncode:
-        words = (case / "log.simpleFoam").read_text(errors="replace").splitlines()
-        fatal = next((text for text in reversed(words) if "FOAM FATAL" in text or "Floating" in text), "")
-        raise Trouble(f"{name}: simpleFoam ended with {child.returncode} {fatal}: see {case / 'log.simpleFoam'}; a "
-                      f"flow that diverges wants relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more "
-                      "cells")
+        words = (case / "log.simpleFoam").read_text(errors="replace").rpartition("Build  :")[2]  # of this run
+        fatal = next((f", {text.strip(' :')}" for text in words.splitlines() if "FOAM FATAL" in text), "")
+        raise Trouble(f"{name}: simpleFoam ended with {child.returncode}{fatal}: see {case / 'log.simpleFoam'}"
+                      + (f"; {remedy(case)}" if "sigFpe::" in words else ""))
 
 
 def iterate(case, ranks, most, within, name):

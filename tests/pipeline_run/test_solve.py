@@ -184,7 +184,7 @@ class Divergence(unittest.TestCase):
 
     def test_a_flow_that_diverges_is_told(self):
         for bad in (math.nan, 1e7):
-            with self.assertRaisesRegex(foam.Trouble, "the flow diverges at iteration 30: see case/log.simpleFoam"):
+            with self.assertRaisesRegex(foam.Trouble, "iteration 30: see case/log.simpleFoam; the flow div"):
                 self.watch({}, history(lambda i: 10, 20), history(lambda i, bad=bad: bad if i == 30 else 10, 30))
 
     def test_one_that_goes_on_is_not_ended_by_what_was_reported_before(self):
@@ -195,8 +195,26 @@ class Divergence(unittest.TestCase):
         table = history(lambda i: math.nan if i == 4000 else 10, 4000)
         with mock.patch.object(foam, "set_entry", lambda *_: None), \
                 mock.patch.object(reports, "history", lambda _: table):
-            with self.assertRaisesRegex(foam.Trouble, "diverges at iteration 4000"):
+            with self.assertRaisesRegex(foam.Trouble, "iteration 4000: see .*; the flow diverges"):
                 foam.iterate(Path("case"), 1, 4000, 0.003, "flow")
+
+    def test_only_a_floating_point_exception_is_taken_for_it(self):
+        head = "Build  : OPENFOAM=1912\ntrapFpe: Floating point exception trapping enabled (FOAM_SIGFPE).\n"
+        case = fresh("solve_failed")
+        program = case / "simpleFoam"
+        for words, told, diverges in (
+                ("", "simpleFoam ended with -9: see ", False),
+                ("#1  Foam::sigFpe::sigHandler(int) at ??:?\n", "simpleFoam ended with -9: see ", True),
+                ("--> FOAM FATAL ERROR :\n    no x\n", "ended with -9, --> FOAM FATAL ERROR: see ", False),
+                ("", "simpleFoam ended with -9: see ", False)):  # the log holds those before
+            program.write_text(f"#!/bin/sh\ncat << 'END'\n{head}{words}END\nkill -9 $$\n")
+            program.chmod(0o755)
+            with mock.patch.multiple(foam, LOOK_EVERY=0.01, set_entry=lambda *_: None, ENVIRONMENT={
+                    **foam.ENVIRONMENT, "PATH": f"{case}:{foam.ENVIRONMENT['PATH']}"}):
+                with self.assertRaises(foam.Trouble) as caught:
+                    foam.run_solver(case, 1, 4000, 0.003, "flow")
+            self.assertIn(told, str(caught.exception))
+            self.assertEqual("relaxationFactors" in str(caught.exception), diverges, words)
 
 
 class Flow(unittest.TestCase):
