@@ -58,6 +58,12 @@ def set_entry(folder, file, entry, value):
     call(folder, "log.foamDictionary", "foamDictionary", "-entry", entry, "-set", value, file)
 
 
+def link(path, target):
+    """Makes `path` a link to `target` that holds where the run is moved, too."""
+    path.unlink(missing_ok=True)
+    path.symlink_to(os.path.relpath(target.resolve(), path.parent.resolve()))
+
+
 def digest_of(source, mesh):
     """What a case is made from: its texts, and the digest of its mesh."""
     found = hashlib.sha256(json.dumps(mesh, sort_keys=True).encode())
@@ -81,7 +87,7 @@ def prepare(source, case, ranks, mesh, start):
     for name in ("0", "system"):
         shutil.copytree(source / name, case / name)
     shutil.copytree(source / "constant", case / "constant", ignore=shutil.ignore_patterns("polyMesh"))
-    (case / "constant/polyMesh").symlink_to((source / "constant/polyMesh").resolve())
+    link(case / "constant/polyMesh", source / "constant/polyMesh")
     if solved:
         call(case, "log.mapFields", "mapFields", solved.resolve(), "-consistent", "-sourceTime", "latestTime",
              "-mapMethod", "mapNearest")

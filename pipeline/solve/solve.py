@@ -120,8 +120,7 @@ def coarse_start(run):
         return None
     coarse = run.folder / "solve/coarse"
     coarse.mkdir(parents=True, exist_ok=True)
-    if not (coarse / "geometry").exists():
-        (coarse / "geometry").symlink_to((run.folder / "geometry").resolve())
+    foam.link(coarse / "geometry", run.folder / "geometry")
     for stage in ("mesh", "export"):
         say(f"start with {asked:,} cells: {stage}")
         foam.call(coarse, f"log.{stage}", *foam.mpirun(options.ranks, Path(options.bin).resolve() / f"cutwater-{stage}",

@@ -20,6 +20,7 @@ sys.path.insert(0, str(SOURCE / "pipeline/solve"))
 import foam  # noqa: E402
 import reports  # noqa: E402
 import settling  # noqa: E402
+import solve  # noqa: E402
 
 CELLS = 40000
 
@@ -215,6 +216,28 @@ class Divergence(unittest.TestCase):
                     foam.run_solver(case, 1, 4000, 0.003, "flow")
             self.assertIn(told, str(caught.exception))
             self.assertEqual("relaxationFactors" in str(caught.exception), diverges, words)
+
+
+class Case(unittest.TestCase):
+    def test_a_run_that_is_moved_keeps_its_mesh(self):
+        run = fresh("solve_moved") / "run"
+        for folder in ("0", "system", "constant/polyMesh"):
+            (run / "export/openfoam" / folder).mkdir(parents=True)
+        (run / "export/openfoam/constant/polyMesh/points").write_text("here")
+        foam.prepare(run / "export/openfoam", run / "solve/steady", 1, {}, lambda: None)
+        moved = run.rename(run.with_name("moved"))
+        self.assertEqual((moved / "solve/steady/constant/polyMesh/points").read_text(), "here")
+
+    def test_a_coarse_start_finds_its_geometry(self):
+        folder = fresh("solve_coarse") / "run"
+        (folder / "geometry").mkdir(parents=True)
+        (folder / "solve/coarse").mkdir(parents=True)
+        (folder / "solve/coarse/geometry").symlink_to("/nowhere")  # as the folder was moved
+        options = mock.Mock(ranks=1, bin="bin", case=Path("case.yaml"))
+        run = mock.Mock(options=options, folder=folder, cells=10**6, within=0.003)
+        with mock.patch.object(foam, "call"), mock.patch.multiple(solve, Run=mock.Mock(), solve_design=mock.Mock()):
+            solve.coarse_start(run)
+        self.assertTrue((folder.rename(folder.with_name("moved")) / "solve/coarse/geometry").is_dir())
 
 
 class Flow(unittest.TestCase):
