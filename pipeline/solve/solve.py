@@ -159,7 +159,7 @@ def warnings_of(results, name):
     if not results["settled"]:
         found.append(f"{name}: head and torque have not settled after {results['iterations']} iterations; the result "
                      "is the mean of the last window: go on with a larger --most, or look at the transient run")
-    if results["residual_p"] and results["residual_p"] > RESIDUAL_ASKED:
+    elif results["residual_p"] and results["residual_p"] > RESIDUAL_ASKED:
         found.append(f"{name}: the residual of p is {results['residual_p']:.1e} where head and torque have come to "
                      "rest: the steady equations leave an unsteadiness; it scatters the head by "
                      f"{results['head_scatter_m'] or 0:.2g} m")

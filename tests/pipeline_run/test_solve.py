@@ -240,6 +240,15 @@ class Case(unittest.TestCase):
         self.assertTrue((folder.rename(folder.with_name("moved")) / "solve/coarse/geometry").is_dir())
 
 
+class Words(unittest.TestCase):
+    def test_the_residual_is_warned_of_only_where_the_flow_has_settled(self):
+        results = {"iterations": 9, "residual_p": 0.5, "head_scatter_m": None}
+        for settled, words in ((True, "the residual of p is 5.0e-01"), (False, "head and torque have not settled")):
+            found = solve.warnings_of({**results, "settled": settled}, "q0700")
+            self.assertEqual(len(found), 1, found)
+            self.assertIn(words, found[0])
+
+
 class Flow(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
