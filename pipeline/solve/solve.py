@@ -217,9 +217,16 @@ def parse():
     return parser.parse_args()
 
 
+def heed_signals():
+    """What ends this process ends the solver too, which has a session of its own; under nohup a hang-up does not."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler)
+
+
 def main():
     options, began = parse(), time.monotonic()
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends the solver too
+    heed_signals()
     try:
         foam.require_programs()
         if not (options.run / "export/openfoam/system").is_dir():

@@ -248,6 +248,13 @@ class Words(unittest.TestCase):
             self.assertEqual(len(found), 1, found)
             self.assertIn(words, found[0])
 
+    def test_a_terminal_that_goes_ends_it_but_not_under_nohup(self):
+        text = ("import os, signal, solve\nsolve.heed_signals()\ntry:\n    os.kill(os.getpid(), signal.SIGHUP)\n"
+                "    print('went on')\nexcept KeyboardInterrupt:\n    print('ended')\n")
+        for before, told in (([], "ended"), (["nohup"], "went on")):
+            said_here = said(self, [*before, sys.executable, "-B", "-c", text], SOURCE / "pipeline/solve")
+            self.assertEqual(said_here.splitlines()[-1], told)
+
 
 class Flow(unittest.TestCase):
     @classmethod
