@@ -230,7 +230,9 @@ def main():
     try:
         foam.require_programs()
         if not (options.run / "export/openfoam/system").is_dir():
-            raise Trouble(f"{options.run}/export/openfoam: no case; make it first (make -C cases NAME)")
+            exported = (options.run / "export/record.json").exists()
+            raise Trouble(f"{options.run}/export/openfoam: no case; " + (
+                "let export.formats of the case have openfoam" if exported else "make it first (make -C cases NAME)"))
         if (options.run / "export/openfoam/processor0").is_dir():
             raise Trouble(f"{options.run}/export/openfoam: the mesh is divided; run its Allrun, or export it whole "
                           "(openfoam.processors: 1)")
@@ -247,7 +249,7 @@ def main():
             curve = solve_curve(run, design)
             write_results(run, design, before["seconds"] + time.monotonic() - began, curve)
         held.close()
-    except Trouble as error:
+    except (Trouble, OSError) as error:
         sys.exit(f"cutwater-solve: error: {error}")
     except KeyboardInterrupt:
         sys.exit("cutwater-solve: stopped; call it again to go on")

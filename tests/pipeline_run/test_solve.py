@@ -248,6 +248,16 @@ class Words(unittest.TestCase):
             self.assertEqual(len(found), 1, found)
             self.assertIn(words, found[0])
 
+    def test_what_cannot_be_solved_is_told_in_one_line(self):
+        run = fresh("solve_words")
+        (run / "export").mkdir()
+        (run / "export/record.json").write_text("{}")
+        line = [sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", PAPER, "--run", run]
+        self.assertRegex(execute(line).stdout, r"^cutwater-solve: error: .*no case; let export.formats of .*\n$")
+        (run / "export/openfoam/system").mkdir(parents=True)
+        (run / "log").write_text("in the place of a folder")
+        self.assertRegex(execute(line).stdout, r"^cutwater-solve: error: .*File exists.*\n$")
+
     def test_a_terminal_that_goes_ends_it_but_not_under_nohup(self):
         text = ("import os, signal, solve\nsolve.heed_signals()\ntry:\n    os.kill(os.getpid(), signal.SIGHUP)\n"
                 "    print('went on')\nexcept KeyboardInterrupt:\n    print('ended')\n")
