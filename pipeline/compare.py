@@ -4,7 +4,6 @@
 differently, mesh, times, and the solved flow, each with a link to the report of the run. Charts show head, torque and
 efficiency over the cells where at least two runs were solved."""
 import html
-import json
 import os
 import sys
 
@@ -23,17 +22,10 @@ svg{max-width:100%;height:auto}@media(max-width:600px){body{padding:14px}h1{font
 """
 
 
-def read_record(run, stage):
-    path = os.path.join(run, stage, "record.json")
-    if not os.path.exists(path):
-        return None
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
-
-
 def read_run(run):
     """What the page tells of a run."""
-    records = {stage: read_record(run, stage) for stage in ("geometry", "mesh", "export", "solve", "report")}
+    records = {stage: sweep.read_record(run, stage) for stage in ("geometry", "mesh", "export", "report")}
+    records["solve"] = sweep.solve_record(run)
     return {"name": os.path.basename(os.path.normpath(run)), "records": records, "row": sweep.row_of(run),
             "case": records["mesh"].get("case", {})}
 

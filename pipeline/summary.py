@@ -79,6 +79,8 @@ def solved_line(run):
     if not os.path.exists(os.path.join(run, "solve/record.json")):
         return [], []
     record = read(run, "solve")
+    if record.get("made_from") != read(run, "export").get("files"):
+        return [("solved", "on another export; solve it again")], []
     return [("solved", record["results"]["headline"])], [("solve", warning) for warning in record["warnings"]]
 
 

@@ -24,12 +24,25 @@ SOLVED = {"head_m": r"^head +([-\d.e+]+) m", "torque_n_m": r"^shaft torque +([-\
 NAMES = {"head_m": "Head, m", "torque_n_m": "Torque, N m", "hydraulic_efficiency_percent": "Hydraulic efficiency, %"}
 
 
+def read_record(run, stage):
+    path = os.path.join(run, stage, "record.json")
+    if not os.path.exists(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def solve_record(run):
+    """That of the solved flow; None where it was solved on another export than lies there."""
+    record, export = read_record(run, "solve"), read_record(run, "export") or {}
+    return record if record and record.get("made_from") == export.get("files") else None
+
+
 def solved(run):
     """What the flow came to, by the stage `solve`, or what the solver reported last, as far as either was run."""
-    record = os.path.join(run, "solve/record.json")
-    if os.path.exists(record):
-        with open(record, encoding="utf-8") as file:
-            result = json.load(file)["results"]
+    record = solve_record(run)
+    if record:
+        result = record["results"]
         walls = result["y_plus"].values()
         found = {"head_m": result["head_m"], "torque_n_m": result["torque_n_m"],
                  "y_plus_most": max((wall["most"] for wall in walls), default=None)}
@@ -46,8 +59,7 @@ def solved(run):
 
 
 def row_of(run):
-    with open(os.path.join(run, "mesh/record.json"), encoding="utf-8") as file:
-        record = json.load(file)
+    record = read_record(run, "mesh")
     result = record["results"]
     domains = result["domains"]
     tetrahedra = sum(domain["tetrahedra"] for domain in domains)
@@ -83,8 +95,7 @@ def convergence(sizes, values):
 
 def test_head(runs):
     """The measured head of the case, None without one."""
-    with open(os.path.join(runs[0], "export/record.json"), encoding="utf-8") as file:
-        return json.load(file)["results"].get("test_head_m")
+    return read_record(runs[0], "export")["results"].get("test_head_m")
 
 
 def tell(rows):

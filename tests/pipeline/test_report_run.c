@@ -304,6 +304,20 @@ static void export_figures_are_shown(void **state) {
   free(page);
 }
 
+static void a_flow_of_another_export_is_not_told(void **state) {
+  assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
+  assert_int_equal(cw_make_directory(in_test_folder("solve")), CW_OK);
+  write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
+                                     "\"warnings\":[],\"results\":{\"cells\":4}}");
+  write_in_run("solve/record.json", "{\"made_from\":{\"pump.cgns\":\"12\"},\"seconds\":1,\"warnings\":[\"it drifts\"],"
+                                    "\"results\":{\"iterations\":300}}");
+  assert_int_equal(seal_run(test_folder), 0);
+  char *page = page_without_pictures();
+  holds(page, "The flow was solved on another export: solve it again");
+  assert_null(strstr(page, "it drifts"));
+  free(page);
+}
+
 // Files of a stage that are not those it wrote, or not those that a later one was made from.
 static void files_that_do_not_belong_together_are_told(void **state) {
   char first[300];
@@ -398,6 +412,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(tables_tell_what_was_asked, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(a_flow_of_another_export_is_not_told, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(files_that_do_not_belong_together_are_told, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(domains_of_another_mesh_are_told, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(missing_files_are_named, make_run, clear_test_folder),

@@ -62,6 +62,9 @@ class Compare(unittest.TestCase):
         write(folder / "one", 11.5, 1450, 1000)
         write(folder / "two", 12.25, 1500, 8000)
         write(folder / "unsolved", None, 1450, 100)
+        write(folder / "stale", 11.5, 1450, 4000)  # exported anew since it was solved
+        (folder / "stale/export").mkdir()
+        (folder / "stale/export/record.json").write_text(json.dumps({"files": {"pump.cgns": "1"}, "seconds": 1}))
         (folder / "no_run").mkdir()
         result = call(folder)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
@@ -70,15 +73,15 @@ class Compare(unittest.TestCase):
         page.feed(text)
         self.assertEqual(page.open, [])
         rows = {row[0]: row[1:] for row in page.rows}
-        self.assertEqual(rows[""], ["one", "two", "unsolved"])
-        self.assertEqual(rows["speed_rpm"], ["1450", "1500", "1450"])
+        self.assertEqual(rows[""], ["one", "stale", "two", "unsolved"])
+        self.assertEqual(rows["speed_rpm"], ["1450", "1450", "1500", "1450"])
         self.assertNotIn("name", rows)  # alike in all
-        self.assertEqual(rows["cells"], ["1,000", "8,000", "100"])
-        self.assertEqual(rows["head solved, m"], ["11.500", "12.250", "–"])
-        self.assertEqual(rows["settled"], ["yes", "yes", "–"])
-        self.assertEqual(rows["first height met, %"], ["90.0"] * 3)
-        self.assertEqual(rows["warnings"], ["2", "2", "1"])
-        self.assertEqual(page.links, [f"{name}/report/index.html" for name in ("one", "two", "unsolved")])
+        self.assertEqual(rows["cells"], ["1,000", "4,000", "8,000", "100"])
+        self.assertEqual(rows["head solved, m"], ["11.500", "–", "12.250", "–"])
+        self.assertEqual(rows["settled"], ["yes", "–", "yes", "–"])
+        self.assertEqual(rows["first height met, %"], ["90.0"] * 4)
+        self.assertEqual(rows["warnings"], ["2", "1", "2", "1"])
+        self.assertEqual(page.links, [f"{name}/report/index.html" for name in rows[""]])
         self.assertEqual(text.count("<circle"), 6)  # two runs in each of three charts
         self.assertNotIn("src=", text)
 

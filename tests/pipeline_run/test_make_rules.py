@@ -97,6 +97,14 @@ class MakeRules(unittest.TestCase):
         for words in (("LAUNCHER=srun -n 256",), (f"HOSTS={hosts}", "NP=48")):
             self.assertNotRegex(self.make("-n", *words)[0].stdout, r"needs\.py .*--ranks")
 
+    def test_a_flow_that_was_solved_on_another_export_is_not_told(self):
+        self.make()
+        (self.run_folder / "solve").mkdir()
+        solved = {"warnings": [], "results": {"headline": "head 9 m"}}
+        for made_from, told in (({}, "head 9 m"), ({"made_from": {"a": "1"}}, "on another export; solve it again")):
+            (self.run_folder / "solve/record.json").write_text(json.dumps({**solved, **made_from}))
+            self.assertIn(f"solved     {told}\n", self.make()[0].stdout)
+
     def test_another_count_leaves_the_geometry(self):
         self.make("CELLS=100k")
         self.assertEqual(self.calls.read_text().count("--cells 100k"), 4)
