@@ -88,9 +88,10 @@ CwStatus cw_page_curve(FILE *page, const CwReportData *data, const char *where, 
   const CwPlotSeries heads[] = {{"solved", 0x0b5c8a, curve.head}, {"design", 0xd9a24e, curve.design_head}};
   const CwPlotSeries power = {NULL, 0x0b5c8a, curve.power}, efficiency = {NULL, 0x0b5c8a, curve.efficiency};
   fputs("<h3>Characteristic curve</h3>\n<div class=\"grid\">\n", page);
-  plot(page, &curve, "head, m", heads, 2, data->table->operating_point.head,
-       "<b>Head.</b> The broken line is the head that the case asks; the design's is Euler's with slip, times its "
-       "hydraulic efficiency at the operating point.");
+  plot(page, &curve, "head, m", heads, data->design ? 2 : 1, data->table->operating_point.head,
+       data->design ? "<b>Head.</b> The broken line is the head that the case asks; the design's is Euler's with slip, "
+                      "times its hydraulic efficiency at the operating point."
+                    : "<b>Head.</b> The broken line is the head that the case asks.");
   plot(page, &curve, "shaft power, kW", &power, 1, NAN, "<b>Shaft power.</b>");
   plot(page, &curve, "hydraulic efficiency, %", &efficiency, 1, NAN, "<b>Hydraulic efficiency.</b>");
   fputs("</div>\n", page);

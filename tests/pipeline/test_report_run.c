@@ -14,6 +14,7 @@
 #include "pipeline/case_read.h"
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/report/page.h"
+#include "pipeline/report/page_parts.h"
 #include "tests/seal_run.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
@@ -304,6 +305,31 @@ static void export_figures_are_shown(void **state) {
   free(page);
 }
 
+// Only a designed pump has a predicted head away from its point.
+static void the_curve_has_the_heads_that_there_are(void **state) {
+  CwCase table = {.operating_point.head = 10};
+  json_t *points = json_loads("[{\"flow_m3_per_h\":20,\"flow_share\":0.8,\"head_m\":12},"
+                              "{\"flow_m3_per_h\":25,\"flow_share\":1,\"head_m\":11}]",
+                              0, NULL);
+  json_t *design = json_loads("{\"impeller_tip_speed_m_per_s\":15,\"slip_factor\":0.8,\"hydraulic_efficiency\":0.9,"
+                              "\"outlet_swirl_speed_m_per_s\":9}",
+                              0, NULL);
+  for (int designed = 0; designed < 2; designed++) {
+    const CwReportData data = {.table = &table, .design = designed ? design : NULL};
+    char *page = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&page, &size);
+    assert_int_equal(cw_page_curve(stream, &data, "x", points), CW_OK);
+    fclose(stream);
+    holds(page, ">solved</text>");
+    assert_int_equal(strstr(page, ">design</text>") != NULL, designed);
+    assert_int_equal(strstr(page, "the design's is Euler's") != NULL, designed);
+    free(page);
+  }
+  json_decref(points);
+  json_decref(design);
+}
+
 static void a_flow_of_another_export_is_not_told(void **state) {
   assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
   assert_int_equal(cw_make_directory(in_test_folder("solve")), CW_OK);
@@ -412,6 +438,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(tables_tell_what_was_asked, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, clear_test_folder),
+      cmocka_unit_test(the_curve_has_the_heads_that_there_are),
       cmocka_unit_test_setup_teardown(a_flow_of_another_export_is_not_told, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(files_that_do_not_belong_together_are_told, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(domains_of_another_mesh_are_told, make_run, clear_test_folder),
