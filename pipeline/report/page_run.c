@@ -106,9 +106,7 @@ CwStatus cw_page_export(FILE *page, const CwReportData *data) {
     fputs("<p>This run has not been exported: <code>export/record.json</code> is not there.</p>\n", page);
     return CW_OK;
   }
-  fputs("<p>What the exporter counted and measured while it wrote CGNS, OpenFOAM and CFX files from the same "
-        "mesh.</p>\n",
-        page);
+  fputs("<p>What the exporter counted and measured while it wrote the files of the solvers.</p>\n", page);
   result_tables(page, json_object_get(data->record[2], "results"));
   return CW_OK;
 }
