@@ -37,6 +37,13 @@ static int is_key(const char *key, const char *known, const CwUnit **unit) {
   return *unit && own && !strcmp((*unit)->quantity, own->quantity) && stem == known_stem && !strncmp(key, known, stem);
 }
 
+// The member `known` of a mapping and its unit, or NULL.
+static const CwCaseNode *member(const CwCaseNode *map, const char *known, const CwUnit **unit) {
+  for (int i = 0; i < map->count; i++)
+    if (is_key(map->item[i].key, known, unit)) return &map->item[i];
+  return NULL;
+}
+
 static CwStatus require_map(const char *path, const CwCaseNode *node, const char *const *known) {
   CwStatus status = CW_OK;
   char words[CW_WRONG_SIZE];
@@ -55,13 +62,6 @@ static CwStatus require_map(const char *path, const CwCaseNode *node, const char
         return FAIL_AT(&node->item[i], "given twice, first in line %d; allowed: once", node->item[j].place.line);
   }
   return status;
-}
-
-// The member `known` of a mapping and its unit, or NULL.
-static const CwCaseNode *member(const CwCaseNode *map, const char *known, const CwUnit **unit) {
-  for (int i = 0; i < map->count; i++)
-    if (is_key(map->item[i].key, known, unit)) return &map->item[i];
-  return NULL;
 }
 
 static CwStatus read_number(const char *path, const CwCaseNode *node, const CwUnit *unit, double least, double most,

@@ -117,6 +117,8 @@ static void wrong_values_have_their_place(void **state) {
        ":6:12: cad.unit_in: given twice, first in line 5; allowed: once"},
       {"  files: x.step\n  domains: {a: {solid: 1}}\n  patches: {w: {near_mm: [1, 2, 3], near_in: [1, 2, 3]}}\n",
        "cad.patches.w.near_in: given twice"},
+      {"  files: x.step\n  tolerance_mm: 1\n  tolerance_um: 5\n  domains: {a: {solid: 1}}\n",
+       ":6:17: cad.tolerance_um: given twice, first in line 5; allowed: once"},
       {"  files: x.step\n  axis: {direction: [0, 0, 0]}\n  domains: {a: {solid: 1}}\n", "it has no length"},
       {"  files: x.step\n  cut: {}\n  domains: {a: {solid: 1}}\n", "cad.cut: it is no surface"},
       {"  files: x.step\n  cut: {radius_mm: 3, meridian_mm: [[1, 2], [3, 4]]}\n  domains: {a: {solid: 1}}\n",
