@@ -18,9 +18,9 @@ static json_t *value_json(const CwCaseKey *key, const CwCase *table) {
   return key->type == CW_KEY_CHOICE ? json_string(key->choices[(int)value]) : json_real(value);
 }
 
-// A key that the hydraulic design computes and the case leaves out: NAN, or 0 of a count.
+// A key without a default that the case leaves out: NAN, or 0 of a count.
 static int left_out(const CwCaseKey *key, const CwCase *table) {
-  if (key->presence != CW_KEY_COMPUTED) return 0;
+  if (key->presence != CW_KEY_COMPUTED && key->presence != CW_KEY_OPTIONAL) return 0;
   double value = cw_case_key_value(key, table);
   return isnan(value) || (key->type != CW_KEY_REAL && value == 0);
 }

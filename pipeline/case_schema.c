@@ -32,6 +32,8 @@ static const char *const treatments[] = {"smooth", "rough", NULL};
   { section, key, CW_KEY_REAL, CW_KEY_DEFAULT, unit, least, most, fallback, NULL, AT(field), meaning }
 #define REAL_COMPUTED(section, key, unit, least, most, field, meaning)                                                 \
   { section, key, CW_KEY_REAL, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
+#define REAL_OPTIONAL(section, key, unit, least, most, field, meaning)                                                 \
+  { section, key, CW_KEY_REAL, CW_KEY_OPTIONAL, unit, least, most, NAN, NULL, AT(field), meaning }
 #define REAL_AUTO(section, key, unit, least, most, field, meaning)                                                     \
   { section, key, CW_KEY_REAL, CW_KEY_AUTO, unit, least, most, NAN, NULL, AT(field), meaning }
 #define LIST(section, key, unit, least, most, field, meaning)                                                          \
@@ -69,8 +71,8 @@ const CwCaseKey cw_case_keys[] = {
                  "absolute total pressure at the inlet"),
     REAL_DEFAULT("operating_point", "time_step_deg", "deg", 0.01, 20, 1, operating_point.time_step_angle,
                  "rotation in one time step of the transient run"),
-    REAL_COMPUTED("operating_point", "test_head_m", "m", 0.01, 5000, operating_point.test_head,
-                  "head that was measured here, to be drawn beside the solved ones; computed: none"),
+    REAL_OPTIONAL("operating_point", "test_head_m", "m", 0.01, 5000, operating_point.test_head,
+                  "head that was measured here, to be drawn beside the solved ones"),
 
     LIST(
         "operating_points", "flow_shares", "", 0.01, 3, operating_points.flow_shares,
@@ -82,9 +84,8 @@ const CwCaseKey cw_case_keys[] = {
                  "density; the default is water at 20 degrees Celsius"),
     REAL_DEFAULT("fluid", "kinematic_viscosity_m2_per_s", "m2_per_s", 1e-8, 1e-2, 1.004e-6, fluid.kinematic_viscosity,
                  "kinematic viscosity; the default is water at 20 degrees Celsius"),
-    REAL_COMPUTED(
-        "fluid", "temperature_c", "c", CW_WATER_COLDEST, CW_WATER_HOTTEST, fluid.temperature,
-        "of water: sets density, viscosity and vapour pressure where they are left out (IAPWS); computed: none"),
+    REAL_OPTIONAL("fluid", "temperature_c", "c", CW_WATER_COLDEST, CW_WATER_HOTTEST, fluid.temperature,
+                  "of water: sets density, viscosity and vapour pressure where they are left out (IAPWS)"),
     REAL_COMPUTED(
         "fluid", "vapour_pressure_pa", "pa", 0, 3e7, fluid.vapour_pressure,
         "absolute, for the NPSH at the inlet; computed: of water at temperature_c, else at 20 degrees Celsius"),
@@ -157,8 +158,8 @@ const CwCaseKey cw_case_keys[] = {
            "twisted: every section has its own angles; cylindrical: straight parallel to the axis"),
     REAL_DEFAULT("impeller", "lean_deg", "deg", -30, 30, 0, impeller.lean_angle,
                  "of the trailing edge from the axial direction; positive: the shroud's end ahead"),
-    REAL_COMPUTED("impeller", "splitter_start", "", 0.15, 0.8, impeller.splitter_start,
-                  "share of the meridional length where z splitter blades begin; left out: no splitters"),
+    REAL_OPTIONAL("impeller", "splitter_start", "", 0.15, 0.8, impeller.splitter_start,
+                  "share of the meridional length where z splitter blades begin"),
     REAL_DEFAULT("impeller", "splitter_position", "", 0.3, 0.7, 0.5, impeller.splitter_position,
                  "share of the pitch from a blade's pressure side to the next splitter"),
     REAL_COMPUTED("impeller", "suction_pipe_length_mm", "mm", 0.1, 1000000, impeller.suction_pipe_length,
@@ -446,6 +447,8 @@ void cw_case_schema_markdown(FILE *stream) {
       snprintf(fallback, sizeof fallback, "required");
     else if (key->presence == CW_KEY_COMPUTED)
       snprintf(fallback, sizeof fallback, "computed");
+    else if (key->presence == CW_KEY_OPTIONAL)
+      snprintf(fallback, sizeof fallback, "none");
     else if (key->presence == CW_KEY_AUTO)
       snprintf(fallback, sizeof fallback, "auto");
     else if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_CHOICES)

@@ -26,9 +26,10 @@ typedef enum {
   CW_KEY_LIST
 } CwKeyType;
 
-// A key left out is an error, has its default, or is left to the hydraulic design. An automatic key may also be given
-// as "auto", which is its default: the mesher then finds the value. A value left open is NAN, or 0 of a count.
-typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED, CW_KEY_AUTO } CwKeyPresence;
+// A key left out is an error, has its default, is left to the hydraulic design, or means that there is nothing of the
+// kind. An automatic key may also be given as "auto", which is its default: the mesher then finds the value. A value
+// left open is NAN, or 0 of a count.
+typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED, CW_KEY_OPTIONAL, CW_KEY_AUTO } CwKeyPresence;
 
 typedef struct {
   const char *section; // "" for the top of the file

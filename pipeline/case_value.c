@@ -85,7 +85,9 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
   char converted[64] = "";
   double number = NAN;
   if (plain && (!*text || !strcmp(text, "~") || !strcasecmp(text, "null"))) {
-    what = key->presence == CW_KEY_REQUIRED ? "is no value" : "is no value (leave the key out for its default)";
+    what = key->presence == CW_KEY_REQUIRED   ? "is no value"
+           : key->presence == CW_KEY_OPTIONAL ? "is no value (leave the key out)"
+                                              : "is no value (leave the key out for its default)";
   } else if (key->presence == CW_KEY_AUTO && plain && !strcmp(text, "auto")) {
     cw_case_key_set(key, key->fallback, table);
     return 1;

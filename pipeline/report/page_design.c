@@ -75,7 +75,8 @@ static const char *plain_name(const char *key) {
 static int has_row(const CwCaseKey *key, const CwCase *table) {
   if (!*key->section || key->type == CW_KEY_NAME) return 0;
   double value = cw_case_key_value(key, table);
-  return key->presence != CW_KEY_COMPUTED || !(isnan(value) || value == key->fallback);
+  const int may_be_open = key->presence == CW_KEY_COMPUTED || key->presence == CW_KEY_OPTIONAL;
+  return !may_be_open || !(isnan(value) || value == key->fallback);
 }
 
 static void input_row(FILE *page, size_t index, const CwCase *table) {

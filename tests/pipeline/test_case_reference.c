@@ -59,6 +59,15 @@ static void rows_are_sound(void **state) {
   }
 }
 
+// The column of the default says "none", and no meaning says it again.
+static void what_has_no_default_is_not_computed(void **state) {
+  char *tables = tables_text();
+  assert_non_null(strstr(tables, "| `test_head_m` | m | 0.01 to 5000 m | none | head that was measured"));
+  assert_non_null(strstr(tables, "| `splitter_start` | - | 0.15 to 0.8 | none | "));
+  assert_null(strstr(tables, "computed: none"));
+  free(tables);
+}
+
 static void every_field_of_the_case_has_a_key(void **state) {
   // Bytes that no key sets would be a field without a key; paddings are listed by their fields' sizes.
   CwCase table;
@@ -72,7 +81,7 @@ static void every_field_of_the_case_has_a_key(void **state) {
                                              : sizeof(double);
     memset(covered + key->offset, 1, size);
   }
-  memset(covered + offsetof(CwCase, cad), 1, sizeof table.cad); // a section with names of its own: docs/own-cad.md
+  memset(covered + offsetof(CwCase, cad), 1, sizeof table.cad);     // a section with names of its own: docs/own-cad.md
   memset(covered + offsetof(CwCase, given), 1, sizeof table.given); // which keys there are
   size_t bare = 0;
   for (size_t i = 0; i < sizeof table; ++i) {
@@ -89,6 +98,7 @@ int main(int argc, char **argv) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(page_holds_exactly_the_tables),
       cmocka_unit_test(rows_are_sound),
+      cmocka_unit_test(what_has_no_default_is_not_computed),
       cmocka_unit_test(every_field_of_the_case_has_a_key),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
