@@ -123,7 +123,8 @@ def page(folder, runs):
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",
              f"<title>Cutwater: runs of {name}</title><style>\n{STYLE}</style></head><body>",
              f"<h1>{len(runs)} runs of {name}</h1>",
-             "<p>Of the case only what is not alike in all runs. The names lead to the reports of the runs.</p>",
+             "<p>Of the case the keys that shape the pump, where they are not alike in all runs. The names lead to the "
+             "reports of the runs.</p>",
              *table(runs)]
     if drawn:
         lines += ["<h2>Solved flow over the cells</h2>", sweep_plot.picture(drawn)]

@@ -84,6 +84,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(page.links, [f"{name}/report/index.html" for name in rows[""]])
         self.assertEqual(text.count("<circle"), 6)  # two runs in each of three charts
         self.assertNotIn("src=", text)
+        self.assertIn("<p>Of the case the keys that shape the pump, where", text)  # records have no others
 
     def test_wrong_folders_are_told(self):
         folder = fresh("compare_empty")
