@@ -99,7 +99,10 @@ static CwStatus title(FILE *page, const CwReportData *data) {
   }
   cw_html_text(page, "<h1>Pump ", table->name, "");
   fprintf(page, ": from %s to mesh</h1>\n<p class=\"lead\">", data->design ? "design table" : "solids");
-  fprintf(page, "Centrifugal pump, %d blades, D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ", data->mesh.flow.blade_count,
+  fputs("Centrifugal pump, ", page);
+  if (data->mesh.flow.blade_count > 1) // else its passages are not equal
+    fprintf(page, "%d blades, ", data->mesh.flow.blade_count);
+  fprintf(page, "D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ",
           cw_format_number(data->mesh.flow.reference_length * 1e3, 4, text));
   fprintf(page, "Q&#8239;=&#8239;%s&#8239;m&sup3;/h, ",
           cw_format_number(table->operating_point.flow_rate * 3600, 4, text));

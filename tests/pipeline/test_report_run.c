@@ -288,6 +288,18 @@ static void tables_tell_what_was_asked(void **state) {
   free(page);
 }
 
+static void blades_are_told_where_passages_are_equal(void **state) {
+  char *page = page_without_pictures(), *manifest = read_in_run("mesh/manifest.json");
+  holds(page, "Centrifugal pump, 6 blades, D<sub>2</sub>");
+  free(page);
+  *strchr(strstr(manifest, "\"blade_count\""), '6') = '1';
+  write_in_run("mesh/manifest.json", manifest);
+  free(manifest);
+  page = page_without_pictures();
+  holds(page, "Centrifugal pump, D<sub>2</sub>");
+  free(page);
+}
+
 static void export_figures_are_shown(void **state) {
   assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
@@ -437,6 +449,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(tables_tell_what_was_asked, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(blades_are_told_where_passages_are_equal, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, clear_test_folder),
       cmocka_unit_test(the_curve_has_the_heads_that_there_are),
       cmocka_unit_test_setup_teardown(a_flow_of_another_export_is_not_told, make_run, clear_test_folder),
