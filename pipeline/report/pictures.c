@@ -70,6 +70,8 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
   for (int k = 0; k < picture->legend_count; k++) {
     if (!strcmp(picture->legend[k].label, label)) return;
   }
+  if (picture->legend_count == sizeof picture->legend / sizeof *picture->legend)
+    return; // domains have more patches together
   CwLegendItem *item = &picture->legend[picture->legend_count++];
   snprintf(item->label, sizeof item->label, "%s", label);
   for (char *c = item->label; *c; c++) {
