@@ -20,8 +20,14 @@ cutwater_variables := BUILD CELLS CHOICE HOSTS JOBS LAUNCHER NP OPTIONS OUT PART
 $(foreach variable,$(filter-out $(cutwater_variables),$(.VARIABLES)),$(if $(filter command,$(origin $(variable))),$\
   $(error $(variable) is no variable of this project; allowed: $(cutwater_variables))))
 
-# $(call cutwater_folder,NAME,VALUE): an absolute path; others count from TOP.
-cutwater_folder = $(if $(filter 1,$(words $(2))),$(abspath $(if $(filter /%,$(2)),$(2),$(TOP)/$(2))),$\
-  $(error $(1) is '$(2)'; allowed: one folder, without blanks))
+# $(call cutwater_odd,PATH): its signs that mean something in a rule or to the shell, where paths stand as they are.
+cutwater_odd = $(shell printf %s '$(subst ','\'',$(1))' | tr -d 'A-Za-z0-9/._+,@\200-\377-')
+cutwater_allowed := without blanks, of letters, digits and / . _ + , @ -
 
-$(if $(filter 1,$(words $(CURDIR))),,$(error this folder is '$(CURDIR)'; allowed: a path without blanks))
+# $(call cutwater_folder,NAME,VALUE): an absolute path; others count from TOP.
+cutwater_folder = $(if $(filter 1,$(words $(2))$(call cutwater_odd,$(2))),$\
+  $(abspath $(if $(filter /%,$(2)),$(2),$(TOP)/$(2))),$\
+  $(error $(1) is '$(2)'; allowed: one folder, $(cutwater_allowed)))
+
+$(if $(filter-out 1,$(words $(CURDIR)))$(call cutwater_odd,$(CURDIR)),$\
+  $(error this folder is '$(CURDIR)'; allowed: a path $(cutwater_allowed)))

@@ -204,6 +204,8 @@ class FrontDoor(unittest.TestCase):
                             (["NP=4", "LAUNCHER=srun"], "NP is for mpirun, and LAUNCHER is given; allowed: the number"),
                             (["JOBS=0"], "JOBS is '0'"),
                             (["OUT="], "OUT is ''; allowed: one folder, without blanks"), (["OUT=a b"], "OUT is 'a b'"),
+                            (["OUT=R&D"], "OUT is 'R&D'; allowed: one folder, without blanks, of letters, d"),
+                            (["OUT=a:b"], "OUT is 'a:b'"), (["OUT=it's"], "OUT is 'it's'"),
                             (["CELL=2M"], "CELL is no variable of this project; allowed: BUILD CELLS "),
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),
                             (["-C", "cases", "OUT="], "OUT is ''"),
