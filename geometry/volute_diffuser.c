@@ -21,6 +21,12 @@ static const double LEAST_WALL = 0.8;          // of the tongue's radius, betwee
 static const double BENT_TANGENT = 0.85;       // of a bent line's arc: less than 1, so that the bore does not shrink
 static const double LARGEST_NARROWING = 0.1;   // of the throat's width
 static const double STEP = 1 + 1e-9;           // past a bore, so that the next larger one is found
+static const double SLACK = 1e-9;              // of values that went through other units
+
+// m as tenths of a mm, not less.
+static double tenths_of_mm(double least) {
+  return ceil(1e4 * (1 - SLACK) * least) / 10;
+}
 
 CwDiffuserLines cw_diffuser_lines(const CwVolute *volute, double scale) {
   double x[3], x_phi[3];
@@ -100,11 +106,11 @@ static CwStatus set_bore_and_length(CwVolute *volute) {
              (in->discharge == CW_DISCHARGE_RADIAL ? LEAST_LENGTH_RADIAL : LEAST_LENGTH) * radius);
   volute->diffuser_angle = 2 * atan((radius - throat_radius) / volute->diffuser_length);
   volute->diffuser_area_ratio = radius * radius / (throat_radius * throat_radius);
-  CW_REQUIRE(volute->diffuser_angle < LARGEST_ANGLE, CW_ERR_DESIGN,
+  CW_REQUIRE(volute->diffuser_angle <= (1 + SLACK) * LARGEST_ANGLE, CW_ERR_DESIGN,
              "volute: diffuser_length_mm %g mm opens the diffuser by %.1f deg; allowed: at most %.0f deg (at "
              "least %.1f mm)",
              volute->diffuser_length * 1e3, volute->diffuser_angle / CW_DEGREE, LARGEST_ANGLE / CW_DEGREE,
-             1e3 * (radius - throat_radius) / tan(0.5 * LARGEST_ANGLE));
+             tenths_of_mm((radius - throat_radius) / tan(0.5 * LARGEST_ANGLE)));
 done:
   return status;
 }
@@ -199,10 +205,10 @@ static CwStatus end_radial(CwVolute *volute) {
   const double least = LEAST_BEND_RADIUS * 0.5 * volute->input.outlet_diameter;
   const Context context = {.volute = volute};
   const double bend = cw_root_find(bend_excess, &context, 1e-3, LARGEST_BEND);
-  CW_REQUIRE(volute->diffuser_length >= least * bend, CW_ERR_DESIGN,
+  CW_REQUIRE(volute->diffuser_length >= (1 - SLACK) * least * bend, CW_ERR_DESIGN,
              "volute: diffuser_length_mm %g mm is too short for a radial discharge, which bends it by %.0f deg; "
              "allowed: at least %.1f mm",
-             volute->diffuser_length * 1e3, bend / CW_DEGREE, 1e3 * least * bend);
+             volute->diffuser_length * 1e3, bend / CW_DEGREE, tenths_of_mm(least * bend));
   end_diffuser(volute, volute->outlet_x, volute->outlet_y, bend);
 done:
   return status;

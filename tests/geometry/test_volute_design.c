@@ -258,6 +258,21 @@ static void diffuser(void **state) {
   assert_near(volute.diffuser_angle, 2 * atan((50 - 33.945) / 240), 1e-4);
 }
 
+// The largest angle of the key, 30 degrees, and the least length that a refusal names, (50 - 33.945) / 2 / tan 15 deg =
+// 29.96 mm, are allowed.
+static void widest_diffuser(void **state) {
+  CwVoluteInput input = volute_of_paper();
+  input.diffuser_angle = 30 * degree;
+  assert_near(designed(&input).diffuser_angle, 30 * degree, 1e-9);
+  input.diffuser_length = 20 * mm;
+  CwVolute volute;
+  assert_int_equal(cw_volute_design(&input, &volute), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "(at least 30.0 mm)"));
+  cw_fail_clear();
+  input.diffuser_length = 30 * mm;
+  assert_true(designed(&input).diffuser_angle > 29.9 * degree);
+}
+
 // Least distance of the diffuser's walls at z = 0, square to its axis at the throat, over that of the throat.
 static double narrowest(const CwVolute *volute) {
   const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
@@ -431,6 +446,7 @@ int main(void) {
       cmocka_unit_test(throat_by_strips),
       cmocka_unit_test(tongue_touches),
       cmocka_unit_test(diffuser),
+      cmocka_unit_test(widest_diffuser),
       cmocka_unit_test(long_diffusers_are_not_pinched),
       cmocka_unit_test(chosen_gap),
       cmocka_unit_test(free_gap),
