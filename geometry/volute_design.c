@@ -214,10 +214,12 @@ static CwStatus check_input(const CwVoluteInput *in) {
                ranges[i].value * ranges[i].unit, ranges[i].unit_name, ranges[i].least * ranges[i].unit,
                ranges[i].largest * ranges[i].unit, ranges[i].unit_name);
   }
+  // The interface lies half-way between the wheel and D3/2, and moves out with a greater D3.
+  const double wheel = 2 * in->interface_radius - 0.5 * d3, least_d3 = 2 * wheel / (1 - 4 * LEAST_NECK);
   CW_REQUIRE(0.5 * d3 >= in->interface_radius + LEAST_NECK * d3 * (1 - SLACK), CW_ERR_DESIGN,
-             "volute: base_diameter_mm (D3) is %g mm; allowed: at least %g mm, so that the neck from the interface at "
-             "r = %g mm to D3/2 has %.2g D3",
-             d3 * 1e3, 2e3 * in->interface_radius / (1 - 2 * LEAST_NECK), in->interface_radius * 1e3, LEAST_NECK);
+             "volute: base_diameter_mm (D3) is %g mm; allowed: at least %.2f mm, so that the neck from the interface, "
+             "now at r = %g mm, to D3/2 has %.2g D3",
+             d3 * 1e3, ceil(1e5 * (1 - SLACK) * least_d3) / 100, in->interface_radius * 1e3, LEAST_NECK);
   CW_REQUIRE(in->section != CW_SECTION_CIRCLE || isnan(in->corner_radius), CW_ERR_DESIGN,
              "volute: corner_radius_mm is %g mm, but a circle has no corners; allowed: with section trapezoid or "
              "rectangle",

@@ -438,27 +438,29 @@ static void wrong_input(void **state) {
   refuse(input, "Q / (K3 sqrt(2 g H))");
 }
 
+// A wheel of 204 mm wants 204 / (1 - 4 0.00125) = 205.0251 mm; the interface lies half-way between both radii.
+static void least_base_diameter(void **state) {
+  CwVoluteInput input = volute_of_paper();
+  input.base_diameter = 204.02 * mm;
+  input.interface_radius = (204 * mm + input.base_diameter) / 4;
+  refuse(input, "base_diameter_mm (D3) is 204.02 mm; allowed: at least 205.03 mm");
+  input.base_diameter = 205.03 * mm;
+  input.interface_radius = (204 * mm + input.base_diameter) / 4;
+  designed(&input);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(trapezoid_heights),
-      cmocka_unit_test(section_by_strips),
-      cmocka_unit_test(spiral_by_swirl),
-      cmocka_unit_test(throat_by_strips),
-      cmocka_unit_test(tongue_touches),
-      cmocka_unit_test(diffuser),
-      cmocka_unit_test(widest_diffuser),
-      cmocka_unit_test(long_diffusers_are_not_pinched),
-      cmocka_unit_test(chosen_gap),
-      cmocka_unit_test(free_gap),
-      cmocka_unit_test(slim_gap),
-      cmocka_unit_test(throat_passes_the_flow),
-      cmocka_unit_test(wrong_input),
-      cmocka_unit_test(arc_beyond_axis),
-      cmocka_unit_test(families_of_sections),
-      cmocka_unit_test(wall_derivatives),
-      cmocka_unit_test(tongue_angle),
-      cmocka_unit_test(nearest_tongue),
-      cmocka_unit_test(area_ratio),
+      cmocka_unit_test(trapezoid_heights), cmocka_unit_test(section_by_strips),
+      cmocka_unit_test(spiral_by_swirl),   cmocka_unit_test(throat_by_strips),
+      cmocka_unit_test(tongue_touches),    cmocka_unit_test(diffuser),
+      cmocka_unit_test(widest_diffuser),   cmocka_unit_test(long_diffusers_are_not_pinched),
+      cmocka_unit_test(chosen_gap),        cmocka_unit_test(free_gap),
+      cmocka_unit_test(slim_gap),          cmocka_unit_test(throat_passes_the_flow),
+      cmocka_unit_test(wrong_input),       cmocka_unit_test(least_base_diameter),
+      cmocka_unit_test(arc_beyond_axis),   cmocka_unit_test(families_of_sections),
+      cmocka_unit_test(wall_derivatives),  cmocka_unit_test(tongue_angle),
+      cmocka_unit_test(nearest_tongue),    cmocka_unit_test(area_ratio),
       cmocka_unit_test(radial_discharge),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
