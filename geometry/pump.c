@@ -19,11 +19,11 @@ static const double OPEN_ZONE = 1;     // of the diameter, where the length is l
 
 static CwStatus check_zone(const char *what, double given, double stub, double diameter) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(given - stub >= LEAST_ZONE * diameter * (1 - 1e-9), CW_ERR_DESIGN,
+  const double least = stub + LEAST_ZONE * diameter * (1 - 1e-9);
+  CW_REQUIRE(given >= least, CW_ERR_DESIGN,
              "the %s pipe of %.1f mm leaves %.1f mm to a zone of its own; it needs %.1f mm: raise "
              "%s_pipe_length_mm to at least %.1f, or leave out %s_pipe_zone",
-             what, 1e3 * given, 1e3 * (given - stub), 1e3 * LEAST_ZONE * diameter, what,
-             1e3 * (stub + LEAST_ZONE * diameter), what);
+             what, 1e3 * given, 1e3 * (given - stub), 1e3 * LEAST_ZONE * diameter, what, ceil(1e4 * least) / 10, what);
 done:
   return status;
 }

@@ -126,6 +126,14 @@ static void a_short_pipe_is_refused(void **) {
   design = design_of(&table);
   assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
   assert_non_null(std::strstr(cw_fail_message(), "raise discharge_pipe_length_mm to at least 25.0"));
+  table.volute.outlet_diameter = 0.05005; // half of it is 25.025 mm
+  design = design_of(&table);
+  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
+  assert_non_null(std::strstr(cw_fail_message(), "raise discharge_pipe_length_mm to at least 25.1"));
+  cw_fail_clear();
+  table.volute.discharge_pipe_length = 0.0251;
+  design = design_of(&table);
+  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_OK);
 }
 
 // Round a shaft the zone is a ring, whose inner wall is the shaft; thinner than the hub, and as thick.
