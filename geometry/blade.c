@@ -2,6 +2,7 @@
 #include "geometry/blade.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "pipeline/order.h"
 
@@ -139,6 +140,19 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
   return range[0] >= least_beta && range[1] <= largest_beta && fabs(beta[1] - 45 * CW_DEGREE) < 43.9 * CW_DEGREE;
 }
 
+static int given_outside(const CwDesign *design, CwDesignQuantity quantity, double beta) {
+  return (beta < least_beta || beta > largest_beta) && !strcmp(design->source[quantity], "case");
+}
+
+// What brings the angles of a law into their range. No wrap does where a given angle lies outside.
+static const char *law_remedy(const CwDesign *design, const double beta[3], const double range[2]) {
+  return given_outside(design, CW_DESIGN_outlet_blade_angle, beta[2]) ? "change outlet_blade_angle_deg"
+         : given_outside(design, CW_DESIGN_inlet_blade_angle, beta[0])
+             ? "change inlet_blade_angle_deg or move the leading edge radii"
+         : range[1] > largest_beta ? "raise wrap_angle_deg or move the leading edge radii"
+                                   : "lower wrap_angle_deg or move the leading edge radii";
+}
+
 // Where the ellipse of the leading edge ends.
 static double nose_of(const CwDesign *design, const CwBladeSection *section) {
   double x[2], dx[2];
@@ -154,9 +168,9 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
   CW_REQUIRE(close_law(design, meridian, place, wrap, beta, range), CW_ERR_DESIGN,
              "a wrap of %.2f deg with beta1 %.2f and beta2 %.2f deg asks for blade angles of %.2f to %.2f "
              "deg at span "
-             "%.2f; 12 to 60 deg are allowed: %s wrap_angle_deg or move the leading edge radii",
+             "%.2f; 12 to 60 deg are allowed: %s",
              wrap / CW_DEGREE, beta[0] / CW_DEGREE, beta[2] / CW_DEGREE, range[0] / CW_DEGREE, range[1] / CW_DEGREE,
-             place, range[1] > largest_beta ? "raise" : "lower");
+             place, law_remedy(design, beta, range));
   *section = (CwBladeSection){.meridian = meridian, .span = span, .form = design->blade_form};
   for (int i = 0; i < 3; i++) section->beta[i] = beta[i];
   section->theta[CW_BLADE_STEPS] = 0;

@@ -98,6 +98,21 @@ static void given_values_give_way(void **state) {
   assert_near(design_of(&table).hub_diameter, 0.65 * table.impeller.inlet_diameter, 1e-12);
 }
 
+// Blade angles from 5 to 85 degrees can be given, those from 12 to 60 be built: the refusal names the angle that was
+// given, which no wrap changes.
+static void given_angles_outside_the_range_are_named(void **state) {
+  CwDesign refused;
+  CwCase table = duty_point(54, 20, 1800);
+  table.impeller.outlet_blade_angle = 65 * degree;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "12 to 60 deg are allowed: change outlet_blade_angle_deg"));
+  table = duty_point(54, 20, 1800);
+  table.impeller.inlet_blade_angle = 8 * degree;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "12 to 60 deg are allowed: change inlet_blade_angle_deg"));
+  cw_fail_clear();
+}
+
 // A given wheel somewhat too small or too large for its head at any outlet blade angle: b2 meets the head. A given b2
 // leaves nothing open.
 static void open_outlet_width_meets_the_head_of_a_given_wheel(void **state) {
@@ -161,6 +176,7 @@ int main(void) {
       cmocka_unit_test(open_outlet_width_meets_the_head_of_a_given_wheel),
       cmocka_unit_test(head_gives_way_to_given_dimensions),
       cmocka_unit_test(given_values_give_way),
+      cmocka_unit_test(given_angles_outside_the_range_are_named),
       cmocka_unit_test(cylindrical_blades_stand_on_the_walls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
