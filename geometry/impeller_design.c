@@ -25,6 +25,26 @@ static double largest_leading_edge(const CwDesign *design) {
   return 0.7 * M_PI * design->inlet_diameter * sin(30 * CW_DEGREE) / design->blade_count;
 }
 
+// Nut and shaft. A shaft as thick as the hub leaves no nut.
+static void hub_end(const CwImpellerTable *given, CwDesign *design) {
+  const double shaft = given->through_shaft_diameter;
+  SET(through_shaft_diameter, fmin(shaft, design->hub_diameter), shaft > 0 ? "case" : "none");
+  if (shaft > 0 && shaft > (1 - 1e-9) * design->hub_diameter) {
+    SET(nut_length, 0, "none: the shaft is as thick as the hub");
+    SET(nut_disk_radius, design->hub_diameter / 2, "the shaft's");
+    if (cw_case_given(given->nut_length))
+      GIVE_WAY(nut_length, 0, given->nut_length, "hub_nut_length_mm gives way to a shaft as thick as the hub");
+  } else {
+    TAKE(nut_length, given->nut_length, 7.0 / 12 * (design->hub_diameter - shaft),
+         shaft > 0 ? "7/12 of the hub's diameter over the shaft's" : "7/12 hub diameter");
+    TAKE(nut_disk_radius, shaft > 0 ? shaft / 2 : given->nut_flat_diameter / 2, 0.145 * design->hub_diameter,
+         "0.145 hub diameter");
+  }
+  if (shaft > 0 && cw_case_given(given->nut_flat_diameter))
+    GIVE_WAY(nut_disk_radius, design->nut_disk_radius, given->nut_flat_diameter / 2,
+             "hub_nut_flat_diameter_mm gives way to the shaft through the inlet");
+}
+
 static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
   const CwImpellerTable *given = &table->impeller;
   const char *source;
@@ -51,18 +71,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
   TAKE(axial_length, given->axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Guelich: (D2 - D1) (nq/74)^1.07");
-  // A shaft as thick as the hub leaves no nut.
-  const double shaft = given->through_shaft_diameter;
-  SET(through_shaft_diameter, fmin(shaft, design->hub_diameter), shaft > 0 ? "case" : "none");
-  if (shaft > 0 && shaft > (1 - 1e-9) * design->hub_diameter) {
-    SET(nut_length, 0, "none: the shaft is as thick as the hub");
-    SET(nut_disk_radius, design->hub_diameter / 2, "the shaft's");
-  } else {
-    TAKE(nut_length, given->nut_length, 7.0 / 12 * (design->hub_diameter - shaft),
-         shaft > 0 ? "7/12 of the hub's diameter over the shaft's" : "7/12 hub diameter");
-    TAKE(nut_disk_radius, shaft > 0 ? shaft / 2 : given->nut_flat_diameter / 2, 0.145 * design->hub_diameter,
-         "0.145 hub diameter");
-  }
+  hub_end(given, design);
   SET(root_fillet_radius, given->root_fillet_radius, "case or its default");
   value = CORRELATED(CW_CORRELATED_BLADE_COUNT);
   design->blade_count = given->blade_count ? given->blade_count : (int)value;
@@ -369,6 +378,23 @@ done:
   return status;
 }
 
+// The nose narrows from the hub on, and the hub's radius grows to that of the interface and no further.
+static CwStatus check_hub(const CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double hub = design->hub_diameter / 2, eye = design->inlet_diameter / 2 - hub;
+  const double way = design->interface_radius - hub;
+  CW_REQUIRE(design->nut_length == 0 || design->nut_disk_radius < hub, CW_ERR_DESIGN,
+             "the flat end of the nut has %.4g mm, the hub %.4g mm: lower hub_nut_flat_diameter_mm to less than that "
+             "(%.3g are usual), or raise hub_diameter_mm",
+             2e3 * design->nut_disk_radius, 2e3 * hub, 0.29e3 * 2 * hub);
+  CW_REQUIRE(design->hub_pole_radial * eye < way, CW_ERR_DESIGN,
+             "hub_pole_radial of %.3g leads the hub beyond the interface at r = %.4g mm and back to it: lower "
+             "hub_pole_radial to %.3g",
+             design->hub_pole_radial, 1e3 * design->interface_radius, 0.9 * way / eye);
+done:
+  return status;
+}
+
 // The dimensions of the wheel for its head.
 static CwStatus solve_wheel(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
@@ -377,6 +403,7 @@ static CwStatus solve_wheel(const CwCase *table, CwMeridian *meridian, CwDesign 
   else
     CW_TRY(solve_outlet_diameter(table, meridian, design));
   CW_TRY(check_head(table, design));
+  CW_TRY(check_hub(design));
 done:
   return status;
 }

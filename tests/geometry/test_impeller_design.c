@@ -113,6 +113,46 @@ static void given_angles_outside_the_range_are_named(void **state) {
   cw_fail_clear();
 }
 
+// A nut's end as wide as the hub, and a hub that leads beyond the interface, of which no table of given values tells.
+static void hubs_that_cannot_be_are_refused(void **state) {
+  CwDesign refused;
+  CwCase table = duty_point(54, 20, 1800);
+  table.impeller.nut_flat_diameter = 1.01 * design_of(&table).hub_diameter;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "lower hub_nut_flat_diameter_mm"));
+  cw_fail_clear();
+  table.impeller.nut_flat_diameter *= 0.9;
+  design_of(&table);
+  // From the hub of 12.5 mm 3 (50 - 12.5) mm lead to 125 mm, the interface lies at some 102 mm.
+  table = duty_point(54, 20, 1800);
+  table.impeller.outlet_diameter = 0.2;
+  table.impeller.inlet_diameter = 0.1;
+  table.impeller.hub_diameter = 0.025;
+  table.impeller.hub_pole_radial = 3;
+  assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "lower hub_pole_radial to 2.1"));
+  cw_fail_clear();
+}
+
+// With a shaft through the inlet nothing is left of a given end of the nut, or of the nut.
+static void nut_gives_way_to_the_shaft(void **state) {
+  CwCase table = duty_point(54, 20, 1800);
+  const double hub = table.impeller.hub_diameter = 0.03;
+  table.impeller.nut_flat_diameter = 0.01;
+  table.impeller.nut_length = 0.02;
+  table.impeller.through_shaft_diameter = 0.02;
+  CwDesign design = design_of(&table);
+  assert_near(design.nut_disk_radius, 0.01, 1e-15);
+  assert_near(design.asked[CW_DESIGN_nut_disk_radius], 0.005, 1e-15);
+  assert_near(design.nut_length, 0.02, 1e-15);
+  assert_true(isnan(design.asked[CW_DESIGN_nut_length]));
+  table.impeller.through_shaft_diameter = hub;
+  design = design_of(&table);
+  assert_near(design.nut_length, 0, 0);
+  assert_near(design.asked[CW_DESIGN_nut_length], 0.02, 1e-15);
+  assert_near(design.asked[CW_DESIGN_nut_disk_radius], 0.005, 1e-15);
+}
+
 // A given wheel somewhat too small or too large for its head at any outlet blade angle: b2 meets the head. A given b2
 // leaves nothing open.
 static void open_outlet_width_meets_the_head_of_a_given_wheel(void **state) {
@@ -176,6 +216,8 @@ int main(void) {
       cmocka_unit_test(open_outlet_width_meets_the_head_of_a_given_wheel),
       cmocka_unit_test(head_gives_way_to_given_dimensions),
       cmocka_unit_test(given_values_give_way),
+      cmocka_unit_test(hubs_that_cannot_be_are_refused),
+      cmocka_unit_test(nut_gives_way_to_the_shaft),
       cmocka_unit_test(given_angles_outside_the_range_are_named),
       cmocka_unit_test(cylindrical_blades_stand_on_the_walls),
   };
