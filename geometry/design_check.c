@@ -107,7 +107,7 @@ static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(remarks, strstr(d->source[CW_DESIGN_leading_edge_radius_shroud], "at the eye") != NULL,
          "leading_edge_radius_shroud_mm lies at the eye or inside it: the blades begin at r = %.4g mm, %s",
          1e3 * d->leading_edge_radius_shroud, d->source[CW_DESIGN_leading_edge_radius_shroud]);
-  remark(remarks, d->wrap_spread != 0,
+  remark(remarks, d->wrap_spread != 0 && strcmp(d->source[CW_DESIGN_wrap_spread], "case"),
          "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay within 12 to "
          "60 deg and the blades stand steep on the walls; wrap_spread_deg gives another difference",
          d->wrap_spread / CW_DEGREE);

@@ -44,12 +44,15 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
 
 // The least difference of the wraps at shroud and hub with which all sections have a law within the allowed
 // angles and blades stand on hub and shroud at 70 degrees or more; where there is none, the one with the
-// steepest blades.
+// steepest blades. Cylindrical blades have one wrap.
 static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *meridian, CwDesign *design) {
   CwBladeSection section;
   const double step = 3 * CW_DEGREE, enough = 70 * CW_DEGREE;
   double best = -1, best_spread = 0;
   TAKE(wrap_spread, given->wrap_spread, 0, "none needed");
+  if (design->blade_form == CW_BLADE_CYLINDRICAL && design->wrap_spread != 0)
+    GIVE_WAY(wrap_spread, 0, given->wrap_spread,
+             "wrap_spread_deg gives way to cylindrical blades, which have one wrap");
   if (cw_case_given(given->wrap_spread) || design->blade_form != CW_BLADE_TWISTED) return;
   for (int i = 0; i <= 40; i++) {
     double angle = 0;

@@ -46,6 +46,26 @@ static void far_off_values_are_remarked(void **state) {
   assert_false(remarked(&design, "predicts a head"));
 }
 
+// A spread of the wrap is remarked where the design chose it, not where the case gives it; cylindrical blades have
+// none, which is said.
+static void spread_of_the_wrap(void **state) {
+  CwCase table = paper();
+  CwDesign design = design_of(&table);
+  design.wrap_spread = 0.1;
+  design.source[CW_DESIGN_wrap_spread] = "chosen";
+  assert_true(remarked(&design, "the wrap at the shroud differs by 6 deg"));
+  table.impeller.wrap_spread = 0.05;
+  design = design_of(&table);
+  assert_near(design.wrap_spread, 0.05, 1e-15);
+  assert_false(remarked(&design, "the wrap at the shroud differs"));
+  assert_false(remarked(&design, "wrap_spread_deg"));
+  table.impeller.blade_form = CW_BLADE_CYLINDRICAL;
+  design = design_of(&table);
+  assert_near(design.wrap_spread, 0, 0);
+  assert_true(remarked(&design, "wrap_spread_deg gives way to cylindrical blades, which have one wrap"));
+  assert_false(remarked(&design, "the wrap at the shroud differs"));
+}
+
 // Both ends of what is usual, and where the sources do not reach.
 static void ends_and_reach_are_remarked(void **state) {
   const CwCase table = paper();
@@ -97,6 +117,7 @@ static void ends_and_reach_are_remarked(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(ends_and_reach_are_remarked),
-                                     cmocka_unit_test(far_off_values_are_remarked)};
+                                     cmocka_unit_test(far_off_values_are_remarked),
+                                     cmocka_unit_test(spread_of_the_wrap)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
