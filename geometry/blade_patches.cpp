@@ -199,6 +199,10 @@ void Maker::points() {
       shape.has_bevel ? cw_blade_bevel_begin(&middle, edge, design->trailing_edge_bevel) : middle.end;
   const double theta_corner = cw_blade_side(&middle, CW_BLADE_PRESSURE, middle.end).theta;
   const double first = edge == CW_EDGE_SHARP ? 0.7 : 0.8;
+  if (!(p_bevel > first) && !shape.has_bevel)
+    cw_solid_refuse("the rounding of the trailing edge begins at %.0f %% of the %s; allowed: from %.0f %% on: lower "
+                    "trailing_edge_thickness_mm (%.3g mm)",
+                    100 * p_bevel, shape.name, 100 * first, 1e3 * design->trailing_edge_thickness);
   if (!(p_bevel > first) || (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner))
     cw_solid_refuse(
         "the bevel of %.3g mm is longer than the trailing edge of the %s, or begins at %.0f %% of it; allowed: "

@@ -58,7 +58,7 @@
   X(leading_edge_thickness, LENGTH, "blade thickness at the leading edge")                                             \
   X(blade_thickness, LENGTH, "blade thickness, largest")                                                               \
   X(trailing_edge_thickness, LENGTH, "blade thickness at the trailing edge")                                           \
-  X(trailing_edge_bevel, LENGTH, "bevel of the trailing edge, facet length")                                           \
+  X(trailing_edge_bevel, LENGTH, "bevel of the trailing edge, facet length (0: none)")                                 \
   X(leading_edge_ratio, NUMBER, "leading edge ellipse, along to across")                                               \
   X(thickest_at, NUMBER, "blade thickest at this share of its length")                                                 \
   X(lean_angle, ANGLE, "lean of the trailing edge")                                                                    \

@@ -157,6 +157,12 @@ static void trailing_edge(const CwImpellerTable *given, CwDesign *design) {
   design->trailing_edge = edge;
   TAKE(trailing_edge_bevel, given->trailing_edge_bevel, usual_bevel(edge, design),
        sharp ? "leg along the blade twice the cut" : "as long as the rest of the trailing edge");
+  if (blunt || edge == CW_EDGE_ROUNDED) {
+    SET(trailing_edge_bevel, 0, "none: blunt or rounded edge");
+    if (cw_case_given(given->trailing_edge_bevel))
+      GIVE_WAY(trailing_edge_bevel, 0, given->trailing_edge_bevel,
+               "trailing_edge_bevel_mm gives way to a blunt or rounded trailing edge");
+  }
   if (design->root_fillet_radius > 0 && (sharp || (blunt && design->outlet_blade_angle < LEAST_FILLETED_WEDGE))) {
     design->trailing_edge = CW_EDGE_BEVELLED;
     GIVE_WAY(trailing_edge_bevel, usual_bevel(CW_EDGE_BEVELLED, design), blunt ? 0 : design->trailing_edge_bevel,

@@ -148,7 +148,7 @@ const CwCaseKey cw_case_keys[] = {
     REAL_COMPUTED("impeller", "trailing_edge_bevel_mm", "mm", 0.001, 500, impeller.trailing_edge_bevel,
                   "length of the facet that takes off the acute corner of the trailing edge"),
     CHOICE("impeller", "trailing_edge", trailing_edges, CW_EDGE_BEVELLED, impeller.trailing_edge,
-           "blunt: cut on D2; bevelled: blunt with the acute corner taken off; rounded: an ellipse; sharp: the "
+           "blunt: cut on D2; bevelled: blunt with the acute corner taken off; rounded: a half circle; sharp: the "
            "facet takes all of the cut"),
     REAL_DEFAULT("impeller", "leading_edge_ratio", "", 1, 6, 2, impeller.leading_edge_ratio,
                  "semi-axes of the leading edge's ellipse, along to across the blade"),

@@ -82,6 +82,11 @@ static void given_values_give_way(void **state) {
   }
   table.impeller.root_fillet_radius = 0;
   assert_int_equal(design_of(&table).trailing_edge, CW_EDGE_SHARP);
+  table.impeller.trailing_edge = CW_EDGE_ROUNDED; // which has no bevel
+  assert_near(design_of(&table).trailing_edge_bevel, 0, 0);
+  table.impeller.trailing_edge_bevel = 1e-3;
+  assert_near(design_of(&table).trailing_edge_bevel, 0, 0);
+  assert_near(design_of(&table).asked[CW_DESIGN_trailing_edge_bevel], 1e-3, 1e-15);
 
   table = duty_point(5.1582, 56.415, 48124); // nq 88, two short blades
   table.impeller.blade_count = 2;

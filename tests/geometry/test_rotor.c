@@ -242,13 +242,32 @@ static void too_long_a_bevel_is_refused(void **state) {
   cw_fail_clear();
 }
 
+// Half a circle of 15 mm takes more than a fifth of a blade that is 57 mm long in the meridian: no bevel is to blame.
+static void too_thick_a_rounding_is_refused(void **state) {
+  CwCase table = paper();
+  table.impeller.trailing_edge = CW_EDGE_ROUNDED;
+  CwDesign design = design_of(&table);
+  design.trailing_edge_thickness = 30e-3;
+  CwSolid *rotor = NULL;
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "lower trailing_edge_thickness_mm (30 mm)"));
+  assert_null(strstr(cw_fail_message(), "bevel"));
+  cw_fail_clear();
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paper_rotor),    cmocka_unit_test(every_face_has_a_patch),
-      cmocka_unit_test(sweep),          cmocka_unit_test(other_priorities),
-      cmocka_unit_test(trailing_edges), cmocka_unit_test(rounding_reaches_the_outlet_diameter),
-      cmocka_unit_test(splitters),      cmocka_unit_test(cylindrical_blades_and_lean),
-      cmocka_unit_test(mirrored),       cmocka_unit_test(too_long_a_bevel_is_refused),
+      cmocka_unit_test(paper_rotor),
+      cmocka_unit_test(every_face_has_a_patch),
+      cmocka_unit_test(sweep),
+      cmocka_unit_test(other_priorities),
+      cmocka_unit_test(trailing_edges),
+      cmocka_unit_test(rounding_reaches_the_outlet_diameter),
+      cmocka_unit_test(splitters),
+      cmocka_unit_test(cylindrical_blades_and_lean),
+      cmocka_unit_test(mirrored),
+      cmocka_unit_test(too_long_a_bevel_is_refused),
+      cmocka_unit_test(too_thick_a_rounding_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
