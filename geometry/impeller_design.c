@@ -166,6 +166,8 @@ static double spiral_angle(const CwMeridian *meridian, double wrap) {
   return atan(cw_blade_wrap(meridian, 0.5, beta) / wrap);
 }
 
+static const double SAME_ANGLE = 0.1 * M_PI / 180;
+
 static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDesign *design) {
   double x[2];
   cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
@@ -196,6 +198,10 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
   SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
   SET(incidence, beta - flow, "beta1 - flow angle");
+  if (fabs(design->incidence - asked) > SAME_ANGLE) // not where it is left out
+    GIVE_WAY(incidence, beta - flow, asked,
+             cw_case_given(given) ? "incidence_deg gives way to inlet_blade_angle_deg"
+                                  : "incidence_deg gives way to blade angles of 12 deg and more, or to the wrap");
   SET(inlet_relative_speed, hypot(u, cm * tau), "inlet triangle");
 }
 

@@ -219,6 +219,23 @@ static void efficiency_of_small_pumps(void **state) {
   assert_true(before.efficiency < 0.1);
 }
 
+// A given incidence is met where the blade angle at the inlet is open; else what goes before it is told, with both.
+static void incidence_gives_way(void **state) {
+  CwCase table = duty_point(25, 10, 1450);
+  table.impeller.incidence = 2 * degree;
+  CwDesign design = design_of(&table);
+  assert_near(design.incidence, 2 * degree, 1e-6);
+  assert_true(isnan(design.asked[CW_DESIGN_incidence]));
+  table.impeller.inlet_blade_angle = design.inlet_blade_angle + 5 * degree;
+  design = design_of(&table);
+  assert_true(design.incidence > 6 * degree);
+  assert_near(design.asked[CW_DESIGN_incidence], 2 * degree, 1e-12);
+  table = paper(); // whose wrap leaves 16 degrees
+  table.impeller.incidence = 2 * degree;
+  design = design_of(&table);
+  assert_near(design.asked[CW_DESIGN_incidence], 2 * degree, 1e-12);
+}
+
 // At the vapour pressure of 47.4 kPa of water at 80 degrees Celsius: (101325 - 47400) / (971.8 9.80665) = 5.66 m.
 static void npsh_at_the_vapour_pressure(void **state) {
   CwCase table = paper();
@@ -297,6 +314,7 @@ int main(void) {
       cmocka_unit_test(viscous_fluid_by_hand),
       cmocka_unit_test(leading_edge_at_the_eye),
       cmocka_unit_test(efficiency_of_small_pumps),
+      cmocka_unit_test(incidence_gives_way),
       cmocka_unit_test(npsh_at_the_vapour_pressure),
       cmocka_unit_test(case_overrides),
       cmocka_unit_test(impossible_wrap_is_refused),
