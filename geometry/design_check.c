@@ -86,13 +86,27 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
       1e6 * CW_VISCOUS_LARGEST_NU, q, d->water_head);
 }
 
-static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
-  const double flow = d->inlet_flow_angle / CW_DEGREE;
+// tan beta1 falls as 1/r: at mid-span it must leave 12 deg where the leading edge is farthest out.
+static void of_incidence(const CwDesign *d, CwDesignRemarks *remarks) {
+  const double flow = d->inlet_flow_angle / CW_DEGREE, radius = d->inlet_blade_speed / d->angular_speed;
+  const double farthest = fmax(d->leading_edge_radius_hub, d->leading_edge_radius_shroud);
+  const double least = atan(tan(12 * CW_DEGREE) * farthest / radius) / CW_DEGREE;
+  const double low = ceil(10 * fmax(least, flow - 2)) / 10, high = flow + 8;
+  const int unusual = d->incidence > 8 * CW_DEGREE || d->incidence < -2 * CW_DEGREE;
   remark(
-      remarks, d->incidence > 8 * CW_DEGREE || d->incidence < -2 * CW_DEGREE,
+      remarks, unusual && low < high,
       "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual: inlet_blade_angle_deg of about "
       "%.1f to %.1f",
-      d->incidence / CW_DEGREE, fmax(12, flow - 2), fmax(12, flow + 8));
+      d->incidence / CW_DEGREE, low, high);
+  remark(
+      remarks, unusual && low >= high,
+      "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual, but the flow comes at %.1f deg "
+      "and blades have 12 deg and more: lower inlet_diameter_mm and the leading edge radii",
+      d->incidence / CW_DEGREE, flow);
+}
+
+static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
+  of_incidence(d, remarks);
   remark(remarks, d->diffusion_ratio < 0.7,
          "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate: lower outlet_width_mm",
          d->diffusion_ratio);
@@ -131,17 +145,25 @@ static void of_passage(const CwDesign *d, CwDesignRemarks *remarks) {
          "the wheel needs an NPSH of about %.1f m, the inlet pressure gives %.1f m (vapour pressure %.0f Pa): raise "
          "operating_point.inlet_pressure_pa to %.0f",
          d->npsh_required, d->npsh_available, d->vapour_pressure,
-         d->vapour_pressure + d->density * CW_GRAVITY * d->npsh_required);
+         ceil(d->vapour_pressure + d->density * CW_GRAVITY * d->npsh_required));
 }
+
+// Of D3/2: about the least gap of a tongue that a spiral has room for (docs/volute.md).
+static const double LEAST_GAP = 0.03;
 
 static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
   const double d2 = d->outlet_diameter, r3 = d->base_diameter / 2, tip = 2 * d->tongue_tip_radius / d2;
   remark(remarks, d->base_diameter < 1.03 * d2 || d->base_diameter > 1.15 * d2,
          "D3 is %.3f D2; 1.03 to 1.08 are usual: base_diameter_mm of %.4g to %.4g", d->base_diameter / d2, 1.03e3 * d2,
          1.08e3 * d2);
-  remark(remarks, tip < 1.045 || tip > 1.25,
-         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: tongue_gap_mm of %.3g to %.3g",
-         tip, 1e3 * fmax(0, 1.05 * d2 / 2 - r3), 1e3 * fmax(0, 1.2 * d2 / 2 - r3));
+  const int by_angle = !strcmp(d->source[CW_DESIGN_tongue_angle], "case") || !isnan(d->asked[CW_DESIGN_tongue_angle]);
+  const double nearest = fmax(0, 1.05 * d2 / 2 - r3), farthest = 1.2 * d2 / 2 - r3;
+  remark(remarks, (tip < 1.045 || tip > 1.25) && farthest > LEAST_GAP * r3,
+         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: tongue_gap_mm of %.3g to %.3g%s",
+         tip, 1e3 * nearest, 1e3 * farthest, by_angle ? " in place of tongue_angle_deg" : "");
+  remark(remarks, tip > 1.25 && farthest <= LEAST_GAP * r3,
+         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: base_diameter_mm of at most %.4g",
+         tip, 1.08e3 * d2);
   const CwVolute *v = &d->volute;
   const double touching = 0.5 * M_PI + v->input.side_wall_angle;
   remark(
@@ -149,13 +171,17 @@ static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
       "section circle: the spiral has no room for circles that touch its side walls; its arcs end at %.0f instead of "
       "%.0f deg: lower side_wall_angle_deg or inlet_width_mm, or take section trapezoid",
       v->end_half_angle / CW_DEGREE, touching / CW_DEGREE);
+  const int angle_given = !strcmp(d->source[CW_DESIGN_diffuser_length], "full angle of the case");
+  const double length = 1e3 * d->diffuser_length * tan(0.5 * d->diffuser_angle) / tan(5 * CW_DEGREE);
   remark(remarks, d->diffuser_angle > 10.05 * CW_DEGREE,
-         "the diffuser opens by %.1f deg; at most 10 deg are usual: raise diffuser_length_mm to %.4g",
-         d->diffuser_angle / CW_DEGREE, 1e3 * d->diffuser_length * tan(0.5 * d->diffuser_angle) / tan(5 * CW_DEGREE));
+         "the diffuser opens by %.1f deg; at most 10 deg are usual: %s %.4g", d->diffuser_angle / CW_DEGREE,
+         angle_given ? "lower diffuser_angle_deg to" : "raise diffuser_length_mm to", angle_given ? 10 : length);
   const double throat_diameter = d->discharge_diameter / sqrt(d->diffuser_area_ratio);
+  const int ratio_given = !strcmp(d->source[CW_DESIGN_diffuser_area_ratio], "case");
   remark(remarks, d->diffuser_area_ratio < 1.45 || d->diffuser_area_ratio > 3.05,
-         "the diffuser has an area ratio of %.2f; 1.5 to 3 are usual: outlet_diameter_mm of %.4g to %.4g",
-         d->diffuser_area_ratio, 1e3 * sqrt(1.5) * throat_diameter, 1e3 * sqrt(3) * throat_diameter);
+         "the diffuser has an area ratio of %.2f; 1.5 to 3 are usual: %s of %.4g to %.4g", d->diffuser_area_ratio,
+         ratio_given ? "diffuser_area_ratio" : "outlet_diameter_mm",
+         ratio_given ? 1.5 : 1e3 * sqrt(1.5) * throat_diameter, ratio_given ? 3 : 1e3 * sqrt(3) * throat_diameter);
 }
 
 void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {

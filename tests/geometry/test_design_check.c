@@ -66,6 +66,55 @@ static void spread_of_the_wrap(void **state) {
   assert_false(remarked(&design, "the wrap at the shroud differs"));
 }
 
+// What a remark tells to change is a key that the case may give beside its others, with a value that works.
+static void remarks_name_keys_of_use(void **state) {
+  const CwCase table = paper();
+  const CwDesign paper_design = design_of(&table);
+  CwDesign design = paper_design;
+  design.npsh_required = 3; // 2339.2 + 998.2 9.80665 3 = 31706.2 Pa
+  design.npsh_available = 2;
+  design.vapour_pressure = 2339.2;
+  assert_true(remarked(&design, "raise operating_point.inlet_pressure_pa to 31707"));
+  // The flow comes at 3 deg: 11 deg would do, but at mid-span 12 deg on the shroud are 12 47/43, some 13 deg.
+  design = paper_design;
+  design.inlet_flow_angle = 3 * CW_DEGREE;
+  design.incidence = 10 * CW_DEGREE;
+  assert_true(remarked(&design, "the flow comes at 3.0 deg and blades have 12 deg and more: lower inlet_diameter_mm"));
+  design.inlet_flow_angle = 10 * CW_DEGREE;
+  assert_true(remarked(&design, "inlet_blade_angle_deg of about 13."));
+  // 125 mm and a gap lie beyond 1.2 of 100 mm.
+  design = paper_design;
+  design.base_diameter = 0.25;
+  design.tongue_tip_radius = 0.13;
+  assert_true(remarked(&design, "tongue's tip lies at 1.300 of the wheel's radius; 1.05 to 1.2 are usual: "
+                                "base_diameter_mm of at most 216"));
+  assert_false(remarked(&design, "tongue_gap_mm"));
+  design.base_diameter = paper_design.base_diameter;
+  design.source[CW_DESIGN_tongue_angle] = "case";
+  assert_true(remarked(&design, "tongue_gap_mm of 3 to 18 in place of tongue_angle_deg"));
+  design = paper_design;
+  design.diffuser_angle = 20 * CW_DEGREE;
+  assert_true(remarked(&design, "raise diffuser_length_mm to"));
+  design.source[CW_DESIGN_diffuser_length] = "full angle of the case";
+  assert_true(remarked(&design, "lower diffuser_angle_deg to 10"));
+  design.diffuser_area_ratio = 4;
+  assert_true(remarked(&design, "outlet_diameter_mm of"));
+  design.source[CW_DESIGN_diffuser_area_ratio] = "case";
+  assert_true(remarked(&design, "1.5 to 3 are usual: diffuser_area_ratio of 1.5 to 3"));
+}
+
+// The texts by which remarks know what the case gives are those of the design.
+static void sources_of_the_diffuser(void **state) {
+  CwCase table = paper();
+  table.volute.outlet_diameter = NAN;
+  table.volute.diffuser_area_ratio = 1.3;
+  table.volute.diffuser_length = NAN;
+  table.volute.diffuser_angle = 15 * CW_DEGREE;
+  const CwDesign design = design_of(&table);
+  assert_true(remarked(&design, "lower diffuser_angle_deg to 10"));
+  assert_true(remarked(&design, "diffuser_area_ratio of 1.5 to 3"));
+}
+
 // Both ends of what is usual, and where the sources do not reach.
 static void ends_and_reach_are_remarked(void **state) {
   const CwCase table = paper();
@@ -116,8 +165,11 @@ static void ends_and_reach_are_remarked(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(ends_and_reach_are_remarked),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks),
+                                     cmocka_unit_test(ends_and_reach_are_remarked),
                                      cmocka_unit_test(far_off_values_are_remarked),
-                                     cmocka_unit_test(spread_of_the_wrap)};
+                                     cmocka_unit_test(spread_of_the_wrap),
+                                     cmocka_unit_test(remarks_name_keys_of_use),
+                                     cmocka_unit_test(sources_of_the_diffuser)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
