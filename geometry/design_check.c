@@ -118,9 +118,14 @@ static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
          "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual, up to 3 at low specific speed: %s "
          "wrap_angle_deg to %.0f, or blade_count",
          d->overlap, few ? "raise" : "lower", (few ? 1 : 3) * 360.0 / d->blade_count);
-  remark(remarks, strstr(d->source[CW_DESIGN_leading_edge_radius_shroud], "at the eye") != NULL,
+  const char *at_hub = d->source[CW_DESIGN_leading_edge_radius_hub];
+  const char *at_shroud = d->source[CW_DESIGN_leading_edge_radius_shroud];
+  remark(remarks, strstr(at_hub, "at the eye") != NULL,
+         "leading_edge_radius_hub_mm lies at the hub's begin or inside it: the blades begin there at r = %.4g mm, %s",
+         1e3 * d->leading_edge_radius_hub, at_hub);
+  remark(remarks, strstr(at_shroud, "at the eye") != NULL,
          "leading_edge_radius_shroud_mm lies at the eye or inside it: the blades begin at r = %.4g mm, %s",
-         1e3 * d->leading_edge_radius_shroud, d->source[CW_DESIGN_leading_edge_radius_shroud]);
+         1e3 * d->leading_edge_radius_shroud, at_shroud);
   remark(remarks, d->wrap_spread != 0 && strcmp(d->source[CW_DESIGN_wrap_spread], "case"),
          "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay within 12 to "
          "60 deg and the blades stand steep on the walls; wrap_spread_deg gives another difference",

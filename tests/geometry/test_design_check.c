@@ -115,6 +115,18 @@ static void sources_of_the_diffuser(void **state) {
   assert_true(remarked(&design, "diffuser_area_ratio of 1.5 to 3"));
 }
 
+// On either wall a leading edge that was moved out of the eye is told.
+static void leading_edges_moved_out_of_the_eye(void **state) {
+  const CwCase table = paper();
+  CwDesign design = design_of(&table);
+  assert_false(remarked(&design, "the blades begin"));
+  design.source[CW_DESIGN_leading_edge_radius_hub] = "at the eye: 0.05 of its height behind its plane";
+  assert_true(remarked(&design, "leading_edge_radius_hub_mm lies at the hub's begin or inside it"));
+  assert_false(remarked(&design, "leading_edge_radius_shroud_mm"));
+  design.source[CW_DESIGN_leading_edge_radius_shroud] = design.source[CW_DESIGN_leading_edge_radius_hub];
+  assert_true(remarked(&design, "leading_edge_radius_shroud_mm lies at the eye or inside it"));
+}
+
 // Both ends of what is usual, and where the sources do not reach.
 static void ends_and_reach_are_remarked(void **state) {
   const CwCase table = paper();
@@ -170,6 +182,7 @@ int main(void) {
                                      cmocka_unit_test(far_off_values_are_remarked),
                                      cmocka_unit_test(spread_of_the_wrap),
                                      cmocka_unit_test(remarks_name_keys_of_use),
+                                     cmocka_unit_test(leading_edges_moved_out_of_the_eye),
                                      cmocka_unit_test(sources_of_the_diffuser)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
