@@ -79,7 +79,8 @@ static double flatness(const CwVolute *volute) {
   return volute->throat_area / (volute->throat_width * volute->throat_width);
 }
 
-// The volute with b3 and side walls widened in steps as far as they may be, until its spiral is not too tall.
+// The volute with b3 and side walls widened in steps as far as they may be, until its spiral can be built: most often
+// one that would else be too tall.
 static CwStatus widened(const CwVoluteTable *given, double tongue, int width_open, int side_open, CwDesign *design) {
   enum { STEPS = 12, WIDTH_STEPS = 8 };
   CwStatus status = CW_ERR_DESIGN;
@@ -92,16 +93,16 @@ static CwStatus widened(const CwVoluteTable *given, double tongue, int width_ope
     cw_fail_clear();
     if (!cw_case_given(given->tongue_radius)) SET(tongue_radius, tongue, "0.0075 D2: casting");
     if (width_open && cw_case_given(given->inlet_width))
-      GIVE_WAY(inlet_width, to, given->inlet_width, "inlet_width_mm gives way to a spiral that is not too tall");
+      GIVE_WAY(inlet_width, to, given->inlet_width, "inlet_width_mm gives way to a spiral that can be built");
     else if (width_open)
-      SET(inlet_width, to, "widened for a spiral that is not too tall");
+      SET(inlet_width, to, "widened for a spiral that can be built");
     if (side_open && parallel)
-      GIVE_WAY(side_wall_angle, angle, 0, "section rectangle gives way to a spiral that is not too tall");
+      GIVE_WAY(side_wall_angle, angle, 0, "section rectangle gives way to a spiral that can be built");
     else if (side_open && cw_case_given(given->side_wall_angle))
       GIVE_WAY(side_wall_angle, fmax(angle, given->side_wall_angle), given->side_wall_angle,
-               "side_wall_angle_deg gives way to a spiral that is not too tall");
+               "side_wall_angle_deg gives way to a spiral that can be built");
     else if (side_open)
-      SET(side_wall_angle, angle, "widened for a spiral that is not too tall");
+      SET(side_wall_angle, angle, "widened for a spiral that can be built");
     status = volute_of(&wider, design);
   }
   return status;
@@ -137,8 +138,9 @@ static void place_of_tongue(const CwVoluteTable *given, CwDesign *design) {
   const double r3 = design->base_diameter / 2, gap = given->tongue_gap, angle = given->tongue_angle;
   const double tip = design->volute.tip_radius, at = design->volute.tip_angle;
   SET(tongue_tip_radius, tip,
-      cw_case_given(gap) ? "case: D3/2 + tongue gap"
-                         : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
+      cw_case_given(gap)     ? "case: D3/2 + tongue gap"
+      : cw_case_given(angle) ? "where its angle leads to"
+                             : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
   if (cw_case_given(gap) && fabs(tip - r3 - gap) > CW_VOLUTE_TONGUE_SLACK * r3)
     GIVE_WAY(tongue_tip_radius, tip, r3 + gap, "tongue_gap_mm gives way to the nearest tongue that the spiral allows");
   SET(tongue_angle, at, cw_case_given(angle) ? "case" : "where its gap asks for it");

@@ -63,6 +63,20 @@ static void given_walls_yield_after_open_ones(void **state) {
   }
 }
 
+// Side walls of 3 degrees, under the least of 5, are no matter of height. The tongue's tip comes from what is given.
+static void sources_say_what_is_so(void **state) {
+  CwCase table;
+  CwDesign d;
+  cw_case_defaults(&table);
+  table.volute.side_wall_angle = 3 * M_PI / 180;
+  table.volute.tongue_angle = 33 * M_PI / 180;
+  assert_true(duty_with(21, 0.2, &table.volute, &d));
+  assert_near(d.asked[CW_DESIGN_side_wall_angle], table.volute.side_wall_angle, 1e-15);
+  assert_string_equal(d.source[CW_DESIGN_side_wall_angle],
+                      "side_wall_angle_deg gives way to a spiral that can be built");
+  assert_string_equal(d.source[CW_DESIGN_tongue_tip_radius], "where its angle leads to");
+}
+
 static void volutes_of_any_duty(void **state) {
   static const double sizes[] = {0.02, 0.3, 4};
   int designed = 0;
@@ -95,6 +109,7 @@ static void similar_pumps(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(given_walls_yield_after_open_ones),
+      cmocka_unit_test(sources_say_what_is_so),
       cmocka_unit_test(volutes_of_any_duty),
       cmocka_unit_test(similar_pumps),
   };
