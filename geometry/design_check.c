@@ -107,6 +107,11 @@ static void of_incidence(const CwDesign *d, CwDesignRemarks *remarks) {
 
 static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
   of_incidence(d, remarks);
+  const double edge = fmax(d->leading_edge_thickness, d->trailing_edge_thickness);
+  remark(remarks, edge > (1 + 1e-9) * d->blade_thickness,
+         "the blades have %.3g mm at an edge and %.3g mm between, where they should be thickest: give "
+         "blade_thickness_mm of %.4g or more",
+         1e3 * edge, 1e3 * d->blade_thickness, 1e3 * edge);
   remark(remarks, d->diffusion_ratio < 0.7,
          "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate: lower outlet_width_mm",
          d->diffusion_ratio);

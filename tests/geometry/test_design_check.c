@@ -127,6 +127,19 @@ static void leading_edges_moved_out_of_the_eye(void **state) {
   assert_true(remarked(&design, "leading_edge_radius_shroud_mm lies at the eye or inside it"));
 }
 
+// A given edge that is thicker than the computed blade, of which the table of given values does not tell.
+static void edges_thicker_than_the_blade(void **state) {
+  CwCase table = paper();
+  CwDesign design = design_of(&table);
+  assert_false(remarked(&design, "mm at an edge"));
+  table.impeller.leading_edge_thickness = 5e-3; // of 0.02 D2 = 4 mm
+  design = design_of(&table);
+  assert_true(remarked(&design, "5 mm at an edge and 4 mm between"));
+  table.impeller.blade_thickness = 5e-3;
+  design = design_of(&table);
+  assert_false(remarked(&design, "mm at an edge"));
+}
+
 // Both ends of what is usual, and where the sources do not reach.
 static void ends_and_reach_are_remarked(void **state) {
   const CwCase table = paper();
@@ -183,6 +196,7 @@ int main(void) {
                                      cmocka_unit_test(spread_of_the_wrap),
                                      cmocka_unit_test(remarks_name_keys_of_use),
                                      cmocka_unit_test(leading_edges_moved_out_of_the_eye),
+                                     cmocka_unit_test(edges_thicker_than_the_blade),
                                      cmocka_unit_test(sources_of_the_diffuser)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
