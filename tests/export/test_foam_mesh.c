@@ -162,6 +162,29 @@ static void residuals_are_those_of_the_decomposed_case(void **state) {
   }
 }
 
+// The run in time begins in each part with the steady flow of that part; called again it has nothing to say of links.
+static void the_rotor_turns_from_the_steady_flow_of_the_parts(void **state) {
+  stage_need_program("pimpleFoam");
+  // One step of 60 / 1450 / 360 s; none of the two is long enough for a report, which the scripts end with.
+  int code =
+      stage_shell(output,
+                  "cd '%s/parts' && export LC_ALL=C && "
+                  "sed -i 's/endTime  .*/endTime 2;/; s/writeInterval .*/writeInterval 2;/' system/controlDict && "
+                  "sed -i 's/endTime  .*/endTime 1e-4;/; s/writeInterval .*/writeInterval 1;/' "
+                  "transient/system/controlDict && { ./Allrun; ./transient/Allrun; ./transient/Allrun; :; } && "
+                  "ls transient/processor3/0.000114942529/U && for p in 0 1 2 3; do for f in U p k; do "
+                  "for of in processor$p/2 transient/processor$p/0; do sed '/^boundaryField/,$d' $of/$f | "
+                  "md5sum; done | uniq | wc -l; done; done",
+                  test_folder);
+  if (code) fail_msg("%s", output);
+  assert_non_null(strstr(output, "starts from iteration 2 of the steady run\n"));
+  assert_null(strstr(output, "ln: "));
+  // Twelve times the same inside.
+  assert_non_null(strstr(output, "/U\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n"));
+  stage_shell(output, "grep -c movingWallVelocity '%s/parts/transient/processor0/0/U'", test_folder);
+  assert_true(atoi(output) > 0);
+}
+
 // As many ranks as parts run the case's own scripts; another number is told.
 static void the_scripts_know_the_parts(void **state) {
   stage_need_program("simpleFoam");
@@ -207,6 +230,7 @@ int main(void) {
       cmocka_unit_test(parts_are_those_of_decomposepar),
       cmocka_unit_test(the_parts_are_balanced_and_sound),
       cmocka_unit_test(residuals_are_those_of_the_decomposed_case),
+      cmocka_unit_test(the_rotor_turns_from_the_steady_flow_of_the_parts),
       cmocka_unit_test(the_scripts_know_the_parts),
       cmocka_unit_test(labels_of_64_bits_hold_the_same_numbers),
       cmocka_unit_test(too_many_parts_are_told),

@@ -2,6 +2,7 @@
 # Sourced by the Allrun scripts, whose name it tells errors by.
 : "${WM_PROJECT_DIR:=@project_folder@}"
 export WM_PROJECT_DIR
+export LC_ALL=C # numbers have a point, and fields are bytes
 # Open MPI: also as root, and with more ranks than cores.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 usual_ranks=@usual_ranks@ # where the caller asks for none
@@ -30,6 +31,10 @@ latest() { # the latest time after 0 of the case folder $1 that has fields; noth
     for folder in "$1"/[0-9]*; do
         [ -e "$folder/U" ] && [ "${folder##*/}" != 0 ] && echo "${folder##*/}"
     done | sort -g | tail -n 1
+}
+
+places() { # the folders that have the fields of this case: its parts, processor0 behind the others, or itself
+    if divided .; then ls -rd processor[0-9]*; else echo .; fi
 }
 
 rank_count() { # the ranks that the caller asks for: $1, else as many as the mesh is divided for, else the usual ones
