@@ -233,6 +233,26 @@ static void a_wrong_number_of_ranks_is_told(void **state) {
   }
 }
 
+// A run on two ranks that was stopped as it wrote its iteration 20, with stand-ins for the programs: it goes on
+// from 10.
+static void a_stopped_run_goes_on_where_all_parts_are_whole(void **state) {
+  static const char called[] = "reconstructPar -time 20\nreconstructPar -time 10\n"
+                               "foamDictionary -entry numberOfSubdomains -set 2 system/decomposeParDict\n"
+                               "foamDictionary -entry coeffs/n -set (2 1 1) system/decomposeParDict\n"
+                               "decomposePar -force -latestTime\n";
+  export_with("");
+  stage_shell(output,
+              "cd '%s/run/export/openfoam' && mkdir -p bin processor0/10 processor0/20 processor1/10 && "
+              "touch processor0/10/U processor0/20/U processor1/10/U && "
+              "printf '%%s\n' '#!/bin/sh' 'echo \"${0##*/} $*\" >> called' "
+              "'[ \"$1\" != -time ] || cp -r processor1/$2 .' > bin/mpirun && chmod +x bin/mpirun && "
+              "for name in reconstructPar foamDictionary decomposePar; do ln -s mpirun bin/$name; done && "
+              "{ PATH=\"$PWD/bin:$PATH\" ./Allrun 2 > told 2>&1; cat called; }",
+              test_folder);
+  if (strncmp(output, called, strlen(called)) != 0) fail_msg("%s", output);
+  assert_int_equal(stage_shell(output, "cd '%s/run/export/openfoam' && test -e 10/U && test ! -e 20", test_folder), 0);
+}
+
 static void large_meshes_take_all_cores(void **state) {
   assert_string_equal(cw_foam_usual_ranks(20000000), "1");
   assert_string_equal(cw_foam_usual_ranks(20000001), "$(nproc)");
@@ -252,6 +272,7 @@ int main(void) {
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
+      cmocka_unit_test(a_stopped_run_goes_on_where_all_parts_are_whole),
       cmocka_unit_test(large_meshes_take_all_cores),
   };
   return cmocka_run_group_tests(tests, make_run, clear_test_folder);

@@ -26,11 +26,15 @@ divided() { # whether the mesh of the case folder $1 was exported in parts
     [ -e "$1/processor0/constant" ] && [ ! -e "$1/constant/polyMesh/points" ]
 }
 
-latest() { # the latest time after 0 of the case folder $1 that has fields; nothing without one
+solved() { # the times after 0 of the case folder $1 that have fields, the latest last
     divided "$1" && set -- "$1/processor0"
     for folder in "$1"/[0-9]*; do
         [ -e "$folder/U" ] && [ "${folder##*/}" != 0 ] && echo "${folder##*/}"
-    done | sort -g | tail -n 1
+    done | sort -g
+}
+
+latest() { # the last of them; nothing without one
+    solved "$1" | tail -n 1
 }
 
 places() { # the folders that have the fields of this case: its parts, processor0 behind the others, or itself
@@ -60,6 +64,18 @@ divide() { # for $1 ranks, if there are several, a mesh that is whole, with its 
         foamDictionary -entry coeffs/n -set "($1 1 1)" system/decomposeParDict > /dev/null || exit 1
     fi
     logged decomposePar -force -latestTime
+}
+
+rejoin() { # puts together the latest fields that a run on several ranks, which was stopped, has in all its parts
+    divided . && return
+    last=$(latest .)
+    found=
+    for found in $(solved processor0 | sort -gr); do
+        [ "$(printf '%s\n' "$last" "$found" | sort -g | tail -n 1)" != "$last" ] || return 0
+        reconstructPar -time "$found" > log.reconstructPar 2>&1 && return
+        rm -rf "$found" # some part was stopped before it had written it
+    done
+    [ -z "$found" ] || die "reconstructPar failed: see log.reconstructPar"
 }
 
 run_solver() { # $1: the solver, $2: ranks, for which the mesh is divided
