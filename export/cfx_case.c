@@ -185,9 +185,10 @@ static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
   CW_TRY(cw_values_start(values, "interfaces"));
   CW_TRY(cw_values_start(values, "transient_interfaces"));
   for (int i = 0; i < mesh->interface_count; ++i) {
-    int turning = 0;
+    int rotating[2];
     for (int side = 0; side < 2; ++side)
-      turning |= mesh->domains[mesh->patches[mesh->interfaces[i].patch[side]].domain].rotating;
+      rotating[side] = mesh->domains[mesh->patches[mesh->interfaces[i].patch[side]].domain].rotating;
+    const int turning = !rotating[0] != !rotating[1]; // zones that turn together have one frame
     CW_TRY(set_interface(mesh, i, values));
     CW_TRY(cw_values_set(values, "frame_change", "%s", turning ? "Frozen Rotor" : "None"));
     CW_TRY(cw_values_set_file(values, "pitch_change",

@@ -215,6 +215,44 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   }
 }
 
+// A rotor and a chamber behind it that turns with it, which have one frame.
+static void zones_that_turn_together_meet_without_a_change_of_frame(void **state) {
+  enum { ROTOR, CHAMBER, STATOR };
+  CwModelPatch patches[] = {{.name = "inlet", .kind = CW_PATCH_INLET, .domain = ROTOR},
+                            {.name = "hub", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
+                            {.name = "rotor_gap", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                            {.name = "rotor_interface", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                            {.name = "chamber_gap", .kind = CW_PATCH_INTERFACE, .domain = CHAMBER},
+                            {.name = "disc", .kind = CW_PATCH_WALL, .domain = CHAMBER, .turns = 1},
+                            {.name = "stator_interface", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
+                            {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 1}};
+  CwModelInterface interfaces[] = {{{2, 4}, CW_SURFACE_PLANE, 0}, {{3, 6}, CW_SURFACE_CYLINDER, 0.1}};
+  enum { PATCHES = sizeof patches / sizeof *patches };
+  CwMesh mesh = {.domain_count = 3,
+                 .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 4},
+                             {.name = "chamber", .zone = "CHAMBER", .rotating = 1, .first_patch = 4, .patch_count = 2},
+                             {.name = "stator", .zone = "STATOR", .first_patch = 6, .patch_count = 2}},
+                 .interface_count = 2,
+                 .interfaces = interfaces,
+                 .patch_count = PATCHES,
+                 .patches = patches};
+  CwPatchPart parts[PATCHES];
+  for (int p = 0; p < PATCHES; ++p) parts[p] = (CwPatchPart){.faces.triangles = 1, .area = 1, .vector = {0, 0, 1}};
+  const CwAssembly assembly = {.mesh = &mesh, .patches = parts};
+  const CwCase table = {.name = "chamber",
+                        .operating_point = {.speed = 100, .flow_rate = 0.01, .time_step_angle = 0.1}};
+  const char *folder = in_test_folder("run/export/cfx");
+  assert_int_equal(cw_make_directory(folder), CW_OK);
+  assert_int_equal(cw_cfx_case_write(folder, &table, &assembly), CW_OK);
+  find_block("cfx/steady.ccl", "DOMAIN INTERFACE: ROTOR CHAMBER", "\n  END\n");
+  expect_in_block("FRAME CHANGE:\n        Option = None\n");
+  expect_in_block("PITCH CHANGE:\n        Option = None\n");
+  find_block("cfx/steady.ccl", "DOMAIN INTERFACE: ROTOR STATOR", "\n  END\n");
+  expect_in_block("FRAME CHANGE:\n        Option = Frozen Rotor\n");
+  expect("cfx/transient.ccl", "DOMAIN INTERFACE: ROTOR STATOR\n");
+  assert_null(strstr(output, "DOMAIN INTERFACE: ROTOR CHAMBER"));
+}
+
 // 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 7 % of 1/7 m = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
 static void turbulence_follows_the_textbook(void **state) {
   CwTurbulence t = cw_turbulence(2, 1.0 / 7);
@@ -270,6 +308,7 @@ int main(void) {
       cmocka_unit_test(rough_walls_take_the_roughness),
       cmocka_unit_test(resolved_walls_take_k_omega),
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
+      cmocka_unit_test(zones_that_turn_together_meet_without_a_change_of_frame),
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
       cmocka_unit_test(a_stopped_run_goes_on_where_all_parts_are_whole),
