@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/cfx_case.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "export/case_values.h"
@@ -215,6 +216,8 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
                             table->walls.roughness > 0 ? "cfx_parts/wall_rough.ccl" : "cfx_parts/wall_smooth.ccl"));
   CW_TRY(cw_values_set(values, "temperature", "%.9g",
                        cw_case_given(table->fluid.temperature) ? table->fluid.temperature : 20));
+  // The first time step after half of the ten turns.
+  CW_TRY(cw_values_set(values, "means_from", "%.0f", 1 + round(10 * M_PI / table->operating_point.time_step_angle)));
   CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
   CW_TRY(set_domains(a, flow * table->fluid.density, values));
   CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));

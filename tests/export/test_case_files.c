@@ -41,7 +41,8 @@ static void the_paper_in_cfx(void **state) {
   expect("cfx/steady.ccl", "Reference Pressure = 101325 [Pa]");
   expect("cfx/steady.ccl", "Option = Frozen Rotor");
   expect("cfx/steady.ccl", "Location = suction_pipe\n");
-  expect("cfx/transient.ccl", "Timesteps = 0.000114942529 [s]"); // 60/1450/360
+  expect("cfx/transient.ccl", "Timesteps = 0.000114942529 [s]");      // 60/1450/360
+  expect("cfx/transient.ccl", "      Start Iteration List = 1801\n"); // of 3600: behind five turns
 }
 
 static void the_paper_in_code_saturne(void **state) {
