@@ -12,6 +12,7 @@
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_points.h"
+#include "pipeline/vec.h"
 
 typedef enum { FIELD_U, FIELD_P, FIELD_K, FIELD_EPSILON, FIELD_OMEGA, FIELD_NUT } Field;
 
@@ -224,7 +225,7 @@ done:
 static CwStatus set_eddy_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
-  const double turn = 2 * M_PI, most = M_PI / 180;
+  const double turn = 2 * M_PI, most = CW_DEGREE;
   // As many steps a turn as the case asks, but of one degree at the most.
   const double steps = round(turn / fmin(table->operating_point.time_step_angle, most));
   const double pitch = steps / mesh->flow.blade_count;
