@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the numbers of a case become in the OpenFOAM and CFX files.
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -77,6 +78,11 @@ static void log_layer_meshes_take_k_epsilon(void **state) {
 static void eddies_are_sampled_by_phase(void **state) {
   export_with("");
   expect("openfoam/les/constant/turbulenceProperties", "delta           cubeRootVol;");
+  const char *coefficients = strstr(output, "SmagorinskyCoeffs");
+  double k = 0, e = 0;
+  assert_non_null(coefficients);
+  assert_int_equal(sscanf(strchr(coefficients, '{'), "{ Ck %lf; Ce %lf;", &k, &e), 2);
+  assert_near(sqrt(k * sqrt(k / e)), 0.168, 5e-4); // nut = Ck delta^2 sqrt(2 Ck / Ce) |D| = (Cs delta)^2 |S|
   expect("openfoam/les/system/controlDict", "deltaT          0.000114942529;");
   expect("openfoam/les/system/les_functions", "executeInterval 60;");
   expect("openfoam/les/0/nut", "nutUSpaldingWallFunction");
