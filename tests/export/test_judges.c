@@ -108,6 +108,38 @@ static void a_large_mesh_is_checked_in_parts(void **state) {
   assert_non_null(strstr(output, "openfoam.processors: 2 has it exported divided, on all ranks\n"));
 }
 
+// What a run in time takes over from the one before it, and what it has in its place, as OpenFOAM reads them.
+static void runs_in_time_differ_in_few_entries(void **state) {
+  static const char *const entries[][4] = {
+      {"transient", "fvSchemes", "ddtSchemes/default", "Euler"},
+      {"transient", "fvSchemes", "gradSchemes/grad(U)", "cellLimited Gauss linear 1"},
+      {"transient", "fvSchemes", "divSchemes/div(phi,U)", "Gauss linearUpwind grad(U)"},
+      {"transient", "fvSchemes", "divSchemes/div(phi,k)", "Gauss upwind"},
+      {"transient", "fvSchemes", "divSchemes/div(phi,epsilon)", "Gauss upwind"},
+      {"transient", "fvSchemes", "divSchemes/div(phi,omega)", "Gauss upwind"},
+      {"transient", "fvSchemes", "divSchemes/div((nuEff*dev2(T(grad(U)))))", "Gauss linear"},
+      {"transient", "fvSolution", "PIMPLE/nOuterCorrectors", "5"},
+      {"les", "fvSchemes", "ddtSchemes/default", "backward"},
+      {"les", "fvSchemes", "gradSchemes/grad(U)", "cellLimited Gauss linear 1"},
+      {"les", "fvSchemes", "divSchemes/div(phi,U)", "Gauss CoBlended 1 LUST grad(U) 5 linearUpwind grad(U)"},
+      {"les", "fvSchemes", "laplacianSchemes/default", "Gauss linear limited corrected 0.5"},
+      {"les", "fvSolution", "solvers/p/relTol", "0.05"},
+      {"les", "fvSolution", "solvers/UFinal/relTol", "0.01"},
+      {"les", "fvSolution", "PIMPLE/nOuterCorrectors", "3"},
+      {"les", "fvSolution", "PIMPLE/nCorrectors", "2"},
+      {"les", "fvSolution", "PIMPLE/nNonOrthogonalCorrectors", "1"},
+      {"les", "fvSolution", "relaxationFactors/fields/p", "0.4"},
+      {"les", "fvSolution", "relaxationFactors/equations/U", "0.7"}};
+  stage_need_program("foamDictionary");
+  for (size_t i = 0; i < sizeof entries / sizeof *entries; ++i) {
+    const char *const *of = entries[i];
+    int code = stage_shell(output, "cd '%s/run/export/openfoam/%s' && foamDictionary -entry '%s' -value system/%s",
+                           test_folder, of[0], of[2], of[1]);
+    output[strcspn(output, "\n")] = '\0';
+    if (code || strcmp(output, of[3]) != 0) fail_msg("%s of %s is '%s', not '%s'", of[2], of[0], output, of[3]);
+  }
+}
+
 static void transient_run_starts_from_the_steady_one(void **state) {
   stage_need_program("pimpleFoam");
   int code = stage_shell(output,
@@ -127,7 +159,7 @@ int main(void) {
       cmocka_unit_test(cgnscheck_has_nothing_to_say),     cmocka_unit_test(checkmesh_finds_a_sound_mesh),
       cmocka_unit_test(checkmesh_takes_pyramids),         cmocka_unit_test(interface_weights_are_about_one),
       cmocka_unit_test(steady_run_starts_and_reports),    cmocka_unit_test(transient_run_starts_from_the_steady_one),
-      cmocka_unit_test(a_large_mesh_is_checked_in_parts),
+      cmocka_unit_test(a_large_mesh_is_checked_in_parts), cmocka_unit_test(runs_in_time_differ_in_few_entries),
   };
   return cmocka_run_group_tests(tests, make_export, clear_test_folder);
 }
