@@ -54,12 +54,12 @@ static CwStatus require_map(const char *path, const CwCaseNode *node, const char
     snprintf(words, sizeof words, "free names, one a line");
   if (node->type != CW_NODE_MAP) return FAIL_AT(node, "it is no mapping; allowed: the keys %s", words);
   for (int i = 0; known && i < node->count; i++) {
-    int k = 0;
-    while (known[k] && !is_key(node->item[i].key, known[k], &unit)) k++;
-    if (!known[k]) return FAIL_AT(&node->item[i], "no such key; allowed: %s", words);
-    for (int j = 0; j < i; j++)
-      if (is_key(node->item[j].key, known[k], &unit))
-        return FAIL_AT(&node->item[i], "given twice, first in line %d; allowed: once", node->item[j].place.line);
+    const char *const *own = known;
+    while (*own && !is_key(node->item[i].key, *own, &unit)) own++;
+    if (!*own) return FAIL_AT(&node->item[i], "no such key; allowed: %s", words);
+    const CwCaseNode *first = member(node, *own, &unit); // it may end in another unit
+    if (first != &node->item[i])
+      return FAIL_AT(&node->item[i], "given twice, first in line %d; allowed: once", first->place.line);
   }
   return status;
 }
