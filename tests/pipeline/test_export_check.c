@@ -2,7 +2,6 @@
 #include "pipeline/report/export_check.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Fields of OpenFOAM: values by cell and by patch whatever bytes they hold, and one line where a file is wrong. What
 // the pictures take from them (flow): the order of regions, cells and faces, the frame that turns, the scale.
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "pipeline/report/flow.h"
 #include "pipeline/report/foam_field.h"

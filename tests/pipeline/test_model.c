@@ -7,10 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 #include "tests/whole_file.h"
 
-static const char file[] = "model-test.json";
+static const char *file(void) {
+  return in_test_folder("model-test.json");
+}
 
 static CwModelPatch *add(CwModel *model, const char *name, CwPatchKind kind) {
   CwModelPatch *patch;
@@ -56,8 +59,8 @@ static CwModel double_suction(void) {
 // Every bit of every member comes back.
 static void what_is_written_is_read(void **state) {
   CwModel model = double_suction(), again = {0};
-  assert_int_equal(cw_model_write(&model, file), CW_OK);
-  if (cw_model_read(file, &again) != CW_OK) fail_msg("%s", cw_fail_message());
+  assert_int_equal(cw_model_write(&model, file()), CW_OK);
+  if (cw_model_read(file(), &again) != CW_OK) fail_msg("%s", cw_fail_message());
   assert_true(again.unit == model.unit);
   assert_int_equal(again.domain_count, 3);
   assert_memory_equal(again.domain, model.domain, sizeof model.domain);
@@ -81,7 +84,7 @@ static void what_is_written_is_read(void **state) {
   assert_memory_equal(&again.flow, &model.flow, sizeof model.flow);
   cw_model_free(&again);
   cw_model_free(&model);
-  unlink(file);
+  unlink(file());
 }
 
 static void what_is_left_open(void **state) {
@@ -129,25 +132,25 @@ static void names_and_sides_are_held_against_the_rules(void **state) {
   add(&model, "b", CW_PATCH_INTERFACE);
   const char *same[] = {"a", "b"};
   refused(cw_model_add_interface(&model, same, CW_SURFACE_PLANE, 0), "both sides in domain casing");
-  refused(cw_model_write(&model, file), "model-test.json: patch 'a' of kind interface has no other side");
+  refused(cw_model_write(&model, file()), "model-test.json: patch 'a' of kind interface has no other side");
   cw_model_free(&model);
 }
 
 // A member of the file put at another value.
 static void damaged(const char *find, const char *replace, const char *message) {
   CwModel model = double_suction(), again = {0};
-  assert_int_equal(cw_model_write(&model, file), CW_OK);
-  char *text = read_whole(file, NULL), *at = strstr(text, find);
+  assert_int_equal(cw_model_write(&model, file()), CW_OK);
+  char *text = read_whole(file(), NULL), *at = strstr(text, find);
   if (!at) fail_msg("no %s", find);
-  FILE *stream = fopen(file, "w");
+  FILE *stream = fopen(file(), "w");
   assert_non_null(stream);
   fprintf(stream, "%.*s%s%s", (int)(at - text), text, replace, at + strlen(find));
   fclose(stream);
   free(text);
-  refused(cw_model_read(file, &again), message);
+  refused(cw_model_read(file(), &again), message);
   cw_model_free(&again);
   cw_model_free(&model);
-  unlink(file);
+  unlink(file());
 }
 
 static void wrong_files_are_told(void **state) {
@@ -173,5 +176,5 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(what_is_left_open),
                                      cmocka_unit_test(names_and_sides_are_held_against_the_rules),
                                      cmocka_unit_test(wrong_files_are_told), cmocka_unit_test(a_missing_file_is_told)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/mesh/region_items.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -2,7 +2,6 @@
 // Ranks that are stopped: one of them says so.
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
-#include <stdlib.h>
 
 #include "pipeline/report/streamlines.h"
 #include "tests/unit_test.h"
