@@ -6,7 +6,9 @@
 
 #include "export/case_values.h"
 #include "export/cfx_case.h"
+#include "export/fluent_case.h"
 #include "export/foam_case.h"
+#include "export/saturne_case.h"
 #include "pipeline/atomic_file.h"
 #include "tests/export/stage_run.h"
 #include "tests/seal_run.h"
@@ -152,42 +154,51 @@ static void expect_in_block(const char *words) {
 }
 
 // A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.
-static void the_shaft_in_a_suction_zone_turns(void **state) {
-  enum { ROTOR, STATOR, SUCTION };
-  CwModelPatch patches[] = {{.name = "hub", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
-                            {.name = "hub_shaft", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
-                            {.name = "suction_pipe", .kind = CW_PATCH_WALL, .domain = ROTOR},
-                            {.name = "rotor_interface", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
-                            {.name = "rotor_to_suction", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
-                            {.name = "rotor_gap", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
-                            {.name = "stator_interface", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
-                            {.name = "stator_gap", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
-                            {.name = "volute", .kind = CW_PATCH_WALL, .domain = STATOR},
-                            {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 1},
-                            {.name = "suction_to_rotor", .kind = CW_PATCH_INTERFACE, .domain = SUCTION},
-                            {.name = "inlet_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION},
-                            {.name = "hub_shaft_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION, .turns = 1},
-                            {.name = "inlet", .kind = CW_PATCH_INLET, .domain = SUCTION}};
-  CwModelInterface interfaces[] = {
-      {{3, 6}, CW_SURFACE_CYLINDER, 0.1}, {{4, 10}, CW_SURFACE_PLANE, 0}, {{7, 5}, CW_SURFACE_PLANE, 0}};
-  enum { PATCHES = sizeof patches / sizeof *patches };
-  CwMesh mesh = {.domain_count = 3,
-                 .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 6},
-                             {.name = "stator", .zone = "STATOR", .first_patch = 6, .patch_count = 4},
-                             {.name = "suction", .zone = "SUCTION", .first_patch = 10, .patch_count = 4}},
-                 .interface_count = 3,
-                 .interfaces = interfaces,
-                 .patch_count = PATCHES,
-                 .patches = patches,
-                 .flow = {2, 0.07, 9, 0.01, 0.2, 6}};
-  CwPatchPart parts[PATCHES];
+enum { ROTOR, STATOR, SUCTION };
+static CwModelPatch patches[] = {{.name = "hub", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
+                                 {.name = "hub_shaft", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
+                                 {.name = "suction_pipe", .kind = CW_PATCH_WALL, .domain = ROTOR},
+                                 {.name = "rotor_interface", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                                 {.name = "rotor_to_suction", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                                 {.name = "rotor_gap", .kind = CW_PATCH_INTERFACE, .domain = ROTOR},
+                                 {.name = "stator_interface", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
+                                 {.name = "stator_gap", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
+                                 {.name = "volute", .kind = CW_PATCH_WALL, .domain = STATOR},
+                                 {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 0.25},
+                                 {.name = "suction_to_rotor", .kind = CW_PATCH_INTERFACE, .domain = SUCTION},
+                                 {.name = "inlet_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION},
+                                 {.name = "hub_shaft_pipe", .kind = CW_PATCH_WALL, .domain = SUCTION, .turns = 1},
+                                 {.name = "inlet", .kind = CW_PATCH_INLET, .domain = SUCTION}};
+static CwModelInterface interfaces[] = {
+    {{3, 6}, CW_SURFACE_CYLINDER, 0.1}, {{4, 10}, CW_SURFACE_PLANE, 0}, {{7, 5}, CW_SURFACE_PLANE, 0}};
+enum { PATCHES = sizeof patches / sizeof *patches };
+static CwMesh mesh = {.domain_count = 3,
+                      .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 6},
+                                  {.name = "stator", .zone = "STATOR", .first_patch = 6, .patch_count = 4},
+                                  {.name = "suction", .zone = "SUCTION", .first_patch = 10, .patch_count = 4}},
+                      .interface_count = 3,
+                      .interfaces = interfaces,
+                      .patch_count = PATCHES,
+                      .patches = patches,
+                      .flow = {2, 0.07, 9, 0.01, 0.2, 6}};
+static CwPatchPart parts[PATCHES];
+static const CwAssembly assembly = {.mesh = &mesh, .patches = parts};
+static const CwCase table = {
+    .name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}, .fluid = {.density = 800}};
+
+// The path of a format's folder, which `make` has filled.
+static const char *written(const char *format, CwStatus (*make)(const char *, const CwCase *, const CwAssembly *)) {
+  static char path[STAGE_PATH_SIZE + 60];
   for (int p = 0; p < PATCHES; ++p) parts[p] = (CwPatchPart){.faces.triangles = 1, .area = 1, .vector = {0, 0, 1}};
-  CwAssembly assembly = {.mesh = &mesh, .patches = parts};
-  CwCase table = {.name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}};
-  char path[STAGE_PATH_SIZE + 60];
-  snprintf(path, sizeof path, "%s/run/export/cfx", test_folder);
+  snprintf(path, sizeof path, "%s/run/export/%s", test_folder, format);
+  assert_int_equal(stage_shell(output, "rm -rf '%s'", path), 0);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  assert_int_equal(cw_cfx_case_write(path, &table, &assembly), CW_OK);
+  assert_int_equal(make(path, &table, &assembly), CW_OK);
+  return path;
+}
+
+static void the_shaft_in_a_suction_zone_turns(void **state) {
+  const char *path = written("cfx", cw_cfx_case_write);
   find_block("cfx/steady.ccl", "BOUNDARY: suction walls", "\n    END\n");
   expect_in_block("Location = inlet_pipe\n");
   assert_null(strstr(output, "Rotating Wall"));
@@ -206,10 +217,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   expect_in_block("Boundary List1 = STATOR ROTOR 2 Side 1\n");
   expect_in_block("Interface Region List2 = rotor_gap\n");
 
-  snprintf(path, sizeof path, "%s/run/export/openfoam", test_folder);
-  assert_int_equal(stage_shell(output, "rm -rf '%s'", path), 0);
-  assert_int_equal(cw_make_directory(path), CW_OK);
-  assert_int_equal(cw_foam_case_write(path, &table, &assembly), CW_OK);
+  written("openfoam", cw_foam_case_write);
   static const char *const fields[] = {"openfoam/0/U", "openfoam/transient/0/U"};
   for (int i = 0; i < 2; ++i) {
     find_block(fields[i], "hub_shaft_pipe\n", "}\n");
@@ -258,6 +266,21 @@ static void zones_that_turn_together_meet_without_a_change_of_frame(void **state
   expect_in_block("FRAME CHANGE:\n        Option = Frozen Rotor\n");
   expect("cfx/transient.ccl", "DOMAIN INTERFACE: ROTOR STATOR\n");
   assert_null(strstr(output, "DOMAIN INTERFACE: ROTOR CHAMBER"));
+}
+
+// A quarter of 0.01 m3/s leaves by the outlet, through 1 m2 along z: 2 kg/s of 800 kg/m3.
+static void outlets_have_their_shares(void **state) {
+  written("cfx", cw_cfx_case_write);
+  find_block("cfx/steady.ccl", "BOUNDARY: outlet\n", "\n    END\n");
+  expect_in_block("Mass Flow Rate = 2 [kg s^-1]\n");
+  written("openfoam", cw_foam_case_write);
+  find_block("openfoam/0/U", "    outlet\n", "}\n");
+  expect_in_block("volumetricFlowRate constant 0.0025;");
+  expect_in_block("uniform (0 0 0.0025);");
+  written("fluent", cw_fluent_case_write);
+  expect("fluent/README.md", "| outlet | pressure-outlet | target mass flow rate 2 kg/s |");
+  written("code_saturne", cw_saturne_case_write);
+  expect("code_saturne/SRC/pump.h", " = {{\"outlet\", 0.25}};");
 }
 
 // 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 7 % of 1/7 m = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
@@ -316,6 +339,7 @@ int main(void) {
       cmocka_unit_test(resolved_walls_take_k_omega),
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(zones_that_turn_together_meet_without_a_change_of_frame),
+      cmocka_unit_test(outlets_have_their_shares),
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
       cmocka_unit_test(a_stopped_run_goes_on_where_all_parts_are_whole),

@@ -3,7 +3,6 @@
 // and of its kind, every patch has one boundary, every expression that is used is defined.
 #include <ctype.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cgnslib.h>

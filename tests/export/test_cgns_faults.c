@@ -3,7 +3,6 @@
 // that are put into it.
 #include "export/cgns_file.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "tests/export/stage_run.h"

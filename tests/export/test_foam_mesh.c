@@ -118,7 +118,7 @@ static void the_parts_are_balanced_and_sound(void **state) {
               PARTS);
   if (!strstr(output, "Mesh OK") || strstr(output, "***")) fail_msg("%s", output);
   stage_shell(other, "cd '%s/whole' && checkMesh", test_folder);
-  static const char *const same[] = {"Total volume = ", "\n    cells: ", "\n    points: "};
+  static const char *const same[] = {"Total volume = ", "\n    cells: "};
   for (int i = 0; i < 2; ++i)
     assert_near(strtod(strstr(output, same[i]) + strlen(same[i]), NULL),
                 strtod(strstr(other, same[i]) + strlen(same[i]), NULL), 1e-9);

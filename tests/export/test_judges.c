@@ -84,6 +84,7 @@ static void steady_run_starts_and_reports(void **state) {
   assert_true(head > 3 && head < 30);
   assert_true(torque > 0);
   assert_true(efficiency > 5 && efficiency < 100);
+  assert_near(efficiency, 100 * 998.2 * 9.80665 * 25 / 3600 * head / (torque * 1450 * M_PI / 30), 0.02);
   assert_near(in, 25.0 / 3600, 0.01 * 25 / 3600);
   assert_non_null(strstr(output, "blade_pressure"));
   assert_non_null(strstr(output, "Mesh OK"));

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Every writer past 2^31 points, elements, faces, corners and bytes: a region of one cell behind one of thousands of
 // millions, of which nothing is written. The files are full of holes and take no disk.
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "export/cgns_file.h"
 #include "export/fluent_mesh.h"

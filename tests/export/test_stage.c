@@ -4,7 +4,6 @@
 // fluent_case, foam_files, foam_layout, foam_region, foam_zones, folder, interface_near, manifest, saturne_case.
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
