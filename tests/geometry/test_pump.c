@@ -2,7 +2,6 @@
 // The whole geometry of the paper's pump: both solids as the program builds and measures them.
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Modules without a test of their own that it runs: rotor_edges, rotor_faces, rotor_volume, shell_builder.
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "geometry/blade.h"
@@ -35,8 +34,6 @@ static void paper_rotor(void **state) {
   volumes_agree(&design, &solid, 1e-5);
 }
 
-// The wheel turns by the right hand about +z and the blades sweep backward: the pressure side looks towards
-// greater theta, and the wall of the blade there has its normal out of the fluid towards smaller theta.
 static void every_face_has_a_patch(void **state) {
   static const char *const patches[] = {"inlet",
                                         "suction_pipe",
@@ -209,28 +206,6 @@ static void cylindrical_blades_and_lean(void **state) {
   measure(&design, &solid, &measured);
 }
 
-// A pump of the other hand: the same volume, the inlet on the other side, faces in the same order.
-static void mirrored(void **state) {
-  const CwCase table = paper();
-  const CwDesign design = design_of(&table);
-  CwSolid *rotor = NULL, *other = NULL;
-  CwMeasuredSolid a, b;
-  assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
-  assert_int_equal(cw_rotor_build(&design, &other), CW_OK);
-  assert_int_equal(cw_solid_mirror(other), CW_OK);
-  assert_int_equal(cw_measure_solid(rotor, &a), CW_OK);
-  assert_int_equal(cw_measure_solid(other, &b), CW_OK);
-  assert_true(b.valid && b.closed && b.largest_tolerance < 1e-6);
-  assert_near(b.volume / a.volume, 1, 1e-9);
-  for (int face = 0; face < cw_solid_face_count(rotor); face++)
-    assert_string_equal(cw_solid_face_name(rotor, face), cw_solid_face_name(other, face));
-  CwMeasuredRotor measured;
-  assert_int_equal(cw_measure_rotor(other, &measured), CW_OK);
-  assert_near(measured.wrap_angle, 71 * degree, 0.01 * degree);
-  cw_solid_free(&rotor);
-  cw_solid_free(&other);
-}
-
 static void too_long_a_bevel_is_refused(void **state) {
   CwCase table = paper();
   table.impeller.trailing_edge_bevel = 5e-3;
@@ -265,7 +240,6 @@ int main(void) {
       cmocka_unit_test(rounding_reaches_the_outlet_diameter),
       cmocka_unit_test(splitters),
       cmocka_unit_test(cylindrical_blades_and_lean),
-      cmocka_unit_test(mirrored),
       cmocka_unit_test(too_long_a_bevel_is_refused),
       cmocka_unit_test(too_thick_a_rounding_is_refused),
   };

@@ -2,7 +2,6 @@
 // Root fillets, and a shaft through the inlet.
 // Modules without a test of their own that it runs: root_fillet, root_fillet_size.
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "geometry/measure.h"

@@ -189,6 +189,25 @@ static void interfaces_of_three_patches_are_told(void **) {
   }
 }
 
+// A second outlet, a side of the casing's ring but for its pipe: the flow leaves by both in the ratio of their areas.
+static void outlets_share_the_flow(void **) {
+  Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  static double side[][3] = {{-65 * mm, 0, 8 * mm}};
+  CwCadPatch rule = back_as("drain");
+  rule.near = {1, side};
+  rule.kind = CW_CAD_KIND_OUTLET;
+  made.cad.patch = &rule;
+  made.cad.patch_count = 1;
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  const double pipe = 320 * mm * mm;
+  double drain = 0;
+  for (int f = 0; f < made.survey.face_count; f++)
+    if (!strcmp(made.patches.patch[made.patches.of_face[f]].name, "drain")) drain += made.survey.face[f].area;
+  assert_true(drain > 9000 * mm * mm && drain < 15000 * mm * mm);
+  assert_near(made.patch("outlet").flow_share, pipe / (pipe + drain), 1e-9);
+  assert_near(made.patch("drain").flow_share, drain / (pipe + drain), 1e-9);
+}
+
 static void pumps_that_cannot_be_are_told(void **) {
   Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
   both.cad.domain[1].rotating = both.rotating[1] = 1;
@@ -217,6 +236,7 @@ int main() {
                                      cmocka_unit_test(rules_go_before),
                                      cmocka_unit_test(names_are_those_of_generated_walls),
                                      cmocka_unit_test(interfaces_of_three_patches_are_told),
+                                     cmocka_unit_test(outlets_share_the_flow),
                                      cmocka_unit_test(pumps_that_cannot_be_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
