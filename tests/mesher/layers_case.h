@@ -165,47 +165,4 @@ static inline void case_run(Case *c, const char *name) {
     }
 }
 
-// Writes a picture (SVG) of wall, layers and layer top where a plane cuts them: u and v are the unit directions of the
-// page about the point o, `half` (m) of it either way.
-static inline void case_picture(const Case *c, const char *path, const double o[3], const double u[3],
-                                const double v[3], double half) {
-  const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  enum { LEVELS = 5, PIXELS = 800 };
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\">\n", PIXELS, PIXELS);
-  fputs("<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n", file);
-  for (int level = 0; level <= LEVELS; level++)
-    for (int32_t f = 0; f < c->wall.triangle_count; f++) {
-      double at[3][2], page[2][2], x[3][3], away[3];
-      int ends = 0;
-      for (int i = 0; i < 3; i++) {
-        case_at(c, c->wall.triangle[f][i], (double)level / LEVELS, x[i]);
-        away[i] = at[i][0] = at[i][1] = 0;
-        for (int k = 0; k < 3; k++) {
-          away[i] += n[k] * (x[i][k] - o[k]);
-          at[i][0] += u[k] * (x[i][k] - o[k]);
-          at[i][1] += v[k] * (x[i][k] - o[k]);
-        }
-      }
-      for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        if ((away[i] < 0) == (away[j] < 0)) continue;
-        double s = away[i] / (away[i] - away[j]);
-        for (int k = 0; k < 2; k++) page[ends][k] = (at[i][k] + s * (at[j][k] - at[i][k])) / half;
-        ends++;
-      }
-      if (ends != 2 || fabs(page[0][0]) > 1 || fabs(page[0][1]) > 1) continue;
-      fprintf(file, "<path d=\"M%.2f %.2fL%.2f %.2f\" stroke=\"%s\" stroke-width=\"%s\"/>\n",
-              PIXELS / 2 * (1 + page[0][0]), PIXELS / 2 * (1 - page[0][1]), PIXELS / 2 * (1 + page[1][0]),
-              PIXELS / 2 * (1 - page[1][1]),
-              level == 0        ? "black"
-              : level == LEVELS ? "#c03010"
-                                : "#90a8c8",
-              level % LEVELS ? "0.7" : "2");
-    }
-  fputs("</svg>\n", file);
-  assert_int_equal(fclose(file), 0);
-}
-
 #endif

@@ -3,7 +3,6 @@
 // Modules without a test of their own that it runs: boundary_curves, boundary_interfaces, boundary_layers,
 // boundary_walls, curve_division, wall_division, interface_rule, region_build, region_failure, plane_map.
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -341,7 +340,8 @@ static void a_crossing_boundary_is_examined(void **) {
   const Regions regions(boundary);
   CwRegionMesh mesh;
   assert_int_equal(cw_region_build(&regions.context, 0, 1, &mesh), CW_ERR_MESH);
-  std::string message = cw_fail_message(), path = "failed-box-0001.vtk";
+  const TemporaryFolder folder;
+  const std::string message = cw_fail_message(), path = folder.path + "/failed-box-0001.vtk";
   CwRegionFailure failure;
   check(cw_region_failure_examine(&regions.context.from, 0, message.c_str(), path.c_str(), &failure));
   assert_int_equal(failure.failed, 1);
@@ -351,7 +351,6 @@ static void a_crossing_boundary_is_examined(void **) {
   assert_true(cw_distance(failure.at, through) < 0.012);
 
   check_failure_file(boundary, path);
-  std::remove(path.c_str());
   check_thinning(boundary, failure);
   // A sound boundary: no place is known.
   cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
@@ -359,7 +358,6 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
   check(cw_region_failure_examine(&regions.context.from, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
-  std::remove(path.c_str());
 }
 
 int main() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gmp.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "mesher/common/predicates.h"

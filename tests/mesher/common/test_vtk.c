@@ -5,16 +5,20 @@
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vtk.h"
+#include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static const char *const PATH = "vtk-test.vtk";
+static const char *path(void) {
+  return in_test_folder("vtk-test.vtk");
+}
+
 static const double X[4][3] = {{0.1, 0, 1e-9}, {1, 2.0 / 3, 0}, {-3, 0, 5}, {0, 1, 7e5}};
 static const int32_t WHOLE[2] = {-4, 2000000000};
 static const double REAL[2] = {1.0 / 3, -1e-300};
 
 // Opens the file behind its third line, and reads the points, of twice the coordinates.
 static FILE *open_points(const char *title) {
-  FILE *file = fopen(PATH, "r");
+  FILE *file = fopen(path(), "r");
   char line[100];
   int count = 0;
   assert_non_null(file);
@@ -65,25 +69,25 @@ static const CwVtkField FIELD[2] = {{"whole", WHOLE, NULL}, {"real", NULL, REAL}
 static void triangles_are_read_back(void **state) {
   const int32_t triangle[2][3] = {{0, 1, 2}, {3, 2, 1}};
   const CwVtkTriangles triangles = {"two triangles", 4, X, 2, triangle, 2, FIELD};
-  assert_int_equal(cw_vtk_write(PATH, &triangles), CW_OK);
+  assert_int_equal(cw_vtk_write(path(), &triangles), CW_OK);
   FILE *file = open_points("two triangles, m\n");
   const char *const words[] = {"POLYGONS", "2", "8", "3", "0", "1", "2", "3", "3", "2", "1"};
   expect_words(file, 11, words);
   expect_fields(file);
   fclose(file);
-  remove(PATH);
+  remove(path());
 }
 
 static void lines_are_read_back(void **state) {
   const int32_t start[3] = {0, 1, 4};
   const CwVtkLines lines = {"two lines", X, 2, start, 2, FIELD};
-  assert_int_equal(cw_vtk_write_lines(PATH, &lines), CW_OK);
+  assert_int_equal(cw_vtk_write_lines(path(), &lines), CW_OK);
   FILE *file = open_points("two lines, m\n");
   const char *const words[] = {"LINES", "2", "6", "1", "0", "3", "1", "2", "3"};
   expect_words(file, 9, words);
   expect_fields(file);
   fclose(file);
-  remove(PATH);
+  remove(path());
 }
 
 static void no_folder_is_told(void **state) {
@@ -98,5 +102,5 @@ int main(void) {
       cmocka_unit_test(no_folder_is_told),
   };
   cw_model_unit_set(1); // 2 m
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

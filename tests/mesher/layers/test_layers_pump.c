@@ -107,11 +107,6 @@ static void neck_sector(void **state) {
     case_run(&c, name);
     assert_near(c.share, 1, 0);
     check_neck(&c);
-    if (i == 1) { // neck and step, the meridional section
-      const double a = 0.5 * sector + 1e-4, along[3] = {cos(a), sin(a), 0}, up[3] = {0, 0, 1};
-      const double middle[3] = {105 * MM * along[0], 105 * MM * along[1], 1e-7};
-      case_picture(&c, "layers-neck-and-step.svg", middle, along, up, 8 * MM);
-    }
     case_free(&c);
   }
 }
@@ -250,18 +245,8 @@ static void trailing_edge(void **state) {
       char name[40];
       snprintf(name, sizeof name, "blade, lean %.0f, h %.2f", atan(lean[i]) * 180 / M_PI, h[j] / MM);
       case_run(&c, name);
-      double mean = c.mean;
-      if (j == 1) { // the blunt end between hub and shroud, and the end itself in a section normal to it
-        const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
-        const double end[3] = {LENGTH, 1.3e-6 + 4 * MM * lean[i], 4 * MM + 1.7e-6};
-        char path[64];
-        snprintf(path, sizeof path, "layers-trailing-edge-%d-along.svg", i);
-        case_picture(&c, path, end, x, z, 6 * MM);
-        snprintf(path, sizeof path, "layers-trailing-edge-%d-across.svg", i);
-        case_picture(&c, path, end, x, y, 6 * MM);
-      }
+      assert_true(c.mean >= least[i][j]);
       case_free(&c);
-      assert_true(mean >= least[i][j]);
     }
 }
 
