@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Counts the cells of a finished run across its narrow places. From the middle of every so many wall triangles of the
 // background a ray goes straight to the wall or open patch across; where that is near and faces it, the cells on the
-// way are counted. Prints for each pair of patches: rays, least and median gap (mm), least and median number of cells
-// across, and of tetrahedra. Use: cells_across GEOMETRY_DIR MESH_DIR GREATEST_GAP_MM
+// way are counted. Prints for each pair of patches: rays, least number of cells across.
+// Use: cells_across GEOMETRY_DIR MESH_DIR GREATEST_GAP_MM
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,16 +11,15 @@
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/rays.h"
 #include "mesher/common/vec.h"
-#include "pipeline/order.h"
 #include "tests/measure/domain_mesh.h"
 
 static const double FACING = 0.9; // cosine between the ray and the wall it meets
 enum { RAYS = 1200 };             // a domain, about
 
 typedef struct {
-  int from, to;           // patches
-  double a[3], b[3], gap; // ends and length, m
-  int cells, tetrahedra;
+  int from, to; // patches
+  double a[3], b[3];
+  int cells;
 } Probe;
 
 // Whether the segment a b runs through the tetrahedron: it is cut by the planes of its four faces.
@@ -67,7 +66,6 @@ static void count_cell(const double *const *x, int corners, Probe *probe, int pr
             crosses(part[2], probe[p].a, probe[p].b);
     }
     probe[p].cells += hit;
-    probe[p].tetrahedra += hit && corners == 4;
   }
 }
 
@@ -93,8 +91,7 @@ static int find_probes(const CwCad *cad, const CwBackground *background, double 
     if (cw_dot(n, away) < FACING) continue;
     Probe *made = &probe[count++];
     *made = (Probe){.from = cw_cad_face_patch(cad, background->face[t]),
-                    .to = cw_cad_face_patch(cad, background->face[hit]),
-                    .gap = gap};
+                    .to = cw_cad_face_patch(cad, background->face[hit])};
     for (int k = 0; k < 3; k++) { // a little beyond both walls: the mesh has its own chords
       made->a[k] = centre[k] - 0.02 * gap * away[k];
       made->b[k] = centre[k] + 1.02 * gap * away[k];
@@ -113,18 +110,10 @@ static int compare_probes(const void *p, const void *q) {
 static void print_pairs(const CwCad *cad, const char *name, Probe *probe, int count) {
   qsort(probe, (size_t)count, sizeof *probe, compare_probes);
   for (int first = 0, next; first < count; first = next) {
-    double gap[2 * RAYS];
-    int tets = probe[first].tetrahedra;
-    for (next = first; next < count && probe[next].from == probe[first].from && probe[next].to == probe[first].to;
-         next++) {
-      gap[next - first] = probe[next].gap;
-      if (probe[next].tetrahedra < tets) tets = probe[next].tetrahedra;
-    }
-    int rays = next - first;
-    qsort(gap, (size_t)rays, sizeof *gap, cw_order_doubles);
-    printf("%-7s %-22s %-22s %5d %7.2f %7.2f %6d %6d %10d\n", name, cw_cad_patch_name(cad, probe[first].from),
-           cw_cad_patch_name(cad, probe[first].to), rays, 1e3 * gap[0], 1e3 * gap[rays / 2], probe[first].cells,
-           probe[first + rays / 2].cells, tets);
+    for (next = first; next < count && probe[next].from == probe[first].from && probe[next].to == probe[first].to;)
+      next++;
+    printf("%-7s %-22s %-22s %5d %6d\n", name, cw_cad_patch_name(cad, probe[first].from),
+           cw_cad_patch_name(cad, probe[first].to), next - first, probe[first].cells);
   }
 }
 
@@ -166,8 +155,7 @@ int main(int argc, char **argv) {
     fprintf(stderr, "use: cells_across GEOMETRY_DIR MESH_DIR GREATEST_GAP_MM\n");
     return CW_ERR_USAGE;
   }
-  printf("%-7s %-22s %-22s %5s %7s %7s %6s %6s %10s\n", "domain", "from", "to", "rays", "gap_mm", "median", "cells",
-         "median", "tetrahedra");
+  printf("%-7s %-22s %-22s %5s %6s\n", "domain", "from", "to", "rays", "cells");
   CwStatus status = measure(argv[1], argv[2], "rotor", greatest);
   if (status == CW_OK) status = measure(argv[1], argv[2], "stator", greatest);
   if (status != CW_OK) fprintf(stderr, "%s\n", cw_fail_message());

@@ -2,7 +2,7 @@
 // Whether both sides of each interface of a finished domain are one, by its region files alone. The open faces of a
 // region, those in one of its cells and on no patch, have the same nodes in one other region, which has another region
 // number and sees them from the other side; a shared point has the same bits in all regions. Prints for each domain its
-// regions, the shared points, and the triangles and quadrilaterals between regions; returns 1 where something differs.
+// regions and the triangles between them; returns 1 where something differs.
 // Use: interface_sides MESH_DIR DOMAIN...
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,8 +76,8 @@ done:
   return status;
 }
 
-// Holds the places of shared points against one another; *different: how many there are.
-static CwStatus match_points(const char *domain, const CwDomainMesh *mesh, int32_t *different) {
+// Holds the places of shared points against one another.
+static CwStatus match_points(const char *domain, const CwDomainMesh *mesh) {
   CwStatus status = CW_OK;
   Point *point = NULL;
   int32_t count = 0;
@@ -92,12 +92,10 @@ static CwStatus match_points(const char *domain, const CwDomainMesh *mesh, int32
     }
   }
   qsort(point, (size_t)count, sizeof *point, compare_points);
-  *different = count > 0;
   for (int32_t i = 1; i < count; i++) {
     int same = point[i].id == point[i - 1].id;
     CW_REQUIRE(!same || !memcmp(point[i].x, point[i - 1].x, sizeof point->x), CW_ERR_MESH,
                "%s: shared point %lld has two places", domain, (long long)point[i].id);
-    *different += !same;
   }
 done:
   free(point);
@@ -108,13 +106,13 @@ static CwStatus judge(const char *folder, const char *domain) {
   CwStatus status = CW_OK;
   CwDomainMesh mesh = {0};
   Side *side = NULL;
-  int32_t count = 0, points = 0, triangles = 0;
+  int32_t count = 0, triangles = 0;
   CW_TRY(cw_domain_mesh_read(folder, domain, &mesh));
   for (int32_t r = 0; r < mesh.region_count; r++) CW_TRY(add_sides(&mesh.region[r], r, &side, &count));
   CW_TRY(match_sides(domain, &mesh, count, side));
-  CW_TRY(match_points(domain, &mesh, &points));
+  CW_TRY(match_points(domain, &mesh));
   for (int32_t i = 0; i < count; i += 2) triangles += side[i].node[3] < 0;
-  printf("%s %d %d %d %d\n", domain, mesh.region_count, points, triangles, count / 2 - triangles);
+  printf("%s %d %d\n", domain, mesh.region_count, triangles);
 done:
   free(side);
   cw_domain_mesh_free(&mesh);

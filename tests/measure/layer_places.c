@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Measures the layers of a finished run at places that are hard for them. Prints for each: wall triangles with their
 // centre near it, share of them with all layers (%), share with their first height within 10 % (%), least scaled
-// Jacobian of their prisms, least thickness (mm). Writes a section through the cells there to FOLDER/layers_PLACE.svg.
-// Use: layer_places GEOMETRY_DIR MESH_DIR FOLDER
+// Jacobian of their prisms, least thickness (mm). Use: layer_places GEOMETRY_DIR MESH_DIR
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,26 +13,23 @@
 #include "mesher/common/vec.h"
 #include "tests/measure/domain_mesh.h"
 
-typedef enum { ACROSS_EDGE, MERIDIAN, NORMAL_TO_AXIS } Section;
-
 // The points that two patches have in common; all of one patch where both are the same; its bends where the second is
 // "".
 typedef struct {
   const char *name, *domain, *patch, *other;
-  double reach, half; // m: of the columns from the points; half the width of the picture
-  Section section;
+  double reach; // m: of the columns from the points
 } Place;
 
 static const Place PLACES[] = {
-    {"trailing_edge_hub", "rotor", "blade_trailing_edge", "hub", 1.5e-3, 4e-3, ACROSS_EDGE},
-    {"trailing_edge_shroud", "rotor", "blade_trailing_edge", "shroud", 1.5e-3, 4e-3, ACROSS_EDGE},
-    {"trailing_edge", "rotor", "blade_trailing_edge", "blade_trailing_edge", 1e-4, 4e-3, NORMAL_TO_AXIS},
-    {"neck", "stator", "neck", "neck", 1e-4, 3e-3, MERIDIAN},
-    {"step", "stator", "neck", "step", 2e-3, 4e-3, MERIDIAN},
-    {"tongue", "stator", "tongue", "tongue", 1e-4, 8e-3, NORMAL_TO_AXIS},
-    {"volute_corner", "stator", "volute", "", 2e-3, 6e-3, MERIDIAN},
+    {"trailing_edge_hub", "rotor", "blade_trailing_edge", "hub", 1.5e-3},
+    {"trailing_edge_shroud", "rotor", "blade_trailing_edge", "shroud", 1.5e-3},
+    {"trailing_edge", "rotor", "blade_trailing_edge", "blade_trailing_edge", 1e-4},
+    {"neck", "stator", "neck", "neck", 1e-4},
+    {"step", "stator", "neck", "step", 2e-3},
+    {"tongue", "stator", "tongue", "tongue", 1e-4},
+    {"volute_corner", "stator", "volute", "", 2e-3},
 };
-enum { PLACE_COUNT = sizeof PLACES / sizeof *PLACES, PIXELS = 900 };
+enum { PLACE_COUNT = sizeof PLACES / sizeof *PLACES };
 
 typedef struct {
   int32_t count, capacity;
@@ -146,118 +142,6 @@ static void measure_region(const CwRegionMesh *mesh, const Points *points, doubl
   }
 }
 
-typedef struct {
-  double origin[3], u[3], v[3], normal[3], half;
-} Plane;
-
-// The plane of the picture: through the point nearest to the middle of those about the first.
-static void choose_plane(const Place *place, const Points *points, Plane *plane) {
-  double middle[3] = {0}, along[3] = {0}, axis[3] = {0, 0, 1}, radius[3], nearest = INFINITY;
-  int32_t about = 0, at = 0;
-  for (int32_t i = 0; i < points->count; i++) {
-    if (cw_distance(points->x[i], points->x[0]) > 2 * place->half) continue;
-    about++;
-    for (int k = 0; k < 3; k++) middle[k] += points->x[i][k];
-  }
-  for (int k = 0; k < 3; k++) middle[k] /= about;
-  for (int32_t i = 0; i < points->count; i++) {
-    if (cw_distance(points->x[i], middle) < cw_distance(points->x[at], middle)) at = i;
-  }
-  for (int32_t i = 0; i < points->count; i++) {
-    double far = cw_distance(points->x[i], points->x[at]);
-    if (far <= 1e-5 || far >= nearest) continue;
-    nearest = far;
-    cw_sub(points->x[i], points->x[at], along);
-  }
-  // A little beside the point, or the plane would run through corners.
-  for (int k = 0; k < 3; k++) plane->origin[k] = points->x[at][k] + 0.013 * along[k] + 1.7e-6;
-  for (int k = 0; k < 3; k++) radius[k] = k < 2 ? plane->origin[k] : 0;
-  cw_unit(radius);
-  cw_unit(along);
-  plane->half = place->half;
-  if (place->section == NORMAL_TO_AXIS)
-    cw_copy(axis, plane->normal);
-  else if (place->section == MERIDIAN)
-    cw_cross(axis, radius, plane->normal);
-  else // across the edge
-    cw_copy(along, plane->normal);
-  double right = cw_dot(radius, plane->normal);
-  for (int k = 0; k < 3; k++) plane->u[k] = radius[k] - right * plane->normal[k];
-  if (!(cw_unit(plane->u) > 0.1)) {
-    cw_cross(axis, plane->normal, plane->u);
-    cw_unit(plane->u);
-  }
-  cw_cross(plane->normal, plane->u, plane->v);
-}
-
-// Draws the section of a cell: the crossings of its edges, in order round their middle.
-static void draw_cell(FILE *file, const CwRegionMesh *mesh, const int32_t *corner, int edges, const int (*edge)[2],
-                      const Plane *plane, const char *colour) {
-  double page[9][2], middle[2] = {0, 0}, turn[9];
-  int count = 0, inside = 0;
-  for (int e = 0; e < edges; e++) {
-    const double *a = mesh->cells.points[corner[edge[e][0]]], *b = mesh->cells.points[corner[edge[e][1]]];
-    double from[3], to[3], at[3];
-    cw_sub(a, plane->origin, from);
-    cw_sub(b, plane->origin, to);
-    double s = cw_dot(from, plane->normal), t = cw_dot(to, plane->normal);
-    if ((s < 0) == (t < 0)) continue;
-    cw_lerp(from, to, s / (s - t), at);
-    page[count][0] = cw_dot(at, plane->u) / plane->half;
-    page[count][1] = cw_dot(at, plane->v) / plane->half;
-    inside |= fabs(page[count][0]) < 1 && fabs(page[count][1]) < 1;
-    count++;
-  }
-  if (count < 3 || !inside) return;
-  for (int i = 0; i < 2 * count; i++) middle[i % 2] += page[i / 2][i % 2] / count;
-  for (int i = 0; i < count; i++) turn[i] = atan2(page[i][1] - middle[1], page[i][0] - middle[0]);
-  fputs("<path d=\"", file);
-  for (int i = 0; i < count; i++) {
-    int next = -1;
-    for (int j = 0; j < count; j++) {
-      if (isfinite(turn[j]) && (next < 0 || turn[j] < turn[next])) next = j;
-    }
-    turn[next] = INFINITY;
-    fprintf(file, "%c%.2f %.2f", i ? 'L' : 'M', PIXELS / 2 * (1 + page[next][0]), PIXELS / 2 * (1 - page[next][1]));
-  }
-  fprintf(file, "z\" fill=\"%s\"/>\n", colour);
-}
-
-static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points *points, int layers,
-                     const char *folder) {
-  CwStatus status = CW_OK;
-  static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-  static const int prism_edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
-  Plane plane;
-  char path[4096];
-  choose_plane(place, points, &plane);
-  snprintf(path, sizeof path, "%s/layers_%s.svg", folder, place->name);
-  FILE *file = fopen(path, "w");
-  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be written", path);
-  fprintf(file,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" stroke=\"#303840\" "
-          "stroke-width=\"0.6\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-          PIXELS, PIXELS);
-  for (int32_t r = 0; r < mesh->region_count; r++) {
-    const CwRegionMesh *region = &mesh->region[r];
-    for (int32_t c = 0; c < region->cells.tetrahedron_count; c++) {
-      if (cw_distance(region->cells.points[region->cells.tetrahedra[c][0]], plane.origin) < 2 * plane.half) {
-        draw_cell(file, region, region->cells.tetrahedra[c], 6, tet_edge, &plane, "#f0ead8");
-      }
-    }
-    for (int32_t c = 0; c < region->cells.prism_count; c++) {
-      if (cw_distance(region->cells.points[region->cells.prisms[c][0]], plane.origin) < 2 * plane.half) {
-        draw_cell(file, region, region->cells.prisms[c], 9, prism_edge, &plane, c % layers % 2 ? "#c4d8ee" : "#9fbfe2");
-      }
-    }
-  }
-  fputs("</svg>\n", file);
-  int wrong = ferror(file);
-  CW_REQUIRE(fclose(file) == 0 && !wrong, CW_ERR_IO, "%s: cannot be written", path);
-done:
-  return status;
-}
-
 // First heights asked, by patch (0 where the patch is no wall), and the number of layers, from the record of the run.
 static CwStatus read_targets(const char *mesh_dir, const char *domain, const CwCad *cad, double *first, int *layers) {
   CwStatus status = CW_OK;
@@ -291,7 +175,7 @@ static int patch_of(const CwCad *cad, const char *name) {
   return -1;
 }
 
-static CwStatus measure(const char *geometry, const char *mesh_dir, const char *folder, const char *domain) {
+static CwStatus measure(const char *geometry, const char *mesh_dir, const char *domain) {
   CwStatus status = CW_OK;
   CwCad *cad = NULL;
   CwDomainMesh mesh = {0};
@@ -318,7 +202,6 @@ static CwStatus measure(const char *geometry, const char *mesh_dir, const char *
     printf("%-21s %8lld %9.2f %9.2f %9.3f %12.3f\n", place->name, (long long)figures.columns,
            100 * (double)figures.covered / columns, 100 * (double)figures.met / columns, figures.jacobian,
            1e3 * figures.thickness);
-    CW_TRY(draw(place, &mesh, &points, layers, folder));
   }
 done:
   free(points.x);
@@ -329,13 +212,13 @@ done:
 }
 
 int main(int argc, char **argv) {
-  if (argc != 4) {
-    fprintf(stderr, "use: layer_places GEOMETRY_DIR MESH_DIR FOLDER\n");
+  if (argc != 3) {
+    fprintf(stderr, "use: layer_places GEOMETRY_DIR MESH_DIR\n");
     return CW_ERR_USAGE;
   }
   printf("%-21s %8s %9s %9s %9s %12s\n", "place", "columns", "covered_%", "first_%", "jacobian", "thickness_mm");
-  CwStatus status = measure(argv[1], argv[2], argv[3], "rotor");
-  if (status == CW_OK) status = measure(argv[1], argv[2], argv[3], "stator");
+  CwStatus status = measure(argv[1], argv[2], "rotor");
+  if (status == CW_OK) status = measure(argv[1], argv[2], "stator");
   if (status != CW_OK) fprintf(stderr, "%s\n", cw_fail_message());
   return (int)status;
 }

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "mesher/cad/background_make.h"
 #include "mesher/common/vec.h"

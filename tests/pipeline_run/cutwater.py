@@ -148,7 +148,7 @@ def interfaces_agree(test, run):
     after = []
     for domain, line in zip(domains, told.splitlines(), strict=True):
         rule, (name, *counts) = domain["region_rule"], line.split()
-        regions, _, triangles, _ = map(int, counts)
+        regions, triangles = map(int, counts)
         test.assertEqual((name, regions), (domain["name"], domain["regions"]))
         test.assertGreater(regions, 1)
         test.assertEqual(triangles, rule["final_triangles"], name)

@@ -16,7 +16,7 @@ PLACES = {"trailing_edge", "trailing_edge_hub", "trailing_edge_shroud", "neck", 
 
 class Layers(unittest.TestCase):
     def test_hard_places(self):
-        rows = rows_said(self, [BIN / "layer_places", RUN / "geometry", RUN / "mesh", RUN])
+        rows = rows_said(self, [BIN / "layer_places", RUN / "geometry", RUN / "mesh"])
         self.assertEqual({row["place"] for row in rows}, PLACES)
         for row in rows:
             name = row["place"]
@@ -26,8 +26,6 @@ class Layers(unittest.TestCase):
                 self.assertGreaterEqual(float(row["first_%"]), FIRST.get(name, 99))
                 self.assertGreater(float(row["jacobian"]), 0.05)
                 self.assertGreater(float(row["thickness_mm"]), THICKNESS.get(name, 0.4))
-                picture = (RUN / f"layers_{name}.svg").read_text()
-                self.assertGreater(picture.count("<path"), 20)
 
     def test_last_layer(self):
         patches = [patch for domain in record(RUN, "mesh")["results"]["domains"] for patch in domain["layer_coverage"]]
