@@ -23,12 +23,13 @@ class WallAngles(unittest.TestCase):
         run = with_geometry("wall-angles")
         for size in SIZES:
             said(self, command("mesh", run, cells=size, ranks=2) + ["--stop-after", "surface", "--vtk"])
-            for path in sorted((run / "mesh").glob("*-surface.vtk")):
-                with self.subTest(size=size, domain=path.stem):
+            for domain in ("rotor", "stator"):
+                path = run / f"mesh/{domain}-surface.vtk"
+                with self.subTest(size=size, domain=domain):
                     points, triangles = surface(path)
                     places = ([points[corner] for corner in triangle] for triangle in triangles)
                     angle, where = min((least_angle(corners), corners) for corners in places)
-                    print(f"{size} {path.stem}: {angle:.1f} degrees")
+                    print(f"{size} {domain}: {angle:.1f} degrees")
                     self.assertGreaterEqual(angle, LEAST, f"at {where[0]} m")
                 path.unlink()
 
