@@ -10,26 +10,24 @@
 #include "mesher/fill/tet_work.h"
 #include "mesher/policy.h"
 
-// The shortest and the longest edge of a tetrahedron: squares and ends.
+// The shortest and the longest edge of a tetrahedron: squares, and the ends of the longest.
 typedef struct {
   double shortest, longest;
-  int32_t near[2], far[2];
+  int32_t far[2];
 } CwTetEnds;
 
 static inline CwTetEnds cw_tet_ends(const CwTetWork *w, const int32_t corner[4]) {
   CwTetEnds ends;
   double square[6];
-  int near = 0, far = 0;
+  int far = 0;
   for (int e = 0; e < 6; e++) square[e] = cw_tet_square_of(w, corner[cw_tet_edge[e][0]], corner[cw_tet_edge[e][1]]);
   ends.shortest = ends.longest = square[0];
   for (int e = 1; e < 6; e++) { // which one is as good as random, and takes no branch
-    int less = (int)cw_branchless(square[e] < ends.shortest), more = (int)cw_branchless(square[e] > ends.longest);
-    near += less * (e - near);
-    far += more * (e - far);
+    far += (int)cw_branchless(square[e] > ends.longest) * (e - far);
     ends.shortest = cw_lesser(square[e], ends.shortest);
     ends.longest = cw_greater(square[e], ends.longest);
   }
-  for (int i = 0; i < 2; i++) ends.near[i] = corner[cw_tet_edge[near][i]], ends.far[i] = corner[cw_tet_edge[far][i]];
+  for (int i = 0; i < 2; i++) ends.far[i] = corner[cw_tet_edge[far][i]];
   return ends;
 }
 
