@@ -8,8 +8,6 @@
 #include "mesher/fill/tet_group.h"
 #include "mesher/policy.h"
 
-enum { MOVED = 1, RETURNED = 2 }; // a point that is free to move
-
 // Tetrahedra whose points move, with CW_TET_PAD more.
 typedef struct {
   int32_t *tet, count;
@@ -39,7 +37,7 @@ static void move_all(CwTetWork *w, CwTetShapes *shapes, const Moving *moving, Ad
   memset(sum, 0, (size_t)w->mesh->point_count * sizeof *sum);
   add(w->mesh, moving->tet, moving->count, shapes->place, sum);
   for (int32_t p = 0; p < w->mesh->point_count; p++) {
-    if (!(moved[p] & MOVED) || !(sum[p][3] > 0.0f)) continue;
+    if (!moved[p] || !(sum[p][3] > 0.0f)) continue;
     shapes->place[p] += cw_4f_if((Cw4fMask){-1, -1, -1, 0}, share / sum[p][3] * sum[p]);
   }
 }
@@ -72,8 +70,8 @@ static CwStatus take_back(CwTetWork *w, CwTetShapes *shapes, const Moving *movin
       int32_t t = spoilt.tet[--spoilt.count];
       for (int i = 0; i < 4 && cw_tet_is_spoilt(w, shapes, t); i++) {
         int32_t point = mesh->tet[t].corner[i];
-        if (!(moved[point] & MOVED)) continue;
-        moved[point] = RETURNED;
+        if (!moved[point]) continue;
+        moved[point] = 0;
         w->count.points_moved--;
         CW_TRY(put_back(w, shapes, t, point, &spoilt, &whole));
       }
@@ -96,9 +94,9 @@ CwStatus cw_tet_relax(CwTetWork *w, CwTetShapes *shapes, int moves) {
   CW_TRY(cw_tet_set_places(w, shapes));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     int32_t source = mesh->source[p], is_free = source >= w->fixed_count;
-    moved[p] = is_free && shapes->irregular[p] ? MOVED : 0;
+    moved[p] = is_free && shapes->irregular[p];
     shapes->irregular[p] = 0;
-    w->count.points_moved += moved[p] == MOVED;
+    w->count.points_moved += moved[p];
   }
   find_moving(mesh, moved, &moving);
   if (moves & CW_TET_CENTRES) move_all(w, shapes, &moving, cw_tet_add_centres, 1.0f, moved, sum);
@@ -110,7 +108,7 @@ CwStatus cw_tet_relax(CwTetWork *w, CwTetShapes *shapes, int moves) {
   CW_TRY(take_back(w, shapes, &moving, moved));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double goal[3];
-    if (!(moved[p] & MOVED)) continue;
+    if (!moved[p]) continue;
     cw_tet_goal(w, shapes, p, goal);
     memcpy(mesh->point[p].x, goal, sizeof goal);
   }
