@@ -228,7 +228,7 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
     for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
       const int32_t *corner = work->in->triangle[work->face[k]];
       int is_first = 1; // of the members of this triangle: the one that lists it
-      for (int c = 0; c < 3; c++) is_first &= corner[c] == v || !local[corner[c]] || local[corner[c]] - 1 >= i;
+      for (int c = 0; c < 3; c++) is_first &= local[corner[c]] > i;
       if (!is_first) continue;
       for (int c = 0; c < 3; c++) part->corner[part->triangle_count][c] = local[corner[c]] - 1;
       part->triangle_count++;
