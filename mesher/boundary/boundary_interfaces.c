@@ -11,7 +11,8 @@
 
 static const double BESIDE = 1e-7; // of the model's unit: where the two regions beside an interface are asked for
 
-// Nodes 0 .. wall_count-1: the layer top. Corners off the wall get nodes of their own.
+// The first nodes are those of the layer top, one for each vertex of the wall. Corners off the wall get nodes of their
+// own.
 static CwStatus start_nodes(const CwBoundaryInput *in, const CwWallCurves *curves, const CwSurfaceMesh *surface,
                             const CwLayers *layers, CwFreeCurves *free_curves) {
   CwStatus status = CW_OK;
@@ -48,8 +49,7 @@ done:
 }
 
 // Arc length of an end of a free curve: where the layers end, or the end of the curve itself.
-static double free_end(const CwBoundaryInput *in, const CwWallCurves *curves, const CwFreeCurves *free_curves,
-                       const CwCurve *curve, int end) {
+static double free_end(const CwWallCurves *curves, const CwFreeCurves *free_curves, const CwCurve *curve, int end) {
   int32_t corner = curve->corner[end];
   if (curves->corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
   return cw_curve_nearest(curve, free_curves->nodes.x[free_curves->corner_node[corner]]);
@@ -70,7 +70,7 @@ static CwStatus divide_free_curve(const CwBoundaryInput *in, const CwWallCurves 
   const CwPeriodicImages *images = in->images;
   const CwCurve *curve = &in->network->curve[first];
   double *place = NULL;
-  double from = free_end(in, curves, free_curves, curve, 0), to = free_end(in, curves, free_curves, curve, 1);
+  double from = free_end(curves, free_curves, curve, 0), to = free_end(curves, free_curves, curve, 1);
   int closed = curve->corner[0] == curve->corner[1], on_plane = curve->kind != CW_CURVE_EDGE;
   int32_t count, copies = cw_image_copies(images, &images->curve, first), index = first;
   if (closed) from = 0, to = curve->fine_length[curve->fine_count - 1];
@@ -102,12 +102,6 @@ done:
   return status;
 }
 
-// Nodes along a curve: a wall curve, or a divided free one.
-static const CwCurveNodes *nodes_of(const CwBoundaryInput *in, const CwWallCurves *curves,
-                                    const CwFreeCurves *free_curves, int32_t curve) {
-  return in->network->curve[curve].wall ? &curves->curve[curve] : &free_curves->curve[curve];
-}
-
 // All edges of the network on one plane. A cut of a wall, a cut of an open patch and the line with an ancestor bound
 // the interface; the line with a plane below only divides it. The outline is started, and may hold another plane's.
 static CwStatus plane_outline(const CwBoundaryInput *in, const CwWallCurves *curves, const CwFreeCurves *free_curves,
@@ -119,7 +113,7 @@ static CwStatus plane_outline(const CwBoundaryInput *in, const CwWallCurves *cur
     const CwCurve *curve = &in->network->curve[i];
     if (curve->plane[0] != node && curve->plane[1] != node) continue;
     int bounds = curve->kind == CW_CURVE_CUT || curve->plane[1] == node;
-    const CwCurveNodes *nodes = nodes_of(in, curves, free_curves, i);
+    const CwCurveNodes *nodes = curve->wall ? &curves->curve[i] : &free_curves->curve[i];
     int32_t previous = -1;
     for (int32_t k = 0; k < nodes->count; k++) {
       double uv[2];

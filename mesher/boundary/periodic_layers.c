@@ -177,7 +177,7 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
   CwStatus status = CW_OK;
   const CwPeriodicImages *images = part->images;
   const CwNodeImages *nodes = &part->surface->images;
-  int32_t count = images->symmetry ? images->symmetry->count : 1;
+  int32_t count = images->symmetry->count;
   CwIncident incident = {0};
   double(*top)[3] = NULL;
   CW_TRY(cw_incident_make(part->wall.in.point_count, part->wall.in.triangle_count, part->wall.in.triangle, &incident));
