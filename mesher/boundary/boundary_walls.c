@@ -11,16 +11,6 @@
 
 static const double ON_PLANE = 1e-8; // of the model's unit
 
-// (u,v) on `face` of point k of a curve that runs along it.
-static void curve_uv(const CwBoundaryInput *in, const CwCurve *curve, const double parameter[2], int32_t face,
-                     double uv[2]) {
-  if (curve->kind == CW_CURVE_EDGE) {
-    cw_cad_edge_uv(in->cad, curve->edge, face, parameter[0], uv);
-  } else {
-    memcpy(uv, parameter, sizeof(double[2]));
-  }
-}
-
 // The outline of a wall face: CAD edges first, so that their ends get the (u,v) of the edges, then the cuts.
 static CwStatus wall_outline(const CwBoundaryInput *in, const CwWallCurves *curves, int32_t face,
                              CwPatchOutline *outline) {
@@ -36,7 +26,7 @@ static CwStatus wall_outline(const CwBoundaryInput *in, const CwWallCurves *curv
       for (int32_t k = 0; k < nodes->count; k++) {
         double uv[2];
         int32_t v = nodes->node[k];
-        curve_uv(in, curve, nodes->parameter[k], face, uv);
+        cw_curve_uv(in->cad, curve, nodes->parameter[k], face, uv);
         CW_TRY(cw_outline_next(outline, v, uv, curves->x[v], kind == CW_CURVE_EDGE, &previous));
       }
     }
@@ -226,7 +216,7 @@ CwStatus cw_boundary_open_patch_outline(const CwBoundaryInput *in, const CwWallC
     for (int32_t k = 0; k < nodes->count; k++) {
       double uv[2];
       const double *x = free_curves->nodes.x[nodes->node[k]];
-      curve_uv(in, curve, nodes->parameter[k], face, uv);
+      cw_curve_uv(in->cad, curve, nodes->parameter[k], face, uv);
       cw_cad_face_project(in->cad, face, x, uv);
       CW_TRY(cw_outline_next(outline, nodes->node[k], uv, x, curve->kind == CW_CURVE_EDGE, &previous));
     }

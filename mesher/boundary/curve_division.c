@@ -58,11 +58,7 @@ static void make_chord(const CwBoundaryInput *in, int32_t face, const CwCurve *c
     } else {
       cw_curve_point(in->network, first, a->place + s * (b->place - a->place), x, parameter);
     }
-    if (curve->kind == CW_CURVE_EDGE) {
-      cw_cad_edge_uv(in->cad, curve->edge, face, parameter[0], chord->uv[i]);
-    } else {
-      memcpy(chord->uv[i], parameter, sizeof parameter);
-    }
+    cw_curve_uv(in->cad, curve, parameter, face, chord->uv[i]);
     cw_sub(x, a->x, from);
     cw_cross(along, from, beside);
     if (length > 0) chord->deviation = fmax(chord->deviation, cw_norm(beside) / length - gap);

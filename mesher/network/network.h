@@ -71,6 +71,9 @@ void cw_curve_nodes_free(int32_t curve_count, CwCurveNodes **nodes); // of an ar
 // fine_parameter.
 void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double length, double x[3], double parameter[2]);
 
+// (u,v) on `face`, along which an edge piece or a cut piece runs, of its place with this parameter.
+void cw_curve_uv(const CwCad *cad, const CwCurve *curve, const double parameter[2], int32_t face, double uv[2]);
+
 // Arc length of the place of the curve nearest to x.
 double cw_curve_nearest(const CwCurve *curve, const double x[3]);
 

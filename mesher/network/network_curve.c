@@ -70,6 +70,14 @@ void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double lengt
   }
 }
 
+void cw_curve_uv(const CwCad *cad, const CwCurve *curve, const double parameter[2], int32_t face, double uv[2]) {
+  if (curve->kind == CW_CURVE_EDGE) {
+    cw_cad_edge_uv(cad, curve->edge, face, parameter[0], uv);
+  } else {
+    memcpy(uv, parameter, sizeof(double[2]));
+  }
+}
+
 double cw_curve_end_gap(const CwNetwork *network, const CwCurve *curve, int end) {
   const CwCorner *corner = &network->corner[curve->corner[end]];
   if (curve->kind == CW_CURVE_CUT)
