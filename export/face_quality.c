@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "pipeline/mesh/cell.h"
 #include "pipeline/vec.h"
 
 // Of the distance of the centroids, or of that of the centroid to its foot on a patch, that skewness is measured by
@@ -74,7 +73,7 @@ static void measure(int count, const double *const *x, const double from[3], con
   cw_face_centre(count, x, centre, area);
   Line line = line_of(area, centre, from, to);
   if (line.off_squares > limit * limit * line.line_squares) q->skew[kind] += is_skew(count, x, centre, &line, extent);
-  if (to) q->light[kind] += is_light(&line, CW_WEIGHT_LEAST);
+  if (to) q->light[kind] += is_light(&line, CW_SMALL_WEIGHT);
 }
 
 // The cosine of the angle between the face and the line; only what may be skew or light is measured. The centre of a
@@ -94,7 +93,7 @@ static inline double cosine_between(int count, const double *const *x, const dou
   const double own = cw_dot(area, way), along = cw_dot(area, line), length = cw_dot(line, line);
   const double off = along * (along * cw_dot(way, way) - 2 * own * cw_dot(way, line)) + own * own * length;
   const double limit = CW_SKEWNESS_MOST * LEAST_EXTENT * (count == 3 ? 0.99 : 0.5);
-  const double near = fabs(own), far = fabs(along - own), light = 2 * CW_WEIGHT_LEAST * (near + far);
+  const double near = fabs(own), far = fabs(along - own), light = 2 * CW_SMALL_WEIGHT * (near + far);
   if (off > limit * limit * length * along * along || near < light || far < light) measure(count, x, from, to, kind, q);
   const double product = cw_dot(area, area) * length;
   return product > 0 ? along / sqrt(product) : 0;
@@ -166,7 +165,7 @@ static inline int judge_cell(int count, const double *const *x, double volume, c
   }
   const double cube = squares * sqrt(squares);
   if (cube > FLAT * volume || on_patches >= (count == 6 ? 1 : 2))
-    q->open[kind] += cw_cell_determinant(count, x, inner) < CW_DETERMINANT_LEAST;
+    q->open[kind] += cw_cell_determinant(count, x, inner) < CW_SMALL_DETERMINANT;
   // The sums of components are twice the cell's projections along the axes. None is less than its volume over its
   // diameter, nor more than that of a sphere, so that no ratio is above pi / 4 of the diameter's cube over the volume;
   // and that diameter is less than twice the longest edge of the base.

@@ -5,16 +5,15 @@
 #ifndef CUTWATER_EXPORT_FACE_QUALITY_H
 #define CUTWATER_EXPORT_FACE_QUALITY_H
 
+#include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
 #include "pipeline/status.h"
 
-// What checkMesh tells of: more skewness or aspect ratio, less weight, determinant or ratio of the volumes of two
-// cells.
+// What checkMesh tells of, beside a small determinant and a small weight (pipeline/mesh/cell.h): more skewness or
+// aspect ratio, a smaller ratio of the volumes of two cells.
 #define CW_SKEWNESS_MOST 4.0
-#define CW_WEIGHT_LEAST 0.05
 #define CW_VOLUME_RATIO_LEAST 0.01
 #define CW_ASPECT_MOST 1000.0
-#define CW_DETERMINANT_LEAST 0.001
 
 // Layers that are thin for the bend of their wall have skew sides; those of other faces are faults of the tetrahedra.
 typedef enum { CW_FACE_OF_PRISM, CW_FACE_OTHER, CW_FACE_KINDS } CwFaceKind;

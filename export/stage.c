@@ -182,7 +182,7 @@ static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *f
   } kinds[] = {{faces->skew, "have a skewness above", CW_SKEWNESS_MOST,
                 ": layers are thin for the bend of their wall; less mesh.curvature_angle_deg, more mesh.cells or "
                 "thicker layers lower it"},
-               {faces->light, "have an interpolation weight under", CW_WEIGHT_LEAST,
+               {faces->light, "have an interpolation weight under", CW_SMALL_WEIGHT,
                 ": the last layer is thin for the tetrahedra on it; more walls.layer_count or mesh.cells raise it"},
                {faces->uneven, "lie between cells of which one has more than", 1 / CW_VOLUME_RATIO_LEAST,
                 " times the volume of the other; walls.layer_count: auto brings layers to the size of the tetrahedra"}};
@@ -197,12 +197,12 @@ static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *f
         log,
         "domain %s: %lld prisms have an aspect ratio above %g and %lld a determinant under %g, as thin as the case "
         "asks or at edges of open patches; a greater walls.y_plus_* or more mesh.cells make them fewer",
-        domain, (long long)faces->slender, CW_ASPECT_MOST, (long long)open, CW_DETERMINANT_LEAST);
+        domain, (long long)faces->slender, CW_ASPECT_MOST, (long long)open, CW_SMALL_DETERMINANT);
   if (other_open > 0)
     cw_log_warn(log,
                 "domain %s: %lld other cells have a determinant under %g: flat ones, or such with two faces on "
                 "patches; with more mesh.cells there are fewer",
-                domain, (long long)other_open, CW_DETERMINANT_LEAST);
+                domain, (long long)other_open, CW_SMALL_DETERMINANT);
 }
 
 // Worth a word, though the mesh can be used.

@@ -14,11 +14,11 @@
 #include "mesher/fill/tet_loop.h"
 #include "mesher/fill/tet_patch.h"
 #include "mesher/policy.h"
+#include "pipeline/mesh/cell.h"
 
 static const CwPolicy *const policy = &cw_policy;
-static const double small_determinant = 1e-3; // checkMesh calls it so below
-enum { PLACES = 6, CHANGES = 3 };             // of a mesh that are searched; of one disturbance, at most
-static const double SHAKEN = 0.3;             // edges: farthest that points are moved by a disturbance
+enum { PLACES = 6, CHANGES = 3 }; // of a mesh that are searched; of one disturbance, at most
+static const double SHAKEN = 0.3; // edges: farthest that points are moved by a disturbance
 
 typedef struct {
   double least, sine, deficit; // least judged, and least sine; what all lack, the worst by far the most
@@ -82,7 +82,7 @@ static double judge(const Search *s, const CwTetMesh *mesh, int32_t t, double *s
   if (!s->determinants || *sine < 0.0) return *sine;
   for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] == CW_BESIDE_NOTHING) << i;
   double determinant = cw_tet_determinant(&m, open);
-  return determinant > 0.0 ? fmin(*sine, flat_sine() * sqrt(sqrt(determinant / small_determinant))) : *sine;
+  return determinant > 0.0 ? fmin(*sine, flat_sine() * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT))) : *sine;
 }
 
 static double mean_edge(const CwTetMesh *mesh, int32_t t) {

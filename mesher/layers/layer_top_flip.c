@@ -6,9 +6,9 @@
 
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
-#include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
+#include "pipeline/mesh/cell.h"
 
 enum { SWEEPS = 12 };
 static const double SHARE = 1.05 * CW_SMALL_WEIGHT; // of a triangle beside its neighbour, at least

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "pipeline/mesh/cell.h"
-
 double cw_thin_prism_wanted(double determinant) {
   return pow(CW_SMALL_DETERMINANT / determinant, 0.25);
 }

@@ -4,9 +4,7 @@
 #ifndef CUTWATER_MESHER_LAYERS_THIN_PRISM_H
 #define CUTWATER_MESHER_LAYERS_THIN_PRISM_H
 
-#define CW_SMALL_DETERMINANT 1e-3
-// And the weight of a face below this.
-#define CW_SMALL_WEIGHT 0.05
+#include "pipeline/mesh/cell.h"
 
 // Determinant of the prism between the triangles `base` and `top`, with the base on the wall or not; all its other
 // faces are inner ones.

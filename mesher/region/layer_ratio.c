@@ -7,7 +7,6 @@
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
-#include "mesher/layers/thin_prism.h"
 #include "mesher/region/tets_on.h"
 #include "pipeline/mesh/cell.h"
 

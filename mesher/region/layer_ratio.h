@@ -24,7 +24,7 @@ typedef struct {
   int64_t thin_over_fair;          // faces over CW_RATIO_FAIR whose prism is the lesser cell
   int64_t thick_over_fair;         // faces over CW_RATIO_FAIR whose prism is the greater cell
   int64_t over_most;               // faces over CW_RATIO_MOST
-  int64_t small_weight;            // faces of a weight below CW_SMALL_WEIGHT (thin_prism.h)
+  int64_t small_weight;            // faces of a weight below CW_SMALL_WEIGHT (pipeline/mesh/cell.h)
   double greatest, greatest_at[3]; // greatest ratio; centre of its face
 } CwLayerRatio;
 

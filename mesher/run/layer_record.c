@@ -9,10 +9,10 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "mesher/layers/layers_normal.h"
-#include "mesher/layers/thin_prism.h"
 #include "mesher/run/layer_coverage.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
+#include "pipeline/mesh/cell.h"
 #include "pipeline/record.h"
 
 static const double MOST_SHARE = 0.05; // of the faces, may exceed CW_RATIO_FAIR

@@ -7,6 +7,10 @@
 
 enum { CW_CELL_FACES = 5 }; // the most a cell has
 
+// Below these checkMesh calls the determinant of a cell, and the interpolation weight of a face, small.
+#define CW_SMALL_DETERMINANT 1e-3
+#define CW_SMALL_WEIGHT 0.05
+
 // The nodes of cell `cell` (tetrahedra first, then pyramids, then prisms); their number in `count`: 4, 5
 // or 6.
 static inline const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t cell, int *count) {
