@@ -90,12 +90,9 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   for (int i = 0; i < 4; i++) x[i] = cw_tet_at(w, tet->corner[i]);
   for (int f = 0; f < 4; f++) {
     const double *a = x[cw_tet_face[f][0]], *b = x[cw_tet_face[f][1]], *c = x[cw_tet_face[f][2]];
-    double u[3], v[3], normal[3], square = 0.0;
-    for (int i = 0; i < 3; i++) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
-    for (int i = 0; i < 3; i++) {
-      normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-      square += normal[i] * normal[i];
-    }
+    double normal[3];
+    cw_normal(a, b, c, normal);
+    double square = cw_dot(normal, normal);
     // The height of the regular tetrahedron on a face of the same area, sqrt(2/3) (4/sqrt(3) A)^(1/2).
     double height = tet->neighbour[f] < 0 ? -0.8774 * sqrt(sqrt(square)) / sqrt(square) : 0.0;
     for (int step = 1; step <= (height < 0.0 ? 3 : 1); step++, count++) {
@@ -109,7 +106,7 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   }
   if (tet->quality >= w->insert_round) return count;
   CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
-  double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
+  double edge = cw_tet_mean_edge(&m);
   for (int k = 0; k < 14 * SHELLS; k++, count++) {
     const double *direction = cw_tet_direction[k % 14];
     double radius = edge * (double)(k / 14 + 1) / SHELLS;

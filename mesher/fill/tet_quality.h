@@ -47,6 +47,12 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
   *longest = cw_greater(cw_greater(cw_greater(l[0], l[1]), cw_greater(l[2], l[3])), cw_greater(l[4], l[5]));
 }
 
+// Of the edges, the root of the mean square.
+static inline double cw_tet_mean_edge(const CwTetMeasures *s) {
+  const double *l = s->edge;
+  return sqrt((l[0] + l[1] + l[2] + l[3] + l[4] + l[5]) / 6.0);
+}
+
 // checkMesh's determinant: that of the sum of S S^T / a^2 over the inner faces, S being their area vectors and a the
 // mean of their areas, over 8. Bit i of `open` is set where the face opposite corner i lies on the boundary. As the S
 // of all four add up to 0, the sum's is (9 V^2 / 2)^2 without one of them and 4 times that with all; 0 where two or

@@ -87,7 +87,7 @@ static double judge(const Search *s, const CwTetMesh *mesh, int32_t t, double *s
 
 static double mean_edge(const CwTetMesh *mesh, int32_t t) {
   CwTetMeasures m = measures_of(mesh, t);
-  return sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
+  return cw_tet_mean_edge(&m);
 }
 
 static Rated rate(const Search *s, const CwTetMesh *mesh) {
