@@ -20,8 +20,8 @@ typedef struct {
   int32_t triangle[CW_PATCH_RING], ring[CW_PATCH_RING];
 } Ring;
 
-// The worst quality of the ring with p at uv, x. Negative where a triangle would be turned in (u,v) or p
-// would come nearer to a given edge than 0.4 of its size and nearer than `height` (the least one now).
+// The worst quality of the ring with p at uv, x. Negative where a triangle would be turned in (u,v). Where p would come
+// nearer to a given edge than boundary_distance of its size, no more than half the share of that distance that is left.
 static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, const double uv[2], const double x[3],
                            const double normal[3]) {
   double worst = 1;
@@ -65,7 +65,7 @@ static int try_move(CwPatchWork *work, const Ring *r, int32_t p, const double st
   cw_patch_set_metric(work, p);
   double size = work->input->size(work->input->size_context, x);
   for (int k = 0; k < r->count; k++)
-    size = fmin(size, work->size[r->ring[k]] + 0.3 * sqrt(cw_patch_distance2(x, work->x[r->ring[k]])));
+    size = fmin(size, work->size[r->ring[k]] + cw_policy.slope * sqrt(cw_patch_distance2(x, work->x[r->ring[k]])));
   work->size[p] = size;
   return 1;
 }

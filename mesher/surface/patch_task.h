@@ -41,8 +41,8 @@ typedef struct {
 } CwPatchBlock;
 
 // Meshes and packs, with the outcome of cw_patch_mesh; unless that is done, without points or triangles. `largest`: as
-// in CwPatchInput. `label` is called with each component's representative point and
-// gives its label. `turned` turns the triangles round.
+// in CwPatchInput. `label` is called with each component's representative point and gives its label. `turned` turns the
+// triangles round.
 typedef int32_t (*CwLabelAt)(const void *context, const double x[3]);
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
                        const void *size_context, double largest, int turned, CwLabelAt label, const void *label_context,
