@@ -27,7 +27,7 @@ static double side_quality(const CwTetWork *w, int32_t side, const double p[3]) 
   return cw_tet_quality(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), p);
 }
 
-// Grows the cavity from t over every face that would make a tetrahedron with p no better than `enough`
+// Grows the cavity from t over every face that would make a tetrahedron with p no better than `enough`.
 // 0 where it meets the boundary or becomes too large.
 static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cleared *cleared, Grown *grown) {
   CwTetMesh *mesh = w->mesh;

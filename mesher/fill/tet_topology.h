@@ -10,7 +10,7 @@
 #include "mesher/common/tet.h"
 #include "mesher/fill/tet_mesh.h"
 
-enum { CW_CAVITY = 48 }; // tetrahedra that are exchanged at once, at most
+enum { CW_CAVITY = 48 }; // tetrahedra that are put into a cavity at once, at most
 
 // Tetrahedra of a point, from t on, which has it, into star; 0 where there are more than `most`.
 int cw_tet_star(CwTetMesh *mesh, int32_t t, int32_t point, int most, int32_t *star);

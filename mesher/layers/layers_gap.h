@@ -7,8 +7,7 @@
 #include "mesher/layers/layer_columns.h"
 #include "pipeline/status.h"
 
-// A tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`.
-// Collective.
+// A tree of all triangles, those of the walls first, then the obstacles. Sets `curve`. Collective.
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
 // How thick the column of v may be where another wall stands `way` before it, m: gap_share of the way, and no more
 // than leaves `core` (m) to the tetrahedra between both layer tops; but as much as makes its last prism no smaller than

@@ -4,7 +4,7 @@
 //
 //   meeting patches  the finer first height, the lesser thickness and the larger growth hold
 //   first height     grows away from there no faster than columns whose layers grow by a tenth can follow
-//   fair thickness      the last layer no taller than its share of the tetrahedron above (layer_count.h)
+//   fair thickness   the last layer no taller than its share of the tetrahedron above (layer_count.h)
 #ifndef CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
 #define CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
 
