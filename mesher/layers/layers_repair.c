@@ -398,8 +398,8 @@ static CwStatus not_repaired(Repair *repair, CwOutcome *outcome) {
     if (repair->mark[v]) last = v;
   }
   cw_outcome_set(outcome, cw_layers_kind_at(work, last), work->in->x[last],
-                 "no valid layer top after %d rounds: %d prisms without positive volume, %d pairs crossing", ROUNDS,
-                 repair->bad_count, repair->crossing.pair_count);
+                 "no valid layer top after %d rounds: %d prisms of a quality below %g, %d pairs crossing", ROUNDS,
+                 repair->bad_count, repair->limit, repair->crossing.pair_count);
 done:
   return status;
 }
