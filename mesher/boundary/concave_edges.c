@@ -248,14 +248,14 @@ CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMe
   spread(&concave, moved, opened);
   int fits = 1;
   if (*opened) CW_TRY(check((const double(*)[3])layers->top, wall, (const double(*)[3])top, moved, &fits));
+  cw_log_debug(cw_log_of(wall->context), "%d triangles of the layer top in narrow concave edges: %d columns %s", found,
+               *opened, fits ? "moved" : "go back: prisms would become worse, or the layer top cross");
   if (!fits) {
     memcpy(layers->top, top, n * sizeof *top);
     memcpy(layers->thickness, thickness, n * sizeof *thickness);
     memcpy(layers->reason, reason, n);
     *opened = 0;
   }
-  cw_log_debug(cw_log_of(wall->context), "%d triangles of the layer top in narrow concave edges: %d columns %s", found,
-               *opened, fits ? "moved" : "stay, the layer top would cross");
 done:
   cw_incident_free(&concave.around);
   cw_wall_part_free(&concave.part);
