@@ -51,7 +51,7 @@ CwStatus cw_fill_from_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t source_
     memcpy(made[kept++], corner, sizeof corner);
   }
   mesh->tet = NULL;
-  fill->tetrahedron = realloc(made, (size_t)kept * sizeof *made);
+  fill->tetrahedron = realloc(made, (size_t)(kept ? kept : 1) * sizeof *made); // of 0 bytes it frees
   if (!fill->tetrahedron) fill->tetrahedron = made;
   fill->tetrahedron_count = kept;
   for (int32_t p = 0; p < source_count; p++) {

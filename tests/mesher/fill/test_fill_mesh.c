@@ -54,7 +54,23 @@ static void points_without_tetrahedra_go(void **unused) {
   cw_fill_free(&back);
 }
 
+// Of no tetrahedra the boundary's points stay, and the fill can be freed.
+static void without_tetrahedra(void **unused) {
+  static double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const CwFill fill = {.point_count = 3, .x = x};
+  CwFill back = {0};
+  CwTetMesh mesh;
+  assert_int_equal(cw_fill_to_mesh(&fill, &mesh), CW_OK);
+  assert_int_equal(cw_fill_from_mesh(&mesh, 2, 3, &back), CW_OK);
+  assert_int_equal(back.tetrahedron_count, 0);
+  assert_int_equal(back.point_count, 2);
+  assert_memory_equal(back.x, x, 2 * sizeof *x);
+  cw_tet_mesh_free(&mesh);
+  cw_fill_free(&back);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(there_and_back), cmocka_unit_test(points_without_tetrahedra_go)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(there_and_back), cmocka_unit_test(points_without_tetrahedra_go),
+                                     cmocka_unit_test(without_tetrahedra)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
