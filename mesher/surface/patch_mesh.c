@@ -43,8 +43,6 @@ static CwStatus take_result(const CwPatchWork *work, int32_t component_count, Cw
     if (c[0] < 0) continue;
     for (int i = 0; i < 3; i++) mesh->triangle[n][i] = number[c[i]];
     mesh->component[n] = work->component[t];
-    if (cw_patch_quality(work, c[0], c[1], c[2]) <= 0 && mesh->folded_count++ == 0)
-      for (int k = 0; k < 3; k++) mesh->folded_at[k] = (work->x[c[0]][k] + work->x[c[1]][k] + work->x[c[2]][k]) / 3;
     n++;
   }
 done:

@@ -27,11 +27,6 @@ typedef struct {
   int32_t *component;       // of each triangle: pieces that the given edges cut the patch into, numbered from 0
                             // by the smallest given points on them
   int32_t component_count;
-  // Triangles whose normal in space is against xu x xv: 0 unless the given points force them (a boundary much
-  // coarser than the curvature). `folded_at`: the middle of the first one. The caller judges whether it can
-  // live with them.
-  int32_t folded_count;
-  double folded_at[3];
 } CwPatchMesh;
 
 // Fails with CW_ERR_MESH where the boundary is open, naming the patch and the coordinates. Outcome: that of

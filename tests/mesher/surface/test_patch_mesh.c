@@ -279,21 +279,6 @@ static void noisy_straight_sides(void **state) {
   }
 }
 
-// The given places may contradict the map: here they mirror it, so that the one triangle lies upside down.
-static void folds_are_counted(void **state) {
-  Plan *plan = new_plan(PLANE, 1);
-  CwPatchMesh mesh;
-  const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-  add_loop(plan, 3, corner);
-  for (int k = 0; k < 3; k++) plan->x[k][0] = -plan->x[k][0];
-  assert_int_equal(cw_patch_mesh(&plan->input, &mesh, &(CwOutcome){0}), CW_OK);
-  assert_int_equal(mesh.triangle_count, 1);
-  assert_int_equal(mesh.folded_count, 1);
-  assert_near(mesh.folded_at[0], -1.0 / 3, 1e-12);
-  cw_patch_mesh_free(&mesh);
-  free(plan);
-}
-
 static void random_stars(void **state) {
   uint64_t seed = 20240229;
   for (int round = 0; round < 40; round++) {
@@ -365,7 +350,6 @@ int main(void) {
       cmocka_unit_test(foreign_boundary_spacing),
       cmocka_unit_test(coarse_on_curvature),
       cmocka_unit_test(noisy_straight_sides),
-      cmocka_unit_test(folds_are_counted),
       cmocka_unit_test(random_stars),
       cmocka_unit_test(wrong_input_is_refused_with_its_place),
   };
