@@ -247,7 +247,7 @@ void cw_size_surface_free(CwSizeSurface **surface) {
   *surface = NULL;
 }
 
-// Nodes of the grid that the face can have seeded.
+// Nodes of the grid that the face can have seeded; none of a face without triangles.
 static void box_of_face(const Surface *surface, int face, int32_t from[3], int32_t to[3]) {
   const CwSizeGrid *grid = &surface->grid;
   const CwBackground *b = surface->input.background;
@@ -256,8 +256,10 @@ static void box_of_face(const Surface *surface, int face, int32_t from[3], int32
     for (int c = 0; c < 3; c++) cw_box_add_point(&box, b->x[b->triangle[surface->face_triangle[i]][c]]);
   }
   for (int k = 0; k < 3; k++) {
-    from[k] = (int32_t)fmax(floor((box.low[k] - grid->low[k]) / grid->spacing) - 1, 0);
-    to[k] = (int32_t)fmin(ceil((box.high[k] - grid->low[k]) / grid->spacing) + 1, grid->count[k] - 1);
+    double first = floor((box.low[k] - grid->low[k]) / grid->spacing) - 1;
+    double last = ceil((box.high[k] - grid->low[k]) / grid->spacing) + 1;
+    from[k] = (int32_t)fmin(fmax(first, 0), grid->count[k]);
+    to[k] = (int32_t)fmax(fmin(last, grid->count[k] - 1), -1);
   }
 }
 

@@ -276,6 +276,30 @@ static void points_hold_their_edges(void **state) {
   assert_near(held.at(30, 30, 30), 3, 1e-5);
 }
 
+// All triangles of a tiny face can fold away.
+static void a_face_without_triangles_has_no_seeds(void **state) {
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
+  CwBackground background;
+  CwMeshTable table = {};
+  CwSizeSeeds *seeds = nullptr;
+  void *block = nullptr;
+  int64_t bytes, count;
+  const double patch_size = 1;
+  table.gradation = table.curvature_angle = 0.2;
+  check(cw_background_make(cad, 1e-5, 0.1, &background));
+  for (int32_t t = 0; t < background.triangle_count; t++)
+    if (background.face[t] == 0) background.face[t] = 1;
+  check(cw_size_seeds_start(cad, &background, &table, &patch_size, 0.001, &seeds));
+  check(cw_size_seeds_part(seeds, 0, &block, &bytes));
+  std::memcpy(&count, block, sizeof count);
+  assert_int_equal(count, 0);
+  assert_int_equal(bytes, sizeof count);
+  free(block);
+  cw_size_seeds_free(&seeds);
+  cw_background_free(&background);
+  cw_cad_close(&cad);
+}
+
 static void wrong_input_is_refused(void **state) {
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
   CwBackground background;
@@ -312,6 +336,7 @@ int main(void) {
       cmocka_unit_test(rims_hold_at_any_scale),
       cmocka_unit_test(walls_hold_their_edges),
       cmocka_unit_test(points_hold_their_edges),
+      cmocka_unit_test(a_face_without_triangles_has_no_seeds),
       cmocka_unit_test(wrong_input_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
