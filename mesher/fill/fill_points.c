@@ -146,7 +146,7 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
   for (int32_t k = 0; k < near && !is_offset && tree->items.near[k] < first_open; k++) {
     if (cw_reach_in_ball(&tree->items.ball[tree->items.near[k]], x)) return 1;
   }
-  double h = near ? tree->clearance * input->size(input->size_context, x) : 0.0;
+  double h = near ? input->size(input->size_context, x) : 0.0;
   for (int32_t k = 0; k < near; k++) {
     const int32_t *q = input->triangle[tree->items.near[k]];
     const CwReachBall *ball = &tree->items.ball[tree->items.near[k]];

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/thickness/column_targets.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "tests/unit_test.h"
 
 enum { MOST = 16 };
@@ -174,10 +175,27 @@ static void the_share_of_graded_columns(void **state) {
   free_wall(&wall, &targets);
 }
 
+// A column thinned to its least keeps its first height; one a little thinner does not.
+static void the_least_columns_have_their_first_height(void **state) {
+  for (int count = 1; count <= 20; count += 4) {
+    const CwLayerTarget layers = {.first_height = 0.5, .growth = 1.2, .thickness = INFINITY, .last = 1};
+    Wall wall;
+    CwColumnTargets targets = {0};
+    double fraction[CW_LAYERS_MOST + 1];
+    make_wall(&wall, 100, 4, square_x, 2, square, square_face);
+    assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, &layers, count, &targets),
+                     CW_OK);
+    assert_near(cw_layer_fractions(targets.least[0], 0.5, count, 1.2, fraction), 0.5, 1e-9);
+    assert_near(cw_layer_fractions(0.9 * targets.least[0], 0.5, count, 1.2, fraction), 0.45, 1e-9);
+    free_wall(&wall, &targets);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(images_have_those_of_their_first),      cmocka_unit_test(a_flat_wall),
-      cmocka_unit_test(the_finer_patch_holds_where_two_meet),  cmocka_unit_test(bends_of_the_wall),
-      cmocka_unit_test(a_vertex_without_triangle_is_an_error), cmocka_unit_test(the_share_of_graded_columns)};
+      cmocka_unit_test(images_have_those_of_their_first),         cmocka_unit_test(a_flat_wall),
+      cmocka_unit_test(the_finer_patch_holds_where_two_meet),     cmocka_unit_test(bends_of_the_wall),
+      cmocka_unit_test(a_vertex_without_triangle_is_an_error),    cmocka_unit_test(the_share_of_graded_columns),
+      cmocka_unit_test(the_least_columns_have_their_first_height)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
