@@ -122,8 +122,8 @@ static void names_and_sides_are_held_against_the_rules(void **state) {
   refused(cw_model_add_patch(&model, "WHEEL", CW_PATCH_WALL, &patch),
           "'WHEEL' has a name that domain 'wheel' has in CGNS");
   refused(cw_model_add_patch(&model, "casing_domain", CW_PATCH_WALL, &patch), "such as 'casing_wall'");
-  add(&model, "Wheel", CW_PATCH_WALL);
-  add(&model, "LATER", CW_PATCH_WALL);
+  add(&model, "Wheel", CW_PATCH_SYMMETRY);
+  add(&model, "LATER", CW_PATCH_SYMMETRY);
   refused(cw_model_add_domain(&model, "later", 0), "patch 'LATER' has a name that domain 'later' has");
   refused(cw_model_add_patch(&model, "to wheel", CW_PATCH_WALL, &patch), "allowed are 1 to 22 letters, digits and _");
   refused(cw_model_add_interface(&model, taken, CW_SURFACE_PLANE, 0), "'to_wheel' is a side of another");
