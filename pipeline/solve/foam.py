@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """An OpenFOAM case on its way to a settled flow: its folder, its start, and the solver's run."""
+import ctypes
+import functools
 import hashlib
 import json
 import math
@@ -20,6 +22,8 @@ from whole_file import write_whole  # noqa: E402  (what the scripts of pipeline/
 LOOK_EVERY = 2.0  # s between looks at the solver's reports
 TELL_EVERY = 10.0  # s between lines of progress
 WRITTEN, REPORTED = 100, 10  # iterations between fields and between reports, as the case is exported
+LIBC = ctypes.CDLL(None)
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
 PROGRAMS = ("simpleFoam", "decomposePar", "reconstructPar", "mapFields", "foamDictionary", "renumberMesh", "mpirun")
 ENVIRONMENT = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
@@ -40,12 +44,25 @@ def require_programs():
         raise Trouble(f"{missing[0]} is not there; install OpenFOAM (Debian: apt-get install openfoam)")
 
 
+def end_with(parent):
+    """Called in a child of the process `parent`: SIGTERM ends it when the parent ends, however that ends, for the lock
+    of the run ends too. An mpirun then ends its ranks."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if LIBC.prctl(PR_SET_PDEATHSIG, ctypes.c_ulong(signal.SIGTERM)) or os.getppid() != parent:
+        os._exit(1)
+
+
+def child_options(folder, out):
+    """How programs are started, in a folder, with their words into a file."""
+    return {"cwd": folder, "env": ENVIRONMENT, "stdin": subprocess.DEVNULL, "stdout": out, "stderr": subprocess.STDOUT,
+            "preexec_fn": functools.partial(end_with, os.getpid())}
+
+
 def call(folder, log, *line):
     """Runs a program to its end, its words into folder/log."""
     words = [str(word) for word in line]
     with open(folder / log, "w", encoding="utf-8") as out:
-        status = subprocess.run(words, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=out,
-                                stderr=subprocess.STDOUT, check=False).returncode
+        status = subprocess.run(words, check=False, **child_options(folder, out)).returncode
     if status:
         raise Trouble(f"{words[0]} ended with {status}: see {folder / log}")
 
@@ -165,8 +182,7 @@ def run_solver(case, ranks, most, within, name):
     set_entry(case, "system/controlDict", "stopAt", "endTime")
     line = mpirun(ranks, "simpleFoam", "-parallel") if ranks > 1 else ["simpleFoam"]
     with open(case / "log.simpleFoam", "a", encoding="utf-8") as out:
-        child = subprocess.Popen(line, cwd=case, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=out,
-                                 stderr=subprocess.STDOUT, start_new_session=True)
+        child = subprocess.Popen(line, start_new_session=True, **child_options(case, out))
     try:
         watch(child, case, most, within, name)
     except BaseException:

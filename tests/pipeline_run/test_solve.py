@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, record, said
+from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, left_behind, record, said
 
 sys.path.insert(0, str(SOURCE / "pipeline/solve"))
 import foam  # noqa: E402
@@ -169,6 +169,30 @@ class Stop(unittest.TestCase):
                 mock.patch.object(reports, "history", lambda _: history(lambda i: 10.0)):
             foam.watch(child, case, 4000, 0.003, "flow")
         self.assertEqual((child.returncode, asked), (0, [("stopAt", "writeNow")]))
+
+
+class Killed(unittest.TestCase):
+    SOLVER = "#!/bin/sh\necho $$ >> started\nexec sleep 600\n"
+    CALLER = ("import foam, os, pathlib, sys\nfoam.set_entry = lambda *_: None\n"
+              "case, ranks = pathlib.Path(sys.argv[1]), int(sys.argv[2])\n"
+              "foam.ENVIRONMENT['PATH'] = f\"{case}:{os.environ['PATH']}\"\n"
+              "foam.run_solver(case, ranks, 4000, 0.003, 'flow') if ranks else foam.call(case, 'log', 'simpleFoam')\n")
+
+    def test_what_it_has_started_ends_with_it(self):
+        for ranks, count in ((0, 1), (1, 1), (2, 2)):  # a program that is called; the solver; the same under mpirun
+            case = fresh("solve_killed")
+            (case / "simpleFoam").write_text(self.SOLVER)
+            (case / "simpleFoam").chmod(0o755)
+            started = case / "started"
+            caller = subprocess.Popen([sys.executable, "-B", "-c", self.CALLER, case, str(ranks)],
+                                      cwd=SOURCE / "pipeline/solve", stdin=subprocess.DEVNULL)
+            while caller.poll() is None and (not started.exists() or started.read_text().count("\n") < count):
+                time.sleep(0.02)
+            caller.kill()
+            caller.wait()
+            solvers = [int(word) for word in started.read_text().split()]
+            self.assertEqual(len(solvers), count)
+            self.assertEqual(left_behind(solvers), [], f"{ranks} ranks")
 
 
 class Divergence(unittest.TestCase):
