@@ -90,15 +90,37 @@ def digest_of(source, mesh):
     return found.hexdigest()
 
 
-def prepare(source, case, ranks, mesh, start):
-    """The case folder `case` made from the exported case `source`, decomposed for the ranks, with its start from what
-    the call start() gives: a solved case folder, or None for rest. As an earlier call left it where that was of the
-    same source, mesh (any value that tells it) and ranks; then start is not called."""
-    mark = json.dumps({"source": digest_of(source, mesh), "ranks": ranks})
-    kept = case / "made_from.json"
-    if kept.exists() and kept.read_text() == mark:
-        return
-    solved = start()
+def times(folder):
+    """The times after 0 of which a case folder, or a part of one, has fields, the latest first."""
+    return sorted((int(path.parent.name) for path in folder.glob("[1-9]*/U")), reverse=True)
+
+
+def rejoin(case):
+    """Puts the latest fields of all parts together in the case folder. Those of the very latest time may be unfinished
+    in a part, where the solver was stopped; then it takes the time before."""
+    whole = max(times(case), default=0)
+    for number, iteration in enumerate(times(case / "processor0")):
+        if iteration <= whole:
+            return
+        try:
+            call(case, "log.reconstructPar", "reconstructPar", "-time", iteration)
+            return
+        except Trouble:
+            shutil.rmtree(case / str(iteration), ignore_errors=True)
+            if number:
+                raise
+
+
+def divide(case, ranks):
+    """The mesh and its latest fields, for the ranks."""
+    set_entry(case, "system/decomposeParDict", "numberOfSubdomains", ranks)
+    set_entry(case, "system/decomposeParDict", "coeffs/n", f"({ranks} 1 1)")
+    call(case, "log.decomposePar", "decomposePar", "-force", "-latestTime", "-copyUniform")
+    call(case, "log.renumberMesh", *mpirun(ranks, "renumberMesh", "-parallel", "-overwrite"))
+
+
+def begin(source, case, solved):
+    """The case folder made anew from the exported case, with its start from a solved case folder, or from rest."""
     shutil.rmtree(case, ignore_errors=True)
     case.mkdir(parents=True)
     for name in ("0", "system"):
@@ -108,12 +130,30 @@ def prepare(source, case, ranks, mesh, start):
     if solved:
         call(case, "log.mapFields", "mapFields", solved.resolve(), "-consistent", "-sourceTime", "latestTime",
              "-mapMethod", "mapNearest")
+
+
+def prepare(source, case, ranks, mesh, start):
+    """The case folder `case` made from the exported case `source`, decomposed for the ranks, with its start from what
+    the call start() gives: a solved case folder, or None for rest. As an earlier call left it where that was of the
+    same source and mesh (any value that tells it); then start is not called, and for other ranks the latest fields are
+    put together and decomposed again."""
+    mark = {"source": digest_of(source, mesh), "ranks": ranks}
+    kept = case / "made_from.json"
+    before = json.loads(kept.read_text()) if kept.exists() else {}
+    if before == mark:
+        return
+    if before.get("source") != mark["source"]:
+        begin(source, case, start())
+    else:
+        say(f"{case}: ranks: {ranks} in the place of {before['ranks']}; goes on from the latest fields")
+        if before["ranks"] > 1:
+            rejoin(case)
+    write_whole(kept, json.dumps({**mark, "ranks": 1}))  # the folder has all that goes on from here
+    for part in case.glob("processor*"):
+        shutil.rmtree(part)
     if ranks > 1:
-        set_entry(case, "system/decomposeParDict", "numberOfSubdomains", ranks)
-        set_entry(case, "system/decomposeParDict", "coeffs/n", f"({ranks} 1 1)")
-        call(case, "log.decomposePar", "decomposePar", "-force")
-        call(case, "log.renumberMesh", *mpirun(ranks, "renumberMesh", "-parallel", "-overwrite"))
-    write_whole(kept, mark)
+        divide(case, ranks)
+        write_whole(kept, json.dumps(mark))
 
 
 def stop_solver(child):

@@ -14,8 +14,8 @@ With --curve it then solves the points of the characteristic curve that the case
 solved neighbour, into RUN/solve/points/NAME, and writes curve.csv and, into record.json, the curve.
 
 Where residuals of p stay above 1e-4 the steady equations have no such state, and means and scatter of the last window
-are the result. A killed call goes on where it was; other files of the export begin anew. A flow that has not settled
-after MOST iterations is told as such, in the headline and as a warning of the record."""
+are the result. A killed call goes on where it was, on other ranks too; other files of the export begin anew. A flow
+that has not settled after MOST iterations is told as such, in the headline and as a warning of the record."""
 import argparse
 import csv
 import fcntl

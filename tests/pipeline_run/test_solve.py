@@ -252,6 +252,61 @@ class Case(unittest.TestCase):
         moved = run.rename(run.with_name("moved"))
         self.assertEqual((moved / "solve/steady/constant/polyMesh/points").read_text(), "here")
 
+    def prepared(self, run, ranks, start, unfinished=()):
+        """Prepares a case for the ranks; the programs that were called. reconstructPar fails at unfinished times."""
+        called = []
+
+        def call(folder, log, *line):
+            called.append(" ".join(map(str, line)))
+            if line[0] == "reconstructPar" and line[2] in unfinished:
+                raise foam.Trouble("a field ends early")
+            if line[0] == "reconstructPar":
+                fields(folder, line[2])
+            if line[0] == "decomposePar":
+                for part in range(ranks):
+                    fields(folder / f"processor{part}", max(foam.times(folder), default=0))
+
+        def fields(folder, iteration):
+            (folder / str(iteration)).mkdir(parents=True, exist_ok=True)
+            (folder / str(iteration) / "U").write_text("")
+
+        with mock.patch.multiple(foam, call=call, set_entry=lambda *_: None):
+            foam.prepare(run / "export/openfoam", run / "solve/steady", ranks, {}, start)
+        parts = sorted(path.name for path in (run / "solve/steady").glob("processor*"))
+        self.assertEqual(parts, [f"processor{part}" for part in range(ranks)] if ranks > 1 else [])
+        return [line for line in called if "foamDictionary" not in line and "renumberMesh" not in line]
+
+    def test_other_ranks_go_on_from_the_latest_fields(self):
+        run = fresh("solve_ranks") / "run"
+        for folder in ("0", "system", "constant/polyMesh"):
+            (run / "export/openfoam" / folder).mkdir(parents=True)
+        case, divided = run / "solve/steady", "decomposePar -force -latestTime -copyUniform"
+        start = mock.Mock(return_value=None)
+        self.assertEqual(self.prepared(run, 2, start), [divided])
+        self.assertEqual(self.prepared(run, 2, start), [])
+        for part in (0, 1):
+            for iteration in ("100", "200", "300"):
+                (case / f"processor{part}" / iteration).mkdir()
+                (case / f"processor{part}" / iteration / "U").write_text("")
+        self.assertEqual(self.prepared(run, 3, start, unfinished=[300]),
+                         ["reconstructPar -time 300", "reconstructPar -time 200", divided])
+        self.assertEqual(foam.times(case / "processor2"), [200])
+        self.assertEqual(self.prepared(run, 1, start), [])  # they are together already
+        self.assertEqual(foam.times(case), [200])
+        self.assertEqual(self.prepared(run, 2, start), [divided])
+        start.assert_called_once_with()
+        # What fails for another reason leaves the fields where they are.
+        (case / "processor0/400").mkdir()
+        (case / "processor0/500").mkdir()
+        for iteration in ("400", "500"):
+            (case / "processor0" / iteration / "U").write_text("")
+        with self.assertRaises(foam.Trouble):
+            self.prepared(run, 1, start, unfinished=[400, 500])
+        self.assertEqual(foam.times(case / "processor0"), [500, 400, 200])
+        (run / "export/openfoam/system/fvSchemes").write_text("other")
+        self.assertEqual(self.prepared(run, 2, start), [divided])
+        self.assertEqual((start.call_count, foam.times(case)), (2, []))
+
     def test_a_coarse_start_finds_its_geometry(self):
         folder = fresh("solve_coarse") / "run"
         (folder / "geometry").mkdir(parents=True)
@@ -370,6 +425,14 @@ class Flow(unittest.TestCase):
         found = record(few, "solve")["results"]
         self.assertEqual((found["iterations"], found["settled"]), (20, False))
         self.assertTrue((few / "solve/steady/20/U").exists())
+        # Other ranks go on from there.
+        for ranks, most in ((2, 40), (3, 60), (1, 80)):
+            told = said(self, self.line("--run", few, "--most", most, "--ranks", ranks))
+            self.assertIn(f"ranks: {ranks} in the place of ", told)
+            self.assertEqual(record(few, "solve")["results"]["iterations"], most)
+            self.assertTrue((few / f"solve/steady/{most}/U").exists())
+        log = (few / "solve/steady/log.simpleFoam").read_text()
+        self.assertEqual([log.count(f"\nTime = {iteration}\n") for iteration in (15, 25, 45, 65)], [1] * 4)
 
     def test_what_is_missing_is_told_in_one_line(self):
         result = self.call("--run", self.pump.parent / "none")
