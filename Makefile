@@ -2,8 +2,8 @@
 # The front door.
 #
 #   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
-#   make solve [CELLS=..] [NP=2] [OUT=DIR]   the same, and its steady flow with OpenFOAM until head and torque settle
-#   make curve [CELLS=..] [NP=2] [OUT=DIR]   the same at several flow rates: head, power and efficiency over flow
+#   make solve [CELLS=..] [MOST=4000] ...    the same, and its steady flow with OpenFOAM until head and torque settle
+#   make curve [CELLS=..] [MOST=4000] ...    the same at several flow rates: head, power and efficiency over flow
 #   make report [OUT=runs]                   one page that sets the finished runs of a folder side by side
 #   make check                               the quick tests, with everything they need
 #   make check-long                          the long ones
@@ -15,6 +15,7 @@
 #   make clean                               removes build/ (runs/ stays)
 #
 # CELLS: asked number of cells (default: of the case file); NP: ranks; OUT: folder of the run (default runs/paper);
+# MOST: iterations of a flow at most;
 # HOSTS=FILE: mpirun's file of hosts; LAUNCHER="srun -n 256": instead of mpirun (docs/cluster.md).
 ROOT := $(CURDIR)
 include pipeline/build.mk
@@ -24,7 +25,7 @@ include pipeline/run.mk
 .PHONY: help solve curve report check check-long check-sanitized measurements verify dist clean
 
 help:
-	@sed -n '/^#   make/s/^#  //p; /^# \(CELLS\|HOSTS\)/s/^# //p' Makefile
+	@sed -n '/^#   make/s/^#  //p; /^# \(CELLS\|MOST\|HOSTS\)/s/^# //p' Makefile
 
 OUT ?= runs/paper
 $(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))

@@ -16,7 +16,7 @@ cutwater_require_cells = $(call cutwater_require,$(1),$(2),([0-9][0-9.]*[kKMG]?)
   a number of cells as 500000 or 500k or 2M)
 
 # Stops at a variable of the command line that is none of those in the list, such as CELL=2M.
-cutwater_variables := BUILD CELLS CHOICE HOSTS JOBS LAUNCHER NP OPTIONS OUT PARTS SECTIONS SOLVE SWEEP
+cutwater_variables := BUILD CELLS CHOICE HOSTS JOBS LAUNCHER MOST NP OPTIONS OUT PARTS SECTIONS SOLVE SWEEP
 $(foreach variable,$(filter-out $(cutwater_variables),$(.VARIABLES)),$(if $(filter command,$(origin $(variable))),$\
   $(error $(variable) is no variable of this project; allowed: $(cutwater_variables))))
 

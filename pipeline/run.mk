@@ -20,6 +20,7 @@ cutwater_solves := $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS))
 $(if $(and $(NP),$(LAUNCHER)),$(if $(cutwater_solves),,$\
   $(error NP is for mpirun, and LAUNCHER is given; allowed: the number of ranks in LAUNCHER, as 'srun -n 256')))
 $(call cutwater_require_cells,CELLS,$(CELLS))
+$(call cutwater_require,MOST,$(MOST),([1-9][0-9]*)?,a number of iterations from 1 on)
 ifneq ($(HOSTS),)
 override HOSTS := $(call cutwater_folder,HOSTS,$(HOSTS))
 $(if $(shell test -f $(HOSTS) && test -r $(HOSTS) || echo no),$\
@@ -49,7 +50,7 @@ define cutwater_run
 .PHONY: $(1) $(1)-solve $(1)-curve
 $(1)-solve $(1)-curve: $(1)-%: $(2) $(3)/export/record.json
 	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(or $(NP),2) --bin $(BIN) \
-	  $$(if $$(filter curve,$$*),--curve)
+	  $(if $(MOST),--most $(MOST)) $$(if $$(filter curve,$$*),--curve)
 	@$(LAUNCHER) $(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 

@@ -158,7 +158,7 @@ def warnings_of(results, name):
     found = []
     if not results["settled"]:
         found.append(f"{name}: head and torque have not settled after {results['iterations']} iterations; the result "
-                     "is the mean of the last window: go on with a larger --most, or look at the transient run")
+                     "is the mean of the last window: go on with a larger MOST, or look at the transient run")
     elif results["residual_p"] and results["residual_p"] > RESIDUAL_ASKED:
         found.append(f"{name}: the residual of p is {results['residual_p']:.1e} where head and torque have come to "
                      "rest: the steady equations leave an unsteadiness; it scatters the head by "

@@ -194,6 +194,11 @@ class FrontDoor(unittest.TestCase):
         self.assertIn(f"srun -n 64 {SOURCE}/build/bin/cutwater-mesh", told)
         self.assertIn("--ranks 6", told)
 
+    def test_the_most_iterations_reach_the_solver_of_the_flow(self):
+        self.assertRegex(self.make("solve", "MOST=8000").stdout, r"solve\.py .* --most 8000 ")
+        self.assertRegex(self.make("-C", "cases", "paper-curve", "MOST=20").stdout, r"solve\.py .* --most 20 --curve")
+        self.assertNotIn("--most", self.make("solve").stdout)
+
     def test_a_wrong_variable_is_refused_before_anything_runs(self):
         for words, told in ((["CELLS=abc"], "CELLS is 'abc'; allowed: a number of cells as 500000 or 500k or 2M"),
                             (["CELLS=2m"], "CELLS is '2m'"), (["CELLS=1 2"], "CELLS is '1 2'"),
@@ -203,6 +208,8 @@ class FrontDoor(unittest.TestCase):
                             (["HOSTS=README.md", "LAUNCHER=srun"], "HOSTS is for mpirun, and LAUNCHER is given"),
                             (["NP=4", "LAUNCHER=srun"], "NP is for mpirun, and LAUNCHER is given; allowed: the number"),
                             (["JOBS=0"], "JOBS is '0'"),
+                            (["MOST=all"], "MOST is 'all'; allowed: a number of iterations from 1 on"),
+                            (["MOST=0"], "MOST is '0'"),
                             (["OUT="], "OUT is ''; allowed: one folder, without blanks"), (["OUT=a b"], "OUT is 'a b'"),
                             (["OUT=R&D"], "OUT is 'R&D'; allowed: one folder, without blanks, of letters, d"),
                             (["OUT=a:b"], "OUT is 'a:b'"), (["OUT=it's"], "OUT is 'it's'"),
