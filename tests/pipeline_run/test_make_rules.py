@@ -217,6 +217,7 @@ class FrontDoor(unittest.TestCase):
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),
                             (["-C", "cases", "OUT="], "OUT is ''"),
                             (["-C", "cases", "ns40-solve", "OUT=x"], "but there are several: ns40 paper"),
+                            (["-C", "cases", "paper-sweep", "OUT=x"], "there are several: paper paper-sweep"),
                             (["-C", "cases", "SOLVE=0"], "SOLVE is '0'; allowed: 1 where a sweep solves"),
                             (["-C", "cases", "nothing"], "no case is called 'nothing'; allowed: ")):
             with self.subTest(words):
@@ -235,6 +236,16 @@ class FrontDoor(unittest.TestCase):
         told = self.make("-C", "cases", "paper-sweep", "SWEEP=100k 200k").stdout
         for cells in ("100k", "200k"):
             self.assertIn(f"--run {SOURCE}/runs/paper-{cells} --cells {cells}", told)
+        self.assertRegex(told, "(?m)^2 runs, 300,000 cells: ")
+
+    def test_sweeps_into_a_folder(self):
+        told = self.make("-C", "cases", "paper-sweep", "ns40-sweep", "SWEEP=100k 200k", "OUT=/nowhere").stdout
+        self.assertRegex(told, "(?m)^4 runs, 600,000 cells: ")
+        for name in ("paper", "ns40"):
+            for cells in ("100k", "200k"):
+                self.assertIn(f"--run /nowhere/{name}-{cells} --cells {cells}", told)
+            self.assertIn(f"sweep.py /nowhere/{name}-sweep.csv /nowhere/{name}-100k /nowhere/{name}-200k\n", told)
+        self.assertNotIn(f"{SOURCE}/runs", told)
 
 
 if __name__ == "__main__":
