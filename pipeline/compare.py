@@ -136,7 +136,8 @@ def main(folder):
         sys.exit(f"compare: error: {folder}: no such folder; allowed: a folder of runs, such as runs")
     found = runs_in(folder)
     if not found:
-        sys.exit(f"compare: error: {folder}: holds no run with a mesh; make one first (make -C cases NAME)")
+        sys.exit(f"compare: error: {folder}: holds no run with a mesh; make one first (make -C cases NAME, or "
+                 "cutwater NAME)")
     try:
         runs = [read_run(run) for run in found]
         write_whole(os.path.join(folder, "index.html"), page(folder, runs))

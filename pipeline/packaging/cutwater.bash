@@ -4,8 +4,9 @@ _cutwater() {
   local program=${COMP_WORDS[0]} word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words name
   case ${program##*/} in
   cutwater)
+    [[ $before != report ]] || return
     for name in $("$program" 2> /dev/null); do words+="$name $name-faces $name-solve $name-curve $name-sweep "; done
-    words+=$("$program" --help | grep -oE '^  ([A-Z]+=|--[a-z]+)')
+    words+=$("$program" --help | grep -oE '^  ([A-Z]+=|--[a-z]+|report)')
     ;;
   *)
     case $before in --case | --run | --cells | --stop-after) return ;; esac

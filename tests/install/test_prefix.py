@@ -59,6 +59,12 @@ class Prefix(unittest.TestCase):
         self.assertNotIn(str(SOURCE), (self.work / "here/report/index.html").read_text())
         again = self.run_here("cutwater", "mine", "CELLS=40k", "OUT=here", "NP=2")
         self.assertNotIn("cutwater-", again.stdout, "no stage runs again")
+        side_by_side = self.run_here("cutwater", "report", ".")
+        self.assertEqual((side_by_side.returncode, side_by_side.stdout), (0, "./index.html  1 runs side by side\n"))
+        self.assertIn("here/report/index.html", (self.work / "index.html").read_text())
+        refused = self.run_here("cutwater", "report")
+        self.assertEqual((refused.returncode, refused.stdout),
+                         (1, "compare: error: runs: no such folder; allowed: a folder of runs, such as runs\n"))
         refused = self.run_here("cutwater", "nothing")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("no case is called 'nothing'; allowed: ", refused.stdout)
@@ -104,6 +110,8 @@ class Prefix(unittest.TestCase):
         self.assertEqual(self.completed("cutwater", "nq24"), {"nq24", "nq24-faces", "nq24-solve", "nq24-curve",
                                                               "nq24-sweep"})
         self.assertEqual(self.completed("cutwater", "HO"), {"HOSTS="})
+        self.assertEqual(self.completed("cutwater", "rep"), {"report"})
+        self.assertEqual(self.completed("cutwater", "report", ""), set())
         options = re.findall(r"^  (--[a-z-]+)", self.run_here("cutwater-mesh", "--help").stdout, re.M)
         self.assertEqual(self.completed("cutwater-mesh", "--"), set(options))
 
