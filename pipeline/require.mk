@@ -21,7 +21,8 @@ $(foreach variable,$(filter-out $(cutwater_variables),$(.VARIABLES)),$(if $(filt
   $(error $(variable) is no variable of this project; allowed: $(cutwater_variables))))
 
 # $(call cutwater_odd,PATH): its signs that mean something in a rule or to the shell, where paths stand as they are.
-cutwater_odd = $(shell printf %s '$(subst ','\'',$(1))' | tr -d 'A-Za-z0-9/._+,@\200-\377-')
+cutwater_signs := A-Za-z0-9/._+,@\200-\377-
+cutwater_odd = $(shell printf %s '$(subst ','\'',$(1))' | tr -d '$(cutwater_signs)')
 cutwater_allowed := without blanks, of letters, digits and / . _ + , @ -
 
 # $(call cutwater_folder,NAME,VALUE): an absolute path; others count from TOP.
@@ -31,3 +32,4 @@ cutwater_folder = $(if $(filter 1,$(words $(2))$(call cutwater_odd,$(2))),$\
 
 $(if $(filter-out 1,$(words $(CURDIR)))$(call cutwater_odd,$(CURDIR)),$\
   $(error this folder is '$(CURDIR)'; allowed: a path $(cutwater_allowed)))
+$(if $(call cutwater_odd,$(ROOT)),$(error Cutwater lies in '$(ROOT)'; allowed: a path $(cutwater_allowed)))

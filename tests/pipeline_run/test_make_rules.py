@@ -248,5 +248,44 @@ class FrontDoor(unittest.TestCase):
         self.assertNotIn(f"{SOURCE}/runs", told)
 
 
+class Installed(unittest.TestCase):
+    """The make rules in a prefix, called from another folder."""
+
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.here = Path(self.holder.name) / "here"
+
+    def tearDown(self):
+        self.holder.cleanup()
+
+    def make(self, prefix, *words):
+        share = Path(self.holder.name) / prefix
+        for name in ("cases/Makefile", "cases/paper/case.yaml", "pipeline/require.mk", "pipeline/run.mk"):
+            (share / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(SOURCE / name, share / name)
+        rules = (SOURCE / "pipeline/installed.mk.in").read_text().replace("@CUTWATER_BIN_FROM_SHARE@", "bin")
+        (share / "pipeline/build.mk").write_text(rules)
+        self.here.mkdir(exist_ok=True)
+        return execute(["make", "-f", share / "cases/Makefile", *words], self.here, environment=without_make())
+
+    def test_cases_with_odd_names_are_left_out_and_told(self):
+        self.assertEqual(self.make("prefix").stdout, "paper\n")
+        for name in ("mine", "my case", "R&D", "it's", "50%"):
+            (self.here / "cases" / name).mkdir(parents=True)
+            (self.here / "cases" / name / "case.yaml").write_text("")
+        lines = self.make("prefix").stdout.splitlines()
+        self.assertEqual([line for line in lines if "warning" not in line], ["mine", "paper"])
+        self.assertEqual(sorted(line.split("'; ")[0].split("' is left out")[0] for line in lines if "warning" in line),
+                         sorted(f"cases: warning: '{name}" for name in ("my case", "R&D", "it's", "50%")))
+        self.assertIn("no case is called 'my case'; allowed: mine paper, ", self.make("prefix", "my case").stdout)
+
+    def test_an_odd_prefix_is_refused(self):
+        for prefix in ("my pump", "R&D", "it's"):
+            result = self.make(prefix, "paper")
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertRegex(result.stdout, rf"\*\*\* Cutwater lies in '.*{prefix}.*'; allowed: a path without blanks")
+            self.assertEqual(len(result.stdout.splitlines()), 1, result.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()
