@@ -4,6 +4,8 @@ import json
 import os
 import sys
 
+import stage_files
+
 
 def read(run, stage):
     with open(os.path.join(run, stage, "record.json"), encoding="utf-8") as file:
@@ -79,7 +81,7 @@ def solved_line(run):
     if not os.path.exists(os.path.join(run, "solve/record.json")):
         return [], []
     record = read(run, "solve")
-    if record.get("made_from") != read(run, "export").get("files"):
+    if record.get("made_from") != stage_files.of_export(read(run, "export")):
         return [("solved", "on another export; solve it again")], []
     return [("solved", record["results"]["headline"])], [("solve", warning) for warning in record["warnings"]]
 

@@ -15,6 +15,7 @@ import re
 import subprocess
 import sys
 
+import stage_files
 import sweep_plot
 from whole_file import write_whole
 
@@ -35,7 +36,7 @@ def read_record(run, stage):
 def solve_record(run):
     """That of the solved flow; None where it was solved on another export than lies there."""
     record, export = read_record(run, "solve"), read_record(run, "export") or {}
-    return record if record and record.get("made_from") == export.get("files") else None
+    return record if record and record.get("made_from") == stage_files.of_export(export) else None
 
 
 def solved(run):

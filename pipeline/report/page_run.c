@@ -213,7 +213,7 @@ static size_t warnings_of(FILE *page, const char *stage, json_t *record) {
 CwStatus cw_page_warnings(FILE *page, const CwReportData *data) {
   size_t count = 0;
   for (int s = 0; s < CW_STAGES; s++) count += warnings_of(page, cw_report_stage[s], data->record[s]);
-  if (cw_report_is_solved(data)) count += warnings_of(page, "solve", data->solve);
+  if (data->is_solved) count += warnings_of(page, "solve", data->solve);
   if (!count) fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
   return CW_OK;
 }

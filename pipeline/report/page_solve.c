@@ -157,7 +157,7 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
   }
   snprintf(where, sizeof where, "%s/solve/record.json", data->run);
   CW_TRY(cw_json_count(results, where, "iterations", &iterations));
-  if (!cw_report_is_solved(data)) {
+  if (!data->is_solved) {
     fputs("<p>The flow was solved on another export: solve it again (<code>make solve</code>).</p>\n", page);
     goto done;
   }

@@ -9,6 +9,7 @@
 #include "pipeline/case_origin.h"
 #include "pipeline/json_read.h"
 #include "pipeline/sealed_json.h"
+#include "pipeline/stage_files.h"
 
 const char *const cw_report_stage[CW_STAGES] = {"geometry", "mesh", "export"};
 
@@ -42,23 +43,22 @@ done:
   return status;
 }
 
-// The solved flow, where there is one.
-static CwStatus read_solve(const char *run, json_t **record) {
+// The solved flow, where there is one, and whether it is of the export that lies there.
+static CwStatus read_solve(const char *run, CwReportData *data) {
   CwStatus status = CW_OK;
   char path[4096];
-  json_t *value;
+  json_t *value, *made_from = NULL;
   snprintf(path, sizeof path, "%s/solve/record.json", run);
   if (access(path, F_OK) != 0) goto done;
-  CW_TRY(cw_json_read(path, record));
-  CW_TRY(cw_json_object(*record, path, "results", &value));
-  CW_TRY(cw_json_array(*record, path, "warnings", &value));
+  CW_TRY(cw_sealed_json_read(path, &data->solve));
+  CW_TRY(cw_json_object(data->solve, path, "results", &value));
+  CW_TRY(cw_json_array(data->solve, path, "warnings", &value));
+  if (!data->record[CW_STAGE_OF_EXPORT]) goto done;
+  CW_TRY(cw_stage_files_read(run, (const char *const[]){"export", NULL}, &made_from));
+  data->is_solved = json_equal(json_object_get(data->solve, "made_from"), made_from);
 done:
+  json_decref(made_from);
   return status;
-}
-
-int cw_report_is_solved(const CwReportData *data) {
-  return data->solve && data->record[2] &&
-         json_equal(json_object_get(data->solve, "made_from"), json_object_get(data->record[2], "files"));
 }
 
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data) {
@@ -70,9 +70,9 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   if (access(path, F_OK) == 0) CW_TRY(cw_json_read(path, &data->design)); // else no generator made the pump
   for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, table, s, &data->record[s]));
-  CW_TRY(read_solve(run, &data->solve));
+  CW_TRY(read_solve(run, data));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
-  if (cw_report_is_solved(data)) CW_TRY(cw_flow_open(run, &data->mesh, table, &data->flow));
+  if (data->is_solved) CW_TRY(cw_flow_open(run, &data->mesh, table, &data->flow));
 done:
   return status;
 }

@@ -17,6 +17,7 @@ typedef struct {
   json_t *design;            // geometry/design.json; NULL: no generator made the pump
   json_t *record[CW_STAGES]; // geometry, mesh, export, each with its results; the last may be NULL
   json_t *solve;             // solve/record.json with its results, or NULL
+  int is_solved;             // whether that flow is of the files of this export
   CwMesh mesh;
   CwReportPictures pictures;
   CwView view;
@@ -30,9 +31,6 @@ extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
 // CW_ERR_IO, CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data);
 void cw_report_data_free(CwReportData *data);
-
-// Whether the flow was solved, on the files of this export.
-int cw_report_is_solved(const CwReportData *data);
 
 // -1 or 1: the sign of z on the suction side, by the geometry's record where it says so, else by the rotation.
 int cw_report_suction(const CwReportData *data);

@@ -34,6 +34,7 @@ from pathlib import Path
 import foam
 import reports
 import settling
+import stage_files
 from foam import Trouble, say
 
 COARSE_SHARE = 8       # the start has an eighth of the cells: half the resolution along each axis
@@ -83,6 +84,11 @@ class Run:
     def __init__(self, folder, options, within):
         self.folder, self.options, self.within = folder, options, within
         self.export = read_record(folder, "export")
+        self.made_from = stage_files.of_export(self.export)
+        for stage, digest in self.export.get("made_from", {}).items():
+            if digest != stage_files.files_digest(read_record(folder, stage)):
+                raise Trouble(f"{folder}/export: was made from other files than lie in {folder}/{stage}; run "
+                              "cutwater-export again (make does)")
         self.cells = self.export["results"]["cells"]
         entered = self.export["case"]
         self.density = entered["fluid.density_kg_per_m3"]
@@ -170,7 +176,7 @@ def earlier(run):
     """The record that an earlier call wrote of the same export, or one of nothing."""
     path = run.folder / "solve/record.json"
     record = read_record(run.folder, "solve") if path.exists() else {}
-    return record if record.get("made_from") == run.export["files"] else {"seconds": 0, "results": {"curve": []}}
+    return record if record.get("made_from") == run.made_from else {"seconds": 0, "results": {"curve": []}}
 
 
 def write_results(run, table, seconds, curve):
@@ -186,12 +192,12 @@ def write_results(run, table, seconds, curve):
                 "curve": [{key: point[key] for key in CURVE} for point in curve]}
     peak = 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
     steps = [{"name": "iterations", "seconds": seconds, "items": results["iterations"], "unit": "iterations"}]
-    record = {"stage": "solve", "made_from": run.export["files"], "seconds": seconds, "peak_memory_bytes": peak,
-              "steps": steps, "warnings": warnings, "results": results}
+    record = {"stage": "solve", "seconds": seconds, "peak_memory_bytes": peak, "steps": steps, "warnings": warnings,
+              "results": results, "made_from": run.made_from}
     foam.write_whole(folder / "history.csv", table_text(HISTORY, rows))
     if curve:
         foam.write_whole(folder / "curve.csv", table_text(CURVE, curve))
-    foam.write_whole(folder / "record.json", json.dumps(record, indent=1) + "\n")
+    foam.write_whole(folder / "record.json", stage_files.sealed(record))
     return results
 
 

@@ -15,6 +15,8 @@
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/report/page.h"
 #include "pipeline/report/page_parts.h"
+#include "pipeline/sealed_json.h"
+#include "pipeline/stage_files.h"
 #include "tests/seal_run.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
@@ -342,18 +344,35 @@ static void the_curve_has_the_heads_that_there_are(void **state) {
   json_decref(design);
 }
 
+// The record of a flow that was solved on an export of these files.
+static void write_solve(json_t *made_from) {
+  json_t *record = json_pack("{s:o,s:f,s:[s],s:{s:i}}", "made_from", made_from, "seconds", 1.0, "warnings", "it drifts",
+                             "results", "iterations", 300);
+  assert_int_equal(cw_sealed_json_write(record, in_test_folder("solve/record.json")), CW_OK);
+  json_decref(record);
+}
+
 static void a_flow_of_another_export_is_not_told(void **state) {
+  json_t *made_from;
   assert_int_equal(cw_make_directory(in_test_folder("export")), CW_OK);
   assert_int_equal(cw_make_directory(in_test_folder("solve")), CW_OK);
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
                                      "\"warnings\":[],\"results\":{\"cells\":4}}");
-  write_in_run("solve/record.json", "{\"made_from\":{\"pump.cgns\":\"12\"},\"seconds\":1,\"warnings\":[\"it drifts\"],"
-                                    "\"results\":{\"iterations\":300}}");
   assert_int_equal(seal_run(test_folder), 0);
+  write_solve(json_pack("{s:s}", "export", "12"));
   char *page = page_without_pictures();
   holds(page, "The flow was solved on another export: solve it again");
   assert_null(strstr(page, "it drifts"));
   free(page);
+  // Of this one it is told; what else the record must have is looked for.
+  assert_int_equal(cw_stage_files_read(test_folder, (const char *const[]){"export", NULL}, &made_from), CW_OK);
+  write_solve(made_from);
+  fails(CW_ERR_INPUT, "solve/record.json: 'history' must be there and an object");
+  char *text = read_in_run("solve/record.json");
+  *strstr(text, "300") = '2';
+  write_in_run("solve/record.json", text);
+  free(text);
+  fails(CW_ERR_IO, "solve/record.json: is not as the stage wrote it");
 }
 
 // Files of a stage that are not those it wrote, or not those that a later one was made from.

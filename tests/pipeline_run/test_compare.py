@@ -8,6 +8,9 @@ from html.parser import HTMLParser
 
 from cutwater import SOURCE, fresh
 
+sys.path.insert(0, str(SOURCE / "pipeline"))
+import stage_files  # noqa: E402
+
 DOMAIN = {"tetrahedra": 60, "prisms": 40, "regions": 3, "tetrahedron_aspect_mean": 1.5, "least_dihedral_deg": 14.2,
           "layer_coverage": [{"wall_faces": 10, "first_height_met_faces": 9}]}
 
@@ -45,7 +48,8 @@ def write(run, head, speed, cells):
                "report": {"warnings": []}}
     if head:
         records["solve"] = {"warnings": ["y"], "results": {"head_m": head, "torque_n_m": 7, "iterations": 300,
-                            "hydraulic_efficiency": 0.8, "settled": True, "y_plus": {"hub": {"most": 31}}}}
+                            "hydraulic_efficiency": 0.8, "settled": True, "y_plus": {"hub": {"most": 31}}},
+                            "made_from": stage_files.of_export({})}
     for stage, record in records.items():
         (run / stage).mkdir(parents=True)
         (run / stage / "record.json").write_text(json.dumps(record))

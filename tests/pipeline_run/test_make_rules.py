@@ -2,12 +2,16 @@
 """The make rules with stages that only note their call: what runs when, and what a failing stage does."""
 import json
 import shutil
+import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
 from cutwater import SOURCE, execute, without_make
+
+sys.path.insert(0, str(SOURCE / "pipeline"))
+import stage_files  # noqa: E402
 
 STAGES = ("geometry", "mesh", "export", "report")
 STAGE = """#!/bin/sh
@@ -101,8 +105,9 @@ class MakeRules(unittest.TestCase):
         self.make()
         (self.run_folder / "solve").mkdir()
         solved = {"warnings": [], "results": {"headline": "head 9 m"}}
-        for made_from, told in (({}, "head 9 m"), ({"made_from": {"a": "1"}}, "on another export; solve it again")):
-            (self.run_folder / "solve/record.json").write_text(json.dumps({**solved, **made_from}))
+        for made_from, told in ((stage_files.of_export({}), "head 9 m"),
+                                (stage_files.of_export({"files": {"a": "1"}}), "on another export; solve it again")):
+            (self.run_folder / "solve/record.json").write_text(json.dumps({**solved, "made_from": made_from}))
             self.assertIn(f"solved     {told}\n", self.make()[0].stdout)
 
     def test_another_count_leaves_the_geometry(self):

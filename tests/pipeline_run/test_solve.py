@@ -21,6 +21,7 @@ import foam  # noqa: E402
 import reports  # noqa: E402
 import settling  # noqa: E402
 import solve  # noqa: E402
+import stage_files  # noqa: E402
 
 CELLS = 40000
 
@@ -337,6 +338,21 @@ class Words(unittest.TestCase):
         (run / "log").write_text("in the place of a folder")
         self.assertRegex(execute(line).stdout, r"^cutwater-solve: error: .*File exists.*\n$")
 
+    def test_an_export_of_another_mesh_is_told(self):
+        run = fresh("solve_stale")
+        case = {"fluid.density_kg_per_m3": 998.2, "operating_point.flow_rate_m3_per_h": 25,
+                "operating_point.speed_rpm": 1450}
+        mesh = {"files": {"manifest.json": "12"}}
+        records = {"mesh": mesh, "export": {"results": {"cells": 4}, "case": case, "files": {"pump.cgns": "34"},
+                                            "made_from": {"mesh": stage_files.files_digest(mesh)}}}
+        for stage, written in records.items():
+            (run / stage).mkdir()
+            (run / stage / "record.json").write_text(stage_files.sealed(written))
+        self.assertEqual(solve.Run(run, None, 0.003).made_from, {"export": stage_files.digest(b'{"pump.cgns":"34"}')})
+        (run / "mesh/record.json").write_text(stage_files.sealed({"files": {"manifest.json": "56"}}))
+        with self.assertRaisesRegex(foam.Trouble, "/export: was made from other files than lie in .*/mesh; run cutw"):
+            solve.Run(run, None, 0.003)
+
     def test_a_terminal_that_goes_ends_it_but_not_under_nohup(self):
         text = ("import os, signal, solve\nsolve.heed_signals()\ntry:\n    os.kill(os.getpid(), signal.SIGHUP)\n"
                 "    print('went on')\nexcept KeyboardInterrupt:\n    print('ended')\n")
@@ -376,6 +392,7 @@ class Flow(unittest.TestCase):
         self.assertEqual(log.count("\nTime = 50\n"), 1, "begun anew")
         found = record(self.pump, "solve")["results"]
         self.assertTrue(found["settled"])
+        self.assertEqual(record(self.pump, "solve")["made_from"], stage_files.of_export(record(self.pump, "export")))
         # More power goes in by the shaft than comes out as head, and not ten times as much.
         self.assertGreater(found["hydraulic_efficiency"], 0.1)
         self.assertLess(found["hydraulic_efficiency"], 1)

@@ -12,6 +12,7 @@ from cutwater import CELLS, RUN, SOURCE, WORK, execute, fresh, record, said
 
 sys.path.insert(0, str(SOURCE / "pipeline"))
 import needs  # noqa: E402
+import stage_files  # noqa: E402
 import sweep  # noqa: E402
 import sweep_plot  # noqa: E402
 
@@ -43,8 +44,10 @@ class Sweep(unittest.TestCase):
         folder = fresh("sweep_drawn")
         for name, cells, head in (("a", 100000, 10.4), ("b", 300000, 10.2), ("c", 900000, 10.1)):
             results = record(RUN, "mesh")["results"] | {"cells": cells}
-            written = {"mesh": record(RUN, "mesh") | {"results": results}, "export": {"results": {"test_head_m": 10}},
-                       "solve": {"results": {"head_m": head, "torque_n_m": 7.0, "hydraulic_efficiency": None,
+            export = {"results": {"test_head_m": 10}}
+            written = {"mesh": record(RUN, "mesh") | {"results": results}, "export": export,
+                       "solve": {"made_from": stage_files.of_export(export),
+                                 "results": {"head_m": head, "torque_n_m": 7.0, "hydraulic_efficiency": None,
                                              "y_plus": {"hub": {"most": 41.5}}}}}
             for stage, text in written.items():
                 (folder / name / stage).mkdir(parents=True)
@@ -133,6 +136,16 @@ class Sweep(unittest.TestCase):
         self.assertLess(2 * disk[0], disk[1])
         self.assertIn("make room, or ask for fewer cells", call("export: {formats: cgns}\n", "2000G").stdout)
         self.assertEqual(call("", "2000G").returncode, 1)
+
+    def test_records_are_digested_as_the_stages_do(self):
+        for stage in ("geometry", "mesh"):
+            text = (RUN / stage / "record.json").read_bytes()
+            self.assertEqual(stage_files.digest(text[:text.rindex(b',\n  "digest": "')]), json.loads(text)["digest"])
+        geometry = stage_files.files_digest(record(RUN, "geometry"))
+        self.assertEqual(record(RUN, "mesh")["made_from"], {"geometry": geometry})
+        text = stage_files.sealed({"stage": "solve", "results": {}})
+        self.assertEqual(list(json.loads(text)), ["stage", "results", "digest"])
+        self.assertEqual(stage_files.digest(text[:text.rindex(',\n  "digest"')].encode()), json.loads(text)["digest"])
 
     def test_table_of_a_run(self):
         table = WORK / "sweep.csv"
