@@ -4,11 +4,8 @@
 
 Makes docs/measurements.md from the benches' own output. Each section is one command of tests/bench; all of them take
 hours, so sections may be named to be measured anew (--list tells them). The page keeps the other sections as far as
-they were measured on the present sources; the rest is left out and named at the end of the page. The sources that count
-are those of the programs and of the bench, whose digest stands beside each section: a change of docs alone leaves a
-measurement as it is. With --write-only nothing is measured."""
+they were measured on the present sources (page.py). With --write-only nothing is measured."""
 import argparse
-import hashlib
 import os
 import platform
 import re
@@ -19,9 +16,7 @@ import time
 from collections import namedtuple
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
-PAGE = SOURCE / "docs/measurements.md"
-PROGRAMS = ["pipeline", "geometry", "mesher", "export", "cases", "CMakeLists.txt"]
+from page import SOURCE, Page, stamp
 
 Section = namedtuple("Section", "title command text")
 
@@ -86,22 +81,16 @@ SECTIONS = {
 }
 
 ONLY_NAMED = {"ablation", "region_rule", "scale_1G"}  # what needs another build, and the largest
+HEAD = """<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->
+<!-- Made by tests/bench/measurements.py (`make measurements`): change that, not this page. -->
+# Measurements
 
-
-def run_text(*line):
-    return subprocess.run(line, cwd=SOURCE, capture_output=True, text=True, check=True).stdout.strip()
-
-
-def sources_digest(command):
-    """Of all tracked files that a measurement follows from."""
-    bench = ["tests/bench/*.py" if word.startswith("tests/bench/") else "tests/mesher" for word in command.split()[:1]]
-    if "table1" in command:
-        bench.append("tests/measure/chew*")
-    digest = hashlib.sha256()
-    for name in run_text("git", "ls-files", *PROGRAMS, *bench).splitlines():
-        if not name.endswith((".md", "/measurements.py")):
-            digest.update(name.encode() + b"\0" + (SOURCE / name).read_bytes())
-    return digest.hexdigest()
+Each section is the output of one command, on the commit that stands beside it. Terms stand in
+[glossary.md](glossary.md), the method in [mesher.md](mesher.md). The machine is shared: compare programs within a
+table, not seconds between tables.
+"""
+PAGE = Page(SOURCE / "docs/measurements.md", HEAD, {name: section.command for name, section in SECTIONS.items()},
+            'make measurements SECTIONS="..."')
 
 
 def machine():
@@ -119,42 +108,9 @@ def measure(name):
                           text=True)
     if done.returncode:
         sys.exit(f"measurements: {section.command} ended with {done.returncode}; the page is as it was")
-    changed = run_text("git", "status", "--porcelain", "--untracked-files=no", *PROGRAMS)
-    commit = run_text("git", "rev-parse", "--short=9", "HEAD") + (" with changes" if changed else "")
-    return "\n".join([f"<!-- section {name} {sources_digest(section.command)} -->", f"## {section.title}", "",
-                      *([section.text, ""] if section.text else []),
-                      f"`{section.command}`, commit {commit}, {time.strftime('%Y-%m-%d')}, {machine()}, "
-                      f"{(time.monotonic() - began) / 60:.0f} minutes:", "", "```", done.stdout.rstrip(), "```", ""])
-
-
-def kept_sections():
-    """Sections of the page that were measured on the present sources, by name."""
-    text = PAGE.read_text() if PAGE.exists() else ""
-    found = {}
-    for match in re.finditer(r"<!-- section (\w+) (\w+) -->\n.*?\n```\n.*?\n```\n", text, re.S):
-        name, digest = match[1], match[2]
-        if name in SECTIONS and digest == sources_digest(SECTIONS[name].command):
-            found[name] = match[0]
-    return found
-
-
-def write_page(sections):
-    lines = ["<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->",
-             "<!-- Made by tests/bench/measurements.py (`make measurements`): change that, not this page. -->",
-             "# Measurements", "",
-             "Each section is the output of one command, on the commit that stands beside it. Terms stand in "
-             "[glossary.md](glossary.md), the method in [mesher.md](mesher.md). The machine is shared: compare "
-             "programs within a table, not seconds between tables.", ""]
-    lines += [sections[name] for name in SECTIONS if name in sections]
-    missing = [name for name in SECTIONS if name not in sections]
-    if missing:
-        lines += ["Not measured on these sources: " + ", ".join(missing) +
-                  " (`make measurements SECTIONS=\"...\"`).", ""]
-    part = PAGE.with_suffix(".part")
-    part.write_text("\n".join(lines))
-    part.replace(PAGE)
-    print(f"measurements: {PAGE.relative_to(SOURCE)}: {len(SECTIONS) - len(missing)} of {len(SECTIONS)} sections",
-          flush=True)
+    took = f"{machine()}, {(time.monotonic() - began) / 60:.0f} minutes"
+    return PAGE.section(name, section.title, section.text, f"{stamp(section.command)}, {took}:",
+                        f"```\n{done.stdout.rstrip()}\n```")
 
 
 def main():
@@ -171,11 +127,10 @@ def main():
     if unknown:
         sys.exit(f"measurements: no section is called '{min(unknown)}'; allowed: {', '.join(SECTIONS)}")
     if options.write_only:
-        write_page(kept_sections())
+        PAGE.write({})
         return
     for name in options.sections or (name for name in SECTIONS if name not in ONLY_NAMED):
-        made = measure(name)
-        write_page({**kept_sections(), name: made})
+        PAGE.write({name: measure(name)})
 
 
 main()

@@ -3,9 +3,9 @@
 """verify.py [PART ...] [--runs runs/verify] [--small]
 
 Holds solved flow against what others published, and writes docs/verification.md with its pictures. Each part is a
-section of the page; parts that are not named stay as they were. All take some hours on two cores; a call that was
-killed goes on where it was. --small takes tiny meshes and ends early, to try the program: its page goes to the folder
-of runs.
+section of the page; parts that are not named stay as far as they were made on the present sources (page.py). All take
+some hours on two cores; a call that was killed goes on where it was. --small takes tiny meshes and ends early, to try
+the program: its page goes to the folder of runs.
 
   heads       the head over the number of cells (figure 4 of the paper), with Celik's index
   readings    which entry of the paper's Table 3 decides about the head
@@ -19,17 +19,17 @@ import math
 import re
 import shutil
 import sys
-import time
 from collections import namedtuple
 
 import foam_read
+from page import Page, stamp
 from programs import SOURCE, execute, options_of
 from runs import BIN, record, save_picture, stage_line, with_key
 
-sys.path.insert(0, str(SOURCE / "tests/cad"))
+CAD, RULES = SOURCE / "tests/cad", SOURCE / "tests/bench/verify.mk"
+sys.path.insert(0, str(CAD))
 import u3  # noqa: E402  (tests/cad/u3.py)
 
-PAGE = "verification.md"
 RATED_HEAD = 10           # m, of the paper's pump
 SHARES = (0.8, 1, 1.2)    # of the design flow, as in the paper
 LIMITS = (1, 3, 5)        # of y+, as in the paper
@@ -39,46 +39,39 @@ SMALL = Sizes(("40k", "60k", "90k"), 40000, 60000, 40000, 60000, 80000, 100, 1 /
 
 
 class Bench:
-    """Runs of this bench, each a folder of its own, which are made once."""
+    """Cases of this bench, in its folder, and their runs by the rules of cases/Makefile: what is done stays, what is of
+    another case or of other programs is made anew."""
 
     def __init__(self, options):
-        self.runs, self.sizes = options.runs.resolve(), SMALL if options.small else FULL
-        self.docs = self.runs if options.small else SOURCE / "docs"
+        folder, self.sizes = options.runs.resolve(), SMALL if options.small else FULL
+        self.folder, self.cases, self.runs = folder, folder / "cases", folder / "runs"
+        self.docs = folder if options.small else SOURCE / "docs"
 
     def case(self, name, text):
-        """The folder of a run of this case; what is there of another case goes."""
-        run = self.runs / name
-        run.mkdir(parents=True, exist_ok=True)
-        case = run / "case.yaml"
+        """Writes a case where it is another one; the folder of its run."""
+        case = self.cases / name / "case.yaml"
+        case.parent.mkdir(parents=True, exist_ok=True)
         if not case.exists() or case.read_text() != text:
-            for stage in ("geometry", "mesh", "export", "solve", "report"):
-                shutil.rmtree(run / stage, ignore_errors=True)
             case.write_text(text)
-        return run
+        return self.runs / name
 
     def say(self, run, what):
         print(f"verify: {run.name}: {what}", file=sys.stderr, flush=True)
 
-    def stage(self, stage, run, cells=None):
-        before = {"mesh": "geometry", "export": "mesh"}.get(stage)
-        if stage != "report" and is_newer(run / stage / "record.json", BIN / f"cutwater-{stage}",
-                                          *([run / before / "record.json"] if before else [])):
-            return
-        self.say(run, stage)
-        execute(*stage_line(BIN, stage, run / "case.yaml", run, cells, 2))
+    def make(self, run, end, **variables):
+        """Calls make for RUN-END, with its variables; what it says."""
+        self.say(run, end)
+        return execute("env", "-u", "MAKEFLAGS", "-u", "MAKELEVEL", "make", "-C", self.folder, "-f", RULES,
+                       f"{run.name}-{end}", f"BUILD={SOURCE}/build", f"MOST={self.sizes.iterations}",
+                       *(f"{name}={value}" for name, value in variables.items())).text
 
-    def solved(self, run, cells, *more):
+    def solved(self, run, cells, end="solve"):
         """Meshes the run and solves its steady flow; what the flow came to."""
-        for stage in ("geometry", "mesh", "export"):
-            self.stage(stage, run, cells)
-        self.say(run, "solve")
-        execute(sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", run / "case.yaml", "--run", run, "--bin",
-                BIN, "--most", self.sizes.iterations, *more)
+        self.make(run, end, CELLS=cells)
         return record(run, "solve")["results"]
 
-    def picture(self, run, cells, title, name):
+    def picture(self, run, title, name):
         """A picture of the run's report, beside the page; how the page shows it."""
-        self.stage("report", run, cells)
         save_picture(run, title, self.docs / f"verification-{name}.png")
         return f"![{title}](verification-{name}.png)"
 
@@ -115,16 +108,16 @@ def settled_word(result):
 def heads(bench):
     """The paper's head rises with the cells, is within 5 % of the tested one at 8 million and changes by less than 1 %
     from 16 million on; its figure has no numbers."""
-    rows, runs = [], []
+    run = bench.case("heads", case_text("paper", test_head_m=RATED_HEAD))
+    told = bench.make(run, "sweep", SWEEP=" ".join(bench.sizes.heads), SOLVE=1)
+    rows = []
     for cells in bench.sizes.heads:
-        runs.append(bench.case(f"heads-{cells}", case_text("paper", test_head_m=RATED_HEAD)))
-        result = bench.solved(runs[-1], cells)
+        result = record(bench.runs / f"heads-{cells}", "solve")["results"]
         rows.append((f"{result['cells']:,}", f"{result['head_m']:.3f}", f"{result['head_scatter_m'] or 0:.2g}",
                      f"{result['torque_n_m']:.3f}", result["iterations"], settled_word(result),
                      f"{result['residual_p']:.1e}"))
-    told = execute(sys.executable, SOURCE / "pipeline/sweep.py", bench.runs / "heads.csv", *runs).text
-    shutil.copy(bench.runs / "heads.svg", bench.docs / "verification-heads.svg")
-    index = [line for line in told.splitlines() if "index" in line or "monotonously" in line]
+    shutil.copy(bench.runs / "heads-sweep.svg", bench.docs / "verification-heads.svg")
+    index = [line for line in told.splitlines() if "grid convergence index" in line or "monotonously" in line]
     return "\n".join([table(("cells", "head, m", "scatter, m", "torque, N m", "iterations", "", "residual of p"), rows),
                       "", "![Head, torque and efficiency over the cells](verification-heads.svg)", "",
                       "The three finest, by Celik's method:", "", "```", *index, "```"])
@@ -151,7 +144,7 @@ def readings(bench):
         value = round(value) if key == "blade_count" else round(value, 2)
         more = {"base_diameter_mm": round(1.02 * value, 2)} if key == "outlet_diameter_mm" else {}
         run = bench.case(f"readings-{key}-{value}", case_text("paper", **{key: value}, **more))
-        bench.stage("geometry", run)
+        bench.make(run, "faces")
         return design(run)["predicted_head_m"] - RATED_HEAD
 
     rows = []
@@ -189,7 +182,7 @@ def walls(bench):
     return "\n".join([f"The case `paper-l` with {result['cells']:,} cells; {settled_word(result)} after "
                       f"{result['iterations']} iterations.", "",
                       table(("wall", "mean y+", *(f"area with y+ up to {limit}" for limit in LIMITS)), rows), "",
-                      bench.picture(run, bench.sizes.walls, "y+, rotor obliquely", "walls")])
+                      bench.picture(run, "y+, rotor obliquely", "walls")])
 
 
 def velocities(bench):
@@ -197,11 +190,12 @@ def velocities(bench):
     Mesh and cells are as the machine allows."""
     cells, lines = bench.sizes.velocities, []
     run = bench.case("velocities", f"{case_text('paper')}\noperating_points:\n  flow_shares: {list(SHARES)}\n")
-    bench.solved(run, cells, "--curve")
+    bench.solved(run, cells, "curve")
     for share in SHARES:
         flow = bench.runs / f"velocities-{share:g}"
         eddies(bench, run, flow, share)
-        lines += [f"{share:g} Q:", "", bench.picture(flow, cells, "Relative velocity at mid-span",
+        execute(*stage_line(BIN, "report", bench.cases / "velocities/case.yaml", flow, cells, 2))
+        lines += [f"{share:g} Q:", "", bench.picture(flow, "Relative velocity at mid-span",
                                                      f"velocities-{round(1000 * share):04d}"), ""]
     return "\n".join([f"{record(run, 'export')['results']['cells']:,} cells; k-omega SST for "
                       f"{bench.sizes.transient_turns:g} turns, then Smagorinsky's model for {bench.sizes.les_turns:g}.",
@@ -219,7 +213,7 @@ def eddies(bench, run, flow, share):
         return
     shutil.rmtree(flow, ignore_errors=True)
     flow.mkdir()
-    for stage in ("case.yaml", "geometry", "mesh", "log"):
+    for stage in ("geometry", "mesh", "log"):
         (flow / stage).symlink_to(run / stage)
     shutil.copytree(run / "export", flow / "export", symlinks=True, ignore=shutil.ignore_patterns("polyMesh", "points"))
     (case / "constant/polyMesh").symlink_to(run / "export/openfoam/constant/polyMesh")
@@ -323,9 +317,9 @@ SAMPLING = """functions
 
 def ubaldi(bench):
     """Measured in air; the flow with a frozen rotor stands for the mean over all positions of the wheel."""
-    run = bench.runs / "ubaldi"
-    if not (run / "pump.step").exists():
-        execute("/usr/bin/python3", SOURCE / "tests/cad/ubaldi.py", run)
+    case, run = bench.cases / "ubaldi", bench.runs / "ubaldi"
+    if not is_newer(case / "case.yaml", *(CAD / f"{name}.py" for name in ("draw", "u3", "ubaldi"))):
+        execute("/usr/bin/python3", CAD / "ubaldi.py", case)
     result = bench.solved(run, bench.sizes.ubaldi)
     case = run / "solve/steady"
     control = (case / "system/controlDict").read_text()
@@ -360,23 +354,12 @@ PARTS = {"heads": ("The head over the number of cells", heads), "readings": ("Wh
          "solvers": ("Two solvers", solvers), "ubaldi": ("A pump that was measured", ubaldi)}
 
 
-def write_page(bench, made):
-    """The page with these sections (name: text) in the place of those that it had."""
-    path = bench.docs / PAGE
-    old = path.read_text() if path.exists() else ""
-    kept = dict(re.findall(r"<!-- part (\w+) -->\n(.*?)(?=<!-- part|\Z)", old, re.S))
-    commit = execute("git", "rev-parse", "--short=9", "HEAD", folder=SOURCE).text.strip()
-    for name, text in made.items():
-        title, part = PARTS[name]
-        words = " ".join((part.__doc__ or "").split())
-        kept[name] = (f"## {title}\n\n{words}\n\n{text}\n\n`tests/bench/verify.py {name}`, commit {commit}, "
-                      f"{time.strftime('%Y-%m-%d')}.\n\n")
-    head = ("<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->\n"
-            "<!-- Made by tests/bench/verify.py (`make verify`): change that, not this page. -->\n# Verification\n\n"
-            "Solved flows beside what others published. \"The paper\" is that of the README; its section 4 has the "
-            "figures.\n\n")
-    path.write_text(head + "".join(f"<!-- part {name} -->\n{kept[name]}" for name in PARTS if name in kept))
-    print(f"verify: {path}: {', '.join(made)}", flush=True)
+HEAD = """<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->
+<!-- Made by tests/bench/verify.py (`make verify`): change that, not this page. -->
+# Verification
+
+Solved flows beside what others published. "The paper" is that of the README; its section 4 has the figures.
+"""
 
 
 def main():
@@ -388,8 +371,13 @@ def main():
         sys.exit(f"verify: no part is called '{min(unknown)}'; allowed: {', '.join(PARTS)}")
     bench = Bench(options)
     bench.runs.mkdir(parents=True, exist_ok=True)
+    page = Page(bench.docs / "verification.md", HEAD, {name: f"tests/bench/verify.py {name}" for name in PARTS},
+                'make verify PARTS="..."')
     for name in options.parts or PARTS:
-        write_page(bench, {name: PARTS[name][1](bench)})
+        title, part = PARTS[name]
+        text = part(bench)
+        page.write({name: page.section(name, title, " ".join(part.__doc__.split()), text,
+                                       f"{stamp(page.commands[name])}.")})
 
 
 if __name__ == "__main__":

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make,
+as far as they were made on the present sources: those of the programs and of the bench, whose digest stands beside each
+section. A change of docs alone leaves a section as it is; the rest is named at the end of the page."""
+import hashlib
+import re
+import subprocess
+import time
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+PROGRAMS = ["pipeline", "geometry", "mesher", "export", "cases", "CMakeLists.txt"]
+MORE = {"table1": ["tests/measure/chew*"], "verify": ["tests/bench/verify.mk", "tests/cad"]}  # by a word of the command
+
+
+def run_text(*line):
+    return subprocess.run(line, cwd=SOURCE, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def sources_digest(command):
+    """Of all tracked files that a section follows from."""
+    bench = ["tests/bench/*.py" if word.startswith("tests/bench/") else "tests/mesher" for word in command.split()[:1]]
+    for word, files in MORE.items():
+        bench += files if word in command else []
+    digest = hashlib.sha256()
+    for name in run_text("git", "ls-files", *PROGRAMS, *bench).splitlines():
+        if not name.endswith((".md", "/measurements.py", "/page.py")):
+            digest.update(name.encode() + b"\0" + (SOURCE / name).read_bytes())
+    return digest.hexdigest()
+
+
+def stamp(command):
+    """How and when a section was made."""
+    changed = run_text("git", "status", "--porcelain", "--untracked-files=no", *PROGRAMS)
+    commit = run_text("git", "rev-parse", "--short=9", "HEAD") + (" with changes" if changed else "")
+    return f"`{command}`, commit {commit}, {time.strftime('%Y-%m-%d')}"
+
+
+class Page:
+    """Its file, its text before the sections, the command of each section by name, and the call that makes some."""
+
+    def __init__(self, path, head, commands, again):
+        self.path, self.head, self.commands, self.again = path, head, commands, again
+
+    def section(self, name, title, *paragraphs):
+        """The text of a section that was made on the present sources."""
+        mark = f"<!-- section {name} {sources_digest(self.commands[name])} -->"
+        return "\n\n".join([f"{mark}\n## {title}", *filter(None, paragraphs)]) + "\n"
+
+    def kept(self):
+        """The sections of the page that were made on the present sources, by name."""
+        text = self.path.read_text() if self.path.exists() else ""
+        found = re.findall(r"(<!-- section (\w+) (\w+) -->\n.*?\n)\n*(?=<!-- section |<!-- missing -->|\Z)", text, re.S)
+        return {name: section for section, name, digest in found
+                if name in self.commands and digest == sources_digest(self.commands[name])}
+
+    def write(self, made):
+        """The page with these sections, by name, and those that it keeps."""
+        sections = {**self.kept(), **made}
+        missing = [name for name in self.commands if name not in sections]
+        lines = [self.head, *(sections[name] for name in self.commands if name in sections)]
+        if missing:
+            lines.append(f"<!-- missing -->\nNot made on these sources: {', '.join(missing)} (`{self.again}`).\n")
+        part = self.path.with_suffix(".part")
+        part.write_text("\n".join(lines))
+        part.replace(self.path)
+        print(f"{self.path}: {len(self.commands) - len(missing)} of {len(self.commands)} sections", flush=True)
