@@ -225,7 +225,7 @@ CwStatus cw_team_gather(const CwTeam *team, const int64_t *size, void **all) {
   int64_t most = 0;
   if (ranks == 1) goto done;
   for (int rank = 0; rank < ranks; rank++) most = size[rank] > most ? size[rank] : most;
-  int64_t width = cw_message_items(AT_ONCE, (size_t)ranks); // of each rank in one round
+  int64_t width = cw_message_items(AT_ONCE / ranks, (size_t)ranks); // of each rank in one round
   if (width > most) width = most;
   CW_NEW(part, ranks);
   CW_NEW(place, ranks);
