@@ -212,6 +212,12 @@ done:
   return status;
 }
 
+// Whether those that wait for a task, which has ended on this rank, are left out.
+static int was_in_vain(const Work *work, int32_t task) {
+  const CwSchedule *schedule = work->schedule;
+  return schedule->after && schedule->in_vain && schedule->in_vain(work->bytes[task]);
+}
+
 static void show_progress(void *log, int64_t ended) {
   cw_progress(log, ended);
 }
@@ -221,14 +227,16 @@ static CwStatus take_tasks(Work *work, const Order *order) {
   CwStatus status = CW_OK;
   CwTaskServer *server = NULL;
   CwTaskOrder list = {work->schedule->count, order->left, order->before};
+  int in_vain = 0;
   CW_TRY(cw_task_server_start(work->team, &list, &server));
   for (;;) {
-    CwPlaces places = cw_task_server_next(server, work->schedule->unit ? show_progress : NULL, work->log);
+    CwPlaces places = cw_task_server_next(server, in_vain, work->schedule->unit ? show_progress : NULL, work->log);
     if (places.count == 0) break;
     for (int32_t i = 0; i < places.count; i++) {
       cw_task_server_look(server, &places, i);
       CW_TRY(run_task(work, order->task[places.first + i]));
     }
+    in_vain = was_in_vain(work, order->task[places.first]); // the one place, where tasks wait for others
   }
   cw_task_server_stop(server);
 done:
@@ -242,6 +250,12 @@ static CwStatus run_dealt(void *given, int32_t item) {
 
 static int rank_of_place(const CwTeam *team, int32_t place) {
   return team->slot_rank ? team->slot_rank[place % team->slots] : place % team->ranks;
+}
+
+// Whether the task that a task of this rank waits for was left out, or in vain.
+static int is_left_out(const Work *work, int32_t task) {
+  int32_t after = work->schedule->after ? work->schedule->after[task] : -1;
+  return after >= 0 && (work->end[after].owner < 0 || was_in_vain(work, after));
 }
 
 // Tasks in turn to each rank; one that waits for another, to the rank of that.
@@ -260,7 +274,7 @@ static CwStatus deal_tasks(Work *work, const Order *order) {
     CW_TRY(cw_threads_run(work->team->pool, count, run_dealt, work));
   } else {
     for (int32_t i = 0; i < count; i++) {
-      CW_TRY(run_task(work, work->dealt[i]));
+      if (!is_left_out(work, work->dealt[i])) CW_TRY(run_task(work, work->dealt[i]));
       if (work->schedule->unit) cw_progress(work->log, (i + 1) * work->team->ranks);
     }
   }
@@ -289,6 +303,7 @@ CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, v
   CW_TRY(served ? take_tasks(&work, &order) : deal_tasks(&work, &order));
   cw_team_most(work.team, (int64_t)3 * count, &work.end->owner);
   for (int32_t task = 0; task < count; task++) {
+    if (work.end[task].owner < 0) work.end[task] = (TaskEnd){0}; // was left out
     time[task] = work.end[task].seconds;
     if (work.end[task].owner == work.team->rank) own += time[task];
     if (size) size[task] = (int64_t)work.end[task].size;

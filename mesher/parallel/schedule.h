@@ -23,6 +23,9 @@ typedef struct {
   // Of each task another of smaller index that has to have ended, on whichever rank, before it begins; -1: none. NULL:
   // no task waits.
   const int32_t *after;
+  // Of the result of a task, NULL where it has none: 1 where those that wait for it are left out, without a result.
+  // NULL: none is. Asks for `bytes`.
+  int (*in_vain)(const void *bytes);
   CwTask run;
   void *context;
   int alike;  // 1: tasks of about the same cost, too short to ask for each: rank r takes every task r + k ranks

@@ -69,11 +69,20 @@ static int are_last(const CwTaskOrder *order, const CwPlaces *places) {
   return places->count == 0 || (!order->before && places->left == 0);
 }
 
+// A place has ended: with all that wait for it where it did in vain.
+static void end_place(CwTaskServer *server, int32_t place, int in_vain) {
+  const CwTaskOrder *order = &server->order;
+  server->state[place] = ENDED;
+  server->ended++;
+  for (int32_t i = place + 1; in_vain && order->before && i < order->count; i++) {
+    if (order->before[i] == place) end_place(server, i, 1);
+  }
+}
+
 // A rank has ended what it held and asks for more; answers all ranks that can be answered.
-static void take_up(CwTaskServer *server, int asking) {
+static void take_up(CwTaskServer *server, int asking, int in_vain) {
   CwPlaces *held = server->held;
-  for (int32_t i = 0; i < held[asking].count; i++) server->state[held[asking].first + i] = ENDED;
-  server->ended += held[asking].count;
+  for (int32_t i = 0; i < held[asking].count; i++) end_place(server, held[asking].first + i, in_vain);
   held[asking].count = 0;
   server->asks[asking] = 1;
   for (int rank = 0; rank < server->team->ranks; rank++) {
@@ -89,12 +98,12 @@ static void take_up(CwTaskServer *server, int asking) {
 
 // Answers who has asked. Under the lock.
 static void answer(CwTaskServer *server) {
-  for (int there = 1; there;) {
+  for (int there = 1, in_vain; there;) {
     MPI_Status message;
     MPI_Iprobe(MPI_ANY_SOURCE, ASK_TAG, server->team->comm, &there, &message);
     if (!there) break;
-    MPI_Recv(NULL, 0, MPI_BYTE, message.MPI_SOURCE, ASK_TAG, server->team->comm, MPI_STATUS_IGNORE);
-    take_up(server, message.MPI_SOURCE);
+    MPI_Recv(&in_vain, 1, MPI_INT, message.MPI_SOURCE, ASK_TAG, server->team->comm, MPI_STATUS_IGNORE);
+    take_up(server, message.MPI_SOURCE, in_vain);
   }
 }
 
@@ -110,14 +119,14 @@ static void *serve(void *context) {
   return NULL;
 }
 
-static void ask(CwTaskServer *server) {
+static void ask(CwTaskServer *server, int in_vain) {
   MPI_Irecv(&server->next, 3, MPI_INT32_T, 0, GIVE_TAG, server->team->comm, &server->answer);
-  MPI_Send(NULL, 0, MPI_BYTE, 0, ASK_TAG, server->team->comm);
+  MPI_Send(&in_vain, 1, MPI_INT, 0, ASK_TAG, server->team->comm);
 }
 
 void cw_task_server_look(CwTaskServer *server, const CwPlaces *places, int32_t at) {
   if (server->team->rank > 0) {
-    if (!server->order.before && at + 1 == places->count && places->left >= EARLY * server->team->ranks) ask(server);
+    if (!server->order.before && at + 1 == places->count && places->left >= EARLY * server->team->ranks) ask(server, 0);
     return;
   }
   pthread_mutex_lock(&server->lock);
@@ -170,14 +179,15 @@ static void attend(CwTaskServer *server, int to_the_end, void (*meanwhile)(void 
   }
 }
 
-CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given) {
+CwPlaces cw_task_server_next(CwTaskServer *server, int in_vain, void (*meanwhile)(void *given, int64_t ended),
+                             void *given) {
   if (server->last) return (CwPlaces){0};
   if (server->team->rank > 0) {
-    if (server->answer == MPI_REQUEST_NULL) ask(server);
+    if (server->answer == MPI_REQUEST_NULL) ask(server, in_vain);
     cw_team_wait(&server->answer);
   } else {
     pthread_mutex_lock(&server->lock);
-    take_up(server, 0);
+    take_up(server, 0, in_vain);
     pthread_mutex_unlock(&server->lock);
     attend(server, 0, meanwhile, given);
     server->next = server->held[0];

@@ -28,11 +28,13 @@ typedef struct CwTaskServer CwTaskServer;
 // CW_ERR_LIBRARY where there is no thread.
 CwStatus cw_task_server_start(const CwTeam *team, const CwTaskOrder *order, CwTaskServer **server);
 
-// The places that this rank had last have ended; returns the next. They are so many that their cost is a quarter of a
-// rank's part of what is left at most, one at least (guided self-scheduling: Polychronopoulos and Kuck 1987), and one
-// where tasks wait for others. Waits until there is one to be had or none is left; on the first rank calls `meanwhile`
-// (may be NULL) with `given` and the number that are known to have ended.
-CwPlaces cw_task_server_next(CwTaskServer *server, void (*meanwhile)(void *given, int64_t ended), void *given);
+// The places that this rank had last have ended, in_vain: with all that wait for them, which are not given any more.
+// Returns the next. They are so many that their cost is a quarter of a rank's part of what is left at most, one at
+// least (guided self-scheduling: Polychronopoulos and Kuck 1987), and one where tasks wait for others. Waits until
+// there is one to be had or none is left; on the first rank calls `meanwhile` (may be NULL) with `given` and the number
+// that are known to have ended.
+CwPlaces cw_task_server_next(CwTaskServer *server, int in_vain, void (*meanwhile)(void *given, int64_t ended),
+                             void *given);
 
 // Before place places->first + at is run: the first rank answers who has asked meanwhile, sooner than its thread would;
 // another one asks for more before its last place, so that it need not wait for the answer, unless there is so little

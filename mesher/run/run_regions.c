@@ -22,9 +22,13 @@ static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegion
   }
 }
 
+static int has_failed(const void *summary) {
+  return ((const CwRegionSummary *)summary)->failure.failed;
+}
+
 CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwResults results = {0};
+  CwResults results = {.in_vain = has_failed};
   CwMeshTask *task = NULL;
   uint64_t open_faces[CW_DOMAINS_MOST] = {0};
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
@@ -63,6 +67,7 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   run->cells = 0;
   for (int32_t i = 0; i < count; i++) {
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
+    if (!made) continue; // the copy of one that has failed
     if (after[i] < 0) take_summaries(run, task[i].domain, task[i].index, made);
     strcpy(run->summary[task[i].domain][task[i].index].digest, made->digest); // each copy its own
     if (made->damage[0] && run->rank == 0) cw_log_warn(run->context.log, "%s; it is made again", made->damage);

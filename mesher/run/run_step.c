@@ -44,6 +44,7 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
                          .count = count,
                          .cost = cost,
                          .after = after,
+                         .in_vain = results->in_vain,
                          .run = run_one,
                          .context = &context,
                          .gather = 1,

@@ -10,8 +10,9 @@
 typedef struct {
   int32_t count[CW_DOMAINS_MOST];
   void **bytes[CW_DOMAINS_MOST];
-  int shared;           // 1: they may lie once on each host: nobody takes one over
-  CwHostMemory *memory; // where they do; NULL: each has its own
+  int shared;                        // 1: they may lie once on each host: nobody takes one over
+  int (*in_vain)(const void *bytes); // as in CwSchedule
+  CwHostMemory *memory;              // where they do; NULL: each has its own
 } CwResults;
 
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count);

@@ -140,6 +140,42 @@ static int began_too_early(const CwContext *context, char *mode) {
   return early;
 }
 
+static CwStatus give_number(void *context, int32_t task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  int32_t *number = NULL;
+  CW_NEW(number, 1);
+  *number = task;
+  *bytes = number;
+  *size = sizeof *number;
+done:
+  return status;
+}
+
+static int in_vain(const void *bytes) {
+  int32_t task = *(const int32_t *)bytes;
+  return task % 8 == 0 || task % 8 == 5;
+}
+
+// Of four tasks each waits for the one before it; the first of every other four ends in vain, and the second of the
+// others: what waits for it, and for that, is left out.
+static int left_out_wrong(const CwContext *context) {
+  int32_t after[TASKS];
+  double seconds[TASKS];
+  void *bytes[TASKS] = {0};
+  int64_t size[TASKS] = {0};
+  for (int32_t k = 0; k < TASKS; k++) after[k] = k % 4 ? k - 1 : -1;
+  CwSchedule schedule = {
+      .step = "tasks", .count = TASKS, .after = after, .in_vain = in_vain, .run = give_number, .gather = 1};
+  int wrong = cw_schedule_run(context, &schedule, bytes, size, seconds) != CW_OK;
+  for (int32_t k = 0; k < TASKS; k++) {
+    int ran = k % 8 == 0 || k % 8 == 4 || k % 8 == 5;
+    wrong += size[k] != (ran ? (int64_t)sizeof k : 0) || (bytes[k] != NULL) != ran || (!ran && seconds[k] != 0);
+    wrong += ran && bytes[k] && *(int32_t *)bytes[k] != k;
+    free(bytes[k]);
+  }
+  return wrong;
+}
+
 static int results_wrong(const Work *work, void **bytes, const int64_t *size) {
   int wrong = 0;
   for (int32_t task = 0; task < TASKS; task++) {
@@ -182,6 +218,11 @@ static int be_a_rank(int argc, char **argv) {
   if (!strcmp(argv[1], "server-fails")) return fail_behind_another(&context) == CW_OK; // ends inside
   if (strstr(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
     printf("RANK %d EARLY %d\n", rank, began_too_early(&context, argv[1]));
+    cw_log_close(&test_log);
+    return end_as_rank(all, 0);
+  }
+  if (strstr(argv[1], "vain")) {
+    printf("RANK %d WRONG %d\n", rank, left_out_wrong(&context));
     cw_log_close(&test_log);
     return end_as_rank(all, 0);
   }
@@ -270,6 +311,14 @@ static void tasks_wait_for_those_they_come_after(void **state) {
     launch_well(ranks, i % 2 ? "after" : "dealt-after");
     assert_int_equal(sum_of(" EARLY ", &lines), 0);
     assert_int_equal(lines, ranks);
+  }
+}
+
+static void tasks_that_wait_in_vain_are_left_out(void **state) {
+  assert_int_equal(left_out_wrong(NULL), 0);
+  for (int ranks = 1; ranks <= 5; ranks++) {
+    launch_and_find_right(ranks, "vain", 1);
+    launch_and_find_right(ranks, "dealt-vain", 1);
   }
 }
 
@@ -365,6 +414,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(a_rank_that_fails_serves_until_its_end),
       cmocka_unit_test(many_failing_tasks_print_one_line),
       cmocka_unit_test(tasks_wait_for_those_they_come_after),
+      cmocka_unit_test(tasks_that_wait_in_vain_are_left_out),
       cmocka_unit_test(failing_task_ends_those_that_wait),
       cmocka_unit_test(tasks_that_wait_for_one_another_are_refused),
       cmocka_unit_test(what_others_wait_for_is_taken_first),

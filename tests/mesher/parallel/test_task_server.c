@@ -35,7 +35,7 @@ static int serve_places(const CwTeam *all, int chain, int *most) {
   if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
   *most = 0;
   for (;;) {
-    CwPlaces places = cw_task_server_next(server, show, &last_shown);
+    CwPlaces places = cw_task_server_next(server, 0, show, &last_shown);
     if (places.count == 0) break;
     if (places.count > *most) *most = places.count;
     wrong += !chain && places.count > 1 && 4 * ranks * places.count > PLACES - places.first;
@@ -49,6 +49,31 @@ static int serve_places(const CwTeam *all, int chain, int *most) {
   return wrong;
 }
 
+// Of four places each waits for the one before it, and the second ends in vain: the third and the fourth are not given.
+static int serve_in_vain(const CwTeam *all) {
+  static double left[PLACES + 1];
+  static int32_t before[PLACES], given[PLACES];
+  int wrong = 0, in_vain = 0;
+  for (int32_t i = 0; i < PLACES; i++) {
+    left[i] = PLACES - i;
+    before[i] = i % 4 ? i - 1 : -1;
+    given[i] = 0;
+  }
+  CwTaskOrder order = {PLACES, left, before};
+  CwTaskServer *server = NULL;
+  if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
+  for (;;) {
+    CwPlaces places = cw_task_server_next(server, in_vain, NULL, NULL);
+    if (places.count == 0) break;
+    given[places.first]++;
+    in_vain = places.first % 4 == 1;
+  }
+  cw_task_server_stop(server);
+  MPI_Allreduce(MPI_IN_PLACE, given, PLACES, MPI_INT32_T, MPI_SUM, MPI_COMM_WORLD);
+  for (int32_t i = 0; i < PLACES; i++) wrong += given[i] != (i % 4 < 2);
+  return wrong;
+}
+
 // The first rank takes a place and works until the others have been given all that is left.
 static int serve_while_at_work(const CwTeam *all) {
   static const double left[] = {4, 3, 2, 1, 0};
@@ -58,7 +83,7 @@ static int serve_while_at_work(const CwTeam *all) {
   if (cw_task_server_start(all, &order, &server) != CW_OK) return 1;
   if (rank > 0) MPI_Barrier(MPI_COMM_WORLD);
   for (;;) {
-    CwPlaces places = cw_task_server_next(server, NULL, NULL);
+    CwPlaces places = cw_task_server_next(server, 0, NULL, NULL);
     if (places.count == 0) break;
     taken += places.count;
     if (rank > 0) MPI_Send(NULL, 0, MPI_BYTE, 0, TAKEN, MPI_COMM_WORLD);
@@ -87,6 +112,7 @@ static int be_a_rank(int argc, char **argv) {
     wrong += serve_places(all, 0, &most);
     wrong += ranks == 1 && most != PLACES / 4;
     wrong += serve_places(all, 1, &most) + (most > 1);
+    wrong += serve_in_vain(all);
   }
   if (ranks > 1) wrong += serve_while_at_work(all);
   printf("RANK %d WRONG %d\n", rank, wrong);
