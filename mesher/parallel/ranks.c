@@ -200,6 +200,38 @@ int cw_mpi_fail(CwLog *log, CwStatus status) {
   _exit(code);
 }
 
+typedef struct {
+  uint64_t digest;
+  char host[64];
+} RankDigest;
+
+CwStatus cw_team_alike(const CwTeam *team, const char *what, uint64_t digest) {
+  CwStatus status = CW_OK;
+  uint64_t bounds[2] = {digest, ~digest};
+  RankDigest own = {.digest = digest}, *of = NULL;
+  int others = 0, first = 0;
+  if (team->ranks == 1) goto done;
+  MPI_Request request;
+  MPI_Iallreduce(MPI_IN_PLACE, bounds, 2, MPI_UINT64_T, MPI_MAX, team->comm, &request);
+  cw_team_wait(&request);
+  if (bounds[0] == ~bounds[1]) goto done;
+  CW_NEW(of, team->ranks);
+  gethostname(own.host, sizeof own.host - 1);
+  MPI_Allgather(&own, sizeof own, MPI_BYTE, of, sizeof own, MPI_BYTE, team->comm);
+  for (int rank = team->ranks - 1; rank > 0; rank--) {
+    if (of[rank].digest == of[0].digest) continue;
+    others++;
+    first = rank;
+  }
+  status = CW_FAIL(CW_ERR_LIBRARY,
+                   "%s of rank %d on %s are not those of rank 0 on %s; so it is with %d of %d ranks; allowed: hosts "
+                   "with one kind of processor and the same libraries; leave the others out",
+                   what, first, of[first].host, of[0].host, others, team->ranks);
+done:
+  free(of);
+  return status;
+}
+
 void cw_team_most(const CwTeam *team, int64_t count, double *value) {
   for (int64_t at = 0, part; at < count && team->ranks > 1; at += part) {
     MPI_Request request;

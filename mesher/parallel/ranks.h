@@ -54,6 +54,10 @@ void cw_team_broadcast(const CwTeam *team, void *bytes, int64_t size, int from);
 // many bytes each. CW_ERR_MEMORY.
 CwStatus cw_team_gather(const CwTeam *team, const int64_t *size, void **all);
 
+// What all ranks compute for themselves, and go on by, is to be the same to the last bit; `what`: its name, plural.
+// CW_ERR_LIBRARY on all ranks where their digests of it are not the same.
+CwStatus cw_team_alike(const CwTeam *team, const char *what, uint64_t digest);
+
 // The greatest of all ranks, for each of `count` values. [in,out] value.
 void cw_team_most(const CwTeam *team, int64_t count, double *value);
 

@@ -149,6 +149,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
     parts[d] = CW_SIZE_SEEDS + 1; // open edges ask for metres, whatever the scale
   for (int round = 0;; round++) {
     cw_mesh_solve_layers(run);
+    CW_TRY(cw_run_alike(run, NULL, 0));
     double growth = run->scale * run->gradation / allowed;
     if (growth <= 1 + GRADATION_TOLERANCE || round == GRADATION_ROUNDS) break;
     made_for = run->scale * pow(growth, round == 0 ? 0.25 : 1);
@@ -435,6 +436,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   CwOutcome outcome[CW_DOMAINS_MOST];
   char text[CW_OUTCOME_TEXT_SIZE];
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
+  CW_TRY(cw_run_alike(run, NULL, 0));
   run->planned_prisms = run->prisms;
   run->planned_tets = run->tets;
   run->planned_scale = run->scale;
@@ -454,6 +456,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
     if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     log_plan(run, d);
   }
+  CW_TRY(cw_run_alike(run, NULL, 0));
   cw_give_back(); // it lies between what stays
   if (run->rank == 0) {
     CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->model.domain_count, "domains"));

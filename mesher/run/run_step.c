@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "mesher/cad/cad_leave_out.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
+#include "pipeline/hash.h"
 #include "pipeline/log.h"
 
 typedef struct {
@@ -27,6 +29,28 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
   return in_domain(step->run, task.domain, step->step(step->run, task, bytes, size));
 }
 
+CwStatus cw_run_alike(const CwMeshRun *run, const void *also, size_t size) {
+  CwHash hash = cw_hash_start();
+  const double scales[] = {run->scale, run->gradation, run->wall_scale};
+  const CwCellLaw laws[] = {run->prisms, run->tets};
+  cw_hash_bytes(&hash, scales, sizeof scales);
+  cw_hash_bytes(&hash, laws, sizeof laws);
+  for (int p = 0; p < run->model.patch_count; p++) {
+    const CwModelPatch *patch = &run->model.patch[p];
+    const CwDomain *domain = &run->domain[patch->domain];
+    cw_hash_bytes(&hash, &domain->patch_layers[patch - domain->patch], sizeof *domain->patch_layers);
+  }
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t n = 0; n < domain->plan.node_count; n++)
+      cw_hash_bytes(&hash, &domain->plan.node[n].plane, sizeof domain->plan.node[n].plane);
+    cw_hash_bytes(&hash, domain->wall_curves.x,
+                  (size_t)domain->wall_curves.vertex_count * sizeof *domain->wall_curves.x);
+  }
+  cw_hash_bytes(&hash, also, size);
+  return cw_team_alike(run->context.team, "sizes, planes or curves", hash.sum[0] ^ hash.sum[1]);
+}
+
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
                      const CwMeshTask *task, const int32_t *after, CwResults *results, double **seconds) {
   CwStatus status = CW_OK;
@@ -34,6 +58,7 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
   int64_t *size = NULL;
   double *cost = NULL, *time = NULL, started = cw_seconds();
   StepContext context = {run, task, body};
+  CW_TRY(cw_run_alike(run, task, (size_t)count * sizeof *task));
   CW_NEW(result, count);
   CW_NEW(size, count);
   CW_NEW(cost, count);

@@ -18,8 +18,13 @@ typedef struct {
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count);
 void cw_results_free(CwResults *results);
 
-// Runs a step over tasks of all domains; collective. results->bytes[d][i] for task index i of domain d; seconds[d][i]
-// likewise where seconds is given. after: as in CwSchedule.
+// Every rank finds sizes, planes and curves for itself, with mathematical libraries that round differently from one
+// kind of processor to another. Collective; CW_ERR_LIBRARY where they, or the `size` bytes of `also`, are not the same
+// on all ranks.
+CwStatus cw_run_alike(const CwMeshRun *run, const void *also, size_t size);
+
+// Runs a step over tasks of all domains, which are alike on all ranks; collective. results->bytes[d][i] for task index
+// i of domain d; seconds[d][i] likewise where seconds is given. after: as in CwSchedule.
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
                      const CwMeshTask *task, const int32_t *after, CwResults *results, double **seconds);
 

@@ -60,7 +60,8 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
     cw_profiler_part(&run->context, "curves of the walls");
-    CW_TRY_STAGE(start_walls(run, outcome), outcome);
+    CW_TRY(start_walls(run, outcome));
+    CW_TRY_STAGE(cw_run_alike(run, &outcome->kind, sizeof outcome->kind), outcome);
     CW_TRY(cw_stage_view(run, CW_STAGE_CURVES));
     if (run->stopped) break;
     CW_TRY(cw_results_make(&results, run->model.domain_count, faces));

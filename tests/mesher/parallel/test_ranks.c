@@ -79,14 +79,25 @@ static int split_wrong(const CwTeam *all) {
   return wrong + (part != NULL);
 }
 
+// Ranks 2 and 3 of four have found something else.
+static int be_one_of_two_kinds(int argc, char **argv) {
+  CwTeam *all;
+  begin_as_rank(&argc, &argv, &all);
+  int rank = cw_team_rank(all);
+  cw_log_open("test", NULL, rank == 0, 0, &test_log);
+  return cw_mpi_fail(test_log, cw_team_alike(all, "planes", rank >= 2 ? 8 : 7));
+}
+
 static int be_a_rank(int argc, char **argv) {
   CwTeam *all;
+  if (!strcmp(argv[1], "differ")) return be_one_of_two_kinds(argc, argv);
   cw_mpi_start(&argc, &argv, &all); // without a watch: all ranks agree first
   int rank = cw_team_rank(all);
   cw_log_open("test", NULL, rank == 0, 0, &test_log);
   CwStatus status = cw_team_agree(all, fail_where(argv[1], rank));
   if (status != CW_OK) return cw_mpi_fail(test_log, status);
   int wrong = spread_wrong(all) + gather_wrong(all) + split_wrong(all) + (cw_mpi_ranks() != cw_team_ranks(all));
+  wrong += cw_team_alike(all, "numbers", UINT64_MAX) != CW_OK || cw_team_alike(all, "numbers", 7) != CW_OK;
   printf("RANK %d WRONG %d\n", rank, wrong);
   cw_log_close(&test_log);
   cw_mpi_end(&all);
@@ -105,9 +116,18 @@ static void the_first_that_fails_says_so(void **state) {
   assert_non_null(strstr(output, "error: rank 1 has no case file"));
 }
 
+static void ranks_that_differ_are_named(void **state) {
+  assert_int_equal(launch(4, "differ"), CW_ERR_LIBRARY);
+  assert_int_equal(count_lines_with("error:"), 1);
+  assert_non_null(strstr(output, "error: planes of rank 2 on "));
+  assert_non_null(strstr(output, " are not those of rank 0 on "));
+  assert_non_null(strstr(output, "; so it is with 2 of 4 ranks; "));
+}
+
 int main(int argc, char **argv) {
   if (launched(argc)) return be_a_rank(argc, argv);
   const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_spread_and_split),
-                                     cmocka_unit_test(the_first_that_fails_says_so)};
+                                     cmocka_unit_test(the_first_that_fails_says_so),
+                                     cmocka_unit_test(ranks_that_differ_are_named)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
