@@ -13,12 +13,11 @@
 #include "mesher/plan/plan_divide.h"
 #include "mesher/plan/plan_lines.h"
 #include "mesher/plan/plan_profile.h"
+#include "mesher/plan/plan_slices.h"
 
 enum {
   STATIONS = 80, // places tried for the plane across the axis
   REFUSED = 2,   // places to either side of one that are refused with it
-  STEPS = 36,    // of equal work in a slice, where planes between slices may stand
-  WINDOW = 3,    // slices to either side of its even place in which such a plane is looked for
   ANGLES = 120,  // places tried for half-planes in one pitch
   TOUCHES = 4096 // places along the axis where planes across it are known to touch edges
 };
@@ -80,41 +79,21 @@ done:
 // The side of the pipe in steps of equal work, from node 0 outwards.
 static double step_place(const Sectors *sectors, int32_t slices, int32_t step) {
   double all = cw_profile_below(&sectors->along, sectors->plan->node[0].plane.offset);
-  return cw_profile_place(&sectors->along, all * (1 - (double)step / (slices * STEPS)));
+  return cw_profile_place(&sectors->along, all * (1 - (double)step / (slices * CW_SLICE_STEPS)));
 }
 
-// Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn
-// the best way to every step; slices have half to one and a half of their even work.
+// Places of the planes between slices of `mean` work, as steps.
 static CwStatus find_slices(const Sectors *sectors, int32_t slices, double mean, int32_t *step, double *cost) {
   CwStatus status = CW_OK;
-  int32_t steps = slices * STEPS, *from = NULL; // of each plane and step, the step of the plane before
-  double *least = NULL, *place_cost = NULL, *uneven = NULL, worst;
+  int32_t steps = slices * CW_SLICE_STEPS;
+  double *place_cost = NULL, uneven[CW_SLICE_MOST + 1] = {0}, worst;
   double all = cw_profile_below(&sectors->along, sectors->plan->node[0].plane.offset);
-  CW_NEW(from, (slices + 1) * (steps + 1));
-  CW_NEW(least, (slices + 1) * (steps + 1));
   CW_NEW(place_cost, steps + 1);
-  CW_NEW(uneven, steps + 1);
-  for (int32_t s = 1; s <= steps; s++) uneven[s] = cw_plan_slice_cost(all * s / steps, mean);
+  for (int32_t s = 1; s <= CW_SLICE_MOST; s++) uneven[s] = cw_plan_slice_cost(all * s / steps, mean);
   for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(sectors, step_place(sectors, slices, s), &worst);
-  for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
-  least[0] = 0;
-  for (int32_t i = 1; i <= slices; i++) {
-    double *now = least + i * (steps + 1), *before = now - (steps + 1);
-    int32_t first = (i - WINDOW) * STEPS, last = i < slices ? (i + WINDOW) * STEPS : steps;
-    for (int32_t s = i < slices ? (first > i ? first : i) : steps; s <= last && s <= steps; s++) {
-      for (int32_t b = s - STEPS / 2; b >= 0 && b >= s - STEPS - STEPS / 2; b--) {
-        double sum = before[b] + uneven[s - b] + place_cost[s];
-        if (sum < now[s]) now[s] = sum, from[i * (steps + 1) + s] = b;
-      }
-    }
-  }
-  *cost = least[slices * (steps + 1) + steps];
-  for (int32_t i = slices, s = steps; i > 0; i--) step[i] = s, s = from[i * (steps + 1) + s];
+  CW_TRY(cw_slices_place(slices, uneven, place_cost, step, cost));
 done:
-  free(from);
-  free(least);
   free(place_cost);
-  free(uneven);
   return status;
 }
 
@@ -129,7 +108,7 @@ static CwStatus place_slices(Sectors *sectors, int32_t slices, double mean, doub
   CW_TRY(find_slices(sectors, slices, mean, step, cost));
   plan->node[0].child[0] = -1; // with one slice alone
   for (int32_t i = 1; i <= slices; i++) {
-    plan->predicted_cells[slices - i] = all * (step[i] - step[i - 1]) / (slices * STEPS);
+    plan->predicted_cells[slices - i] = all * (step[i] - step[i - 1]) / (slices * CW_SLICE_STEPS);
     if (i == slices) break;
     CwPlane plane = across(sectors, step_place(sectors, slices, step[i]));
     plan->node[i] = (CwPlanNode){plane, i - 1, {-1, -1 - (slices - i)}, 0};
