@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run/manifest.h"
 
+#include <dirent.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "mesher/common/model_unit.h"
 #include "mesher/fill/tet_bound.h"
@@ -276,6 +278,34 @@ done:
   return status;
 }
 
+// Whether a file is called as this format says: DOMAIN-NNNN in some places of it.
+static int is_called(const char *name, const char *format) {
+  int from = 0, to = 0, end = 0;
+  sscanf(name, format, &from, &to, &end);
+  return end > 0 && !name[end] && to - from >= 4;
+}
+
+static int is_named(const json_t *manifest, const char *file) {
+  size_t d, r;
+  json_t *domain, *region;
+  json_array_foreach(json_object_get(manifest, "domains"), d, domain) {
+    json_array_foreach(json_object_get(domain, "regions"), r, region) {
+      if (!strcmp(json_string_value(json_object_get(region, "file")), file)) return 1;
+    }
+  }
+  return 0;
+}
+
+void cw_mesh_remove_others(const json_t *manifest, const char *folder) {
+  DIR *list = opendir(folder);
+  for (struct dirent *entry; list && (entry = readdir(list));) {
+    const char *name = entry->d_name;
+    int is_region = is_called(name, "%*[A-Za-z0-9_]-%n%*[0-9]%n.h5%n") && !is_named(manifest, name);
+    if (is_region || is_called(name, "failed-%*[A-Za-z0-9_]-%n%*[0-9]%n.vtk%n")) unlinkat(dirfd(list), name, 0);
+  }
+  if (list) closedir(list);
+}
+
 CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096];
@@ -285,6 +315,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run->run_path);
   CW_TRY(cw_json_write(manifest, path));
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
+  cw_mesh_remove_others(manifest, path);
   CW_TRY(cw_record_file(run->record, path, "manifest.json"));
   for (int d = 0; d < run->model.domain_count; d++) json_array_append_new(domains, domain_json(run, d));
   CW_TRY(cw_record_integer(run->record, "ranks", cw_team_ranks(run->context.team)));

@@ -5,7 +5,12 @@
 
 #include "mesher/run/run_state.h"
 
-// Writes RUN/mesh/manifest.json and adds the results to the record. Rank 0 only.
+// Writes RUN/mesh/manifest.json, removes what a mesh of other regions has left, and adds the results to the record.
+// Rank 0 only.
 CwStatus cw_mesh_manifest(CwMeshRun *run);
+
+// Removes from the folder the region files that the manifest does not name, and the boundaries of regions that have
+// failed. What cannot be removed stays.
+void cw_mesh_remove_others(const json_t *manifest, const char *folder);
 
 #endif
