@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """needs.py FOLDER [--solve] [--case FILE] [--ranks N] CELLS...: tells what runs of so many cells need of disk and
 memory, before they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. With
---case the formats of the export are those of the case, and its number of cells where none is given; what a run in
-FOLDER has on the disk already counts as free, and small runs say nothing. --ranks: of the mesher on this machine, 2
-unless given. needs.py --table CELLS...: prints a row of a table for each number.
+--case the formats of the export and the cells of a region are those of the case, and its number of cells where none is
+given; what a run in FOLDER has on the disk already counts as free, and small runs say nothing. --ranks: of the mesher
+on this machine, 2 unless given. needs.py --table CELLS...: prints a row of a table for each number.
 
 The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 100 million cells (tests/bench/scale.py prints
 them, tests/bench/memory.py the memory over the ranks); layers and size change them by a third."""
@@ -52,13 +52,15 @@ def host_memory(cells):
     return HOST_MEMORY[0] + HOST_MEMORY[1] * cells ** (2 / 3)
 
 
-def rank_memory(cells):
-    return RANK_MEMORY[0] + RANK_MEMORY[1] * max(REGION_CELLS, cells / REGIONS_MOST)
+def rank_memory(cells, of_region=None):
+    """of_region: cells that a case asks for in one."""
+    region = min(of_region, cells) if of_region else max(REGION_CELLS, cells / REGIONS_MOST)
+    return RANK_MEMORY[0] + RANK_MEMORY[1] * region
 
 
-def mesher_memory(cells, ranks):
+def mesher_memory(cells, ranks, of_region=None):
     """Of a host."""
-    return host_memory(cells) + ranks * rank_memory(cells)
+    return host_memory(cells) + ranks * rank_memory(cells, of_region)
 
 
 def existing(folder):
@@ -81,11 +83,14 @@ def row(text):
 
 
 def case_says(path):
-    """Formats and cells of a case file, as far as it has them; the schema has judged or will judge it."""
+    """Formats, cells and cells of a region of a case file, as far as it has them; the schema has judged or will judge
+    it."""
     text = re.sub(r"#.*", "", Path(path).read_text(encoding="utf-8"))
     formats = re.search(r"\bformats:\s*(\[[^]]*\]|(?:\s*-\s*[\w\"']+)+|[\w\"']+)", text)
-    cells = re.search(r"\bcells:\s*([\d.]+(?:[kKMG]|e\d+)?)(?=[\s,}]|$)", text)
-    return (re.findall(r"[a-z_]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"])
+    cells, of_region = (re.search(rf"\b{key}:\s*([\d.]+(?:[kKMG]|e\d+)?)(?=[\s,}}]|$)", text)
+                        for key in ("cells", "cells_per_region"))
+    return ((re.findall(r"[a-z_]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"]),
+            read_count(of_region[1]) if of_region else None)
 
 
 def main():
@@ -103,11 +108,11 @@ def main():
         print("\n".join(row(text) for text in options.words))
         return
     folder, *sizes = options.words
-    formats, of_case = case_says(options.case) if options.case else (FORMATS, [])
+    formats, of_case, of_region = case_says(options.case) if options.case else (FORMATS, [], None)
     cells = [read_count(text) for text in sizes or of_case]
     disk = sum(disk_of("mesh", n) + export_disk(n, formats) + n * SOLVED_BYTES_A_CELL * options.solve for n in cells)
     most = max(cells)
-    memory = 0.3e9 + most * SOLVE_MEMORY_A_CELL if options.solve else mesher_memory(most, options.ranks)
+    memory = 0.3e9 + most * SOLVE_MEMORY_A_CELL if options.solve else mesher_memory(most, options.ranks, of_region)
     if options.case and disk < SMALL:
         return
     free = shutil.disk_usage(existing(folder)).free + (size_of(folder) if options.case else 0)

@@ -89,6 +89,9 @@ class Sweep(unittest.TestCase):
     def test_the_memory_of_the_mesher_is_about_what_was_measured(self):
         for cells, ranks, measured in ((8e6, 2, 0.47e9), (8e6, 16, 1.8e9), (100e6, 1, 0.9e9), (100e6, 16, 3e9)):
             self.assertLess(abs(needs.mesher_memory(cells, ranks) / measured - 1), 0.02, (cells, ranks))
+        # 100 bytes for each cell of a region; none has more cells than the mesh.
+        self.assertEqual(needs.mesher_memory(8e6, 3, 4e6) - needs.mesher_memory(8e6, 3, 1e6), 3 * 3e6 * 100)
+        self.assertEqual(needs.rank_memory(3e6, 4e6), needs.rank_memory(3e6, 3e6))
         table = (SOURCE / "mesher/policy_table.h").read_text()
         policy = dict(re.findall(r"^NUMBER\(double, (\w+), ([\d.e]+)", table, re.M))
         self.assertEqual([needs.REGION_CELLS, needs.REGIONS_MOST],
@@ -97,16 +100,17 @@ class Sweep(unittest.TestCase):
     def test_formats_and_cells_are_found_however_yaml_has_them(self):
         case = fresh("needs_case") / "case.yaml"
         both = ["cgns", "fluent"]
-        for text, formats, cells in (
+        for text, formats, cells, *of_region in (
                 ("export:\n  formats: [cgns, fluent]\ncgns:\n  integers: 64\n", both, "1M"),
                 ("export:\n  formats:\n    - cgns\n    - fluent\nopenfoam: {processors: 2}\n", both, "1M"),
                 ("export: {formats: [cgns,\n  fluent]}\nmesh: {cells: 2M, fill: kernel}\n", both, "2M"),
                 ("export:\n  formats: fluent  # alone\nmesh:\n  cells_per_region: 9000\n  cells: 30K # all\n",
-                 ["fluent"], "30K"),
+                 ["fluent"], "30K", 9000),
+                ("mesh: {cells_per_region: 1.5M, cells: 8M}\n", list(needs.FORMATS), "8M", 1500000),
                 ("mesh:\r\n  cells: 5e7\r\n", list(needs.FORMATS), "5e7")):
             case.write_bytes(text.encode())
             found = needs.case_says(case)
-            self.assertEqual((list(found[0]), found[1]), (formats, [cells]), text)
+            self.assertEqual((list(found[0]), *found[1:]), (formats, [cells], *(of_region or [None])), text)
 
     def test_the_table_of_the_documents_is_that_of_the_script(self):
         command = re.search(r"`pipeline/(needs.py --table [^`]+)`", (SOURCE / "docs/cluster.md").read_text())[1].split()
@@ -134,6 +138,10 @@ class Sweep(unittest.TestCase):
         self.assertEqual(disk, sorted(disk))
         self.assertEqual(code_saturne, disk[0])  # it reads pump.cgns
         self.assertLess(2 * disk[0], disk[1])
+        memory = [float(re.search(r"disk, ([\d.]+) GB of", call(f"mesh: {{cells_per_region: {of_region}}}\n", "--ranks",
+                                                               "4", "20M").stdout)[1])
+                  for of_region in ("300k", "4M")]
+        self.assertAlmostEqual(memory[1] - memory[0], 4 * 3.7e6 * 100e-9, delta=0.06)
         self.assertIn("make room, or ask for fewer cells", call("export: {formats: cgns}\n", "2000G").stdout)
         self.assertEqual(call("", "2000G").returncode, 1)
 
