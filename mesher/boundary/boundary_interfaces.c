@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The inner surfaces of the boundary: free curves, open patches, and the interfaces on the partition planes.
+// The interfaces of the boundary: free curves, open patches, and the triangles on the partition planes.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -30,7 +30,7 @@ typedef struct {
   int32_t loop_count;
   int32_t *loop_start; // loop_count + 1
   int32_t *corner;     // nodes
-  // Set when the inner surfaces are merged:
+  // Set when the interfaces are merged:
   int32_t free_start, free_count;         // its inner nodes, as planned
   int32_t triangle_start, triangle_count; // its triangles as planned,
   int32_t refined_start, refined_count;   // and by the rule of region numbers

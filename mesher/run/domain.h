@@ -109,7 +109,7 @@ CwStatus cw_domain_start(const CwContext *context, CwDomain *domain, CwOutcome *
 // Collective.
 CwStatus cw_domain_targets(const CwContext *context, CwDomain *domain);
 
-// Region numbers, once the inner surfaces are merged.
+// Region numbers, once the interfaces are merged.
 CwStatus cw_domain_number(CwDomain *domain);
 
 // What the regions share, once their interfaces are final.

@@ -40,7 +40,7 @@ CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
   return cw_surface_mesh_face(&domain->input, &domain->wall_curves, task.index, largest, bytes, size);
 }
 
-CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   const CwDomain *domain = &run->domain[task.domain];
   int32_t faces = cw_cad_face_count(domain->cad);
   if (task.index >= faces)

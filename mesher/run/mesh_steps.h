@@ -18,7 +18,7 @@ CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 // An open patch, or after all faces an interface polygon.
-CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 // Makes the region, or takes it up from its file where an earlier run left it whole. A periodic image is made of its
 // first.

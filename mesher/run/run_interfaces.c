@@ -41,12 +41,12 @@ done:
   return status;
 }
 
-static CwStatus merge_inner(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
+static CwStatus merge_interfaces(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwMerging *merging = given;
   CwDomain *domain = &merging->run->domain[d];
   void **bytes = merging->results->bytes[d];
-  cw_profiler_part(context, "inner surfaces merged");
+  cw_profiler_part(context, "interfaces merged");
   CW_TRY_STAGE(cw_interfaces_make(&domain->input, &domain->free_curves, bytes, bytes + cw_cad_face_count(domain->cad),
                                   &domain->interfaces, outcome),
                outcome);
@@ -55,7 +55,7 @@ done:
   return status;
 }
 
-static CwStatus hand_inner(void *given, const CwGroupHand *hand) {
+static CwStatus hand_interfaces(void *given, const CwGroupHand *hand) {
   CwDomain *domain = &((const CwMerging *)given)->run->domain[hand->item];
   CwInterfaces *interfaces = &domain->interfaces;
   if (!hand->mine) cw_free_curves_free(&domain->free_curves);
@@ -65,7 +65,7 @@ static CwStatus hand_inner(void *given, const CwGroupHand *hand) {
 CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   static const CwDomainWork work = {
-      .step = "inner surfaces merged", .own = 1, .copied = 1, .work = merge_inner, .hand = hand_inner};
+      .step = "interfaces merged", .own = 1, .copied = 1, .work = merge_interfaces, .hand = hand_interfaces};
   CwOutcome of_domain[CW_DOMAINS_MOST];
   CwResults results = {.shared = 1}; // of each domain first those of its faces
   CwMeshTask *task = NULL;
@@ -85,7 +85,7 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
     }
   }
   CW_TRY(cw_results_make(&results, run->model.domain_count, parts));
-  CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, &results, NULL));
+  CW_TRY(cw_run_step(run, "interfaces", "surfaces", cw_step_interface, count, task, NULL, &results, NULL));
   CW_TRY(cw_run_domains(run, &work, &results, of_domain));
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   for (int d = 0; outcome->kind == CW_OUTCOME_DONE && d < run->model.domain_count; d++)
@@ -100,7 +100,7 @@ static CwStatus merge_rule(void *given, const CwContext *context, int32_t d, CwO
   CwStatus status = CW_OK;
   const CwMerging *merging = given;
   CwDomain *domain = &merging->run->domain[d];
-  cw_profiler_part(context, "interfaces merged");
+  cw_profiler_part(context, "region rule merged");
   CW_TRY(cw_interface_rule_merge(&domain->images, &domain->interfaces, domain->plan.region_count,
                                  merging->results->bytes[d], &domain->rule));
   CW_AUDIT(cw_interfaces_audit(&domain->interfaces, domain->plan.region_count));
@@ -135,7 +135,7 @@ static void log_rule(CwLog *log, const CwDomain *domain) {
 CwStatus cw_run_region_rule(CwMeshRun *run) {
   CwStatus status = CW_OK;
   static const CwDomainWork work = {
-      .step = "interfaces merged", .own = 1, .copied = 1, .work = merge_rule, .hand = hand_rule};
+      .step = "region rule merged", .own = 1, .copied = 1, .work = merge_rule, .hand = hand_rule};
   CwOutcome of_domain[CW_DOMAINS_MOST]; // all done
   CwResults results = {.shared = 1};
   CwMeshTask *task = NULL;

@@ -51,7 +51,7 @@ done:
 CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places) {
   CwStatus status = CW_OK;
   const CwFreeCurves *free_curves = &run->domain[why->domain].free_curves;
-  CwRegionFailure failure = {.failed = 1, .patch = "inner surface"};
+  CwRegionFailure failure = {.failed = 1, .patch = "partition plane"};
   snprintf(failure.message, sizeof failure.message, "%.*s", (int)sizeof failure.message - 1, why->reason);
   for (int32_t i = 0; i < free_curves->tight_count; i++) {
     memcpy(failure.at, free_curves->tight[i], sizeof failure.at);

@@ -5,7 +5,7 @@ import re
 import shutil
 import unittest
 
-from cutwater import CELLS, RUN, command, error_lines, execute, record, said, surface, with_geometry
+from cutwater import CELLS, RUN, SOURCE, command, error_lines, execute, record, said, surface, with_geometry
 
 
 def rims(corners):
@@ -59,6 +59,13 @@ class StopAfter(unittest.TestCase):
                 else:
                     self.assertEqual(set(values), {0, 1})
             shutil.rmtree(run)
+
+    def test_the_record_calls_stages_as_the_documents_do(self):
+        text = (SOURCE / "docs/mesher.md").read_text()
+        others = re.search(r"record have other names for two stages:([^.]*)\.", text)[1]
+        names = re.findall(r"^\| ([a-z ]+) \|", text, re.M) + re.findall(r"\*([a-z ]+)\*", others)
+        for step in record(RUN, "mesh")["steps"]:
+            self.assertIn(step["name"], names)
 
     def test_another_stage_is_refused(self):
         run = with_geometry("stop-unknown")

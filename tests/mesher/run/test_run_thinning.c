@@ -24,9 +24,28 @@ static void a_plan_is_given_up_after_three_attempts(void **state) {
   assert_int_equal(run.retries, 0);
 }
 
+// Columns that leave no room on a plane are told of as being there.
+static void places_on_planes_are_called_so(void **state) {
+  static CwMeshRun run;
+  double tight[1][3] = {{1, 2, 3}};
+  CwThinPlaces places = {0};
+  CwOutcome why = {.kind = CW_OUTCOME_THIN, .domain = 1, .reason = "two cuts cross"};
+  run.domain[1].free_curves.tight_count = 1;
+  run.domain[1].free_curves.tight = tight;
+  assert_int_equal(cw_thin_places_on_planes(&run, &why, &places), CW_OK);
+  assert_int_equal(places.count, 1);
+  assert_int_equal(places.place[0].domain, 1);
+  assert_int_equal(places.place[0].region, -1);
+  assert_string_equal(places.place[0].failure.patch, "partition plane");
+  assert_string_equal(places.place[0].failure.message, "two cuts cross");
+  assert_near(places.place[0].failure.at[2], 3, 0);
+  cw_thin_places_free(&places);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_plan_is_given_up_after_three_attempts),
+      cmocka_unit_test(places_on_planes_are_called_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
