@@ -211,28 +211,30 @@ static double straight_wrap(const CwMeridian *meridian, double beta1, double bet
   return cw_blade_wrap(meridian, 0.5, beta);
 }
 
-// Range of a computed beta2 where D2 is open, and so can meet the head instead.
+// Range of beta2, and of a computed one where D2 is open, and so can meet the head instead.
+static const double allowed_beta[2] = {12 * CW_DEGREE, 60 * CW_DEGREE};
 static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
+
+static int meets_head(const CwDesign *design) {
+  return fabs(design->head_residual) < 1e-6 * design->head;
+}
 
 // Sets beta2 and the wrap by the priority. `fixed`: the outlet blade angle where D2 meets the head, or NAN.
 static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
   CwStatus status = CW_OK;
   const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
-  const double table_wrap = table->impeller.wrap_angle, least = 12 * CW_DEGREE, largest = 60 * CW_DEGREE;
+  const double table_wrap = table->impeller.wrap_angle, least = allowed_beta[0], largest = allowed_beta[1];
   double low = least, high = largest;
   if (design->priority == CW_PRIORITY_BETA) {
     TAKE(outlet_blade_angle, given, 25 * CW_DEGREE, "25 deg: middle of the usual 18 to 32");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else if (design->priority == CW_PRIORITY_HEAD) {
-    for (int i = 0; i < 60; i++) {
-      design->outlet_blade_angle = 0.5 * (low + high);
-      cw_outlet_triangle(meridian, design);
-      *(design->predicted_head < design->head ? &low : &high) = design->outlet_blade_angle;
-    }
-    SET(outlet_blade_angle, cw_case_given(fixed) ? fixed : 0.5 * (low + high),
-        cw_case_given(fixed)                          ? "limit of the usual 18 to 32 deg; D2 meets the head"
-        : low > least + 1e-9 && high < largest - 1e-9 ? "solved for the head"
-                                                      : "nearest to the head of 12 to 60 deg");
+    const double solved =
+        cw_case_given(fixed) ? fixed : cw_outlet_angle_for_head(meridian, allowed_beta, usual_beta, design);
+    SET(outlet_blade_angle, solved,
+        cw_case_given(fixed) ? "limit of the usual 18 to 32 deg; D2 meets the head"
+        : meets_head(design) ? "solved for the head"
+                             : "nearest to the head of 12 to 60 deg");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else {
     for (int i = 0; i < 60; i++) {
@@ -295,8 +297,15 @@ done:
   return status;
 }
 
-static int meets_head(const CwDesign *design) {
-  return fabs(design->head_residual) < 1e-6 * design->head;
+// Of the limits of the usual angles the one whose head is nearer to the asked.
+static double usual_limit(const CwMeridian *meridian, CwDesign *design) {
+  double off[2];
+  for (int i = 0; i < 2; i++) {
+    design->outlet_blade_angle = usual_beta[i];
+    cw_outlet_triangle(meridian, design);
+    off[i] = fabs(design->head_residual);
+  }
+  return usual_beta[off[1] < off[0]];
 }
 
 // A design by the head keeps the correlation's D2 where the outlet blade angle that it wants is a usual one. The
@@ -311,7 +320,7 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
     if (meets_head(design) && design->outlet_blade_angle >= usual_beta[0] &&
         design->outlet_blade_angle <= usual_beta[1])
       goto done;
-    fixed = fmin(usual_beta[1], fmax(usual_beta[0], design->outlet_blade_angle));
+    fixed = usual_limit(meridian, design);
   }
   CW_TRY(outlet_diameter_for_head(table, fixed, meridian, design));
   if (by_head && !meets_head(design) && design->outlet_diameter > (1 - 1e-9) * largest)
@@ -344,7 +353,7 @@ static CwStatus solve_outlet_width(const CwCase *table, CwMeridian *meridian, Cw
   if (design->priority != CW_PRIORITY_HEAD || cw_case_given(table->impeller.outlet_width) || meets_head(design))
     goto done;
   const int more = design->head_residual < 0;
-  const double usual = design->outlet_width, fixed = usual_beta[more];
+  const double usual = design->outlet_width, fixed = usual_limit(meridian, design);
   double low = more ? usual : usual / LARGEST_WIDENING, high = more ? usual * LARGEST_WIDENING : usual;
   CW_TRY(with_outlet_width(table, more ? high : low, fixed, 1, meridian, design));
   const int within = more ? design->head_residual > 0 : design->head_residual < 0;

@@ -72,6 +72,51 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   SET(head_residual, design->predicted_head - design->head, "predicted - asked");
 }
 
+// Predicted head with an outlet blade angle; none where the blades fill the outlet.
+static double head_at(const CwMeridian *meridian, double angle, CwDesign *design) {
+  design->outlet_blade_angle = angle;
+  cw_outlet_triangle(meridian, design);
+  return design->outlet_blockage > 0 ? design->predicted_head : -HUGE_VAL;
+}
+
+// The angle from a to b at which the head passes the asked one, upwards or downwards. The whole range is bisected, so
+// that the digits do not depend on a and b.
+static double crossing(const CwMeridian *meridian, const double range[2], double a, double b, int upwards,
+                       CwDesign *design) {
+  double low = range[0], high = range[1];
+  for (int i = 0; i < 60; i++) {
+    const double middle = 0.5 * (low + high);
+    const int before = middle <= a || (middle < b && (head_at(meridian, middle, design) < design->head) == upwards);
+    *(before ? &low : &high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double cw_outlet_angle_for_head(const CwMeridian *meridian, const double range[2], const double usual[2],
+                                CwDesign *design) {
+  enum { STEPS = 96 };
+  double a = range[0], at_a = head_at(meridian, a, design);
+  double nearest = a, least = fabs(at_a - design->head), angle = NAN, least_away = HUGE_VAL;
+  for (int i = 1; i <= STEPS; i++) {
+    const double b = range[0] + (range[1] - range[0]) * i / STEPS, at_b = head_at(meridian, b, design);
+    if (fabs(at_b - design->head) < least) {
+      least = fabs(at_b - design->head);
+      nearest = b;
+    }
+    if ((at_a < design->head) != (at_b < design->head)) {
+      const double found = crossing(meridian, range, a, b, at_a < design->head, design);
+      const double away = fmax(0, fmax(usual[0] - found, found - usual[1]));
+      if (away < least_away) angle = found;
+      least_away = fmin(least_away, away);
+    }
+    a = b;
+    at_a = at_b;
+  }
+  if (isnan(angle)) angle = nearest;
+  head_at(meridian, angle, design);
+  return angle;
+}
+
 static CwTriangle triangle(double radius, double u, double cm, double cu, double blade_angle) {
   return (CwTriangle){.radius = radius,
                       .u = u,

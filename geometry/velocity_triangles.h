@@ -19,6 +19,13 @@ double cw_slip_pfleiderer(double count, double outlet_angle, double outlet_radiu
 // Sets the outlet triangle at mid-span and the predicted heads for the outlet blade angle of the design.
 void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design);
 
+// The outlet blade angle in `range` with which the predicted head is the design's, rad. With slip the head grows with
+// the angle only up to some angle and falls beyond, so that two may do: then the one that is nearer to the range
+// `usual`, and of two that are as near the lesser. Where none does, the one of every half degree (12 to 60) whose head
+// is nearest. design: [out] the outlet triangle with this angle.
+double cw_outlet_angle_for_head(const CwMeridian *meridian, const double range[2], const double usual[2],
+                                CwDesign *design);
+
 // Sets both triangles at hub, mid-span and shroud, the throats and the estimate of NPSH. The design's blades
 // are known.
 CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure, CwDesign *design);

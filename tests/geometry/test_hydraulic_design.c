@@ -4,6 +4,7 @@
 
 #include "geometry/design_value.h"
 #include "geometry/hydraulic_design.h"
+#include "geometry/meridian.h"
 #include "geometry/velocity_triangles.h"
 #include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
@@ -67,6 +68,36 @@ static void slip_by_hand(void **state) {
   table.impeller.priority = CW_PRIORITY_BETA;
   table.impeller.outlet_blade_angle = 30 * degree;
   assert_near(design_of(&table).slip_factor, 0.78230, 1e-5);
+}
+
+// Two blades without blockage whose leading edge lies on the axis (k_w = 1), 2^0.7 = 1.62450: the head over u2^2/g is
+// 0.98 (1 - sin(beta2)^0.5 / 1.62450) - phi / tan(beta2). By hand:
+//   phi 0.03   30 deg 0.55343 - 0.05196 = 0.50147, on the way down: 12 deg 0.56378, 60 deg 0.40128
+//   phi 0.091  22 deg 0.61077 - 0.22518 = 0.38559, and at 41.9 deg; the most at 29.5 deg, the least at 12
+//   phi 0.05   15 deg 0.67309 - 0.18660 = 0.48649, and at 22.3 deg, which is usual
+//   phi 0.07   16 deg 0.66328 - 0.24412 = 0.41916, 2 deg off the usual, and at 37.0 deg, 5 off
+//   phi 0.06   13 deg 0.69388 - 0.25989 = 0.43399, 5 deg off the usual, and at 36.4 deg, 4.4 off
+static void outlet_angle_where_the_head_falls_again(void **state) {
+  static const double by_hand[][3] = {{0.03, 0.50147, 30}, {0.09098, 0.38559, 22}, {0.05, 0.48649, 22.29},
+                                      {0.07, 0.41916, 16}, {0.06, 0.43399, 36.36}, {0.09098, 0.5, 29.5},
+                                      {0.09098, 0.1, 12}};
+  const double range[2] = {12 * degree, 60 * degree}, usual[2] = {18 * degree, 32 * degree};
+  const CwCase table = paper();
+  CwDesign design = design_of(&table);
+  CwMeridian meridian;
+  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+  design.blade_count = 2;
+  design.leading_edge_radius_hub = design.leading_edge_radius_shroud = design.trailing_edge_thickness = 0;
+  design.hydraulic_efficiency = design.viscous_head_factor = 1;
+  const double u2 = design.impeller_tip_speed, area = M_PI * design.outlet_diameter * design.outlet_width;
+  for (size_t i = 0; i < sizeof by_hand / sizeof *by_hand; i++) {
+    design.water_flow_rate = by_hand[i][0] * u2 * area;
+    design.head = by_hand[i][1] * u2 * u2 / 9.80665;
+    const double angle = cw_outlet_angle_for_head(&meridian, range, usual, &design);
+    assert_near(angle / degree, by_hand[i][2], 0.02);
+    assert_near(design.outlet_blade_angle, angle, 0);
+    if (i < 5) assert_near(design.head_residual, 0, 1e-9);
+  }
 }
 
 static void head_priority_meets_the_head(void **state) {
@@ -313,6 +344,7 @@ int main(void) {
       cmocka_unit_test(velocity_triangles_close),
       cmocka_unit_test(head_over_outlet_angle),
       cmocka_unit_test(slip_by_hand),
+      cmocka_unit_test(outlet_angle_where_the_head_falls_again),
       cmocka_unit_test(head_priority_meets_the_head),
       cmocka_unit_test(duty_point_is_enough),
       cmocka_unit_test(open_outlet_diameter_meets_the_head),

@@ -29,7 +29,9 @@ static void open_outlet_diameter_stays_within_the_volute(void **state) {
 }
 
 // Given dimensions go before the head down to a third of it, with the blade angle nearest to it; not where the head
-// is the priority.
+// is the priority. With six blades and phi = 0.104 the head still grows up to 60 degrees: over u2^2/g it is
+// 0.98 (1 - 0.931/3.505) - 0.061 = 0.658 there and 0.646 at 50 degrees; with the leading edge at 0.54 of D2 k_w takes
+// 0.027 and 0.018 of that.
 static void head_gives_way_to_given_dimensions(void **state) {
   CwCase table = duty_point(54, 20, 1800);
   const CwDesign open = design_of(&table);
@@ -48,6 +50,31 @@ static void head_gives_way_to_given_dimensions(void **state) {
   assert_int_equal(cw_hydraulic_design(&table, &refused), CW_ERR_DESIGN);
   assert_non_null(strstr(cw_fail_message(), "change outlet_diameter_mm"));
   cw_fail_clear();
+}
+
+// Two blades, of which the head falls again over some 26 degrees. The paper's wheel with phi = 0.091, the leading edge
+// at 0.43 of D2, tau2 = 1.017 and eta_h = 0.852 by Guelich: 18 deg gives 7.08 m, 22 deg 7.40 m, 26 deg 7.48 m, 36 deg
+// 7.30 m, 60 deg 6.74 m. So 7.4 m are met at 22 and at 32 deg, of which the lesser is taken. With D2 open 18 deg is the
+// limit of the usual angles with more head than 32 deg.
+static void two_blades_meet_the_head(void **state) {
+  CwCase table = paper();
+  table.operating_point.head = 7.4;
+  table.impeller.priority = CW_PRIORITY_HEAD;
+  table.impeller.blade_count = 2;
+  table.impeller.leading_edge_radius_hub = 0.039;
+  table.impeller.leading_edge_radius_shroud = 0.047;
+  const CwDesign given = design_of(&table);
+  assert_near(given.predicted_head, 7.4, 1e-6);
+  assert_near(given.outlet_blade_angle, 22 * degree, 0.6 * degree);
+  assert_string_equal(given.source[CW_DESIGN_outlet_blade_angle], "solved for the head");
+
+  table = duty_point(25, 10, 1450);
+  table.impeller.blade_count = 2;
+  const CwDesign open = design_of(&table);
+  assert_near(open.predicted_head, 10, 1e-4);
+  assert_near(open.outlet_blade_angle, 18 * degree, 1e-12);
+  table.impeller.outlet_blade_angle = 32 * degree;
+  assert_true(design_of(&table).outlet_diameter > 1.01 * open.outlet_diameter);
 }
 
 // What else is given and cannot be had gives way to what can, and the design keeps what was asked.
@@ -220,6 +247,7 @@ int main(void) {
       cmocka_unit_test(open_outlet_diameter_stays_within_the_volute),
       cmocka_unit_test(open_outlet_width_meets_the_head_of_a_given_wheel),
       cmocka_unit_test(head_gives_way_to_given_dimensions),
+      cmocka_unit_test(two_blades_meet_the_head),
       cmocka_unit_test(given_values_give_way),
       cmocka_unit_test(hubs_that_cannot_be_are_refused),
       cmocka_unit_test(nut_gives_way_to_the_shaft),
