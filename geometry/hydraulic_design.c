@@ -187,7 +187,9 @@ static CwStatus pump(const CwCase *table, CwDesign *design) {
   SET(relative_speed, 0.5 * (design->inlet_relative_speed + design->outlet_relative_speed), "(w1 + w2) / 2");
   SET(volute_speed, 0.5 * (design->outlet_swirl_speed * r2 / r3 + design->throat_speed),
       "mean of K / r3 and the throat's speed");
-  SET(suction_speed, design->flow_rate / (M_PI / 4 * pow(design->inlet_diameter, 2)), "Q / (pi D1^2 / 4)");
+  const double shaft = design->through_shaft_diameter;
+  SET(suction_speed, design->flow_rate / (M_PI / 4 * (pow(design->inlet_diameter, 2) - pow(shaft, 2))),
+      shaft > 0 ? "Q / (pi (D1^2 - shaft^2) / 4)" : "Q / (pi D1^2 / 4)");
   SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)), "Q / (pi DN^2 / 4)");
 done:
   return status;

@@ -67,7 +67,7 @@ CwStatus cw_pump_model(const CwDesign *design, const CwPump *pump, CwModel *mode
     if (between->surface == CW_SURFACE_PLANE) // before a pipe
       for (int s = 0; s < 2; s++) model->patch[cw_model_patch_find(model, between->patch[s])].size = CW_GROUP_PIPE;
   }
-  model->flow = (CwModelFlow){design->suction_speed, design->inlet_diameter,  design->relative_speed,
+  model->flow = (CwModelFlow){design->suction_speed, way.suction_diameter,    design->relative_speed,
                               design->outlet_width,  design->outlet_diameter, design->blade_count};
 done:
   return status;

@@ -284,6 +284,14 @@ static void powers_and_speeds(void **state) {
               1e-6);
 }
 
+// A shaft of 20 mm leaves pi/4 (74^2 - 20^2) = 3986.7 mm2 of the suction pipe: 6.9444e-3 / 3.9867e-3 = 1.7419 m/s.
+static void shaft_narrows_the_suction_pipe(void **state) {
+  CwCase table = paper();
+  table.impeller.hub_diameter = 0.024;
+  table.impeller.through_shaft_diameter = 0.02;
+  assert_near(design_of(&table).suction_speed, 1.7419, 1e-4);
+}
+
 static void case_overrides(void **state) {
   CwCase table = paper();
   table.impeller.hub_diameter = 0.028;
@@ -357,6 +365,7 @@ int main(void) {
       cmocka_unit_test(incidence_gives_way),
       cmocka_unit_test(npsh_at_the_vapour_pressure),
       cmocka_unit_test(powers_and_speeds),
+      cmocka_unit_test(shaft_narrows_the_suction_pipe),
       cmocka_unit_test(case_overrides),
       cmocka_unit_test(impossible_wrap_is_refused),
       cmocka_unit_test(fillets_need_room_between_the_blades),

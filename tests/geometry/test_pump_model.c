@@ -63,6 +63,7 @@ static void flows_follow_from_the_design(void **state) {
   model = model_of("zones", 0.03); // a ring from 30 to 70 mm
   assert_near(patch_of(&model, "suction_pipe")->flow.diameter, 0.04, 1e-15);
   assert_near(patch_of(&model, "suction_pipe")->flow.width, 0.02, 1e-15);
+  assert_near(model.flow.inlet_diameter, 0.04, 1e-15); // hydraulic: four times its area over both circumferences
   cw_model_free(&model);
 }
 
