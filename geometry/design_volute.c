@@ -79,8 +79,8 @@ static double flatness(const CwVolute *volute) {
   return volute->throat_area / (volute->throat_width * volute->throat_width);
 }
 
-// The volute with b3 and side walls widened in steps as far as they may be, until its spiral can be built: most often
-// one that would else be too tall.
+// The volute with b3 and side walls widened in steps as far as they may be, until its spiral can be built, which would
+// else be too tall.
 static CwStatus widened(const CwVoluteTable *given, double tongue, int width_open, int side_open, CwDesign *design) {
   enum { STEPS = 12, WIDTH_STEPS = 8 };
   CwStatus status = CW_ERR_DESIGN;
@@ -108,24 +108,40 @@ static CwStatus widened(const CwVoluteTable *given, double tongue, int width_ope
   return status;
 }
 
+// Given walls that no volute can have give way to the least that it can.
+static void least_walls(const CwVoluteTable *given, CwDesign *design) {
+  const double slack = 1 - 1e-9, least = design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter;
+  if (given->side_wall_angle < slack * CW_VOLUTE_LEAST_SIDE_WALL)
+    GIVE_WAY(side_wall_angle, CW_VOLUTE_LEAST_SIDE_WALL, given->side_wall_angle,
+             "side_wall_angle_deg gives way to the least of 5 deg");
+  if (design->inlet_width >= slack * least) return;
+  if (cw_case_given(given->inlet_width))
+    GIVE_WAY(inlet_width, least, given->inlet_width, "inlet_width_mm gives way to the least of b2 + 0.005 D3");
+  else
+    SET(inlet_width, least, "b2 + 0.005 D3: the least");
+}
+
 // Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side walls,
 // which else would make the spiral too tall, at low specific speed the tongue's radius, which is too large for its
-// throat. Then given side walls yield, and at last a given b3.
+// throat. Then given side walls yield, and at last a given b3. Nothing yields where that could not help.
 static CwStatus volute_that_fits(const CwVoluteTable *given, int width_open, int side_open, CwDesign *design) {
   const double tongue = 0.0075 * design->outlet_diameter;
   char first[1000];
   SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
   TAKE(side_wall_angle, given->side_wall_angle, 20 * CW_DEGREE, "20 deg: full angle 40, usual 30 to 45");
   TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
+  least_walls(given, design);
   CwStatus status = volute_of(given, design);
   snprintf(first, sizeof first, "%s", cw_fail_message());
-  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && !cw_case_given(given->tongue_radius); i++) {
+  const CwVoluteHelp help = design->volute.help;
+  const int thinner = help != CW_VOLUTE_OTHER_INPUT && !cw_case_given(given->tongue_radius);
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && thinner; i++) {
     cw_fail_clear();
     SET(tongue_radius, tongue * pow(0.75, i), "0.0075 D2, reduced for the small throat");
     status = volute_of(given, design);
   }
   const CwDesign before = *design;
-  for (int more = 0; status == CW_ERR_DESIGN && more < 3; more++) {
+  for (int more = 0; status == CW_ERR_DESIGN && help == CW_VOLUTE_WIDER_SPIRAL && more < 3; more++) {
     *design = before;
     if ((more == 0 && !width_open && !side_open) || (more == 1 && side_open) || (more == 2 && width_open)) continue;
     status = widened(given, tongue, width_open || more == 2, side_open || more >= 1, design);

@@ -43,8 +43,9 @@
 // rad: from one split of the solid's faces to the next; the contour changes over the first two of them.
 #define CW_VOLUTE_SECTOR (M_PI * 5 / 12)
 
-// Least difference of b3 and b2, in D3.
+// Least difference of b3 and b2, in D3, and least half angle between side walls that are not parallel, rad.
 #define CW_VOLUTE_LEAST_STEP 5e-3
+#define CW_VOLUTE_LEAST_SIDE_WALL (M_PI / 36)
 
 // A tongue lies where it was asked for within this: rad, or of D3/2.
 #define CW_VOLUTE_TONGUE_SLACK 1e-6
@@ -75,9 +76,17 @@ typedef struct {
   double discharge_pipe_length; // m, behind the diffuser; NAN: two outlet diameters
 } CwVoluteInput;
 
+// What could help a volute that cannot be designed; where several sections were tried, the last in this list.
+typedef enum {
+  CW_VOLUTE_OTHER_INPUT,    // in the range, or with other corners, circles or a diffuser that fit
+  CW_VOLUTE_THINNER_TONGUE, // in its throat
+  CW_VOLUTE_WIDER_SPIRAL,   // that reaches less far out, or is not too steep for a tongue; or a thinner tongue
+} CwVoluteHelp;
+
 // The fields are the dimensions of the sections, the tongue and the diffuser, in that order.
 typedef struct {
   CwVoluteInput input;
+  CwVoluteHelp help;          // of a failed design
   double arc_half_angle;      // k0, rad
   double end_half_angle;      // k behind the first sector, rad
   double law_start;           // M0 at phi = 0, m or m2

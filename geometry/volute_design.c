@@ -34,6 +34,7 @@ static const double THROAT_SHARE = 0.98;
 // Least share of the side walls in the throat's width where arcs touch them: beside a narrower one the
 // diffuser's outer wall, which overhangs there, folds over.
 static const double LEAST_SIDE = 0.25;
+static const double LEAST_THROAT = 4; // width, in nose radii
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 
@@ -195,7 +196,8 @@ static CwStatus check_input(const CwVoluteInput *in) {
       {"interface radius", in->interface_radius, 0.05 * d3, 0.5 * d3, 1e3, "mm", 0},
       {"outlet_width_mm (b2)", in->neck_width, 1e-3 * d3, 0.39 * d3, 1e3, "mm", 0},
       {"inlet_width_mm (b3)", in->inlet_width, in->neck_width + CW_VOLUTE_LEAST_STEP * d3, 0.4 * d3, 1e3, "mm", 0},
-      {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : M_PI / 36, M_PI / 5, 180 / M_PI, "deg", 0},
+      {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : CW_VOLUTE_LEAST_SIDE_WALL, M_PI / 5, 180 / M_PI,
+       "deg", 0},
       {"corner_radius_mm", in->corner_radius, 2.5e-3 * d3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
       {"throat_area_mm2", in->throat_area, 1e-6 * area, 10 * area, 1e6, "mm2", 1},
       {"tongue_radius_mm", in->tongue_radius, 1e-3 * d3, 0.1 * d3, 1e3, "mm", 0},
@@ -232,8 +234,12 @@ done:
   return status;
 }
 
+static void could_help(CwVolute *volute, CwVoluteHelp help) {
+  if (help > volute->help) volute->help = help;
+}
+
 // The growth of the law with which the throat has the asked area.
-static CwStatus growth_for_area(const CwVolute *volute, double largest, double *growth) {
+static CwStatus growth_for_area(CwVolute *volute, double largest, double *growth) {
   CwStatus status = CW_OK;
   Context context = {.volute = volute};
   // The smallest and the largest spirals may have no room for a tongue at all.
@@ -243,6 +249,8 @@ static CwStatus growth_for_area(const CwVolute *volute, double largest, double *
     least_excess = throat_area_excess(low, &context);
   } while (isnan(least_excess) && (share *= 1.5) < 0.7);
   while (isnan(largest_excess = throat_area_excess(largest, &context)) && largest > low) largest *= 0.8;
+  if (!(least_excess <= 0 && largest_excess >= 0))
+    could_help(volute, largest_excess < 0 ? CW_VOLUTE_WIDER_SPIRAL : CW_VOLUTE_THINNER_TONGUE);
   CW_REQUIRE(!isnan(least_excess) && !isnan(largest_excess), CW_ERR_DESIGN,
              "volute: no spiral with D3 = %g and b3 = %g mm has room for its tongue of radius %g mm%s; lower "
              "inlet_width_mm or %s",
@@ -268,6 +276,7 @@ static CwStatus solve_spiral(CwVolute *volute) {
   const double asked = in->flow_rate / (velocity ? in->section_speed : in->angular_momentum);
   const double largest = cw_volute_law(volute, LARGEST_SPIRAL * r3, volute->end_half_angle) - volute->law_start;
   double growth = asked;
+  if (asked >= largest) could_help(volute, CW_VOLUTE_WIDER_SPIRAL);
   CW_REQUIRE(asked < largest, CW_ERR_DESIGN,
              "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s: raise inlet_width_mm, "
              "side_wall_angle_deg or outlet_diameter_mm",
@@ -298,20 +307,16 @@ static const char *room_by(const CwVolute *volute) {
 static CwStatus check_tongue(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
-  double corner[3] = {volute->inner_wall_x};
-  if (!isnan(volute->throat_width))
-    cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
-                         NULL, NULL);
-  CW_REQUIRE(volute->end_half_angle == volute->arc_half_angle || isnan(volute->throat_width) ||
+  double corner[3];
+  cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
+                       NULL, NULL);
+  CW_REQUIRE(volute->end_half_angle == volute->arc_half_angle ||
                  corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
              CW_ERR_DESIGN, "volute: %s %.2f of the throat's width to its side walls; allowed: at least %.2f: %s",
              cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
              (corner[0] - volute->inner_wall_x) / volute->throat_width, LEAST_SIDE, room_by(volute));
-  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && !isnan(volute->throat_width), CW_ERR_DESIGN,
-             "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius_mm or raise throat_area_mm2",
-             in->tongue_radius * 1e3);
   CW_REQUIRE(
-      volute->throat_width > 4 * in->tongue_radius, CW_ERR_DESIGN,
+      volute->throat_width > LEAST_THROAT * in->tongue_radius, CW_ERR_DESIGN,
       "volute: no tongue of radius %g mm fits beside a throat %.4g mm wide; allowed: less than a quarter of that: "
       "lower tongue_radius_mm or raise throat_area_mm2 (%.4g mm2)",
       in->tongue_radius * 1e3, volute->throat_width * 1e3, volute->throat_area * 1e6);
@@ -344,6 +349,12 @@ static CwStatus design_spiral(CwVolute *volute) {
   double x[3];
   cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, x, NULL, NULL);
   volute->throat_width = x[0] - volute->inner_wall_x;
+  const int tongue = !isnan(volute->tip_angle) && !isnan(volute->throat_area) && !isnan(volute->throat_width);
+  if (!tongue) could_help(volute, CW_VOLUTE_WIDER_SPIRAL);
+  CW_REQUIRE(tongue, CW_ERR_DESIGN,
+             "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius_mm or raise throat_area_mm2",
+             volute->input.tongue_radius * 1e3);
+  if (volute->throat_width <= LEAST_THROAT * volute->input.tongue_radius) could_help(volute, CW_VOLUTE_THINNER_TONGUE);
   CW_TRY(check_sections(volute));
   CW_TRY(check_tongue(volute));
 done:
@@ -366,6 +377,7 @@ static CwStatus design_circle(CwVolute *volute) {
 // Spiral and tongue with this angle of the arc at the tongue.
 static CwStatus design_with_arc(double arc, CwVolute *volute) {
   volute->arc_half_angle = volute->end_half_angle = arc;
+  volute->help = CW_VOLUTE_OTHER_INPUT;
   const int circle = volute->input.section == CW_SECTION_CIRCLE;
   if (circle || cw_volute_has_corners(volute)) volute->end_half_angle = 0.5 * M_PI + volute->input.side_wall_angle;
   volute->law_start = cw_volute_law(volute, cw_volute_base_radius(volute) * (1 + START_MARGIN), arc);
@@ -412,6 +424,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
     if (status == CW_OK) cw_fail_clear();
   }
   CW_TRY(status);
+  volute->help = CW_VOLUTE_OTHER_INPUT; // of the diffuser
 
   double k = volute->arc_half_angle, centre[2], normal[2];
   volute->side_level = cw_volute_section(volute, volute->start_angle).kink_height;

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Volutes of pumps given by their duty alone, from nq 6 to 90 and from D2 of 20 mm to 4 m.
 #include <math.h>
+#include <string.h>
 
 #include "geometry/hydraulic_design.h"
+#include "geometry/volute_design.h"
 #include "pipeline/case_schema.h"
+#include "tests/geometry/paper_volute.h"
 #include "tests/unit_test.h"
 
 static const double LEAST_FLOW = 0.3 / 3600; // m3/s
 
 // A pump of the size D2 (m, about) that turns with u2 = 25 m/s: psi by Guelich gives the head, nq the flow rate.
-// Returns 0 where that is under 0.3 m3/h.
-static int duty_with(double nq, double size, const CwVoluteTable *volute, CwDesign *design) {
+static CwCase case_with(double nq, double size, const CwVoluteTable *volute) {
   CwCase table;
   const double speed = 25 / (size / 2), rpm = speed * 30 / M_PI;
   const double head = 1.21 * exp(-0.77 * nq / 100) * 25 * 25 / (2 * 9.80665);
@@ -19,6 +21,12 @@ static int duty_with(double nq, double size, const CwVoluteTable *volute, CwDesi
   table.operating_point.head = head;
   table.operating_point.speed = speed;
   table.operating_point.flow_rate = pow(nq * pow(head, 0.75) / rpm, 2);
+  return table;
+}
+
+// Returns 0 where the flow rate is under 0.3 m3/h.
+static int duty_with(double nq, double size, const CwVoluteTable *volute, CwDesign *design) {
+  const CwCase table = case_with(nq, size, volute);
   if (table.operating_point.flow_rate < LEAST_FLOW) return 0;
   if (cw_hydraulic_design(&table, design) != CW_OK) fail_msg("nq %g, D2 %g m: %s", nq, size, cw_fail_message());
   return 1;
@@ -63,18 +71,77 @@ static void given_walls_yield_after_open_ones(void **state) {
   }
 }
 
-// Side walls of 3 degrees, under the least of 5, are no matter of height. The tongue's tip comes from what is given.
-static void sources_say_what_is_so(void **state) {
+// Side walls of 3 degrees and a b3 of b2 give way to the least of 5 degrees and b2 + 0.005 D3, and to no more. The
+// tongue's tip comes from what is given.
+static void least_walls_replace_less(void **state) {
   CwCase table;
-  CwDesign d;
+  CwDesign d, wide;
   cw_case_defaults(&table);
   table.volute.side_wall_angle = 3 * M_PI / 180;
   table.volute.tongue_angle = 33 * M_PI / 180;
   assert_true(duty_with(21, 0.2, &table.volute, &d));
+  assert_near(d.side_wall_angle, 5 * M_PI / 180, 1e-12);
   assert_near(d.asked[CW_DESIGN_side_wall_angle], table.volute.side_wall_angle, 1e-15);
-  assert_string_equal(d.source[CW_DESIGN_side_wall_angle],
-                      "side_wall_angle_deg gives way to a spiral that can be built");
+  assert_string_equal(d.source[CW_DESIGN_side_wall_angle], "side_wall_angle_deg gives way to the least of 5 deg");
   assert_string_equal(d.source[CW_DESIGN_tongue_tip_radius], "where its angle leads to");
+  assert_true(duty(21, 0.2, &wide));
+  cw_case_defaults(&table);
+  table.volute.inlet_width = wide.outlet_width;
+  assert_true(duty_with(21, 0.2, &table.volute, &d));
+  assert_near(d.inlet_width, wide.outlet_width + 0.005 * wide.base_diameter, 1e-12);
+  assert_near(d.asked[CW_DESIGN_inlet_width], wide.outlet_width, 1e-15);
+  assert_near(d.side_wall_angle, 20 * M_PI / 180, 1e-12);
+  assert_true(isnan(d.asked[CW_DESIGN_side_wall_angle]));
+}
+
+// A bore under the throat's diameter and a diffuser that opens too fast are refused as they are. A wider spiral has a
+// smaller throat nearer to the axis, which would fit the bore.
+static void only_tall_spirals_are_widened(void **state) {
+  CwCase table;
+  CwDesign d, refused;
+  assert_true(duty(21, 0.2, &d));
+  cw_case_defaults(&table);
+  table.volute.outlet_diameter = 0.99 * sqrt(d.throat_area * 4 / M_PI);
+  CwCase narrow = case_with(21, 0.2, &table.volute);
+  assert_int_equal(cw_hydraulic_design(&narrow, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "outlet_diameter_mm"));
+  assert_near(refused.inlet_width, d.inlet_width, 1e-12);
+  assert_near(refused.tongue_radius, d.tongue_radius, 1e-12);
+  table.volute.outlet_diameter = NAN;
+  table.volute.diffuser_length = 0.9 * d.diffuser_length * tan(0.5 * d.diffuser_angle) / tan(15 * M_PI / 180);
+  CwCase steep = case_with(21, 0.2, &table.volute);
+  assert_int_equal(cw_hydraulic_design(&steep, &refused), CW_ERR_DESIGN);
+  assert_non_null(strstr(cw_fail_message(), "diffuser_length_mm"));
+  assert_near(refused.inlet_width, d.inlet_width, 1e-12);
+  cw_fail_clear();
+}
+
+static CwVoluteHelp help_of(const CwVoluteInput *input) {
+  CwVolute volute;
+  assert_int_equal(cw_volute_design(input, &volute), CW_ERR_DESIGN);
+  cw_fail_clear();
+  return volute.help;
+}
+
+// Q / K = 69.4 mm is more than a spiral within 2.5 D3/2 takes up, some 60 mm; no throat is wide enough beside a tongue
+// of 15 mm; neither walls nor tongue help a diffuser of 20 mm or a b3 under b2 + 0.005 D3.
+static void what_could_help(void **state) {
+  CwVoluteInput input = volute_of_paper();
+  input.throat_area = NAN;
+  input.angular_momentum = 0.1;
+  assert_int_equal(help_of(&input), CW_VOLUTE_WIDER_SPIRAL);
+  input = volute_of_paper();
+  input.throat_area = 0.5;
+  assert_int_equal(help_of(&input), CW_VOLUTE_WIDER_SPIRAL);
+  input = volute_of_paper();
+  input.tongue_radius = 0.015;
+  assert_int_not_equal(help_of(&input), CW_VOLUTE_OTHER_INPUT);
+  input = volute_of_paper();
+  input.diffuser_length = 0.02;
+  assert_int_equal(help_of(&input), CW_VOLUTE_OTHER_INPUT);
+  input = volute_of_paper();
+  input.inlet_width = 0.0085;
+  assert_int_equal(help_of(&input), CW_VOLUTE_OTHER_INPUT);
 }
 
 static void volutes_of_any_duty(void **state) {
@@ -109,7 +176,9 @@ static void similar_pumps(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(given_walls_yield_after_open_ones),
-      cmocka_unit_test(sources_say_what_is_so),
+      cmocka_unit_test(least_walls_replace_less),
+      cmocka_unit_test(only_tall_spirals_are_widened),
+      cmocka_unit_test(what_could_help),
       cmocka_unit_test(volutes_of_any_duty),
       cmocka_unit_test(similar_pumps),
   };
