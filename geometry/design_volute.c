@@ -164,21 +164,43 @@ static void place_of_tongue(const CwVoluteTable *given, CwDesign *design) {
     GIVE_WAY(tongue_angle, at, angle, "tongue_angle_deg gives way to the nearest that the spiral allows");
 }
 
+// The volute with walls that were changed; where it has none, the design becomes the one before, which ends the steps.
+static CwStatus next_step(const CwVoluteTable *given, const CwDesign *before, CwDesign *design, int *goes_on) {
+  const CwStatus status = volute_of(given, design);
+  *goes_on = status == CW_OK;
+  if (status != CW_ERR_DESIGN) return status;
+  cw_fail_clear();
+  *design = *before;
+  return CW_OK;
+}
+
+// Narrows an open b3, then closes open side walls, in steps until the throat is not too flat, or as far as there is a
+// volute.
+static CwStatus raise_throat(const CwVoluteTable *given, int width_open, int side_open, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double narrowest = 1.001 * (design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter);
+  int narrows = width_open, closes = side_open;
+  while (narrows && flatness(&design->volute) > FLATTEST_THROAT && design->inlet_width > narrowest) {
+    const CwDesign before = *design;
+    SET(inlet_width, fmax(narrowest, 0.9 * design->inlet_width), "narrowed for a throat that is not too flat");
+    CW_TRY(next_step(given, &before, design, &narrows));
+  }
+  while (closes && flatness(&design->volute) > FLATTEST_THROAT && design->side_wall_angle > LEAST_SIDE_WALL) {
+    const CwDesign before = *design;
+    SET(side_wall_angle, fmax(LEAST_SIDE_WALL, design->side_wall_angle - 2 * CW_DEGREE),
+        "less open for a throat that is not too flat");
+    CW_TRY(next_step(given, &before, design, &closes));
+  }
+done:
+  return status;
+}
+
 CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const int width_open = !cw_case_given(given->inlet_width);
   const int side_open = !cw_case_given(given->side_wall_angle) && given->section != CW_SECTION_RECTANGLE;
   CW_TRY(volute_that_fits(given, width_open, side_open, design));
-  const double narrowest = 1.001 * (design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter);
-  while (width_open && flatness(&design->volute) > FLATTEST_THROAT && design->inlet_width > narrowest) {
-    SET(inlet_width, fmax(narrowest, 0.9 * design->inlet_width), "narrowed for a throat that is not too flat");
-    CW_TRY(volute_of(given, design));
-  }
-  while (side_open && flatness(&design->volute) > FLATTEST_THROAT && design->side_wall_angle > LEAST_SIDE_WALL) {
-    SET(side_wall_angle, fmax(LEAST_SIDE_WALL, design->side_wall_angle - 2 * CW_DEGREE),
-        "less open for a throat that is not too flat");
-    CW_TRY(volute_of(given, design));
-  }
+  CW_TRY(raise_throat(given, width_open, side_open, design));
   TAKE(throat_area, given->throat_area, design->volute.throat_area,
        given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
