@@ -20,6 +20,9 @@ static double largest_outlet_diameter(const CwCase *table) {
   return cw_case_given(table->volute.base_diameter) ? table->volute.base_diameter / LEAST_BASE : INFINITY;
 }
 
+// Of D1: from the inlet to the hub, at least, where the pipe's length is open.
+static const double LEAST_BEFORE_HUB = 1.0 / 24;
+
 // Blades this thick at 30 degrees leave 0.3 of the circumference of D1.
 static double largest_leading_edge(const CwDesign *design) {
   return 0.7 * M_PI * design->inlet_diameter * sin(30 * CW_DEGREE) / design->blade_count;
@@ -82,9 +85,9 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(leading_edge_thickness, given->leading_edge_thickness, fmin(value, room),
        value > room ? "leaves two thirds of the inlet open" : "0.70 of the largest");
   TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness, "0.50 of the largest");
+  const double nut = fmax(1.2 * design->nut_length, design->nut_length + LEAST_BEFORE_HUB * d1);
   TAKE(suction_pipe_length, given->suction_pipe_length,
-       fmax(d1 / 3,
-            1.2 * design->nut_length - design->outlet_width + (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
+       fmax(d1 / 3, nut - design->outlet_width + (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
        "D1 / 3, past the nut");
   TAKE(base_diameter, table->volute.base_diameter, CORRELATED(CW_CORRELATED_BASE_DIAMETER), source);
   TAKE(inlet_width, table->volute.inlet_width, CORRELATED(CW_CORRELATED_INLET_WIDTH), source);

@@ -185,6 +185,19 @@ static void nut_gives_way_to_the_shaft(void **state) {
   assert_near(design.asked[CW_DESIGN_nut_disk_radius], 0.005, 1e-15);
 }
 
+// A shroud of 200 mm leaves a hub that begins 0.2 200 - 8 = 32 mm before the eye. Without a nut an open suction pipe is
+// longer than that by 74/24 mm, where D1 / 3 is 24.7 mm.
+static void suction_pipe_begins_before_the_hub(void **state) {
+  CwCase table = paper();
+  CwDesign design;
+  table.impeller.hub_diameter = table.impeller.through_shaft_diameter = 0.024;
+  table.impeller.axial_length = 0.2;
+  cw_hydraulic_design(&table, &design); // whatever becomes of such a wheel
+  assert_near(design.suction_pipe_length, 0.032 + 0.074 / 24, 1e-12);
+  assert_null(strstr(cw_fail_message(), "suction_pipe_length_mm"));
+  cw_fail_clear();
+}
+
 // A given wheel somewhat too small or too large for its head at any outlet blade angle: b2 meets the head. A given b2
 // leaves nothing open.
 static void open_outlet_width_meets_the_head_of_a_given_wheel(void **state) {
@@ -251,6 +264,7 @@ int main(void) {
       cmocka_unit_test(given_values_give_way),
       cmocka_unit_test(hubs_that_cannot_be_are_refused),
       cmocka_unit_test(nut_gives_way_to_the_shaft),
+      cmocka_unit_test(suction_pipe_begins_before_the_hub),
       cmocka_unit_test(given_angles_outside_the_range_are_named),
       cmocka_unit_test(cylindrical_blades_stand_on_the_walls),
   };
