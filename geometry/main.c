@@ -58,10 +58,10 @@ static void show_solid(CwLog *log, const CwSolid *solid, const CwMeasuredSolid *
   if (measured->corner.angle < LEAST_CORNER)
     cw_log_warn(log,
                 "%s: %s has a corner of %.1f deg at (%.2f, %.2f, %.2f) mm, and so have triangles there; 15 deg are "
-                "usual: leave out root_fillet_radius_mm, or take trailing_edge bevelled",
+                "usual: %s",
                 cw_solid_domain(solid), cw_solid_face_name(solid, measured->corner_of),
                 measured->corner.angle / CW_DEGREE, measured->corner.at[0] * 1e3, measured->corner.at[1] * 1e3,
-                measured->corner.at[2] * 1e3);
+                measured->corner.at[2] * 1e3, cw_pump_blunter_corner(cw_solid_domain(solid)));
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.

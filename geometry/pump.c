@@ -110,6 +110,11 @@ static const char *maker_of(const char *face) {
   return "the dimension that makes it";
 }
 
+const char *cw_pump_blunter_corner(const char *domain) {
+  return strcmp(domain, "rotor") ? "raise tongue_angle_deg or tongue_gap_mm, or leave both out"
+                                 : "leave out root_fillet_radius_mm, or take trailing_edge bevelled";
+}
+
 static CwStatus check_solid(const CwDesign *design, const CwSolid *solid, const CwMeasuredSolid *measured) {
   CwStatus status = CW_OK;
   const double edge = CW_PUMP_LEAST_EDGE * design->outlet_diameter, face = CW_PUMP_LEAST_FACE * design->outlet_diameter;

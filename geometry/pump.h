@@ -67,6 +67,10 @@ void cw_pump_free(CwPump *pump);
 // what to change.
 CwStatus cw_pump_measure(const CwDesign *design, const CwPump *pump, CwMeasuredPump *measured);
 
+// What to change in the case where a face of a domain has a sharp corner: those of the wheel lie where blades end on
+// its walls, those of the casing beside the tongue.
+const char *cw_pump_blunter_corner(const char *domain);
+
 #ifdef __cplusplus
 }
 #endif

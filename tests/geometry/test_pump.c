@@ -69,11 +69,19 @@ static void too_short_an_edge_is_named(void **state) {
   cw_solid_free(&with_small_flat);
 }
 
+// Root fillets and trailing edges are the wheel's: a sharp corner of the casing lies beside its tongue.
+static void sharp_corners_have_the_keys_of_their_domain(void **state) {
+  assert_non_null(strstr(cw_pump_blunter_corner(cw_solid_domain(rotor)), "root_fillet_radius_mm"));
+  assert_non_null(strstr(cw_pump_blunter_corner(cw_solid_domain(stator)), "tongue_angle_deg"));
+  assert_null(strstr(cw_pump_blunter_corner(cw_solid_domain(stator)), "fillet"));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stator_dimensions_and_interface),
       cmocka_unit_test(missing_patch_is_named),
       cmocka_unit_test(too_short_an_edge_is_named),
+      cmocka_unit_test(sharp_corners_have_the_keys_of_their_domain),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
