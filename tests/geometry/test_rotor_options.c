@@ -2,6 +2,8 @@
 // Root fillets, and a shaft through the inlet.
 // Modules without a test of their own that it runs: root_fillet, root_fillet_size.
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "geometry/measure.h"
@@ -97,6 +99,34 @@ static void too_large_fillets_are_refused(void **state) {
   assert_null(rotor);
   assert_non_null(strstr(cw_fail_message(), "lower root_fillet_radius_mm to"));
   cw_fail_clear();
+}
+
+// The radius that the refusal names fits, also on the same wheel with a D2 of 200/512 = 0.39 mm: some 0.006 mm.
+static void named_fillets_fit(void **state) {
+  CwCase table = paper();
+  table.impeller.root_fillet_radius = 6e-3;
+  for (int size = 1; size <= 512; size *= 512) {
+    CwDesign design = design_of(&table);
+    CwSolid *rotor = NULL;
+    double fits = 0;
+    double *length[] = {
+        &design.inlet_diameter,         &design.outlet_diameter,         &design.outlet_width,
+        &design.hub_diameter,           &design.nut_disk_radius,         &design.nut_length,
+        &design.axial_length,           &design.leading_edge_radius_hub, &design.leading_edge_radius_shroud,
+        &design.leading_edge_thickness, &design.blade_thickness,         &design.trailing_edge_thickness,
+        &design.trailing_edge_bevel,    &design.root_fillet_radius,      &design.suction_pipe_length,
+        &design.interface_radius};
+    for (size_t i = 0; i < sizeof length / sizeof *length; i++) *length[i] /= size;
+    assert_int_equal(cw_rotor_build(&design, &rotor), CW_ERR_GEOMETRY);
+    const char *named = strstr(cw_fail_message(), "lower root_fillet_radius_mm to");
+    assert_non_null(named);
+    assert_int_equal(sscanf(named, "lower root_fillet_radius_mm to %lf", &fits), 1);
+    cw_fail_clear();
+    assert_true(fits > 1.0 / size && fits < 6.0 / size);
+    design.root_fillet_radius = 1e-3 * fits;
+    if (cw_rotor_build(&design, &rotor) != CW_OK) fail_msg("%g mm: %s", fits, cw_fail_message());
+    cw_solid_free(&rotor);
+  }
 }
 
 // The shaft takes its cylinder from the inlet on; the inlet is a ring.
