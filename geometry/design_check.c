@@ -8,6 +8,7 @@
 
 #include "geometry/correlations.h"
 #include "geometry/design_value.h"
+#include "geometry/velocity_triangles.h"
 #include "geometry/viscous_correction.h"
 
 static void remark(CwDesignRemarks *remarks, int wanted, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -194,15 +195,28 @@ static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
          ratio_given ? 1.5 : 1e3 * sqrt(1.5) * throat_diameter, ratio_given ? 3 : 1e3 * sqrt(3) * throat_diameter);
 }
 
-void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
-  const double blades = 6.5 * (d->outlet_diameter + d->inlet_diameter) / (d->outlet_diameter - d->inlet_diameter) *
+// Splitters leave the inlet to the blades alone: what is wanted may lie between these and all by their length.
+static void of_blade_count(const CwDesign *d, CwDesignRemarks *remarks) {
+  const double wanted = 6.5 * (d->outlet_diameter + d->inlet_diameter) / (d->outlet_diameter - d->inlet_diameter) *
                         sin(0.5 * (d->inlet_blade_angle + d->outlet_blade_angle));
+  const double all = cw_slip_blades(d);
+  const int few = wanted > all + 1.5, unusual = (few || wanted < d->blade_count - 1.5) && d->specific_speed_nq < 45;
+  const int splitters = d->splitter_start > 0;
+  remark(remarks, unusual && !splitters,
+         "%d blades; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives a blade_count of %.1f", d->blade_count,
+         wanted);
+  remark(
+      remarks, unusual && splitters,
+      "%d blades, %.1f with the splitters by their length; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives "
+      "%.1f: a blade_count of %.1f",
+      d->blade_count, all, wanted, few ? wanted * d->blade_count / all : wanted);
+}
+
+void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
   remarks->count = 0;
   gave_way(d, remarks);
   against_correlations(d, remarks);
-  remark(remarks, fabs(d->blade_count - blades) > 1.5 && d->specific_speed_nq < 45,
-         "%d blades; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives a blade_count of %.1f", d->blade_count,
-         blades);
+  of_blade_count(d, remarks);
   remark(
       remarks, fabs(d->head_residual) > 0.03 * d->head,
       "the design predicts a head of %.4g m, the table asks for %.4g m: its dimensions, wrap and blade angles do not "

@@ -34,18 +34,18 @@ static double static_moment(const CwMeridian *meridian) {
   return sum / (3 * STEPS);
 }
 
-// Blades at the outlet; for the slip a splitter counts by its share of the length.
 static double outlet_blades(const CwDesign *design) {
   return design->blade_count * (design->splitter_start > 0 ? 2 : 1);
 }
-static double slip_blades(const CwDesign *design) {
+
+double cw_slip_blades(const CwDesign *design) {
   return design->blade_count * (design->splitter_start > 0 ? 2 - design->splitter_start : 1);
 }
 
 void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   const double beta = design->outlet_blade_angle, d2 = design->outlet_diameter, u2 = design->impeller_tip_speed;
   const double ratio = (design->leading_edge_radius_hub + design->leading_edge_radius_shroud) / d2;
-  const double blades = slip_blades(design);
+  const double blades = cw_slip_blades(design);
   SET(outlet_meridional_speed, design->water_flow_rate / (M_PI * d2 * design->outlet_width), "Q / (pi D2 b2)");
   SET(outlet_blockage, cw_blockage(outlet_blades(design), design->trailing_edge_thickness, d2 / 2, beta),
       "1 / (1 - z e / (pi D2 sin beta2))");

@@ -12,6 +12,9 @@
 // Blockage 1 / (1 - z e / (2 pi r sin beta)) of `count` blades.
 double cw_blockage(double count, double thickness, double radius, double angle);
 
+// Blades as the slip counts them: a splitter by its share of the length.
+double cw_slip_blades(const CwDesign *design);
+
 // Pfleiderer's p of H_inf = (1 + p) H_th: 0.65 (1 + beta2 / 60 deg) r2^2 / (z S) with S = integral r dm of
 // the mean streamline, m2, of an impeller with a volute.
 double cw_slip_pfleiderer(double count, double outlet_angle, double outlet_radius, double static_moment);

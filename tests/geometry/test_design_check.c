@@ -46,6 +46,24 @@ static void far_off_values_are_remarked(void **state) {
   assert_false(remarked(&design, "predicts a head"));
 }
 
+// 6.5 274/126 sin 34.3 deg = 7.97. Splitters from 0.45 on make 9.3 of six blades and 15.5 of ten, from 0.8 on 4.8 of
+// four, which would be 8.0 as 6.6.
+static void splitters_count_as_blades(void **state) {
+  const CwCase table = paper();
+  CwDesign design = design_of(&table);
+  design.inlet_blade_angle = design.outlet_blade_angle = 34.3 * M_PI / 180;
+  assert_true(
+      remarked(&design, "6 blades; Pfleiderer's 6.5 (D2 + D1)/(D2 - D1) sin(mean beta) gives a blade_count of"));
+  design.splitter_start = 0.45;
+  assert_false(remarked(&design, "Pfleiderer"));
+  design.blade_count = 10;
+  assert_true(remarked(&design, "10 blades, 15.5 with the splitters by their length; Pfleiderer"));
+  assert_true(remarked(&design, "gives 8.0: a blade_count of 8.0"));
+  design.blade_count = 4;
+  design.splitter_start = 0.8;
+  assert_true(remarked(&design, "gives 8.0: a blade_count of 6.6"));
+}
+
 // A spread of the wrap is remarked where the design chose it, not where the case gives it; cylindrical blades have
 // none, which is said.
 static void spread_of_the_wrap(void **state) {
@@ -193,6 +211,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks),
                                      cmocka_unit_test(ends_and_reach_are_remarked),
                                      cmocka_unit_test(far_off_values_are_remarked),
+                                     cmocka_unit_test(splitters_count_as_blades),
                                      cmocka_unit_test(spread_of_the_wrap),
                                      cmocka_unit_test(remarks_name_keys_of_use),
                                      cmocka_unit_test(leading_edges_moved_out_of_the_eye),
