@@ -26,9 +26,11 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
   cw_picture_text(picture, CW_TEXT_LEFT, x, y, "w = %.2f", t->w);
 }
 
-// w along the blade, as it would be without slip, with the same u and c_m; the gap between both apexes is the slip.
-static void without_slip(CwPicture *picture, double left, double base, double scale, const CwTriangle *t) {
-  const double c_u = t->u - t->c_m / tan(t->blade_angle);
+// w as it would be without slip, with the same u and c_m behind the blades; between them, where w runs along the blade,
+// c_m is greater by the blockage. The gap between both apexes is the slip (1 - gamma) u.
+static void without_slip(CwPicture *picture, double left, double base, double scale, const CwTriangle *t,
+                         double blockage) {
+  const double c_u = t->u - blockage * t->c_m / tan(t->blade_angle);
   const double x1 = left + scale * t->u, xa = left + scale * t->c_u, xb = left + scale * c_u,
                ya = base - scale * t->c_m;
   cw_picture_segment(picture, CW_STROKE_AXIS, x1, base, xb, ya);
@@ -73,8 +75,8 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
     triangle(&picture, left, first, scale, inlets[j], &in[j]);
     left += scale * in[j].u + 85;
   }
-  triangle(&picture, 70, second, scale, "outlet, mid-span; chain line: along the blade, without slip", &out[1]);
-  without_slip(&picture, 70, second, scale, &out[1]);
+  triangle(&picture, 70, second, scale, "outlet, mid-span; chain line: without slip", &out[1]);
+  without_slip(&picture, 70, second, scale, &out[1], design->outlet_blockage);
   for (int i = 0; i < 9; i++) cw_picture_text(&picture, CW_TEXT_RIGHT, 250 + 75 * i, table, "%s", heads[i]);
   cw_picture_segment(&picture, CW_STROKE_THIN, 40, table + 8, 860, table + 8);
   for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {

@@ -51,6 +51,17 @@ static void pictures(void **state) {
   check(cw_picture_volute_plan, &design, "D3 = 204.0 mm; throat 890 mm2");
 }
 
+// gamma = 0.98 (1 - 0.8091/3.505) = 0.754: the slip is 0.246 15.18 = 3.74 m/s, whatever the blades block.
+static void slip_is_that_of_the_slip_factor(void **state) {
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
+  const double slip = (1 - design.slip_factor) * design.impeller_tip_speed;
+  char words[40];
+  assert_near(slip, 3.74, 0.02);
+  snprintf(words, sizeof words, "slip %.2f", slip);
+  check(cw_picture_velocity_triangles, &design, words);
+}
+
 // The blades end at the outlet diameter, by the circle of the interface's radius.
 static void blades_end_at_the_outlet_diameter(void **state) {
   const CwCase table = paper();
@@ -103,7 +114,8 @@ static void text_is_escaped(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(blades_end_at_the_outlet_diameter),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(slip_is_that_of_the_slip_factor),
+                                     cmocka_unit_test(blades_end_at_the_outlet_diameter),
                                      cmocka_unit_test(names_of_arrows_stand_apart), cmocka_unit_test(text_is_escaped)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
