@@ -31,6 +31,7 @@ static const double DEFAULT_WEDGE = 26 * M_PI / 180, LEAST_WEDGE = 15 * M_PI / 1
 static const double LEAST_START = 1.02, LARGEST_START = 1.35;
 // Least share of Q that the throat passes by the law: one-dimensional theory is no better than that.
 static const double THROAT_SHARE = 0.98;
+static const double LARGEST_GROWTH = 3; // of the spiral for it, over that of the law
 // Least share of the side walls in the throat's width where arcs touch them: beside a narrower one the
 // diffuser's outer wall, which overhangs there, folds over.
 static const double LEAST_SIDE = 0.25;
@@ -266,6 +267,25 @@ done:
   return status;
 }
 
+// The growth of the law with which the throat passes its least share of Q: `asked`, or more. The largest spirals may
+// have no room for a tongue at all.
+static CwStatus growth_for_flow(CwVolute *volute, double asked, double largest, double *growth) {
+  CwStatus status = CW_OK;
+  const Context context = {.volute = volute, .value = THROAT_SHARE * asked};
+  *growth = asked;
+  if (!(throat_flow_excess(asked, &context) < 0)) goto done;
+  *growth = NAN;
+  for (double most = fmin(largest, LARGEST_GROWTH * asked); isnan(*growth) && most > asked; most *= 0.8)
+    *growth = cw_root_find(throat_flow_excess, &context, asked, most);
+  if (isnan(*growth)) could_help(volute, CW_VOLUTE_THINNER_TONGUE);
+  CW_REQUIRE(!isnan(*growth), CW_ERR_DESIGN,
+             "volute: beside its tongue of radius %g mm the throat passes less than %g Q by the law, also of a spiral "
+             "for %g Q; lower inlet_width_mm or tongue_radius_mm, or give throat_area_mm2",
+             volute->input.tongue_radius * 1e3, THROAT_SHARE, LARGEST_GROWTH);
+done:
+  return status;
+}
+
 // Ends the spiral so that the throat has the asked area, or by the law. The tongue's thickness is taken away from the
 // last section; where the throat would then pass less than Q by the law, the spiral grows by more.
 static CwStatus solve_spiral(CwVolute *volute) {
@@ -285,11 +305,7 @@ static CwStatus solve_spiral(CwVolute *volute) {
   if (!isnan(in->throat_area)) {
     CW_TRY(growth_for_area(volute, largest, &growth));
   } else {
-    const Context context = {.volute = volute, .value = THROAT_SHARE * asked};
-    if (throat_flow_excess(asked, &context) < 0) {
-      const double more = cw_root_find(throat_flow_excess, &context, asked, fmin(largest, 3 * asked));
-      if (!isnan(more)) growth = more;
-    }
+    CW_TRY(growth_for_flow(volute, asked, largest, &growth));
   }
   close_spiral(volute, growth);
   volute->law_constant = in->flow_rate / growth;

@@ -436,6 +436,14 @@ static void wrong_input(void **state) {
   input.section_speed = 0.2;
   input.throat_area = NAN;
   refuse(input, "Q / (K3 sqrt(2 g H))");
+  // Q / K = 1.65 mm between walls 80 mm apart: a throat some 2 mm high, and a tongue whose tip lies 15 mm outside D3.
+  // The throat of a spiral for 3 Q passes 0.6 Q.
+  input = volute_of_paper();
+  input.throat_area = NAN;
+  input.inlet_width = 80 * mm;
+  input.tongue_radius = 0.25 * mm;
+  input.angular_momentum = 4.2;
+  refuse(input, "less than 0.98 Q by the law, also of a spiral for 3 Q; lower inlet_width_mm or tongue_radius_mm");
 }
 
 // A wheel of 204 mm wants 204 / (1 - 4 0.00125) = 205.0251 mm; the interface lies half-way between both radii.
