@@ -100,11 +100,25 @@ done:
   return status;
 }
 
+// The set-up of turbulence that the domains share: what is transported has values at inlets and interfaces.
+static CwStatus set_turbulence(int transient, CwValues *values) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_values_set_file(values, "turbulence",
+                            transient ? "cfx_parts/turbulence_les.ccl" : "cfx_parts/turbulence_k_epsilon.ccl"));
+  CW_TRY(cw_values_start(values, "turbulence_inlet"));
+  CW_TRY(cw_values_start(values, "turbulence_interface"));
+  if (!transient) {
+    CW_TRY(cw_values_append_file(values, "turbulence_inlet", "cfx_parts/turbulence_inlet.ccl"));
+    CW_TRY(cw_values_append_file(values, "turbulence_interface", "cfx_parts/turbulence_interface.ccl"));
+  }
+done:
+  return status;
+}
+
 static CwStatus set_domains(const CwAssembly *a, double mass_flow, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   CW_TRY(cw_values_start(values, "domains"));
-  CW_TRY(cw_values_start(values, "domains_les"));
   for (int d = 0; d < mesh->domain_count; ++d) {
     const int rotating = mesh->domains[d].rotating != 0;
     CW_TRY(cw_values_start(values, "zone_wall_boundaries"));
@@ -115,7 +129,6 @@ static CwStatus set_domains(const CwAssembly *a, double mass_flow, CwValues *val
     CW_TRY(cw_values_set_file(values, "domain_motion",
                               rotating ? "cfx_parts/motion_rotating.ccl" : "cfx_parts/motion_stationary.ccl"));
     CW_TRY(cw_values_append_file(values, "domains", "cfx_parts/domain.ccl"));
-    CW_TRY(cw_values_append_file(values, "domains_les", "cfx_parts/transient_domain.ccl"));
   }
 done:
   return status;
@@ -181,33 +194,48 @@ done:
   return status;
 }
 
-static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
+static CwStatus set_interfaces(const CwMesh *mesh, int transient, CwValues *values) {
   CwStatus status = CW_OK;
   CW_TRY(cw_values_start(values, "interfaces"));
-  CW_TRY(cw_values_start(values, "transient_interfaces"));
   for (int i = 0; i < mesh->interface_count; ++i) {
     int rotating[2];
     for (int side = 0; side < 2; ++side)
       rotating[side] = mesh->domains[mesh->patches[mesh->interfaces[i].patch[side]].domain].rotating;
     const int turning = !rotating[0] != !rotating[1]; // zones that turn together have one frame
     CW_TRY(set_interface(mesh, i, values));
-    CW_TRY(cw_values_set(values, "frame_change", "%s", turning ? "Frozen Rotor" : "None"));
+    CW_TRY(cw_values_set(values, "frame_change", "%s",
+                         !turning    ? "None"
+                         : transient ? "Transient Rotor Stator"
+                                     : "Frozen Rotor"));
     CW_TRY(cw_values_set_file(values, "pitch_change",
                               turning ? "cfx_parts/pitch_turning.ccl" : "cfx_parts/pitch_none.ccl"));
     CW_TRY(cw_values_append_file(values, "interfaces", "cfx_parts/interface.ccl"));
-    if (turning)
-      CW_TRY(cw_values_append_file(values, "transient_interfaces", "cfx_parts/transient_interface_turning.ccl"));
   }
 done:
   return status;
 }
 
-// The set-up at a flow rate (m3/s); its steady files are called `setup`.
-static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow, const char *setup, CwValues *values) {
+// What steady and transient set-ups differ in beside turbulence and interfaces.
+static CwStatus set_time(const CwCase *table, int transient, CwValues *values) {
+  CwStatus status = CW_OK;
+  // The first time step after half of the ten turns.
+  CW_TRY(cw_values_set(values, "means_from", "%.0f", 1 + round(10 * M_PI / table->operating_point.time_step_angle)));
+  CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
+  CW_TRY(cw_values_set(values, "flow", "%s",
+                       transient ? "transient rotor/stator from a steady result, LES" : "frozen rotor, k-epsilon"));
+  CW_TRY(cw_values_set_file(values, "time", transient ? "cfx_parts/transient_time.ccl" : "cfx_parts/steady_time.ccl"));
+  CW_TRY(cw_values_start(values, "transient_output"));
+  if (transient) CW_TRY(cw_values_append_file(values, "transient_output", "cfx_parts/transient_output.ccl"));
+  CW_TRY(cw_values_set_file(values, "solver",
+                            transient ? "cfx_parts/transient_solver.ccl" : "cfx_parts/steady_solver.ccl"));
+done:
+  return status;
+}
+
+static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow, int transient, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
   CW_TRY(cw_case_values_set(table, values));
-  CW_TRY(cw_values_set(values, "setup", "%s", setup));
   CW_TRY(cw_values_set(values, "mass_flow", "%.9g", flow * table->fluid.density));
   CW_TRY(cw_values_set(values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
   // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of
@@ -216,47 +244,52 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
                             table->walls.roughness > 0 ? "cfx_parts/wall_rough.ccl" : "cfx_parts/wall_smooth.ccl"));
   CW_TRY(cw_values_set(values, "temperature", "%.9g",
                        cw_case_given(table->fluid.temperature) ? table->fluid.temperature : 20));
-  // The first time step after half of the ten turns.
-  CW_TRY(cw_values_set(values, "means_from", "%.0f", 1 + round(10 * M_PI / table->operating_point.time_step_angle)));
-  CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
+  CW_TRY(set_time(table, transient, values));
+  CW_TRY(set_turbulence(transient, values));
   CW_TRY(set_domains(a, flow * table->fluid.density, values));
   CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));
   CW_TRY(set_ends(mesh, CW_PATCH_OUTLET, "outlet_pressure", "outlet_mass_flow", values));
   CW_TRY(set_torque(a, values));
   CW_TRY(set_y_plus(a, values));
-  CW_TRY(set_interfaces(mesh, values));
+  CW_TRY(set_interfaces(mesh, transient, values));
 done:
   return status;
 }
 
-// The steady set-up of each point of the curve, in points/.
-static CwStatus write_points(const char *folder, const CwCase *table, const CwAssembly *a) {
+// The files of a set-up at a flow rate (m3/s), `setup`.ccl and `setup`.pre.
+static CwStatus write_setup(const char *folder, const char *setup, const CwCase *table, const CwAssembly *a,
+                            double flow, int transient) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  char *path = NULL, *setup = NULL;
-  CwCasePoint points[CW_LIST_MOST];
-  const int count = cw_case_points(table, points);
-  for (int k = 0; k < count; ++k) {
-    CW_TRY(cw_path_set(&setup, "points/%s", points[k].name));
-    CW_TRY(set_values(table, a, points[k].flow, setup, &values));
-    CW_TRY(cw_path_set(&path, "%s/%s", folder, setup));
-    CW_TRY(cw_templates_write("cfx/steady", path, NULL, &values));
-    cw_values_free(&values);
-  }
+  char *path = NULL;
+  CW_TRY(set_values(table, a, flow, transient, &values));
+  CW_TRY(cw_values_set(&values, "setup", "%s", setup));
+  CW_TRY(cw_path_set(&path, "%s/%s", folder, setup));
+  CW_TRY(cw_templates_write("cfx/setup", path, NULL, &values));
 done:
   cw_values_free(&values);
   free(path);
-  free(setup);
   return status;
 }
 
 CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  CW_TRY(set_values(table, a, table->operating_point.flow_rate, "steady", &values));
-  CW_TRY(cw_templates_write("cfx", folder, NULL, &values));
-  CW_TRY(write_points(folder, table, a));
+  const double flow = table->operating_point.flow_rate;
+  char *path = NULL;
+  CwCasePoint points[CW_LIST_MOST];
+  const int count = cw_case_points(table, points);
+  CW_TRY(write_setup(folder, "steady", table, a, flow, 0));
+  CW_TRY(write_setup(folder, "transient", table, a, flow, 1));
+  for (int k = 0; k < count; ++k) {
+    CW_TRY(cw_path_set(&path, "points/%s", points[k].name));
+    CW_TRY(write_setup(folder, path, table, a, points[k].flow, 0));
+  }
+  CW_TRY(set_values(table, a, flow, 0, &values));
+  CW_TRY(cw_path_set(&path, "%s/README", folder));
+  CW_TRY(cw_templates_write("cfx/README", path, NULL, &values));
 done:
   cw_values_free(&values);
+  free(path);
   return status;
 }

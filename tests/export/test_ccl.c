@@ -180,8 +180,8 @@ static void check_file(const char *name) {
 }
 
 static void every_place_is_in_the_mesh(void **state) {
-  static const char *const names[] = {"steady.ccl", "points/q0600.ccl", "points/q0800.ccl", "points/q1000.ccl",
-                                      "points/q1200.ccl"};
+  static const char *const names[] = {"steady.ccl",       "transient.ccl",    "points/q0600.ccl",
+                                      "points/q0800.ccl", "points/q1000.ccl", "points/q1200.ccl"};
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i) check_file(names[i]);
 }
 
@@ -256,29 +256,47 @@ static void expressions_and_monitors_name_what_is_there(void **state) {
   assert_true(monitors >= 6 && places >= 8);
 }
 
-// What the transient file changes is there in the steady one, which is loaded before.
-static void the_transient_file_changes_what_is_there(void **state) {
-  char domains[10][NAME_SIZE];
+// How many objects or parameters have such a name, or objects such a type, which ends their path.
+static int count_named(const char *name) {
   int count = 0;
-  parse("transient.ccl");
-  for (int i = 0; i < item_count; ++i)
-    if (items[i].is_object &&
-        (!strcmp(items[i].path, "FLOW/DOMAIN") || !strcmp(items[i].path, "FLOW/DOMAIN INTERFACE")))
-      snprintf(domains[count++], NAME_SIZE, "%s", items[i].name);
-  assert_int_equal(count, 3);
+  for (int i = 0; i < item_count; ++i) {
+    const char *last = strrchr(items[i].path, '/');
+    count += !strcmp(items[i].is_object && last ? last + 1 : items[i].name, name);
+  }
+  return count;
+}
+
+// The transient file is loaded alone: it has all that the steady one has, and nothing that only a steady run or a
+// model with transported turbulence takes.
+static void the_transient_file_is_whole(void **state) {
+  static const char *const both[] = {"EXPRESSIONS", "MATERIAL", "SOLUTION UNITS",  "DOMAIN",       "DOMAIN INTERFACE",
+                                     "BOUNDARY",    "RESULTS",  "MONITOR OBJECTS", "MONITOR POINT"};
+  static const char *const steady[] = {"Physical Timescale", "Length Scale Option", "Maximum Number of Iterations",
+                                       "Turbulence Numerics", "TURBULENCE"};
+  int count[sizeof both / sizeof *both];
   parse("steady.ccl");
-  for (int i = 0; i < count; ++i)
-    if (!find_object("FLOW/DOMAIN", NULL, domains[i]) && !find_object("FLOW/DOMAIN INTERFACE", NULL, domains[i]))
-      fail_msg("steady.ccl has no %s", domains[i]);
+  for (size_t i = 0; i < sizeof both / sizeof *both; ++i) assert_true((count[i] = count_named(both[i])) > 0);
+  for (size_t i = 0; i < sizeof steady / sizeof *steady; ++i) assert_true(count_named(steady[i]) > 0);
+  assert_string_equal(find_value("FLOW/DOMAIN INTERFACE/INTERFACE MODELS/FRAME CHANGE", "ROTOR STATOR", "Option"),
+                      "Frozen Rotor");
+  parse("transient.ccl");
+  for (size_t i = 0; i < sizeof both / sizeof *both; ++i) assert_int_equal(count_named(both[i]), count[i]);
+  for (size_t i = 0; i < sizeof steady / sizeof *steady; ++i)
+    if (count_named(steady[i])) fail_msg("transient.ccl has %s", steady[i]);
+  assert_string_equal(find_value("FLOW/ANALYSIS TYPE", "Flow Analysis 1", "Option"), "Transient");
+  assert_string_equal(find_value("FLOW/DOMAIN INTERFACE/INTERFACE MODELS/FRAME CHANGE", "ROTOR STATOR", "Option"),
+                      "Transient Rotor Stator");
+  assert_string_equal(find_value("FLOW/DOMAIN/FLUID MODELS/TURBULENCE MODEL", "STATOR", "Option"), "LES Smagorinsky");
+  // Appended to another file, values would mix.
+  assert_int_equal(stage_shell(output, "grep importccl '%s/run/export/cfx/transient.pre'", test_folder), 0);
+  assert_string_equal(output, ">importccl filename=transient.ccl, mode=replace, autoLoadLibrary=none\n");
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_place_is_in_the_mesh),
-      cmocka_unit_test(every_patch_has_one_boundary),
-      cmocka_unit_test(interfaces_join_two_boundaries),
-      cmocka_unit_test(expressions_and_monitors_name_what_is_there),
-      cmocka_unit_test(the_transient_file_changes_what_is_there),
+      cmocka_unit_test(every_place_is_in_the_mesh),     cmocka_unit_test(every_patch_has_one_boundary),
+      cmocka_unit_test(interfaces_join_two_boundaries), cmocka_unit_test(expressions_and_monitors_name_what_is_there),
+      cmocka_unit_test(the_transient_file_is_whole),
   };
   return cmocka_run_group_tests(tests, open_export, close_export);
 }

@@ -29,12 +29,12 @@ static void texts_are_appended(void **state) {
   CwValues values = {0};
   assert_int_equal(cw_values_start(&values, "list"), CW_OK);
   assert_int_equal(cw_values_append(&values, "list", "%d", 1), CW_OK);
-  assert_int_equal(cw_values_set(&values, "zone", "rotor"), CW_OK);
+  assert_int_equal(cw_values_set(&values, "end", "rotor"), CW_OK);
   assert_int_equal(cw_values_append(&values, "list", ", %s", cw_values_get(&values, "list")), CW_OK);
   assert_string_equal(cw_values_get(&values, "list"), "1, 1");
   assert_int_equal(cw_values_start(&values, "list"), CW_OK);
-  assert_int_equal(cw_values_append_file(&values, "list", "cfx_parts/transient_domain.ccl"), CW_OK);
-  assert_memory_equal(cw_values_get(&values, "list"), "  DOMAIN: rotor\n", 16); // without the licence
+  assert_int_equal(cw_values_append_file(&values, "list", "cfx_parts/symmetry.ccl"), CW_OK);
+  assert_memory_equal(cw_values_get(&values, "list"), "    BOUNDARY: rotor\n", 20); // without the licence
   assert_int_equal(cw_values_append_file(&values, "list", "cfx_parts/none.ccl"), CW_ERR_EXPORT);
   assert_null(cw_values_get(&values, "lis"));
   cw_values_free(&values);
