@@ -100,17 +100,36 @@ done:
   return status;
 }
 
-// The set-up of turbulence that the domains share: what is transported has values at inlets and interfaces.
-static CwStatus set_turbulence(int transient, CwValues *values) {
+// Sets a value to a file, or to nothing.
+static CwStatus set_file_if(int there, const char *key, const char *path, CwValues *values) {
+  return there ? cw_values_set_file(values, key, path) : cw_values_start(values, key);
+}
+
+// The set-up of turbulence that the domains share: what is transported has values at inlets and interfaces, and what a
+// wall function takes is there where there is one.
+static CwStatus set_turbulence(const CwCase *table, CwTurbulenceModel model, int transient, CwValues *values) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_values_set_file(values, "turbulence",
-                            transient ? "cfx_parts/turbulence_les.ccl" : "cfx_parts/turbulence_k_epsilon.ccl"));
-  CW_TRY(cw_values_start(values, "turbulence_inlet"));
-  CW_TRY(cw_values_start(values, "turbulence_interface"));
-  if (!transient) {
-    CW_TRY(cw_values_append_file(values, "turbulence_inlet", "cfx_parts/turbulence_inlet.ccl"));
-    CW_TRY(cw_values_append_file(values, "turbulence_interface", "cfx_parts/turbulence_interface.ccl"));
-  }
+  static const char *const names[] = {[CW_K_EPSILON] = "k-epsilon", [CW_SST] = "SST", [CW_LAMINAR] = "laminar"};
+  static const char *const parts[] = {[CW_K_EPSILON] = "cfx_parts/turbulence_k_epsilon.ccl",
+                                      [CW_SST] = "cfx_parts/turbulence_sst.ccl",
+                                      [CW_LAMINAR] = "cfx_parts/turbulence_laminar.ccl"};
+  const int laminar = model == CW_LAMINAR, transported = !laminar && !transient;
+  const char *eddies = laminar ? names[model] : "LES Smagorinsky";
+  CW_TRY(cw_values_set(values, "steady_model", "%s", names[model]));
+  CW_TRY(cw_values_set(values, "transient_model", "%s", eddies));
+  CW_TRY(cw_values_set(values, "flow", "%s, %s",
+                       transient ? "transient rotor/stator from a steady result" : "frozen rotor",
+                       transient ? eddies : names[model]));
+  CW_TRY(
+      cw_values_set_file(values, "turbulence", transient && !laminar ? "cfx_parts/turbulence_les.ccl" : parts[model]));
+  CW_TRY(set_file_if(transported, "turbulence_inlet", "cfx_parts/turbulence_inlet.ccl", values));
+  CW_TRY(set_file_if(transported, "turbulence_interface", "cfx_parts/turbulence_interface.ccl", values));
+  CW_TRY(set_file_if(transported, "turbulence_numerics", "cfx_parts/turbulence_numerics.ccl", values));
+  CW_TRY(cw_values_set(values, "transient_advection", "%s", laminar ? "High Resolution" : "Central Difference"));
+  CW_TRY(cw_values_set(values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
+  // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of OpenFOAM.
+  CW_TRY(set_file_if(!laminar, "wall_roughness",
+                     table->walls.roughness > 0 ? "cfx_parts/wall_rough.ccl" : "cfx_parts/wall_smooth.ccl", values));
 done:
   return status;
 }
@@ -174,13 +193,13 @@ done:
   return status;
 }
 
-// Mean and greatest y+ of each boundary of walls, as expressions and as monitors of these.
+// Mean and greatest y+ of each boundary of walls, as expressions and as monitors of these. Laminar flow has none.
 static CwStatus set_y_plus(const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   static const char *const kinds[][2] = {{"mean", "areaAve"}, {"greatest", "maxVal"}};
   CW_TRY(cw_values_start(values, "y_plus_expressions"));
   CW_TRY(cw_values_start(values, "y_plus_monitors"));
-  for (int wall = 0; wall < 2 * a->mesh->domain_count; ++wall) {
+  for (int wall = 0; wall < 2 * a->mesh->domain_count && cw_turbulence_model(a->mesh) != CW_LAMINAR; ++wall) {
     if (!cw_patch_count(a, wall / 2, walls_that(wall % 2))) continue;
     CW_TRY(set_wall_name(a->mesh, wall / 2, wall % 2, values));
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k) {
@@ -221,11 +240,8 @@ static CwStatus set_time(const CwCase *table, int transient, CwValues *values) {
   // The first time step after half of the ten turns.
   CW_TRY(cw_values_set(values, "means_from", "%.0f", 1 + round(10 * M_PI / table->operating_point.time_step_angle)));
   CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
-  CW_TRY(cw_values_set(values, "flow", "%s",
-                       transient ? "transient rotor/stator from a steady result, LES" : "frozen rotor, k-epsilon"));
   CW_TRY(cw_values_set_file(values, "time", transient ? "cfx_parts/transient_time.ccl" : "cfx_parts/steady_time.ccl"));
-  CW_TRY(cw_values_start(values, "transient_output"));
-  if (transient) CW_TRY(cw_values_append_file(values, "transient_output", "cfx_parts/transient_output.ccl"));
+  CW_TRY(set_file_if(transient, "transient_output", "cfx_parts/transient_output.ccl", values));
   CW_TRY(cw_values_set_file(values, "solver",
                             transient ? "cfx_parts/transient_solver.ccl" : "cfx_parts/steady_solver.ccl"));
 done:
@@ -237,15 +253,10 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow
   const CwMesh *mesh = a->mesh;
   CW_TRY(cw_case_values_set(table, values));
   CW_TRY(cw_values_set(values, "mass_flow", "%.9g", flow * table->fluid.density));
-  CW_TRY(cw_values_set(values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
-  // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of
-  // OpenFOAM.
-  CW_TRY(cw_values_set_file(values, "wall_roughness",
-                            table->walls.roughness > 0 ? "cfx_parts/wall_rough.ccl" : "cfx_parts/wall_smooth.ccl"));
   CW_TRY(cw_values_set(values, "temperature", "%.9g",
                        cw_case_given(table->fluid.temperature) ? table->fluid.temperature : 20));
+  CW_TRY(set_turbulence(table, cw_turbulence_model(mesh), transient, values));
   CW_TRY(set_time(table, transient, values));
-  CW_TRY(set_turbulence(transient, values));
   CW_TRY(set_domains(a, flow * table->fluid.density, values));
   CW_TRY(set_ends(mesh, CW_PATCH_INLET, "inlet_pressure_mean", "inlet_mass_flow", values));
   CW_TRY(set_ends(mesh, CW_PATCH_OUTLET, "outlet_pressure", "outlet_mass_flow", values));

@@ -53,9 +53,11 @@ done:
 
 CwStatus cw_fluent_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
+  static const char *const models[] = {
+      [CW_K_EPSILON] = "standard k-epsilon", [CW_SST] = "k-omega SST", [CW_LAMINAR] = "none, the flow is laminar"};
   CwValues values = {0};
   CW_TRY(cw_case_values_set(table, &values));
-  CW_TRY(cw_values_set(&values, "turbulence", "%s", cw_walls_resolved(a->mesh) ? "k-omega SST" : "standard k-epsilon"));
+  CW_TRY(cw_values_set(&values, "turbulence", "%s", models[cw_turbulence_model(a->mesh)]));
   CW_TRY(cw_values_set(&values, "roughness", "%.9g", cw_wall_roughness(&table->walls)));
   CW_TRY(set_zones(table, a, &values));
   CW_TRY(cw_templates_write("fluent", folder, NULL, &values));

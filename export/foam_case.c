@@ -190,7 +190,7 @@ done:
 
 static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  int resolved = cw_walls_resolved(a->mesh);
+  int resolved = cw_turbulence_model(a->mesh) != CW_K_EPSILON;
   CW_TRY(cw_case_values_set(table, values));
   CW_TRY(cw_values_set(values, "usual_ranks", "%s", cw_foam_usual_ranks(cw_assembly_cells(a))));
   CW_TRY(cw_patch_names_set(a, -1, cw_patch_turns, " ", "rotating_walls", values));
@@ -233,7 +233,7 @@ static CwStatus set_eddy_values(const CwCase *table, const CwAssembly *a, CwValu
   CW_TRY(cw_values_set(values, "les_step_deg", "%.9g", 360 / steps));
   CW_TRY(cw_values_set(values, "turn_time", "%.9g", turn / table->operating_point.speed));
   CW_TRY(cw_values_set(values, "phase_steps", "%.0f", pitch == floor(pitch) ? pitch : steps));
-  CW_TRY(cw_values_set(values, "les_delta", cw_walls_resolved(mesh) ? "vanDriest" : "cubeRootVol"));
+  CW_TRY(cw_values_set(values, "les_delta", cw_turbulence_model(mesh) != CW_K_EPSILON ? "vanDriest" : "cubeRootVol"));
   CW_TRY(cw_patch_names_set(a, -1, is_blade, " ", "blades", values));
   CW_TRY(set_monitored(a, values));
 done:

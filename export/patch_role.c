@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/patch_role.h"
 
+#include <math.h>
+
 int cw_patch_turns(const CwMesh *mesh, const CwModelPatch *patch) {
   return patch->kind == CW_PATCH_WALL && patch->turns;
 }
@@ -21,10 +23,14 @@ int cw_patch_resolved(const CwModelPatch *patch) {
   return patch->kind == CW_PATCH_WALL && !(patch->y_plus >= CW_Y_PLUS_LAMINAR);
 }
 
-int cw_walls_resolved(const CwMesh *mesh) {
-  for (int p = 0; p < mesh->patch_count; ++p)
-    if (cw_patch_resolved(&mesh->patches[p])) return 1;
-  return 0;
+CwTurbulenceModel cw_turbulence_model(const CwMesh *mesh) {
+  int resolved = 0, laminar = 1;
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    const CwModelPatch *patch = &mesh->patches[p];
+    resolved |= cw_patch_resolved(patch);
+    laminar &= patch->kind != CW_PATCH_WALL || isnan(patch->y_plus);
+  }
+  return !resolved ? CW_K_EPSILON : laminar ? CW_LAMINAR : CW_SST;
 }
 
 int cw_patch_is_there(const CwAssembly *assembly, int patch) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What a patch is for a solver, beyond its kind: whether it turns, and how its wall is treated.
+// What a patch is for a solver, beyond its kind: whether it turns, and how its wall is treated; and which model of
+// turbulence follows from the walls.
 #ifndef CUTWATER_EXPORT_PATCH_ROLE_H
 #define CUTWATER_EXPORT_PATCH_ROLE_H
 
@@ -18,10 +19,13 @@ int cw_patch_stands(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_rotates(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_is_shaft(const CwMesh *mesh, const CwModelPatch *patch);
 
-// Whether the layers of a wall, by the y+ that they were made for, resolve the viscous sublayer or laminar flow;
-// whether those of any wall do.
+// Whether the layers of a wall, by the y+ that they were made for, resolve the viscous sublayer or laminar flow.
 int cw_patch_resolved(const CwModelPatch *patch);
-int cw_walls_resolved(const CwMesh *mesh);
+
+// By the walls of all zones: laminar where the flow along each of them is, k-epsilon with wall functions where none is
+// resolved, else SST (F. R. Menter, 1994), which takes any y+.
+typedef enum { CW_K_EPSILON, CW_SST, CW_LAMINAR, CW_TURBULENCE_MODELS } CwTurbulenceModel;
+CwTurbulenceModel cw_turbulence_model(const CwMesh *mesh);
 
 // The patches of a kind, there or not.
 int cw_patch_kind_count(const CwMesh *mesh, CwPatchKind kind);

@@ -67,7 +67,8 @@ static CwStatus set_numbers(const CwCase *table, const CwMesh *mesh, CwValues *v
   const CwModelFlow *flow = &mesh->flow;
   const CwTurbulence inlet = cw_turbulence(flow->inlet_speed, flow->inlet_diameter);
   CW_TRY(cw_case_values_set(table, values));
-  CW_TRY(cw_values_set(values, "turbulence", "%s", cw_walls_resolved(mesh) ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
+  CW_TRY(cw_values_set(values, "turbulence", "%s",
+                       cw_turbulence_model(mesh) != CW_K_EPSILON ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
   // The length whose law has the velocity that OpenFOAM's rough wall function has: E / Cs = 9.8 / 0.5 in it.
   CW_TRY(cw_values_set(values, "roughness_length", "%.9g", cw_wall_roughness(&table->walls) * 0.5 / 9.8));
   CW_TRY(cw_values_set(values, "passage_speed", "%.9g", flow->passage_speed));

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <cgnslib.h>
 
+#include "tests/seal_run.h"
 #include "tests/unit_test.h"
 
 int stage_run_make(const char *folder, const SyntheticPump *pump) {
@@ -61,6 +62,14 @@ int stage_export_with(const char *run, int ranks, const char *more, char *output
                      "{ cat '%s/cases/paper/case.yaml'; echo '%s'; } > '%s/case.yaml' && mpirun -q -n %d "
                      "'%s/cutwater-export' --case '%s/case.yaml' --run '%s'",
                      CUTWATER_SOURCE_DIR, more, run, ranks, CUTWATER_BIN_DIR, run, run);
+}
+
+int stage_walls_set(const char *run, const char *wall, const char *y_plus, char *output) {
+  char range[100] = "";
+  if (wall) snprintf(range, sizeof range, "/\"name\": \"%s\"/,/y_plus/", wall);
+  return stage_shell(output, "sed -i '%ss/\"y_plus\": [^,]*/\"y_plus\": %s/' '%s/mesh/manifest.json'", range, y_plus,
+                     run) ||
+         seal_run(run);
 }
 
 void stage_need_program(const char *name) {

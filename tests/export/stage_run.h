@@ -23,6 +23,10 @@ int stage_cgns_open(const char *folder, const SyntheticPump *pump, char *output,
 // The same as stage_export on the paper's case with `more` behind it, keys of sections that the paper's does not have.
 int stage_export_with(const char *run, int ranks, const char *more, char *output);
 
+// Makes the y+ that the layers of `run` were made for, 30 as it is written, another one on all walls, or on the one
+// that is called `wall` (NULL: all); "null": the flow along it is laminar. Returns 0, or another number.
+int stage_walls_set(const char *run, const char *wall, const char *y_plus, char *output);
+
 // Fails the test where a program cannot be called: what it would have judged has not been judged.
 void stage_need_program(const char *name);
 

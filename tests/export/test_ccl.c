@@ -292,11 +292,49 @@ static void the_transient_file_is_whole(void **state) {
   assert_string_equal(output, ">importccl filename=transient.ccl, mode=replace, autoLoadLibrary=none\n");
 }
 
+static int count_values_with(const char *words) {
+  int count = 0;
+  for (int i = 0; i < item_count; ++i) count += strstr(items[i].value, words) != NULL;
+  return count;
+}
+
+// Wall functions where all walls ask for them, the automatic treatment where a wall is resolved, and in laminar flow
+// nothing of turbulence at all.
+static void turbulence_follows_from_the_walls(void **state) {
+  static const struct {
+    const char *y_plus, *model, *functions, *in_time;
+  } walls[] = {{"null", "Laminar", "", "Laminar"},
+               {"1.0", "SST", "Automatic", "LES Smagorinsky"},
+               {"30.0", "k epsilon", "Scalable", "LES Smagorinsky"}};
+  static const char model[] = "FLOW/DOMAIN/FLUID MODELS/TURBULENCE MODEL",
+                    functions[] = "FLOW/DOMAIN/FLUID MODELS/TURBULENT WALL FUNCTIONS";
+  const char *run = in_test_folder("run");
+  for (size_t i = 0; i < sizeof walls / sizeof *walls; ++i) {
+    const int laminar = i == 0;
+    assert_int_equal(stage_walls_set(run, NULL, walls[i].y_plus, output), 0);
+    assert_int_equal(stage_export(run, 1, output), 0);
+    for (int transient = 0; transient < 2; ++transient) {
+      parse(transient ? "transient.ccl" : "steady.ccl");
+      for (int d = 0; d < 2; ++d) {
+        const char *domain = d ? "STATOR" : "ROTOR";
+        assert_string_equal(find_value(model, domain, "Option"), transient ? walls[i].in_time : walls[i].model);
+        assert_string_equal(find_value(functions, domain, "Option"),
+                            transient && !laminar ? "Automatic" : walls[i].functions);
+      }
+      assert_int_equal(count_named("TURBULENCE"), laminar || transient ? 0 : 3); // the inlet, and both sides
+      assert_int_equal(count_named("Turbulence Numerics"), !laminar && !transient);
+      assert_int_equal(count_named("WALL ROUGHNESS") == 0, laminar);
+      assert_int_equal(count_values_with("Yplus") == 0, laminar);
+      assert_int_equal(count_values_with("y plus") == 0, laminar);
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_place_is_in_the_mesh),     cmocka_unit_test(every_patch_has_one_boundary),
       cmocka_unit_test(interfaces_join_two_boundaries), cmocka_unit_test(expressions_and_monitors_name_what_is_there),
-      cmocka_unit_test(the_transient_file_is_whole),
+      cmocka_unit_test(the_transient_file_is_whole),    cmocka_unit_test(turbulence_follows_from_the_walls),
   };
   return cmocka_run_group_tests(tests, open_export, close_export);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Which walls turn, and whether layers resolve the viscous sublayer.
+// Which walls turn, whether layers resolve the viscous sublayer, and the model of turbulence that follows.
 #include <math.h>
 
 #include "export/patch_role.h"
@@ -21,23 +21,27 @@ static void walls_turn_in_zones_that_rotate_or_not(void **state) {
   assert_false(cw_patch_stands(&mesh, &hub) || cw_patch_stands(&mesh, &inlet));
 }
 
-static void walls_are_resolved_where_one_is(void **state) {
+static void the_model_follows_from_all_walls(void **state) {
   CwModelPatch patches[] = {{.kind = CW_PATCH_INLET, .y_plus = NAN},
                             {.kind = CW_PATCH_WALL, .y_plus = 30},
                             {.kind = CW_PATCH_WALL, .y_plus = 30}};
   const CwMesh mesh = {.patches = patches, .patch_count = 3};
-  assert_false(cw_walls_resolved(&mesh));
+  assert_int_equal(cw_turbulence_model(&mesh), CW_K_EPSILON);
   patches[2].y_plus = 1;
-  assert_true(cw_walls_resolved(&mesh));
+  assert_int_equal(cw_turbulence_model(&mesh), CW_SST);
   assert_false(cw_patch_resolved(&patches[1]));
   patches[2].y_plus = NAN; // laminar
-  assert_true(cw_walls_resolved(&mesh));
+  assert_int_equal(cw_turbulence_model(&mesh), CW_SST);
+  patches[1].y_plus = NAN;
+  assert_int_equal(cw_turbulence_model(&mesh), CW_LAMINAR);
+  const CwMesh open = {.patches = patches, .patch_count = 1};
+  assert_int_equal(cw_turbulence_model(&open), CW_K_EPSILON);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(walls_turn_in_zones_that_rotate_or_not),
-      cmocka_unit_test(walls_are_resolved_where_one_is),
+      cmocka_unit_test(the_model_follows_from_all_walls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
