@@ -33,6 +33,10 @@ static CwStatus set_boundaries(const CwMesh *mesh, int domain, double mass_flow,
   static const char *const parts[] = {[CW_PATCH_INLET] = "cfx_parts/inlet.ccl",
                                       [CW_PATCH_OUTLET] = "cfx_parts/outlet.ccl",
                                       [CW_PATCH_SYMMETRY] = "cfx_parts/symmetry.ccl"};
+  // In a rotating zone the frame is told.
+  const int rotating = mesh->domains[domain].rotating;
+  CW_TRY(cw_values_set(values, "end_frame", "%s", rotating ? "      Frame Type = Stationary\n" : ""));
+  CW_TRY(cw_values_set(values, "end_pressure", "%s", rotating ? "Stationary Frame Total Pressure" : "Total Pressure"));
   CW_TRY(cw_values_start(values, "zone_ends"));
   CW_TRY(cw_values_start(values, "zone_sides"));
   for (int kind = 0; kind < CW_PATCH_KINDS; ++kind)

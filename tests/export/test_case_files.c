@@ -222,8 +222,9 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   }
 }
 
-// A rotor and a chamber behind it that turns with it, which have one frame.
-static void zones_that_turn_together_meet_without_a_change_of_frame(void **state) {
+// A rotor and a chamber behind it that turns with it, which have one frame; an inlet in a zone that rotates, and one in
+// another.
+static void frames_are_told_where_zones_rotate(void **state) {
   enum { ROTOR, CHAMBER, STATOR };
   CwModelPatch patches[] = {{.name = "inlet", .kind = CW_PATCH_INLET, .domain = ROTOR},
                             {.name = "hub", .kind = CW_PATCH_WALL, .domain = ROTOR, .turns = 1},
@@ -232,13 +233,14 @@ static void zones_that_turn_together_meet_without_a_change_of_frame(void **state
                             {.name = "chamber_gap", .kind = CW_PATCH_INTERFACE, .domain = CHAMBER},
                             {.name = "disc", .kind = CW_PATCH_WALL, .domain = CHAMBER, .turns = 1},
                             {.name = "stator_interface", .kind = CW_PATCH_INTERFACE, .domain = STATOR},
-                            {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 1}};
+                            {.name = "outlet", .kind = CW_PATCH_OUTLET, .domain = STATOR, .flow_share = 1},
+                            {.name = "feed", .kind = CW_PATCH_INLET, .domain = STATOR}};
   CwModelInterface interfaces[] = {{{2, 4}, CW_SURFACE_PLANE, 0}, {{3, 6}, CW_SURFACE_CYLINDER, 0.1}};
   enum { PATCHES = sizeof patches / sizeof *patches };
   CwMesh mesh = {.domain_count = 3,
                  .domains = {{.name = "rotor", .zone = "ROTOR", .rotating = 1, .first_patch = 0, .patch_count = 4},
                              {.name = "chamber", .zone = "CHAMBER", .rotating = 1, .first_patch = 4, .patch_count = 2},
-                             {.name = "stator", .zone = "STATOR", .first_patch = 6, .patch_count = 2}},
+                             {.name = "stator", .zone = "STATOR", .first_patch = 6, .patch_count = 3}},
                  .interface_count = 2,
                  .interfaces = interfaces,
                  .patch_count = PATCHES,
@@ -251,6 +253,12 @@ static void zones_that_turn_together_meet_without_a_change_of_frame(void **state
   const char *folder = in_test_folder("run/export/cfx");
   assert_int_equal(cw_make_directory(folder), CW_OK);
   assert_int_equal(cw_cfx_case_write(folder, &table, &assembly), CW_OK);
+  find_block("cfx/steady.ccl", "BOUNDARY: inlet\n", "\n    END\n"); // in the rotor
+  expect_in_block("      Frame Type = Stationary\n");
+  expect_in_block("          Option = Stationary Frame Total Pressure\n");
+  find_block("cfx/steady.ccl", "BOUNDARY: feed\n", "\n    END\n");
+  expect_in_block("          Option = Total Pressure\n");
+  assert_null(strstr(output, "Frame"));
   find_block("cfx/steady.ccl", "DOMAIN INTERFACE: ROTOR CHAMBER", "\n  END\n");
   expect_in_block("FRAME CHANGE:\n        Option = None\n");
   expect_in_block("PITCH CHANGE:\n        Option = None\n");
@@ -332,7 +340,7 @@ int main(void) {
       cmocka_unit_test(rough_walls_take_the_roughness),
       cmocka_unit_test(resolved_walls_take_k_omega),
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
-      cmocka_unit_test(zones_that_turn_together_meet_without_a_change_of_frame),
+      cmocka_unit_test(frames_are_told_where_zones_rotate),
       cmocka_unit_test(outlets_have_their_shares),
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
