@@ -241,8 +241,10 @@ done:
 // What steady and transient set-ups differ in beside turbulence and interfaces.
 static CwStatus set_time(const CwCase *table, int transient, CwValues *values) {
   CwStatus status = CW_OK;
+  const double turn = 2 * M_PI / table->operating_point.time_step_angle; // steps
+  CW_TRY(cw_values_set(values, "turn_steps", "%.0f", round(turn)));
   // The first time step after half of the ten turns.
-  CW_TRY(cw_values_set(values, "means_from", "%.0f", 1 + round(10 * M_PI / table->operating_point.time_step_angle)));
+  CW_TRY(cw_values_set(values, "means_from", "%.0f", 1 + round(5 * turn)));
   CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / table->operating_point.speed));
   CW_TRY(cw_values_set_file(values, "time", transient ? "cfx_parts/transient_time.ccl" : "cfx_parts/steady_time.ccl"));
   CW_TRY(set_file_if(transient, "transient_output", "cfx_parts/transient_output.ccl", values));

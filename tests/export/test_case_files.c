@@ -35,6 +35,19 @@ static void expect(const char *name, const char *words) {
   if (!strstr(output, words)) fail_msg("no '%s' in %s:\n%s", words, name, output);
 }
 
+// The block of `file` that begins with `head` and ends with `end`, in `output`.
+static void find_block(const char *file, const char *head, const char *end) {
+  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", test_folder, file), 0);
+  char *from = strstr(output, head), *to = from ? strstr(from, end) : NULL;
+  if (!to) fail_msg("no '%s' in %s:\n%s", head, file, output);
+  to[strlen(end)] = '\0';
+  memmove(output, from, strlen(from) + 1);
+}
+
+static void expect_in_block(const char *words) {
+  if (!strstr(output, words)) fail_msg("no '%s' in:\n%s", words, output);
+}
+
 static void the_paper_in_cfx(void **state) {
   export_with("");
   expect("cfx/steady.ccl", "Angular Velocity = 1450 [rev min^-1]");
@@ -45,6 +58,14 @@ static void the_paper_in_cfx(void **state) {
   expect("cfx/steady.ccl", "Location = suction_pipe\n");
   expect("cfx/transient.ccl", "Timesteps = 0.000114942529 [s]");      // 60/1450/360
   expect("cfx/transient.ccl", "      Start Iteration List = 1801\n"); // of 3600: behind five turns
+  static const char each_turn[] = "      OUTPUT FREQUENCY:\n        Option = Timestep Interval\n"
+                                  "        Timestep Interval = 360\n";
+  find_block("cfx/transient.ccl", "    BACKUP RESULTS: ", "\n    END\n");
+  expect_in_block("      Option = Standard\n");
+  expect_in_block(each_turn);
+  find_block("cfx/transient.ccl", "    TRANSIENT RESULTS: ", "\n    END\n");
+  expect_in_block("      Output Variables List = Pressure,Velocity\n");
+  expect_in_block(each_turn);
 }
 
 static void the_paper_in_code_saturne(void **state) {
@@ -130,19 +151,6 @@ static void resolved_walls_take_k_omega(void **state) {
   expect("openfoam/0/nut", "blade_pressure\n    {\n        type            nutUSpaldingWallFunction;");
   expect("openfoam/0/nut", "volute\n    {\n        type            nutkWallFunction;");
   expect("openfoam/les/constant/turbulenceProperties", "delta           vanDriest;");
-}
-
-// The block of `file` that begins with `head` and ends with `end`, in `output`.
-static void find_block(const char *file, const char *head, const char *end) {
-  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", test_folder, file), 0);
-  char *from = strstr(output, head), *to = from ? strstr(from, end) : NULL;
-  if (!to) fail_msg("no '%s' in %s:\n%s", head, file, output);
-  to[strlen(end)] = '\0';
-  memmove(output, from, strlen(from) + 1);
-}
-
-static void expect_in_block(const char *words) {
-  if (!strstr(output, words)) fail_msg("no '%s' in:\n%s", words, output);
 }
 
 // A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.
