@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/foam_zones.h"
 
+#include <limits.h>
 #include <stdio.h>
 
 // A patch that does not turn with a zone that rotates.
@@ -61,8 +62,39 @@ done:
   return status;
 }
 
+static int domain_at(const CwMesh *mesh, int interface, int side) {
+  return mesh->patches[mesh->interfaces[interface].patch[side]].domain;
+}
+
 static int rotates(const CwMesh *mesh, int interface, int side) {
-  return mesh->domains[mesh->patches[mesh->interfaces[interface].patch[side]].domain].rotating;
+  return mesh->domains[domain_at(mesh, interface, side)].rotating != 0;
+}
+
+// For each domain how many interfaces between domains at rest lie on the way to an outlet; CW_DOMAINS_MOST where none
+// leads there.
+static void count_to_outlet(const CwMesh *mesh, int count[CW_DOMAINS_MOST]) {
+  for (int d = 0; d < mesh->domain_count; ++d) count[d] = CW_DOMAINS_MOST;
+  for (int p = 0; p < mesh->patch_count; ++p)
+    if (mesh->patches[p].kind == CW_PATCH_OUTLET) count[mesh->patches[p].domain] = 0;
+  for (int pass = 0; pass < mesh->domain_count; ++pass)
+    for (int i = 0; i < mesh->interface_count; ++i)
+      for (int side = 0; side < 2 && !rotates(mesh, i, 0) && !rotates(mesh, i, 1); ++side) {
+        const int here = domain_at(mesh, i, side), there = domain_at(mesh, i, 1 - side);
+        if (count[here] > count[there] + 1) count[here] = count[there] + 1;
+      }
+}
+
+// The interface through which the flow leaves the rotor: of those where one side rotates the one that is nearest to an
+// outlet. Without any: their number.
+static int find_main(const CwMesh *mesh) {
+  int count[CW_DOMAINS_MOST], main = mesh->interface_count, least = INT_MAX;
+  count_to_outlet(mesh, count);
+  for (int i = 0; i < mesh->interface_count; ++i) {
+    if (rotates(mesh, i, 0) == rotates(mesh, i, 1)) continue;
+    const int from = count[domain_at(mesh, i, rotates(mesh, i, 0))]; // the side at rest
+    if (from < least) main = i, least = from;
+  }
+  return main;
 }
 
 static CwStatus add_flow(const char *function, const char *patch, int based, CwValues *values) {
@@ -72,9 +104,7 @@ static CwStatus add_flow(const char *function, const char *patch, int based, CwV
 
 static CwStatus set_interfaces(const CwMesh *mesh, int based, CwValues *values) {
   CwStatus status = CW_OK;
-  int main = 0, turned;
-  while (main < mesh->interface_count && rotates(mesh, main, 0) == rotates(mesh, main, 1)) ++main;
-  turned = main < mesh->interface_count && !rotates(mesh, main, 0);
+  const int main = find_main(mesh), turned = main < mesh->interface_count && !rotates(mesh, main, 0);
   CW_TRY(cw_values_start(values, "interface_flows"));
   for (int side = 0; side < 2; ++side) {
     const char *name =
