@@ -331,6 +331,27 @@ static void a_stopped_run_goes_on_where_all_parts_are_whole(void **state) {
   assert_int_equal(stage_shell(output, "cd '%s/run/export/openfoam' && test -e 10/U && test ! -e 20", test_folder), 0);
 }
 
+// A second run from iteration 0, whose reports OpenFOAM writes beside those of the first, and a third, without any yet.
+static void the_summary_is_of_the_last_report(void **state) {
+  static const char *const told[] = {"time or iteration    20\n", "head                 5.0000 m",
+                                     "torque         7.0000 N m",
+                                     "  hub                             2          4          8\n"};
+  export_with("");
+  assert_int_equal(
+      stage_shell(output,
+                  "cd '%s/run/export/openfoam' && for of in head/fieldValueDelta torque/moment yPlus/yPlus "
+                  "flowInlet/surfaceFieldValue flowOutlet/surfaceFieldValue flowRotorInterface/surfaceFieldValue "
+                  "flowStatorInterface/surfaceFieldValue; do at=postProcessing/${of%%/*} && mkdir -p $at/0 $at/20 && "
+                  "printf '# Time\\n10 (1 2 -3)\\n' > $at/0/${of#*/}.dat && touch -d '2 minutes ago' $at/0/*.dat && "
+                  "printf '# Time\\n20 (5 6 -7)\\n' > $at/0/${of#*/}_0.dat && touch -d '1 minute ago' $at/0/*_0.dat && "
+                  "echo '# Time' > $at/20/${of#*/}.dat || exit 1; done; "
+                  "printf '# Time\\n20 hub 2 8 4\\n' > postProcessing/yPlus/0/yPlus_0.dat && ./summary",
+                  test_folder),
+      0);
+  for (size_t i = 0; i < sizeof told / sizeof *told; ++i)
+    if (!strstr(output, told[i])) fail_msg("no '%s' in:\n%s", told[i], output);
+}
+
 static void large_meshes_take_all_cores(void **state) {
   assert_string_equal(cw_foam_usual_ranks(20000000), "1");
   assert_string_equal(cw_foam_usual_ranks(20000001), "$(nproc)");
@@ -353,6 +374,7 @@ int main(void) {
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
       cmocka_unit_test(a_stopped_run_goes_on_where_all_parts_are_whole),
+      cmocka_unit_test(the_summary_is_of_the_last_report),
       cmocka_unit_test(large_meshes_take_all_cores),
   };
   return cmocka_run_group_tests(tests, make_run, clear_test_folder);
