@@ -331,6 +331,30 @@ static void a_stopped_run_goes_on_where_all_parts_are_whole(void **state) {
   assert_int_equal(stage_shell(output, "cd '%s/run/export/openfoam' && test -e 10/U && test ! -e 20", test_folder), 0);
 }
 
+// A steady run, one in time from it by the case's own script, with a stand-in for the solver, and what another would
+// leave: nothing of them stays, in a mesh that is whole and in a divided one.
+static void a_clean_case_is_as_it_was_exported(void **state) {
+  static const char *const edits[] = {"", "$ a openfoam: {processors: 2}"};
+  for (int divided = 0; divided < 2; ++divided) {
+    export_with(edits[divided]);
+    int code = stage_shell(
+        output,
+        "rm -rf '%s/before' '%s/bin' && mkdir '%s/bin' && cd '%s/run/export/openfoam' && cp -a . '%s/before' && "
+        "printf '#!/bin/sh\\nmkdir -p postProcessing/head processor0/0.01 0.01 && touch 0.01/U\\n' > "
+        "'%s/bin/pimpleFoam' "
+        "&& chmod +x '%s/bin/pimpleFoam' && ln -s pimpleFoam '%s/bin/mpirun' && mkdir -p 100 processor0/100 "
+        "processor1/100 "
+        "postProcessing les/0.02 && touch log.simpleFoam les/log.pimpleFoam && "
+        "for at in . processor0 processor1; do printf 'internalField nonuniform\\nboundaryField\\n' > $at/100/U; done "
+        "&& "
+        "{ %s || ln -s ../../constant/polyMesh les/constant/polyMesh; } && { PATH='%s/bin':$PATH transient/Allrun; "
+        "grep -q nonuniform transient/%s0/U; } && ./Allclean && diff -r --no-dereference '%s/before' .",
+        test_folder, test_folder, test_folder, test_folder, test_folder, test_folder, test_folder, test_folder,
+        divided ? "true" : "false", test_folder, divided ? "processor1/" : "", test_folder);
+    if (code) fail_msg("%s", output);
+  }
+}
+
 // A second run from iteration 0, whose reports OpenFOAM writes beside those of the first, and a third, without any yet.
 static void the_summary_is_of_the_last_report(void **state) {
   static const char *const told[] = {"time or iteration    20\n", "head                 5.0000 m",
@@ -374,6 +398,7 @@ int main(void) {
       cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
       cmocka_unit_test(a_stopped_run_goes_on_where_all_parts_are_whole),
+      cmocka_unit_test(a_clean_case_is_as_it_was_exported),
       cmocka_unit_test(the_summary_is_of_the_last_report),
       cmocka_unit_test(large_meshes_take_all_cores),
   };
