@@ -7,6 +7,7 @@
 #include "export/cgns_file.h"
 #include "export/cgns_node.h"
 #include "export/cgns_sections.h"
+#include "export/patch_role.h"
 
 static CwStatus put_reference_state(hid_t base, const CwCase *table, double reference_length) {
   CwStatus status = CW_OK;
@@ -29,14 +30,17 @@ done:
   return status;
 }
 
-static CwStatus put_equations(hid_t base) {
+static CwStatus put_equations(hid_t base, CwTurbulenceModel model) {
   CwStatus status = CW_OK;
+  static const char *const models[] = {
+      [CW_K_EPSILON] = "TwoEquation_JonesLaunder", [CW_SST] = "TwoEquation_MenterSST", [CW_LAMINAR] = NULL};
   hid_t set = -1;
   const int three = 3;
   CW_TRY(cw_cgns_node(base, "FlowEquationSet", "FlowEquationSet_t", "MT", 0, NULL, NULL, &set));
   CW_TRY(cw_cgns_list(set, "EquationDimension", "\"int\"", "I4", 1, &three, NULL));
-  CW_TRY(cw_cgns_text(set, "GoverningEquations", "GoverningEquations_t", "NSTurbulent", NULL));
-  CW_TRY(cw_cgns_text(set, "TurbulenceModel", "TurbulenceModel_t", "TwoEquation_JonesLaunder", NULL));
+  CW_TRY(cw_cgns_text(set, "GoverningEquations", "GoverningEquations_t", models[model] ? "NSTurbulent" : "NSLaminar",
+                      NULL));
+  if (models[model]) CW_TRY(cw_cgns_text(set, "TurbulenceModel", "TurbulenceModel_t", models[model], NULL));
 done:
   if (set >= 0) H5Gclose(set);
   return status;
@@ -234,7 +238,7 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CW_TRY(cw_cgns_text(base, "SimulationType", "SimulationType_t", "NonTimeAccurate", NULL));
   CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
   CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, units, NULL));
-  CW_TRY(put_equations(base));
+  CW_TRY(put_equations(base, cw_turbulence_model(a->mesh)));
   CW_TRY(put_reference_state(base, table, a->mesh->flow.reference_length));
   CW_TRY(put_families(base, a->mesh));
   for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d, wide));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Reads pump.cgns back with the CGNS library, and checks what cgnscheck and the audit of the mesh itself
 // (tests/measure/cgns_audit.c, test_cgns_faults.c) do not: that the cells fill the solid, that each condition has its
-// family, and that the interface is complete and lies where it says.
+// family, that the interface is complete and lies where it says, and which equations the file names.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -225,12 +225,41 @@ static void rotation_and_units_are_there(void **state) {
   assert_true(mass == Kilogram && length == Meter && time == Second && angle == Radian);
 }
 
+// By the y+ that the walls were made for, as the set-ups of the solvers have it.
+static void the_equations_follow_from_the_walls(void **state) {
+  static const struct {
+    const char *y_plus;
+    GoverningEquationsType_t equations;
+    int found;
+    ModelType_t model;
+  } walls[] = {{"30.0", NSTurbulent, CG_OK, TwoEquation_JonesLaunder},
+               {"1.0", NSTurbulent, CG_OK, TwoEquation_MenterSST},
+               {"null", NSLaminar, CG_NODE_NOT_FOUND, ModelTypeNull}};
+  const char *run = in_test_folder("walls"), *path = in_test_folder("walls/export/pump.cgns");
+  assert_int_equal(stage_shell(output, "cp -r '%s/run' '%s'", test_folder, run), 0);
+  for (size_t i = 0; i < sizeof walls / sizeof *walls; ++i) {
+    GoverningEquationsType_t equations;
+    ModelType_t model;
+    int one;
+    assert_int_equal(stage_walls_set(run, NULL, walls[i].y_plus, output), 0);
+    assert_int_equal(stage_export(run, 1, output), 0);
+    assert_int_equal(cg_open(path, CG_MODE_READ, &one), CG_OK);
+    assert_int_equal(cg_goto(one, 1, "FlowEquationSet_t", 1, "end"), CG_OK);
+    assert_int_equal(cg_governing_read(&equations), CG_OK);
+    assert_int_equal(equations, walls[i].equations);
+    assert_int_equal(cg_model_read("TurbulenceModel_t", &model), walls[i].found);
+    if (walls[i].found == CG_OK) assert_int_equal(model, walls[i].model);
+    cg_close(one);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_are_sound_and_fill_the_solid),
       cmocka_unit_test(every_condition_has_its_family),
       cmocka_unit_test(the_interface_is_whole_and_lies_on_its_donors),
       cmocka_unit_test(rotation_and_units_are_there),
+      cmocka_unit_test(the_equations_follow_from_the_walls),
   };
   return cmocka_run_group_tests(tests, open_export, close_export);
 }
