@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // head.csv: head and torque by iteration, by the definitions of the OpenFOAM case.
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "bft_mem.h"
 #include "cs_defs.h"
@@ -85,17 +88,30 @@ static double torque(void) {
   return moment;
 }
 
+// head.csv behind the rows of the iterations that are done. What a run that was killed wrote after the checkpoint from
+// which this one goes on is cut off.
+static FILE *open_history(int done) {
+  char line[200];
+  long end = 0;
+  FILE *out = done > 0 ? fopen("head.csv", "r+") : NULL;
+  if (!out) out = fopen("head.csv", "w+");
+  if (!out) return NULL;
+  while (fgets(line, sizeof line, out) && strchr(line, '\n') && (end == 0 || atoi(line) <= done)) end = ftell(out);
+  if (fseek(out, end, SEEK_SET) != 0 || ftruncate(fileno(out), end) != 0) {
+    fclose(out);
+    return NULL;
+  }
+  if (end == 0) fprintf(out, "iteration,head_m,torque_n_m\n");
+  return out;
+}
+
 void cs_user_extra_operations(cs_domain_t *domain) {
   static FILE *out;
   const double head = (total_pressure(PUMP_OUTLET_GROUPS) - total_pressure(PUMP_INLETS)) / (PUMP_DENSITY * gravity);
   const double moment = torque();
   if (cs_glob_rank_id > 0) return;
-  if (!out) {
-    const int goes_on = domain->time_step->nt_prev > 0;
-    out = fopen("head.csv", goes_on ? "a" : "w");
-    if (!out) return;
-    if (!goes_on) fprintf(out, "iteration,head_m,torque_n_m\n");
-  }
+  if (!out) out = open_history(domain->time_step->nt_prev);
+  if (!out) return;
   fprintf(out, "%d,%.9g,%.9g\n", domain->time_step->nt_cur, head, moment);
   fflush(out);
 }
