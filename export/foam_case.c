@@ -42,6 +42,7 @@ typedef struct {
   double flow_rate; // m3/s
   int moving;       // the mesh turns in time
   int eddies;       // large eddy simulation: near walls the wall function of all y+
+  int laminar;      // no fields of turbulence
 } Start;
 
 static void put_wall_velocity(FILE *out, const CwModelPatch *patch, const Start *start) {
@@ -188,14 +189,34 @@ done:
   return status;
 }
 
+static CwStatus set_turbulence(CwTurbulenceModel model, CwValues *values) {
+  CwStatus status = CW_OK;
+  static const char *const names[] = {[CW_K_EPSILON] = "kEpsilon", [CW_SST] = "kOmegaSST", [CW_LAMINAR] = "none"};
+  static const char *const solved[] = {
+      [CW_K_EPSILON] = "U p k epsilon", [CW_SST] = "U p k omega", [CW_LAMINAR] = "U p"};
+  const int laminar = model == CW_LAMINAR;
+  CW_TRY(cw_values_set(values, "turbulence_model", "%s", names[model]));
+  CW_TRY(cw_values_set(values, "solved_fields", "%s", solved[model]));
+  CW_TRY(cw_values_set_file(values, "turbulence",
+                            laminar ? "openfoam_parts/turbulence_laminar" : "openfoam_parts/turbulence_ras"));
+  CW_TRY(cw_values_set(values, "turbulence_words", "%s%s", names[model],
+                       laminar
+                           ? ", the flow along all walls is laminar"
+                           : ". Wall functions in `0/nut` follow from the y+ targets and the roughness of the case"));
+  CW_TRY(cw_values_set(values, "eddies_words", "%s",
+                       laminar ? "" : ", and `les/` goes on from it with a large eddy simulation"));
+  CW_TRY(cw_values_set(values, "eddies_after", "%s",
+                       laminar ? "" : "`../les` goes on from it with a large eddy simulation.\n"));
+done:
+  return status;
+}
+
 static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
-  int resolved = cw_turbulence_model(a->mesh) != CW_K_EPSILON;
   CW_TRY(cw_case_values_set(table, values));
   CW_TRY(cw_values_set(values, "usual_ranks", "%s", cw_foam_usual_ranks(cw_assembly_cells(a))));
   CW_TRY(cw_patch_names_set(a, -1, cw_patch_turns, " ", "rotating_walls", values));
-  CW_TRY(cw_values_set(values, "turbulence_model", "%s", resolved ? "kOmegaSST" : "kEpsilon"));
-  CW_TRY(cw_values_set(values, "dissipation", "%s", resolved ? "omega" : "epsilon"));
+  CW_TRY(set_turbulence(cw_turbulence_model(a->mesh), values));
   CW_TRY(cw_values_set(values, "report_interval", "10"));
   CW_TRY(set_release(table, values));
   CW_TRY(cw_foam_zones_set(a, values));
@@ -247,8 +268,9 @@ static CwStatus write_fields(const char *folder, const char *part, const Start *
   CW_TRY(cw_path_set(&path, "%s/%s/0", folder, part));
   CW_TRY(cw_make_directory(path));
   for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) {
-    int transported = f == FIELD_K || f == FIELD_EPSILON || f == FIELD_OMEGA;
-    if (!start->eddies || !transported) CW_TRY(write_field(path, (Field)f, start));
+    const int transported = f == FIELD_K || f == FIELD_EPSILON || f == FIELD_OMEGA;
+    const int turbulent = transported || f == FIELD_NUT;
+    if (!(start->eddies && transported) && !(start->laminar && turbulent)) CW_TRY(write_field(path, (Field)f, start));
   }
 done:
   free(path);
@@ -262,6 +284,7 @@ static Start start_at(double flow, const CwCase *table, const CwAssembly *a) {
   Start start = {.table = table,
                  .assembly = a,
                  .flow_rate = flow,
+                 .laminar = cw_turbulence_model(a->mesh) == CW_LAMINAR,
                  .inlet = cw_turbulence(share * of->inlet_speed, of->inlet_diameter),
                  .inside = cw_turbulence(of->passage_speed, of->passage_width)};
   return start;
@@ -316,16 +339,17 @@ done:
   return status;
 }
 
-// Those of the steady case and of the two in time, which use its mesh.
-static CwStatus link_processors(const char *folder, int count) {
+// A case in the folder `name` of the steady one, which uses its mesh: the built-in files in `templates`, NULL where
+// they are there, and its fields.
+static CwStatus write_case_in_time(const char *folder, const char *name, const char *templates, const Start *start,
+                                   CwValues *values) {
   CwStatus status = CW_OK;
-  static const char *const parts[] = {"transient", "les"};
+  const int processors = start->table->output.foam_processors;
   char *path = NULL;
-  CW_TRY(link_parts(folder, count, NULL));
-  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
-    CW_TRY(cw_path_set(&path, "%s/%s", folder, parts[i]));
-    CW_TRY(link_parts(path, count, "../.."));
-  }
+  CW_TRY(cw_path_set(&path, "%s/%s", folder, name));
+  if (templates) CW_TRY(cw_templates_write(templates, path, set_head, values));
+  CW_TRY(write_fields(folder, name, start));
+  if (processors > 1) CW_TRY(link_parts(path, processors, "../.."));
 done:
   free(path);
   return status;
@@ -339,12 +363,12 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAss
   CW_TRY(set_eddy_values(table, a, &values));
   CW_TRY(cw_templates_write("openfoam", folder, set_head, &values));
   CW_TRY(write_fields(folder, ".", &start));
+  if (table->output.foam_processors > 1) CW_TRY(link_parts(folder, table->output.foam_processors, NULL));
   start.moving = 1;
-  CW_TRY(write_fields(folder, "transient", &start));
+  CW_TRY(write_case_in_time(folder, "transient", NULL, &start, &values));
   start.eddies = 1;
-  CW_TRY(write_fields(folder, "les", &start));
+  if (!start.laminar) CW_TRY(write_case_in_time(folder, "les", "openfoam_les", &start, &values));
   CW_TRY(write_points(folder, table, a));
-  if (table->output.foam_processors > 1) CW_TRY(link_processors(folder, table->output.foam_processors));
 done:
   cw_values_free(&values);
   return status;

@@ -66,11 +66,15 @@ static CwStatus set_numbers(const CwCase *table, const CwMesh *mesh, CwValues *v
   CwStatus status = CW_OK;
   const CwModelFlow *flow = &mesh->flow;
   const CwTurbulence inlet = cw_turbulence(flow->inlet_speed, flow->inlet_diameter);
+  static const char *const models[] = {
+      [CW_K_EPSILON] = "CS_TURB_K_EPSILON", [CW_SST] = "CS_TURB_K_OMEGA", [CW_LAMINAR] = "CS_TURB_NONE"};
+  const CwTurbulenceModel model = cw_turbulence_model(mesh);
   CW_TRY(cw_case_values_set(table, values));
-  CW_TRY(cw_values_set(values, "turbulence", "%s",
-                       cw_turbulence_model(mesh) != CW_K_EPSILON ? "CS_TURB_K_OMEGA" : "CS_TURB_K_EPSILON"));
-  // The length whose law has the velocity that OpenFOAM's rough wall function has: E / Cs = 9.8 / 0.5 in it.
-  CW_TRY(cw_values_set(values, "roughness_length", "%.9g", cw_wall_roughness(&table->walls) * 0.5 / 9.8));
+  CW_TRY(cw_values_set(values, "turbulence", "%s", models[model]));
+  // The length whose law has the velocity that OpenFOAM's rough wall function has: E / Cs = 9.8 / 0.5 in it. Laminar
+  // flow has none.
+  CW_TRY(cw_values_set(values, "roughness_length", "%.9g",
+                       model == CW_LAMINAR ? 0 : cw_wall_roughness(&table->walls) * 0.5 / 9.8));
   CW_TRY(cw_values_set(values, "passage_speed", "%.9g", flow->passage_speed));
   CW_TRY(cw_values_set(values, "passage_width", "%.9g", flow->passage_width));
   CW_TRY(cw_values_set(values, "inlet_k", "%.9g", inlet.k));

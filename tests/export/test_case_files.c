@@ -35,6 +35,27 @@ static void expect(const char *name, const char *words) {
   if (!strstr(output, words)) fail_msg("no '%s' in %s:\n%s", words, name, output);
 }
 
+// Where the flow along all walls is laminar no solver has a model of turbulence, a field of one or a wall function, and
+// there are no eddies to be simulated.
+static void laminar_walls_have_no_turbulence(void **state) {
+  char run[STAGE_PATH_SIZE + 10];
+  snprintf(run, sizeof run, "%s/run", test_folder);
+  assert_int_equal(stage_walls_set(run, NULL, "null", output), 0);
+  export_with("s/treatment: smooth/treatment: rough/; $ a export: {formats: [openfoam, code_saturne, fluent]}");
+  assert_int_equal(stage_walls_set(run, NULL, "30.0", output), 0);
+  expect("openfoam/constant/turbulenceProperties", "\nsimulationType  laminar;\n");
+  assert_null(strstr(output, "RAS"));
+  expect("openfoam/system/functions", "    fields          (U p);\n}\nleastPressure");
+  expect("openfoam/README.md", "- Turbulence: none, the flow along all walls is laminar.\n");
+  assert_null(strstr(output, "les/"));
+  assert_int_not_equal(stage_shell(output, "test -e '%s/export/openfoam/les'", run), 0);
+  stage_shell(output, "cd '%s/export/openfoam' && LC_ALL=C ls 0 transient/0 points/q0800/0", run);
+  assert_string_equal(output, "0:\nU\np\n\npoints/q0800/0:\nU\np\n\ntransient/0:\nU\np\n");
+  expect("code_saturne/SRC/pump.h", "#define PUMP_TURBULENCE CS_TURB_NONE\n");
+  expect("code_saturne/SRC/pump.h", "#define PUMP_ROUGHNESS 0 ");
+  expect("fluent/README.md", "- Turbulence: none, the flow is laminar.");
+}
+
 // The block of `file` that begins with `head` and ends with `end`, in `output`.
 static void find_block(const char *file, const char *head, const char *end) {
   assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", test_folder, file), 0);
@@ -392,6 +413,7 @@ int main(void) {
       cmocka_unit_test(each_point_of_the_curve_has_its_flow),
       cmocka_unit_test(rough_walls_take_the_roughness),
       cmocka_unit_test(resolved_walls_take_k_omega),
+      cmocka_unit_test(laminar_walls_have_no_turbulence),
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(frames_are_told_where_zones_rotate),
       cmocka_unit_test(outlets_have_their_shares),

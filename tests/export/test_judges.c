@@ -155,12 +155,60 @@ static void transient_run_starts_from_the_steady_one(void **state) {
   assert_true(number_after("\nhead ") > 3);
 }
 
+// Oil of 1000 cSt in the same pump: by the case's scripts, in time too, and by the stage `solve`.
+static void laminar_flow_is_solved_without_turbulence(void **state) {
+  SyntheticPump pump = synthetic_pump();
+  const char *run = in_test_folder("oil");
+  stage_need_program("simpleFoam");
+  assert_int_equal(synthetic_run_write(run, &pump), 0);
+  assert_int_equal(stage_walls_set(run, NULL, "null", output), 0);
+  assert_int_equal(stage_export(run, 1, output), 0);
+  int code =
+      stage_shell(output,
+                  "cd '%s/export/openfoam' && sed -i 's/1.004e-06/1e-3/' constant/transportProperties && "
+                  "sed -i 's/endTime  .*/endTime 20;/; s/writeInterval .*/writeInterval 20;/' system/controlDict && "
+                  "./Allrun && cat log.simpleFoam && ls 20",
+                  run);
+  if (code) fail_msg("%s", output);
+  assert_non_null(strstr(output, "Selecting laminar stress model Stokes"));
+  assert_null(strstr(output, "Solving for k"));
+  assert_null(strstr(output, "\nnut\n"));
+  assert_true(number_after("shaft torque") > 0);
+  assert_near(number_after("flow                 in"), 25.0 / 3600, 0.05 * 25 / 3600);
+  assert_non_null(strstr(output, "\n  blade_pressure ")); // its y+
+  code =
+      stage_shell(output,
+                  "cd '%s/export/openfoam/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
+                  "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' ../system/functions "
+                  "&& ./Allrun && cat log.pimpleFoam",
+                  run);
+  if (code) fail_msg("%s", output);
+  assert_non_null(strstr(output, "starts from iteration 20 of the steady run"));
+  assert_null(strstr(output, "Solving for k"));
+  code = stage_shell(output,
+                     "sed -i 's/Interval  *1;/Interval 10;/' '%s/export/openfoam/system/functions' && python3 -B "
+                     "'%s/pipeline/solve/solve.py' --case '%s/cases/paper/case.yaml' --run '%s' --ranks 1 --most 10 && "
+                     "cat '%s/solve/history.csv'",
+                     run, CUTWATER_SOURCE_DIR, CUTWATER_SOURCE_DIR, run, run);
+  if (code) fail_msg("%s", output);
+  double head, torque, residual[2];
+  const char *row = strstr(output, "\n10,");
+  if (!row || sscanf(row, "\n10,%lf,%lf,%lf,%lf", &head, &torque, &residual[0], &residual[1]) != 4)
+    fail_msg("%s", output);
+  assert_true(torque > 0 && residual[0] > 0 && residual[1] > 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cgnscheck_has_nothing_to_say),     cmocka_unit_test(checkmesh_finds_a_sound_mesh),
-      cmocka_unit_test(checkmesh_takes_pyramids),         cmocka_unit_test(interface_weights_are_about_one),
-      cmocka_unit_test(steady_run_starts_and_reports),    cmocka_unit_test(transient_run_starts_from_the_steady_one),
-      cmocka_unit_test(a_large_mesh_is_checked_in_parts), cmocka_unit_test(runs_in_time_differ_in_few_entries),
+      cmocka_unit_test(cgnscheck_has_nothing_to_say),
+      cmocka_unit_test(checkmesh_finds_a_sound_mesh),
+      cmocka_unit_test(checkmesh_takes_pyramids),
+      cmocka_unit_test(interface_weights_are_about_one),
+      cmocka_unit_test(steady_run_starts_and_reports),
+      cmocka_unit_test(transient_run_starts_from_the_steady_one),
+      cmocka_unit_test(a_large_mesh_is_checked_in_parts),
+      cmocka_unit_test(runs_in_time_differ_in_few_entries),
+      cmocka_unit_test(laminar_flow_is_solved_without_turbulence),
   };
   return cmocka_run_group_tests(tests, make_export, clear_test_folder);
 }

@@ -2,6 +2,7 @@
 """The code_saturne case before code_saturne: its preprocessor, its joining of the interface, its solver. From SETTLED
 iterations on its head is held against OpenFOAM's on the same mesh."""
 import csv
+import math
 import os
 import re
 import shutil
@@ -55,6 +56,23 @@ class CodeSaturne(unittest.TestCase):
         after = head.read_text()
         self.assertTrue(after.startswith(before))
         self.assertRegex(after[len(before):], rf"^{ITERATIONS + 1},[\d.]+,[\d.]+\n$")
+
+    @unittest.skipIf(ITERATIONS >= SETTLED, "takes long")
+    def test_4_laminar_flow_has_no_turbulence(self):
+        """Oil of 1000 cSt on the same mesh, as a case is written where the flow along all walls is laminar."""
+        for name in ("checkpoint", "restart"):
+            shutil.rmtree(self.case / name, ignore_errors=True)
+        numbers = self.case / "SRC/pump.h"
+        text = numbers.read_text()
+        for key, value in (("TURBULENCE", "CS_TURB_NONE"), ("KINEMATIC_VISCOSITY", "1e-3"), ("ITERATIONS", "3")):
+            text, found = re.subn(rf"PUMP_{key} \S+", f"PUMP_{key} {value}", text)
+            self.assertEqual(found, 1, key)
+        numbers.write_text(text)
+        said(self, ["./run", 1], self.case)
+        with open(self.case / "head.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["iteration"] for row in rows], ["1", "2", "3"])
+        self.assertTrue(all(math.isfinite(float(value)) for row in rows for value in row.values()), rows)
 
     def mesh_is_whole(self):
         """Every cell and every face of a wall has come along, the sides of the interface are gone but for slivers, and

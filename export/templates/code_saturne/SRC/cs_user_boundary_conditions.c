@@ -12,6 +12,7 @@
 #include "cs_parameters.h"
 #include "cs_selector.h"
 #include "cs_turbulence_bc.h"
+#include "cs_turbulence_model.h"
 #include "cs_prototypes.h"
 
 #include "pump.h"
@@ -54,7 +55,8 @@ static void set_flow(const Conditions *at, const char *group, double flow) {
     const cs_real_t *normal = cs_glob_mesh_quantities->b_face_normal + 3 * face;
     at->type[face] = CS_INLET;
     set_velocity(at, face, (double[3]){scale * normal[0], scale * normal[1], scale * normal[2]});
-    cs_turbulence_bc_inlet_k_eps(face, PUMP_INLET_K, PUMP_INLET_EPSILON, at->value);
+    if (PUMP_TURBULENCE != CS_TURB_NONE)
+      cs_turbulence_bc_inlet_k_eps(face, PUMP_INLET_K, PUMP_INLET_EPSILON, at->value);
   }
   BFT_FREE(faces);
 }

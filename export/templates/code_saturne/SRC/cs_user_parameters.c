@@ -68,7 +68,8 @@ void cs_user_parameters(cs_domain_t *domain) {
   cs_get_glob_space_disc()->imrgra = 1; // gradients by least squares
   set_steps(domain->time_step);
   set_scheme(CS_F_(vel), PUMP_SECOND_ORDER);
+  set_pressure();
+  if (PUMP_TURBULENCE == CS_TURB_NONE) return;
   set_scheme(CS_F_(k), 0);
   set_scheme(PUMP_TURBULENCE == CS_TURB_K_EPSILON ? CS_F_(eps) : CS_F_(omg), 0);
-  set_pressure();
 }
