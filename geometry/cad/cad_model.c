@@ -13,6 +13,8 @@ static const double LOOKS = 0.01;                // sine of the angle by which a
 
 typedef struct {
   double inlet_area, outlet_area, wheel_radius, interface_radius, interface_width;
+  double eye_area; // of all eyes
+  int inlets, eyes;
   double volute_radius; // mean of the spiral's walls
 } Sizes;
 
@@ -167,18 +169,10 @@ static void measure(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePa
   }
 }
 
-// A blade: its faces that hang together.
-typedef struct {
-  double radius, height[2], area;
-  int sides; // 1: it has faces that look the way the wheel turns, 2: others that look back
-} Blade;
-
-// Of each face of a blade the least of those that it hangs together with; -1 of others.
-static void join_blades(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches, int *first) {
-  for (int f = 0; f < survey->face_count; f++) {
-    const int blade = patches->patch[patches->of_face[f]].role == CW_ROLE_BLADE;
-    first[f] = blade && cad->domain[survey->face[f].part].rotating ? f : -1;
-  }
+// Joins faces by the edges between them. [in,out] first: of each face its number, then the least of its set; -1: it
+// takes no part. Returns how many sets there are.
+static int join(const CwSurvey *survey, int *first) {
+  int sets = 0;
   for (int changed = 1; changed;) {
     changed = 0;
     for (int e = 0; e < survey->edge_count; e++) {
@@ -188,7 +182,47 @@ static void join_blades(const CwCaseCad *cad, const CwSurvey *survey, const CwFa
       changed = 1;
     }
   }
+  for (int f = 0; f < survey->face_count; f++) sets += first[f] == f;
+  return sets;
 }
+
+// Whether water enters what rotates through a patch: from outside, or from what comes before the wheel.
+static int is_eye(const CwCaseCad *cad, const CwFacePatches *patches, int interface_count,
+                  const CwCadInterface *interfaces, int patch) {
+  if (!cad->domain[patches->patch[patch].part].rotating) return 0;
+  if (patches->patch[patch].kind == CW_PATCH_INLET) return 1;
+  for (int i = 0; i < interface_count; i++) {
+    const int other = beyond(&interfaces[i], patch), part = other < 0 ? -1 : patches->patch[other].part;
+    if (part >= 0 && !cad->domain[part].rotating && is_before(patches, part)) return 1;
+  }
+  return 0;
+}
+
+// Inlets, and the wheel's eyes; where these cannot be told the inlets stand for them.
+static CwStatus measure_eyes(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePatches *patches,
+                             int interface_count, const CwCadInterface *interfaces, Sizes *sizes) {
+  CwStatus status = CW_OK;
+  int *first = NULL;
+  CW_NEW(first, survey->face_count);
+  for (int f = 0; f < survey->face_count; f++)
+    first[f] = patches->patch[patches->of_face[f]].kind == CW_PATCH_INLET ? f : -1;
+  sizes->inlets = join(survey, first);
+  for (int f = 0; f < survey->face_count; f++) {
+    first[f] = is_eye(cad, patches, interface_count, interfaces, patches->of_face[f]) ? f : -1;
+    if (first[f] >= 0) sizes->eye_area += survey->face[f].area;
+  }
+  sizes->eyes = join(survey, first);
+  if (!sizes->eyes) sizes->eyes = sizes->inlets, sizes->eye_area = sizes->inlet_area;
+done:
+  free(first);
+  return status;
+}
+
+// A blade: its faces that hang together.
+typedef struct {
+  double radius, height[2], area;
+  int sides; // 1: it has faces that look the way the wheel turns, 2: others that look back
+} Blade;
 
 static void add_to_blade(const CwSurveyFace *face, Blade *blade) {
   const int begun = blade->area > 0;
@@ -208,7 +242,11 @@ static CwStatus count_at_outlet(const CwCaseCad *cad, const CwSurvey *survey, co
   Blade *blade = NULL;
   CW_NEW(first, survey->face_count);
   CW_NEW(blade, survey->face_count);
-  join_blades(cad, survey, patches, first);
+  for (int f = 0; f < survey->face_count; f++) {
+    const int is_blade = patches->patch[patches->of_face[f]].role == CW_ROLE_BLADE;
+    first[f] = is_blade && cad->domain[survey->face[f].part].rotating ? f : -1;
+  }
+  join(survey, first);
   for (int f = 0; f < survey->face_count; f++)
     if (first[f] >= 0) add_to_blade(&survey->face[f], &blade[first[f]]);
   *count = 0;
@@ -239,7 +277,8 @@ static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int 
   const double meridional = point->flow_rate / (2 * M_PI * r2 * width);
   const double swirl = fmin(CW_GRAVITY * point->head / (HYDRAULIC_EFFICIENCY * u2), 0.95 * u2);
   const double w2 = hypot(u2 - swirl, meridional), before = point->flow_rate / of->inlet_area;
-  const double eye = diameter(of->inlet_area), w1 = hypot(point->speed * eye / 2, before);
+  const double inlet = diameter(of->inlet_area / of->inlets), eye = diameter(of->eye_area / of->eyes);
+  const double w1 = hypot(point->speed * eye / 2, point->flow_rate / of->eye_area);
   const double pitch = 2 * M_PI * r2 / blades * fmin(1, meridional / w2); // at the outlet, across w2
   const double outlet = diameter(of->outlet_area), after = point->flow_rate / of->outlet_area;
   const double around = fmax(swirl * r2 / r3, after);
@@ -253,8 +292,8 @@ static CwWaterWay water_way(const CwOperatingPoint *point, const Sizes *of, int 
                       .volute_width = width,
                       .neck_width = width,
                       .suction_speed = before,
-                      .suction_diameter = eye,
-                      .suction_width = eye,
+                      .suction_diameter = inlet,
+                      .suction_width = inlet,
                       .throat_speed = throat,
                       .throat_diameter = diameter(point->flow_rate / throat),
                       .discharge_speed = after,
@@ -331,6 +370,7 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
   const CwCaseCad *cad = table->cad;
   Sizes sizes;
   measure(cad, survey, patches, interface_count, interfaces, &sizes);
+  CW_TRY(measure_eyes(cad, survey, patches, interface_count, interfaces, &sizes));
   CW_TRY(check(cad, &table->operating_point, patches, interface_count, &sizes));
   CwWallFlow flow[CW_ALONG_COUNT];
   int blades; // with splitters

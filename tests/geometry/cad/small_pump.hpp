@@ -37,8 +37,10 @@ inline TopoDS_Shape small_cylinder(double z, double radius, double height) {
   return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, z), gp::DZ()), radius, height).Shape();
 }
 
-inline TopoDS_Shape small_rotor() {
+// `eyes`: 2 for another inlet pipe, along +z.
+inline TopoDS_Shape small_rotor(int eyes = 1) {
   TopoDS_Shape water = BRepAlgoAPI_Fuse(small_cylinder(-5, 50, 10), small_cylinder(-60, 20, 55)).Shape();
+  if (eyes == 2) water = BRepAlgoAPI_Fuse(water, small_cylinder(5, 20, 55)).Shape();
   for (int k = 0; k < 6; k++) {
     gp_Trsf turn;
     turn.SetRotation(gp::OZ(), k * M_PI / 3);

@@ -81,6 +81,18 @@ static void speeds_follow_from_the_operating_point(void **) {
   assert_near(made.model.flow.reference_length, 2 * r2, 1e-6);
 }
 
+// Each of two eyes is as wide as its pipe, and takes half of the flow.
+static void each_eye_has_its_own_width(void **) {
+  Made made({{"rotor", small_rotor(2)}, {"stator", small_stator()}});
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  const double r2 = std::hypot(45, 1.5) * mm, u2 = 150 * r2, flow = 4. / 3600;
+  const double swirl = 9.80665 * 2 / (0.85 * u2), meridional = flow / (2 * M_PI * r2 * 10 * mm);
+  const double w2 = std::hypot(u2 - swirl, meridional), before = flow / 2 / (M_PI * 400 * mm * mm);
+  assert_near(made.patch("blade").flow.speed, (std::hypot(150 * 20 * mm, before) + w2) / 2, 1e-5);
+  assert_near(made.model.flow.inlet_speed, before, 1e-5);
+  assert_near(made.model.flow.inlet_diameter, 40 * mm, 1e-6);
+}
+
 // A shorter blade between each two: the passages stay six, and at the outlet they are half as wide.
 static void splitters_halve_the_pitch(void **) {
   TopoDS_Shape water = small_rotor();
@@ -230,6 +242,7 @@ static void pumps_that_cannot_be_are_told(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(speeds_follow_from_the_operating_point),
+                                     cmocka_unit_test(each_eye_has_its_own_width),
                                      cmocka_unit_test(splitters_halve_the_pitch),
                                      cmocka_unit_test(halves_of_a_wheel_have_their_own_blades),
                                      cmocka_unit_test(the_spiral_has_a_free_vortex),
