@@ -115,24 +115,23 @@ static int is_before(const CwFacePatches *patches, int part) {
   return before;
 }
 
-static CwAlong along_of(CwPatchGroup group, int before) {
-  if (group == CW_GROUP_BLADE || group == CW_GROUP_HUB_SHROUD) return CW_ALONG_BLADE;
-  if (group == CW_GROUP_VOLUTE && !before) return CW_ALONG_VOLUTE;
-  return before ? CW_ALONG_SUCTION : CW_ALONG_DISCHARGE;
+// Blades, hubs and shrouds of what stands still, such as guide wheels and side chambers, have the flow of a spiral.
+static CwAlong along_of(CwPatchGroup group, int rotating, int before) {
+  const int of_wheel = group == CW_GROUP_BLADE || group == CW_GROUP_HUB_SHROUD;
+  if (of_wheel && rotating) return CW_ALONG_BLADE;
+  if (before) return CW_ALONG_SUCTION;
+  return of_wheel || group == CW_GROUP_VOLUTE ? CW_ALONG_VOLUTE : CW_ALONG_DISCHARGE;
 }
 
-// By what the case says of its walls, else by its name, else by form and place; what turns or is monitored by its name.
+// Its group by what the case says of its walls, else by its name, else by form and place; what turns or is monitored by
+// its name.
 static CwWallName wall_of(const CwCaseCad *cad, const CwFacePatches *patches, const CwFacePatch *of) {
   const CwWallName *name = cw_wall_name(of->name);
-  const int before = is_before(patches, of->part);
+  const int rotating = cad->domain[of->part].rotating, own = name && !has_walls(cad, of);
   CwWallName wall = name ? *name : (CwWallName){.turns = -1};
-  if (!name || has_walls(cad, of)) {
-    wall.group = wall.size = group_of(cad, of);
-    wall.along = along_of(wall.group, before);
-  } else if ((wall.along == CW_ALONG_BLADE || wall.along == CW_ALONG_TRAILING_EDGE) &&
-             !cad->domain[of->part].rotating) {
-    wall.along = along_of(CW_GROUP_VOLUTE, before); // a guide wheel's
-  }
+  if (!own) wall.group = wall.size = group_of(cad, of);
+  const int of_wheel = wall.group == CW_GROUP_BLADE || wall.group == CW_GROUP_HUB_SHROUD;
+  if (!own || (of_wheel && !rotating)) wall.along = along_of(wall.group, rotating, is_before(patches, of->part));
   return wall;
 }
 
@@ -148,7 +147,8 @@ static void measure(const CwCaseCad *cad, const CwSurvey *survey, const CwFacePa
     if (patch->kind == CW_PATCH_OUTLET) sizes->outlet_area += face->area;
     if (rotating) widest = fmax(widest, face->radius[1]);
     if (rotating && patch->role == CW_ROLE_BLADE) blade_radius = fmax(blade_radius, face->radius[1]);
-    if (patch->kind == CW_PATCH_WALL && wall_of(cad, patches, patch).along == CW_ALONG_VOLUTE) {
+    const CwWallName wall = wall_of(cad, patches, patch);
+    if (patch->kind == CW_PATCH_WALL && wall.along == CW_ALONG_VOLUTE && wall.group == CW_GROUP_VOLUTE) {
       volute_area += face->area;
       volute_moment += face->area * face->mean_radius;
     }

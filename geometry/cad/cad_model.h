@@ -5,6 +5,7 @@
 // Speeds: at the wheel the mean of w1 and w2, with u2 at the wheel's radius, Q over the area of its interface, and the
 // swirl that the head needs (Euler, at a hydraulic efficiency of 0.85), and w1 at the mean eye of those through which
 // water enters the wheel; downstream of it the swirl at the interface; in pipes the flow over the area of the opening.
+// Blades, hubs and shrouds of what stands still have the speed of its other walls, of guide wheels as of side chambers.
 // Between two blades the pitch at the outlet counts, with splitters.
 #ifndef CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
 #define CUTWATER_GEOMETRY_CAD_CAD_MODEL_H

@@ -184,6 +184,23 @@ static void names_are_those_of_generated_walls(void **) {
   assert_int_equal(patch.monitored, 0);
 }
 
+// A side of the casing as a wall of the wheel's kind, by name or by `walls`: its group is that, its flow the spiral's.
+static void blades_that_stand_still_have_the_flow_of_a_spiral(void **) {
+  double point[][3] = {{-65 * mm, 0, 8 * mm}};
+  for (const char *name : {"blade_of_guide", "side"}) {
+    Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+    CwCadPatch rule = back_as(name);
+    rule.near = {1, point};
+    if (!strcmp(name, "side")) rule.walls = CW_CAD_WALLS_BLADE;
+    made.cad.patch = &rule;
+    made.cad.patch_count = 1;
+    if (made.make()) fail_msg("%s", cw_fail_message());
+    assert_int_equal(made.patch(name).group, CW_GROUP_BLADE);
+    assert_near(made.patch(name).flow.speed, made.patch("stator_wall").flow.speed, 0);
+    assert_true(std::fabs(made.patch(name).flow.speed - made.patch("blade").flow.speed) > 0.1);
+  }
+}
+
 // One side of an interface as two patches, the greater above or below.
 static void interfaces_of_three_patches_are_told(void **) {
   for (const double y : {3, 7}) {
@@ -248,6 +265,7 @@ int main() {
                                      cmocka_unit_test(the_spiral_has_a_free_vortex),
                                      cmocka_unit_test(rules_go_before),
                                      cmocka_unit_test(names_are_those_of_generated_walls),
+                                     cmocka_unit_test(blades_that_stand_still_have_the_flow_of_a_spiral),
                                      cmocka_unit_test(interfaces_of_three_patches_are_told),
                                      cmocka_unit_test(outlets_share_the_flow),
                                      cmocka_unit_test(pumps_that_cannot_be_are_told)};
