@@ -12,6 +12,7 @@ static const double END = 1e-6;               // of the size: how far the part m
 // Of the hydraulic diameter: what is shorter behind a plane is no pipe. Side chambers of wheels have 0.03 to 0.06
 // (J. F. Guelich, Centrifugal Pumps, section 9.1).
 static const double STUB = 0.1;
+static const double ONE_SIDED = 0.5; // of the area of a wheel's inlets: what more looks one way than the other
 enum { BLADES_MOST = 64 };
 
 // Whether all of the face's part lies on one side of its plane.
@@ -107,33 +108,55 @@ static int fold_of(const CwSurvey *survey, int face) {
   return 0;
 }
 
-// Along the axis from what rotates to its inlet: -1 or +1.
-static double suction_side(const CwSurvey *survey, const CwFaceRole *role, int part) {
-  double inlet = 0, low = INFINITY, high = -INFINITY;
+// From which side along the axis the water comes to what rotates: -1 or +1 for all of it; 0: from both, to its halves
+// below and above `middle`.
+typedef struct {
+  double side, middle;
+} Suction;
+
+// By the inlets of the part; where it has none by its flat interfaces, else by the end that lies farther off.
+static Suction suction_of(const CwSurvey *survey, const CwFaceRole *role, int part) {
+  double sum[2] = {0}, area[2] = {0}; // of inlets, of flat interfaces
+  double low = INFINITY, high = -INFINITY, width = 0, moment = 0;
   for (int f = 0; f < survey->face_count; f++) {
     const CwSurveyFace *face = &survey->face[f];
+    const int flat = role[f] == CW_ROLE_CONTACT && face->form == CW_FORM_PLANE;
     if (face->part != part) continue;
     low = fmin(low, face->height[0]);
     high = fmax(high, face->height[1]);
-    if (role[f] == CW_ROLE_INLET || (role[f] == CW_ROLE_CONTACT && face->form == CW_FORM_PLANE))
-      inlet += face->normal[2];
+    if (role[f] == CW_ROLE_INLET || flat) {
+      sum[flat] += face->area * face->normal[2];
+      area[flat] += face->area;
+    } else if (role[f] == CW_ROLE_CONTACT) { // the wheel's outlet
+      width += face->area;
+      moment += face->area * face->centre[2];
+    }
   }
-  if (inlet != 0) return inlet < 0 ? -1 : 1;
-  return fabs(low) >= fabs(high) ? -1 : 1;
+  Suction suction = {0, width > 0 ? moment / width : (low + high) / 2};
+  const int by = area[0] == 0;
+  if (area[by] == 0)
+    suction.side = fabs(low) >= fabs(high) - ALIKE * (high - low) ? -1 : 1;
+  else if (fabs(sum[by]) > ONE_SIDED * area[by])
+    suction.side = sum[by] < 0 ? -1 : 1;
+  return suction;
 }
 
-// The hub has the water outside of it or before it, the shroud inside or behind.
-static CwFaceRole wheel_role(const CwSurvey *survey, const CwSurveyFace *face, double suction) {
-  double outward = 0;
+// The hub has the water outside of it or before it, the shroud inside or behind. What is neither, such as a plane in
+// the middle of two eyes, counts as hub.
+static CwFaceRole wheel_role(const CwSurvey *survey, const CwSurveyFace *face, const Suction *suction) {
+  double outward = 0, all = 0;
   for (int t = face->first_triangle; t < face->first_triangle + face->triangle_count; t++) {
     const double *a = survey->point[survey->triangle[t][0]], *b = survey->point[survey->triangle[t][1]],
                  *c = survey->point[survey->triangle[t][2]];
     double n[3];
     cw_normal(a, b, c, n);
     const double x = a[0] + b[0] + c[0], y = a[1] + b[1] + c[1], r = hypot(x, y);
-    outward += (r > 0 ? (n[0] * x + n[1] * y) / r : 0) + suction * n[2];
+    const double above = (a[2] + b[2] + c[2]) / 3 - suction->middle;
+    const double half = fabs(above) <= END * survey->size ? 0 : above < 0 ? -1 : 1;
+    outward += (r > 0 ? (n[0] * x + n[1] * y) / r : 0) + (suction->side != 0 ? suction->side : half) * n[2];
+    all += cw_norm(n);
   }
-  return outward > 0 ? CW_ROLE_SHROUD : CW_ROLE_HUB;
+  return outward > END * all ? CW_ROLE_SHROUD : CW_ROLE_HUB;
 }
 
 // Round walls beside an opening, all along it.
@@ -189,7 +212,8 @@ CwStatus cw_proposal_make(const CwSurvey *survey, const CwContact *contact, cons
     if (!rotating[face->part]) {
       if (is_pipe(survey, role, f)) role[f] = CW_ROLE_PIPE;
     } else if (face->turned) {
-      role[f] = wheel_role(survey, face, suction_side(survey, role, face->part));
+      const Suction suction = suction_of(survey, role, face->part);
+      role[f] = wheel_role(survey, face, &suction);
     } else if ((fold[f] = fold_of(survey, f)) > 1) {
       role[f] = CW_ROLE_BLADE;
     }

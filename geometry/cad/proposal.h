@@ -7,7 +7,8 @@
 //   one of z like faces, a z-th of a turn apart, in what rotates:                            blade
 //   what runs straight away from an inlet or outlet, round an axis of its own:               pipe
 //
-// All others are walls, and so are rings of a casing that go round the wheel. A proposal is told as one.
+// Hub and shroud are told apart by the side that the water comes from; with two eyes each half of the wheel has its
+// own. All others are walls, and so are rings of a casing that go round the wheel. A proposal is told as one.
 #ifndef CUTWATER_GEOMETRY_CAD_PROPOSAL_H
 #define CUTWATER_GEOMETRY_CAD_PROPOSAL_H
 

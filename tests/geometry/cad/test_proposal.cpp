@@ -36,6 +36,20 @@ static void the_wheel_has_hub_shroud_and_blades(void **) {
   assert_int_equal(made.count[CW_ROLE_PIPE], 4);
 }
 
+// Water along a shaft from both sides: the shaft is hub, all else shroud, also where one pipe is longer.
+static void both_halves_of_a_wheel_have_a_shroud(void **) {
+  for (const double top : {60, 140}) {
+    const TopoDS_Shape lower = BRepAlgoAPI_Fuse(small_cylinder(-5, 50, 10), small_cylinder(-60, 20, 55)).Shape(),
+                       water = BRepAlgoAPI_Fuse(lower, small_cylinder(5, 20, top - 5)).Shape();
+    SmallParts small(
+        {{"rotor", BRepAlgoAPI_Cut(water, small_cylinder(-61, 8, top + 62)).Shape()}, {"stator", small_stator()}});
+    const Proposed made = propose(small);
+    assert_int_equal(made.count[CW_ROLE_INLET], 2);
+    assert_near(made.area[CW_ROLE_HUB], 2 * M_PI * 8 * (60 + top), 1);
+    assert_near(made.area[CW_ROLE_SHROUD], 2 * M_PI * (2500 - 400) + 2 * M_PI * 20 * (50 + top), 1);
+  }
+}
+
 // Without its blades a wheel has one passage.
 static void a_disc_has_no_passages(void **) {
   SmallParts small({{"rotor", BRepAlgoAPI_Fuse(small_cylinder(-5, 50, 10), small_cylinder(-60, 20, 55)).Shape()}});
@@ -95,6 +109,7 @@ static void a_casing_round_the_wheel_has_side_walls(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_wheel_has_hub_shroud_and_blades),
+                                     cmocka_unit_test(both_halves_of_a_wheel_have_a_shroud),
                                      cmocka_unit_test(a_disc_has_no_passages),
                                      cmocka_unit_test(a_missing_blade_is_seen),
                                      cmocka_unit_test(side_chambers_have_no_opening),
