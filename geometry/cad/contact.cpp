@@ -14,7 +14,7 @@
 
 namespace {
 
-const double NEAR = 1e-3;   // of the size: a gap up to it is meant to be none
+const double NEAR = 0.2;    // of the model unit, of which the wheel has 128 to 256: a gap up to it is meant to be none
 const double MOST = 0.5;    // of a face's points: it can be one part alone that so many touch
 const double FACING = -0.7; // cosine of the normals of faces that face one another, by their triangles
 
@@ -53,11 +53,12 @@ struct Seen {
 };
 
 // Looks from a point at one other part.
-CwStatus look_from(const CwSurvey &survey, const CwSurveySample &from, int part, double tolerance, Seen &seen) {
+CwStatus look_from(const CwSurvey &survey, const CwSurveySample &from, int part, double tolerance, double near,
+                   Seen &seen) {
   double distance;
   int other;
   const double *at = from.at;
-  const CwStatus status = cw_survey_nearest(&survey, part, at, NEAR * survey.size, &other, &distance, nullptr);
+  const CwStatus status = cw_survey_nearest(&survey, part, at, near, &other, &distance, nullptr);
   if (status != CW_OK) return status;
   seen.looked++;
   if (other < 0 || !faces(survey, from.triangle, other, at)) return CW_OK;
@@ -71,11 +72,11 @@ CwStatus look_from(const CwSurvey &survey, const CwSurveySample &from, int part,
   return CW_OK;
 }
 
-CwStatus look(const CwSurvey &survey, int face, int part, double tolerance, Seen &seen) {
+CwStatus look(const CwSurvey &survey, int face, int part, double tolerance, double near, Seen &seen) {
   CwStatus status = CW_OK;
   const CwSurveyFace &of = survey.face[face];
   for (int i = of.first_sample; i < of.first_sample + of.sample_count; i++)
-    CW_TRY(look_from(survey, survey.sample[i], part, tolerance, seen));
+    CW_TRY(look_from(survey, survey.sample[i], part, tolerance, near, seen));
 done:
   return status;
 }
@@ -134,20 +135,22 @@ CwStatus cut_part(const std::vector<TopoDS_Shape> &tools, double tolerance, CwCa
 CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
                          double tolerance, CwContact *contact) {
   std::vector<std::map<int, int>> others(survey->face_count);
+  const double near = std::max(NEAR * parts->unit, 2 * tolerance);
   for (int f = 0; f < survey->face_count; f++) {
     contact[f] = {-1, 0, -1};
     for (int p = 0; p < (int)parts->part.size(); p++) {
       const int own = survey->face[f].part;
       if (p == own) continue;
       Seen seen;
-      const CwStatus status = look(*survey, f, p, tolerance, seen);
+      const CwStatus status = look(*survey, f, p, tolerance, near, seen);
       if (status != CW_OK) return status;
       if (!seen.touching && seen.near == seen.looked && seen.at)
         return CW_FAIL(CW_ERR_GEOMETRY,
                        "cad.domains: between %s and %s is a gap or an overlap of %.4g mm, %s; "
-                       "allowed: at the most cad.tolerance_mm, %.3g; draw the interface once and use it for both",
+                       "allowed: at the most cad.tolerance_mm, %.3g; draw the interface once and use it for both; or "
+                       "metal thicker than %.3g mm",
                        cad->domain[own].name, cad->domain[p].name, 1e3 * seen.gap, place_of(seen.at, *frame).c_str(),
-                       1e3 * tolerance);
+                       1e3 * tolerance, 1e3 * near);
       if (!seen.touching) continue;
       const double share = (double)seen.touching / seen.looked;
       if (std::min(contact[f].share, share) > MOST)

@@ -18,8 +18,8 @@ typedef struct {
 } CwContact;
 
 // One contact for each face of the survey; `contact` holds face_count of them. `tolerance`: greatest distance, m.
-// CW_ERR_GEOMETRY where a face touches two parts, or runs along one at a gap that is greater, but so small that it must
-// be meant to touch: with its size and place in the file.
+// CW_ERR_GEOMETRY where a face touches two parts, or runs along one at a gap that is greater, but for the wheel's size
+// so small that it must be meant to touch: with its size and place in the file.
 CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
                          double tolerance, CwContact *contact);
 

@@ -48,6 +48,17 @@ static void gaps_are_told_with_their_size(void **) {
   SmallParts small({{"a", small_box(0, 0, 0, 100, 100, 100)}, {"b", small_box(100.05, 0, 0, 50, 100, 100)}});
   assert_int_equal(small.look(), CW_ERR_GEOMETRY);
   assert_non_null(strstr(cw_fail_message(), "between a and b is a gap or an overlap of 0.05 mm, at (100.000"));
+  assert_non_null(strstr(cw_fail_message(), "or metal thicker than 0.2 mm"));
+}
+
+// A plate of 0.5 mm beside a pipe of 1 m is no gap: the wheel's size counts, not that of all.
+static void thin_metal_is_no_gap(void **) {
+  double share;
+  SmallParts small({{"a", small_box(0, 0, 0, 10, 10, 10)},
+                    {"b", small_box(10.5, 0, 0, 10, 10, 10)},
+                    {"pipe", small_box(0, 0, 50, 1000, 10, 10)}});
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  for (int part = 0; part < 3; part++) assert_int_equal(touching(small, part, &share), 0);
 }
 
 // Two domains that overlap, beside a third: its face is told by its place in the file.
@@ -93,6 +104,6 @@ int main() {
       cmocka_unit_test(equal_faces_touch_wholly),      cmocka_unit_test(faces_that_touch_in_part_are_cut),
       cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(faces_that_touch_two_parts_are_told),
       cmocka_unit_test(far_parts_do_not_touch),        cmocka_unit_test(edges_alone_do_not_touch),
-      cmocka_unit_test(thin_rings_touch_wholly)};
+      cmocka_unit_test(thin_rings_touch_wholly),       cmocka_unit_test(thin_metal_is_no_gap)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
