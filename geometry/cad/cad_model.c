@@ -10,6 +10,8 @@ static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medi
 static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
 static const double REACHES = 0.99;              // of the wheel's radius: a blade that ends at its outlet
 static const double LOOKS = 0.01;                // sine of the angle by which a side of a blade leaves the meridian
+static const double TURN = 2.399963229728653;    // rad, the golden angle: no number of passages comes to itself by it
+enum { TURNS = 3 };
 
 typedef struct {
   double inlet_area, outlet_area, wheel_radius, interface_radius, interface_width;
@@ -18,16 +20,39 @@ typedef struct {
   double volute_radius; // mean of the spiral's walls
 } Sizes;
 
-static CwStatus check_turned(const CwCaseCad *cad, const CwSurvey *survey, int face, const CwContact *contact) {
+// Whether the points of a face still lie on faces when they are turned about the axis.
+static CwStatus stays_when_turned(const CwSurvey *survey, int face, double tolerance, int *stays) {
+  CwStatus status = CW_OK;
+  const CwSurveyFace *of = &survey->face[face];
+  *stays = 1;
+  for (int i = of->first_sample; i < of->first_sample + of->sample_count && *stays; i++)
+    for (int k = 1; k <= TURNS && *stays; k++) {
+      const double *x = survey->sample[i].at, c = cos(k * TURN), s = sin(k * TURN);
+      const double turned[3] = {c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]};
+      double distance;
+      int nearest;
+      CW_TRY(cw_survey_nearest(survey, -1, turned, 2 * tolerance, &nearest, &distance, NULL));
+      *stays = nearest >= 0 && distance <= tolerance;
+    }
+done:
+  return status;
+}
+
+// Exact surfaces are told by their normals, splines only by their points.
+static CwStatus check_turned(const CwCaseCad *cad, const CwSurvey *survey, int face, const CwContact *contact,
+                             double tolerance) {
   CwStatus status = CW_OK;
   const CwSurveyFace *of = &survey->face[face];
   const CwCadDomain *own = &cad->domain[of->part], *other = &cad->domain[contact[face].part];
+  int stays;
+  if (of->turned || own->rotating == other->rotating) goto done;
+  CW_TRY(stays_when_turned(survey, face, tolerance, &stays));
   CW_REQUIRE(
-      of->turned || own->rotating == other->rotating, CW_ERR_GEOMETRY,
+      stays, CW_ERR_GEOMETRY,
       "cad.axis: the interface between %s and %s is no surface of revolution about the axis (face %d of %s, at "
-      "radius %.4g to %.4g mm); allowed: cylinders, cones, planes across it and the like; does the axis run through "
-      "the wheel?",
-      own->name, other->name, face + 1, own->name, 1e3 * of->radius[0], 1e3 * of->radius[1]);
+      "radius %.4g to %.4g mm) within cad.tolerance_mm, %.3g; allowed: cylinders, cones, planes across it and the "
+      "like; does the axis run through the wheel?",
+      own->name, other->name, face + 1, own->name, 1e3 * of->radius[0], 1e3 * of->radius[1], 1e3 * tolerance);
 done:
   return status;
 }
@@ -57,7 +82,8 @@ static int beyond(const CwCadInterface *between, int patch) {
 }
 
 CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, const CwContact *contact,
-                                const CwFacePatches *patches, int *count, CwCadInterface **interfaces) {
+                                const CwFacePatches *patches, double tolerance, int *count,
+                                CwCadInterface **interfaces) {
   CwStatus status = CW_OK;
   CwCadInterface *made = NULL;
   *count = 0;
@@ -65,7 +91,7 @@ CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, co
   for (int f = 0; f < survey->face_count; f++) {
     if (contact[f].part < 0) continue;
     const int own = patches->of_face[f], other = patches->of_face[contact[f].other];
-    CW_TRY(check_turned(cad, survey, f, contact));
+    CW_TRY(check_turned(cad, survey, f, contact, tolerance));
     int i = 0;
     while (i < *count && beyond(&made[i], own) < 0 && beyond(&made[i], other) < 0) i++;
     if (i == *count) made[(*count)++] = (CwCadInterface){.patch = {own, other}};

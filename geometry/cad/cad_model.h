@@ -26,9 +26,10 @@ typedef struct {
 } CwCadInterface;
 
 // Pairs of patches that touch; *interfaces is the caller's to free. CW_ERR_GEOMETRY where a patch touches several,
-// areas differ, or one beside a part that rotates is no surface of revolution about the axis.
+// areas differ, or one beside a part that rotates is no surface of revolution about the axis within `tolerance`, m.
 CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, const CwContact *contact,
-                                const CwFacePatches *patches, int *count, CwCadInterface **interfaces);
+                                const CwFacePatches *patches, double tolerance, int *count,
+                                CwCadInterface **interfaces);
 
 // The model of unit `unit`, m. Free with cw_model_free(), also after a failure; zeroed `model` on entry. CW_ERR_INPUT
 // where the pump has no inlet, no outlet, no interface of its wheel, or parts that no water leads to.

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The model of the small pump: speeds from the operating point by hand, groups, what turns, shares of the outlets; and
 // what is refused.
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
 
 #include "cad/small_parts.hpp"
 
@@ -42,7 +49,7 @@ struct Made : SmallParts {
     role = (CwFaceRole *)calloc(survey.face_count, sizeof *role);
     CW_TRY(cw_proposal_make(&survey, contact, rotating, role, &blades));
     CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, &patches));
-    CW_TRY(cw_cad_interfaces_make(&cad, &survey, contact, &patches, &interface_count, &interfaces));
+    CW_TRY(cw_cad_interfaces_make(&cad, &survey, contact, &patches, small_tolerance, &interface_count, &interfaces));
     CW_TRY(cw_cad_model_make(&table, &survey, &patches, interface_count, interfaces, blades, 1e-3, &model));
   done:
     return status;
@@ -237,6 +244,44 @@ static void outlets_share_the_flow(void **) {
   assert_near(made.patch("drain").flow_share, drain / (pipe + drain), 1e-9);
 }
 
+// A disc of the wheel's width whose rim is a spline through 24 points of radius 50 and a wave on it.
+static TopoDS_Shape spline_disc(double wave) {
+  const int count = 24;
+  const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, count);
+  for (int i = 0; i < count; i++) {
+    const double angle = 2 * M_PI * i / count, r = 50 + wave * std::cos(5 * angle);
+    points->SetValue(i + 1, gp_Pnt(r * std::cos(angle), r * std::sin(angle), -5));
+  }
+  GeomAPI_Interpolate spline(points, Standard_True, 1e-9);
+  spline.Perform();
+  const TopoDS_Edge rim = BRepBuilderAPI_MakeEdge(spline.Curve()).Edge();
+  const TopoDS_Face base = BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(rim).Wire()).Face();
+  return BRepPrimAPI_MakePrism(base, gp_Vec(0, 0, 10)).Shape();
+}
+
+// Normals of a spline waver by more than those of a cylinder, its points by less than 0.001 mm.
+static void interfaces_may_be_splines(void **) {
+  for (const double wave : {0.0, 0.05}) {
+    const TopoDS_Shape disc = spline_disc(wave), pipe = small_box(0, 55, -5, 150, 20, 10),
+                       around = BRepAlgoAPI_Fuse(small_cylinder(-5, 80, 10), pipe).Shape();
+    Made made({{"rotor", BRepAlgoAPI_Fuse(disc, small_cylinder(-60, 20, 55)).Shape()},
+               {"stator", BRepAlgoAPI_Cut(around, disc).Shape()}});
+    const CwStatus status = made.make();
+    int touching = 0;
+    for (int f = 0; f < made.survey.face_count; f++) {
+      if (made.contact[f].part < 0) continue;
+      touching++;
+      assert_false(made.survey.face[f].turned);
+    }
+    assert_int_equal(touching, 2);
+    if (wave == 0 && status) fail_msg("%s", cw_fail_message());
+    if (wave == 0) continue;
+    assert_int_equal(status, CW_ERR_GEOMETRY);
+    assert_non_null(strstr(cw_fail_message(), "is no surface of revolution about the axis"));
+    assert_non_null(strstr(cw_fail_message(), "within cad.tolerance_mm, 0.01"));
+  }
+}
+
 static void pumps_that_cannot_be_are_told(void **) {
   Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
   both.cad.domain[1].rotating = both.rotating[1] = 1;
@@ -268,6 +313,7 @@ int main() {
                                      cmocka_unit_test(blades_that_stand_still_have_the_flow_of_a_spiral),
                                      cmocka_unit_test(interfaces_of_three_patches_are_told),
                                      cmocka_unit_test(outlets_share_the_flow),
+                                     cmocka_unit_test(interfaces_may_be_splines),
                                      cmocka_unit_test(pumps_that_cannot_be_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
