@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "geometry/wall_flow.h"
+#include "pipeline/vec.h"
 
 static const double HYDRAULIC_EFFICIENCY = 0.85; // Guelich, table 3.9, for medium pumps
 static const double SAME_AREA = 0.02;            // of the greater: sides of an interface, as triangulated and cut
@@ -57,16 +58,32 @@ done:
   return status;
 }
 
-// What both sides of an interface lie on.
-static void set_surface(const CwSurvey *survey, const CwFacePatches *patches, CwCadInterface *between) {
+static int lies_in_plane(const CwSurvey *survey, const CwSurveyFace *face, const CwSurveyFace *plane,
+                         double tolerance) {
+  for (int t = face->first_triangle; t < face->first_triangle + face->triangle_count; t++)
+    for (int k = 0; k < 3; k++) {
+      double way[3];
+      cw_sub(survey->point[survey->triangle[t][k]], plane->at, way);
+      if (fabs(cw_dot(plane->normal, way)) > 2 * tolerance) return 0;
+    }
+  return 1;
+}
+
+// What both sides of an interface lie on. Flat eyes of a wheel that has two are no plane.
+static void set_surface(const CwSurvey *survey, const CwFacePatches *patches, double tolerance,
+                        CwCadInterface *between) {
   double radius[2] = {INFINITY, 0};
   int plane = 1;
+  const CwSurveyFace *first = NULL;
+  between->flat = 1;
   for (int f = 0; f < survey->face_count; f++) {
     const CwSurveyFace *face = &survey->face[f];
     for (int s = 0; s < 2; s++) {
       if (patches->of_face[f] != between->patch[s]) continue;
+      if (!first) first = face;
       between->area[s] += face->area;
-      plane &= face->form == CW_FORM_PLANE;
+      between->flat &= face->form == CW_FORM_PLANE;
+      plane &= between->flat && lies_in_plane(survey, face, first, tolerance);
       radius[0] = fmin(radius[0], face->form == CW_FORM_REVOLVED ? face->radius[0] : 0);
       radius[1] = fmax(radius[1], face->radius[1]);
     }
@@ -102,7 +119,7 @@ CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, co
                patches->patch[shared].name, patches->patch[third].name, patches->patch[beyond(&made[i], shared)].name);
   }
   for (int i = 0; i < *count; i++) {
-    set_surface(survey, patches, &made[i]);
+    set_surface(survey, patches, tolerance, &made[i]);
     const double *area = made[i].area;
     CW_REQUIRE(
         fabs(area[0] - area[1]) <= SAME_AREA * fmax(area[0], area[1]), CW_ERR_GEOMETRY,
@@ -418,7 +435,7 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
   for (int i = 0; i < interface_count; i++) {
     const char *names[] = {patches->patch[interfaces[i].patch[0]].name, patches->patch[interfaces[i].patch[1]].name};
     CW_TRY(cw_model_add_interface(model, names, interfaces[i].surface, interfaces[i].radius));
-    for (int s = 0; s < 2 && interfaces[i].surface == CW_SURFACE_PLANE; s++) // before a pipe
+    for (int s = 0; s < 2 && interfaces[i].flat; s++) // before a pipe
       model->patch[cw_model_patch_find(model, names[s])].size = CW_GROUP_PIPE;
   }
   model->flow = (CwModelFlow){flow[CW_ALONG_SUCTION].speed, flow[CW_ALONG_SUCTION].diameter, flow[CW_ALONG_BLADE].speed,

@@ -21,6 +21,7 @@ extern "C" {
 typedef struct {
   int patch[2]; // into CwFacePatches.patch
   CwInterfaceSurface surface;
+  int flat;      // 1: its faces are planes, one or several
   double radius; // of a cylinder, m
   double area[2];
 } CwCadInterface;

@@ -282,6 +282,20 @@ static void interfaces_may_be_splines(void **) {
   }
 }
 
+// A block in a fork, as a wheel whose two eyes are flat: no one plane holds both sides of it.
+static void two_planes_are_no_plane(void **) {
+  const TopoDS_Shape leg = small_box(-5, 0, 0, 5, 15, 10), bridge = small_box(0, 12, 0, 10, 3, 10);
+  const TopoDS_Shape fork = BRepAlgoAPI_Fuse(BRepAlgoAPI_Fuse(leg, bridge), small_box(10, 0, 0, 5, 15, 10)).Shape();
+  for (const TopoDS_Shape &around : {leg, fork}) {
+    Made made({{"a", small_box(0, 0, 0, 10, 10, 10)}, {"b", around}});
+    made.cad.domain[0].rotating = made.rotating[0] = 0;
+    assert_int_not_equal(made.make(), CW_OK); // for lack of a wheel
+    assert_int_equal(made.interface_count, 1);
+    assert_int_equal(made.interfaces[0].surface, around.IsSame(leg) ? CW_SURFACE_PLANE : CW_SURFACE_OTHER);
+    assert_true(made.interfaces[0].flat);
+  }
+}
+
 static void pumps_that_cannot_be_are_told(void **) {
   Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
   both.cad.domain[1].rotating = both.rotating[1] = 1;
@@ -314,6 +328,7 @@ int main() {
                                      cmocka_unit_test(interfaces_of_three_patches_are_told),
                                      cmocka_unit_test(outlets_share_the_flow),
                                      cmocka_unit_test(interfaces_may_be_splines),
+                                     cmocka_unit_test(two_planes_are_no_plane),
                                      cmocka_unit_test(pumps_that_cannot_be_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
