@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/cad/cad_part.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -12,20 +13,48 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <gp_Vec2d.hxx>
 
 #include "geometry/cad/face_distance.hpp"
 #include "geometry/solid.hpp"
 
-// A point inside the face; false where the face has none that can be found.
-static bool inner_point(const TopoDS_Face &face, gp_Pnt &point) {
+static const double CLOSEST = 1e-9; // of the extent in the parameters: how near to an edge the inside is looked for
+
+// A point inside the face beside the middle of an edge: across it, by steps that halve. False where there is none.
+static bool point_beside_edge(const TopoDS_Face &face, gp_Pnt2d &uv) {
+  double u0, u1, v0, v1;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  const double extent = std::max(u1 - u0, v1 - v0);
+  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+    double first, last;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(at.Current()), face, first, last);
+    gp_Pnt2d middle;
+    gp_Vec2d along;
+    if (!curve.IsNull()) curve->D1((first + last) / 2, middle, along);
+    if (!(along.Magnitude() > 0)) continue;
+    const gp_Vec2d across = gp_Vec2d(-along.Y(), along.X()) / along.Magnitude();
+    for (double step = extent / 2; step > CLOSEST * extent; step /= 2)
+      for (const double side : {step, -step}) {
+        uv = middle.Translated(across * side);
+        if (BRepClass_FaceClassifier(face, uv, CLOSEST * extent).State() == TopAbs_IN) return true;
+      }
+  }
+  return false;
+}
+
+bool cw_cad_inner_point(const TopoDS_Face &face, gp_Pnt &point) {
   for (int n = 2; n <= 32; n *= 2) {
     const std::vector<gp_Pnt> points = cw_cad_inner_points(face, n, 1);
     if (points.empty()) continue;
     point = points[0];
     return true;
   }
-  return false;
+  gp_Pnt2d uv;
+  if (!point_beside_edge(face, uv)) return false;
+  point = BRep_Tool::Surface(face)->Value(uv.X(), uv.Y());
+  return true;
 }
 
 CwStatus cw_cad_guard(const std::string &what, const std::function<CwStatus()> &run) {
@@ -44,7 +73,7 @@ void cw_cad_carry(const std::vector<CwCadPart> &from, CwCadPart &part, double wi
       if (olds[k].Contains(map(i))) best = &from[k].origin[olds[k].FindIndex(map(i)) - 1];
     gp_Pnt at;
     double nearest = INFINITY;
-    if (!best && inner_point(TopoDS::Face(map(i)), at)) {
+    if (!best && cw_cad_inner_point(TopoDS::Face(map(i)), at)) {
       for (size_t k = 0; k < from.size(); k++)
         for (int f = 0; f < olds[k].Extent(); f++) {
           const double far = distance[k].at(f, at, nearest);

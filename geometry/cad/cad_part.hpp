@@ -73,6 +73,9 @@ std::vector<gp_Pnt> cw_cad_edge_points(const TopoDS_Edge &edge, int steps);
 // Points of a lattice in the face's parameters, `along` intervals each way, that lie inside of it; `most` at the most.
 std::vector<gp_Pnt> cw_cad_inner_points(const TopoDS_Face &face, int along, size_t most);
 
+// A point inside a face, however narrow it is. False, and no other point, where none can be found.
+bool cw_cad_inner_point(const TopoDS_Face &face, gp_Pnt &point);
+
 // Least and greatest x, y, z of a shape as it is, by no triangulation of it: x, y, z, x, y, z.
 std::array<double, 6> cw_cad_box(const TopoDS_Shape &shape);
 

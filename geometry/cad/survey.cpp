@@ -82,14 +82,17 @@ struct Normals {
   }
 };
 
-// The nearest that lies on the face; null where none does.
+// Of the points the nearest that lies on the face; of a ring narrower than its chords are deep another one.
 template <class OnFace>
-const gp_XY *first_of(std::vector<std::pair<double, gp_XY>> &by_distance, const OnFace &on_face) {
+gp_Pnt point_of(const TopoDS_Face &face, const BRepAdaptor_Surface &surface, const gp_Pnt &centre,
+                std::vector<std::pair<double, gp_XY>> &by_distance, const OnFace &on_face) {
   std::stable_sort(by_distance.begin(), by_distance.end(),
                    [](const auto &a, const auto &b) { return a.first < b.first; });
   for (const auto &[distance, uv] : by_distance)
-    if (on_face(uv)) return &uv;
-  return nullptr;
+    if (on_face(uv)) return surface.Value(uv.X(), uv.Y());
+  gp_Pnt inside = centre;
+  cw_cad_inner_point(face, inside);
+  return inside;
 }
 
 void add_face(const TopoDS_Face &face, const CwCadPart &of, int part, int index, double unit, CwSurveyData &lists) {
@@ -151,7 +154,7 @@ void add_face(const TopoDS_Face &face, const CwCadPart &of, int part, int index,
       normals.add(at, normal, gp_Vec(p[0], p[1]).Crossed(gp_Vec(p[0], p[2])).Magnitude() / 2);
   }
   made.sample_count = (int)lists.sample.size() - made.first_sample;
-  if (const gp_XY *at = first_of(middles, on_face)) put(surface.Value(at->X(), at->Y()), unit, made.at);
+  put(point_of(face, surface, properties.CentreOfMass(), middles, on_face), unit, made.at);
   made.triangle_count = mesh->NbTriangles();
   if (normals.area > 0)
     for (int i = 0; i < 3; i++) made.normal[i] = normals.sum.Coord(i + 1) / normals.area;

@@ -60,6 +60,23 @@ static void pipes_are_revolved(void **) {
   assert_int_equal(revolved, 1);
 }
 
+// The ends of a ring that is narrower than its chords are deep, 0.2 mm: no triangle has its middle on them.
+static void narrow_rings_have_a_point(void **) {
+  SmallParts small({{"water", BRepAlgoAPI_Cut(small_cylinder(0, 100.05, 50), small_cylinder(0, 100, 50)).Shape()}});
+  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  int ends = 0;
+  for (int f = 0; f < small.survey.face_count; f++) {
+    const CwSurveyFace &face = small.survey.face[f];
+    const double r = std::hypot(face.at[0], face.at[1]);
+    assert_true(r > 99.999999 * mm && r < 100.050001 * mm);
+    if (face.form != CW_FORM_PLANE) continue;
+    ends++;
+    assert_true(r > 100 * mm && r < 100.05 * mm);
+    assert_near(face.at[2], face.normal[2] > 0 ? 50 * mm : 0, 1e-9);
+  }
+  assert_int_equal(ends, 2);
+}
+
 // Of a pipe beside the axis nothing is revolved; the blade-like wall has a twist where it looks along the rotation.
 static void off_the_axis_nothing_is_revolved(void **) {
   gp_Trsf aside;
@@ -104,6 +121,7 @@ int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_has_planes_and_right_angles),
                                      cmocka_unit_test(notches_are_concave),
                                      cmocka_unit_test(pipes_are_revolved),
+                                     cmocka_unit_test(narrow_rings_have_a_point),
                                      cmocka_unit_test(off_the_axis_nothing_is_revolved),
                                      cmocka_unit_test(the_nearest_face_is_found),
                                      cmocka_unit_test(no_face_is_nearer_than_it_is)};
