@@ -49,12 +49,25 @@ static int word_takes(const Work *work, const char *word, int face) {
   return !fnmatch(word, info_of(work, face).name, 0);
 }
 
-static void take(const Work *work, int rule, int face, int *found) {
-  ++*found;
+// Faces that a rule chooses, whether or not an earlier rule has them.
+typedef struct {
+  int count, last; // the last of them
+} Found;
+
+static void take(const Work *work, int rule, int face, Found *found) {
+  found->count++;
+  found->last = face;
   if (work->rule[face] < 0) work->rule[face] = rule;
 }
 
-static CwStatus take_points(const Work *work, int r, int *found) {
+// All of the face in the file that a face is all or a piece of; faces whose origin is not known are no pieces of one.
+static int is_piece_of(const Work *work, int face, int other) {
+  const int number = info_of(work, face).number;
+  return face == other || (number >= 0 && number == info_of(work, other).number &&
+                           (work->contact[face].part < 0) == (work->contact[other].part < 0));
+}
+
+static CwStatus take_points(const Work *work, int r, Found *found) {
   CwStatus status = CW_OK;
   const CwCadPatch *rule = &work->cad->patch[r];
   int part = -1;
@@ -76,41 +89,56 @@ static CwStatus take_points(const Work *work, int r, int *found) {
         "on the face, off its edges",
         rule->name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], face + 1);
     for (int f = 0; f < work->survey->face_count; f++)
-      if (f == face || (info_of(work, f).number == info_of(work, face).number &&
-                        (work->contact[f].part < 0) == (work->contact[face].part < 0)))
-        take(work, r, f, found);
+      if (is_piece_of(work, f, face)) take(work, r, f, found);
   }
 done:
   return status;
 }
 
-static int attribute_takes(const Work *work, const CwCadPatch *rule, int face) {
-  const CwCadFaceInfo info = info_of(work, face);
-  int takes = rule->colour >= 0 && rule->colour == info.colour;
-  for (int i = 0; i < rule->layers.count; i++) takes |= !fnmatch(rule->layers.text[i], info.layer, 0);
-  return takes;
+// What each word of a rule chooses, which must be a face.
+static CwStatus take_words(const Work *work, int r, Found *found) {
+  CwStatus status = CW_OK;
+  const CwCadPatch *rule = &work->cad->patch[r];
+  const char *of = rule->domain[0] ? " of " : "";
+  for (int i = 0; i < rule->faces.count; i++) {
+    const int before = found->count;
+    for (int f = 0; f < work->survey->face_count; f++)
+      if (in_domain(work, rule, f) && word_takes(work, rule->faces.text[i], f)) take(work, r, f, found);
+    CW_REQUIRE(found->count > before, CW_ERR_INPUT,
+               "cad.patches.%s.faces: '%s' matches no face%s%s; allowed: names, patterns and numbers of "
+               "geometry/faces_sheet.csv",
+               rule->name, rule->faces.text[i], of, rule->domain);
+  }
+  for (int i = 0; i < rule->layers.count; i++) {
+    const int before = found->count;
+    for (int f = 0; f < work->survey->face_count; f++)
+      if (in_domain(work, rule, f) && !fnmatch(rule->layers.text[i], info_of(work, f).layer, 0))
+        take(work, r, f, found);
+    CW_REQUIRE(found->count > before, CW_ERR_INPUT,
+               "cad.patches.%s.layer: no face%s%s has its layer, '%s'; allowed: those of geometry/faces_sheet.csv",
+               rule->name, of, rule->domain, rule->layers.text[i]);
+  }
+  const int before = found->count;
+  for (int f = 0; f < work->survey->face_count; f++)
+    if (in_domain(work, rule, f) && rule->colour >= 0 && rule->colour == info_of(work, f).colour)
+      take(work, r, f, found);
+  CW_REQUIRE(rule->colour < 0 || found->count > before, CW_ERR_INPUT,
+             "cad.patches.%s.colour: no face%s%s has its colour, #%06x; allowed: those of geometry/faces_sheet.csv",
+             rule->name, of, rule->domain, (unsigned)rule->colour);
+done:
+  return status;
 }
 
 static CwStatus apply_rule(const Work *work, int r) {
   CwStatus status = CW_OK;
-  const CwCadPatch *rule = &work->cad->patch[r];
-  int all = 0;
-  for (int i = 0; i < rule->faces.count; i++) {
-    int found = 0;
-    for (int f = 0; f < work->survey->face_count; f++)
-      if (in_domain(work, rule, f) && word_takes(work, rule->faces.text[i], f)) take(work, r, f, &found);
-    CW_REQUIRE(found, CW_ERR_INPUT,
-               "cad.patches.%s.faces: '%s' matches no face%s%s; allowed: names, patterns and numbers of "
-               "geometry/faces_sheet.csv",
-               rule->name, rule->faces.text[i], rule->domain[0] ? " of " : "", rule->domain);
-    all += found;
-  }
-  for (int f = 0; f < work->survey->face_count; f++)
-    if (in_domain(work, rule, f) && attribute_takes(work, rule, f)) take(work, r, f, &all);
-  CW_TRY(take_points(work, r, &all));
-  CW_REQUIRE(all, CW_ERR_INPUT,
-             "cad.patches.%s: no face has its colour or lies in its layer; allowed: those of geometry/faces_sheet.csv",
-             rule->name);
+  Found found = {0};
+  int own = 0;
+  CW_TRY(take_words(work, r, &found));
+  CW_TRY(take_points(work, r, &found));
+  for (int f = 0; f < work->survey->face_count; f++) own += work->rule[f] == r;
+  CW_REQUIRE(own || !found.count, CW_ERR_INPUT,
+             "cad.patches.%s: earlier patches take all its faces, such as face %d (%s); allowed: a place before them",
+             work->cad->patch[r].name, found.last + 1, work->cad->patch[work->rule[found.last]].name);
 done:
   return status;
 }

@@ -29,8 +29,9 @@ typedef struct {
   int *of_face;       // face_count of them
 } CwFacePatches;
 
-// CW_ERR_INPUT, naming the key, where a rule takes no face (its name, colour, layer or point is listed), a point lies
-// near two faces or none, or a wall is asked for where parts touch. Free also after a failure; zeroed on entry.
+// CW_ERR_INPUT, naming the key, where a name, colour, layer or point of a rule chooses no face, or all are earlier
+// rules', a point lies near two faces or none, or a wall is asked for where parts touch. Free also after a failure;
+// zeroed on entry.
 CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadParts *parts,
                               const CwSurvey *survey, const CwContact *contact, const CwFaceRole *role,
                               CwFacePatches *patches);

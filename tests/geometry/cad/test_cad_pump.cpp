@@ -143,7 +143,7 @@ static void wrong_input_is_told(void **) {
        "cad.patches.wall.faces: 'WALL*' matches no face"},
       {"  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n  patches: {lid: "
        "{colour: '#00ff00'}}\n",
-       "cad.patches.lid: no face has its colour"},
+       "cad.patches.lid.colour: no face has its colour"},
       {"  files: apart.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n",
        "a gap or an overlap of 0.02"},
       {"  files: line.brep\n  domains: {rotor: {solid: 1, rotating: true}}\n", "line.brep: holds no solid and no face"},

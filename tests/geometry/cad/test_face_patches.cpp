@@ -158,11 +158,58 @@ static void rules_without_a_face_are_told(void **) {
   assert_true(within > 0 && within < 1000);
 }
 
+// Also beside a name that matches.
+static void colours_and_layers_without_a_face_are_told(void **) {
+  Blocks blocks;
+  char number[] = "1", layer[] = "wet", *numbers[] = {number}, *layers[] = {layer};
+  CwCadPatch &rule = blocks.rule("lid");
+  rule.faces = {1, numbers};
+  rule.colour = 0x00ff00;
+  assert_int_equal(blocks.make(), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "cad.patches.lid.colour: no face has its colour, #00ff00"));
+  rule.colour = -1;
+  rule.layers = {1, layers};
+  strcpy(rule.domain, "rotor");
+  assert_int_equal(blocks.make(), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "cad.patches.lid.layer: no face of rotor has its layer, 'wet'"));
+  blocks.parts.part[0].origin[1].layer = "wet";
+  if (blocks.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(blocks.made.patch[blocks.made.of_face[0]].rule, 0);
+  assert_int_equal(blocks.made.patch[blocks.made.of_face[1]].rule, 0);
+}
+
+static void rules_that_come_too_late_are_told(void **) {
+  Blocks blocks;
+  char number[] = "3", all[] = "*", *numbers[] = {number}, *patterns[] = {all};
+  blocks.rule("all").faces = {1, patterns};
+  blocks.rule("one").faces = {1, numbers};
+  assert_int_equal(blocks.make(), CW_ERR_INPUT);
+  assert_non_null(
+      strstr(cw_fail_message(), "cad.patches.one: earlier patches take all its faces, such as face 3 (all); "));
+}
+
+// A point takes one of two faces of which nobody knows what they are pieces of.
+static void faces_of_no_known_origin_are_no_pieces(void **) {
+  Blocks blocks;
+  double point[][3] = {{5e-3, 5e-3, 10e-3}};
+  for (CwCadFaceOrigin &origin : blocks.parts.part[0].origin) origin.number = -1;
+  CwCadPatch &rule = blocks.rule("lid");
+  rule.near = {1, point};
+  strcpy(rule.domain, "rotor");
+  if (blocks.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(blocks.count("lid", CW_PATCH_WALL), 1);
+}
+
 int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(without_rules_faces_are_proposed), cmocka_unit_test(names_of_the_file_are_cleaned),
-      cmocka_unit_test(the_first_rule_has_a_face),        cmocka_unit_test(rules_hold_for_proposals_of_their_name),
-      cmocka_unit_test(points_take_all_pieces_of_a_face), cmocka_unit_test(kinds_must_fit),
-      cmocka_unit_test(rules_without_a_face_are_told)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(without_rules_faces_are_proposed),
+                                     cmocka_unit_test(names_of_the_file_are_cleaned),
+                                     cmocka_unit_test(the_first_rule_has_a_face),
+                                     cmocka_unit_test(rules_hold_for_proposals_of_their_name),
+                                     cmocka_unit_test(points_take_all_pieces_of_a_face),
+                                     cmocka_unit_test(kinds_must_fit),
+                                     cmocka_unit_test(rules_without_a_face_are_told),
+                                     cmocka_unit_test(rules_that_come_too_late_are_told),
+                                     cmocka_unit_test(colours_and_layers_without_a_face_are_told),
+                                     cmocka_unit_test(faces_of_no_known_origin_are_no_pieces)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
