@@ -22,13 +22,17 @@
 #include "geometry/solid.hpp"
 #include "pipeline/atomic_file.h"
 
+std::string cw_solid_failure_text(const Standard_Failure &failure) {
+  const char *text = failure.GetMessageString();
+  return text && *text ? text : "failed without a word";
+}
+
 CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *library,
                         const std::function<CwStatus()> &run) {
   try {
     return run();
   } catch (const Standard_Failure &failure) {
-    const char *text = failure.GetMessageString();
-    return CW_FAIL(code, "%s: %s%s", what.c_str(), library, text && *text ? text : "failed without a word");
+    return CW_FAIL(code, "%s: %s%s", what.c_str(), library, cw_solid_failure_text(failure).c_str());
   } catch (const std::exception &failure) {
     return CW_FAIL(code, "%s: %s", what.c_str(), failure.what());
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <Standard_Failure.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
 
@@ -31,6 +32,9 @@ std::string cw_solid_fault(const CwSolid &solid);
 
 // Throws std::runtime_error with a line, printf style, that says what cannot be built: for cw_solid_guard().
 [[noreturn]] void cw_solid_refuse(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+// What OpenCASCADE says of a failure; never "".
+std::string cw_solid_failure_text(const Standard_Failure &failure);
 
 // Runs what uses OpenCASCADE. Exceptions become `code`, with `what` before their text; before that of OpenCASCADE's own
 // stands `library` too.

@@ -351,7 +351,7 @@ CwStatus cw_cad_passages(int part, int count, double tolerance, CwLog *log, CwCa
     try {
       why = make_symmetric(count, tolerance, parts->unit, of, &off);
     } catch (const Standard_Failure &failure) {
-      why = failure.GetMessageString();
+      why = "OpenCASCADE: " + cw_solid_failure_text(failure);
     }
     if (why.empty())
       cw_log(log, "%s: %d faces, turned copies of those of one of %d passages, %.2g mm off those of the file at most",

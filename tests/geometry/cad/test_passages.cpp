@@ -12,6 +12,7 @@
 #include "geometry/cad/divide.h"
 #include "geometry/cad/images.hpp"
 #include "geometry/cad/passages.h"
+#include "geometry/solid.hpp"
 
 static const double tolerance = 1e-4; // mm, the unit of the parts
 
@@ -103,6 +104,12 @@ static void what_is_not_symmetric_stays(void **) {
   if (why.find("is 0.1 mm off its image") == std::string::npos) fail_msg("%s", why.c_str());
 }
 
+// Why a wheel stays as it is: an exception without text is a reason too.
+static void failures_have_a_text(void **) {
+  assert_string_equal(cw_solid_failure_text(Standard_Failure()).c_str(), "failed without a word");
+  assert_string_equal(cw_solid_failure_text(Standard_Failure("no curve")).c_str(), "no curve");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(notched_rings),
@@ -111,6 +118,7 @@ int main(void) {
       cmocka_unit_test(a_seam_that_ends_at_a_blade),
       cmocka_unit_test(a_nose_that_ends_on_the_axis),
       cmocka_unit_test(what_is_not_symmetric_stays),
+      cmocka_unit_test(failures_have_a_text),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
