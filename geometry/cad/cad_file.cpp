@@ -173,11 +173,20 @@ CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double t
         "%.3f, %.3f) mm; allowed: the water as closed solids, or a greater cad.tolerance_mm",
         path, faces, tolerance / millimetre, sewing.NbFreeEdges(), at.X(), at.Y(), at.Z());
   }
-  for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_SHELL); at.More(); at.Next()) {
-    BRepBuilderAPI_MakeSolid maker(TopoDS::Shell(at.Current()));
-    TopoDS_Solid solid = maker.Solid();
+  const auto add = [&](const TopoDS_Shell &shell) {
+    TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(shell).Solid();
     BRepLib::OrientClosedSolid(solid);
     bodies.body.push_back({path, "", "", solid, std::vector<CwCadFaceOrigin>(cw_cad_faces(solid).Extent())});
+  };
+  for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_SHELL); at.More(); at.Next()) add(TopoDS::Shell(at.Current()));
+  // A face that is closed by itself, as a sphere is, comes without a shell.
+  for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_FACE, TopAbs_SHELL); at.More(); at.Next()) {
+    BRep_Builder builder;
+    TopoDS_Shell shell;
+    builder.MakeShell(shell);
+    builder.Add(shell, at.Current());
+    shell.Closed(Standard_True);
+    add(shell);
   }
   return CW_OK;
 }

@@ -7,6 +7,8 @@
 #include <string>
 
 #include <BRepBndLib.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
 #include <Interface_Static.hxx>
@@ -179,6 +181,27 @@ static void shells_are_sewn_or_refused(void **) {
   remove(path.c_str());
 }
 
+// A sphere and a ring are one face each, which makes a solid alone and beside others.
+static void closed_faces_make_solids(void **) {
+  const std::string path = std::string(test_folder) + "/faces.brep";
+  const TopoDS_Shape ball = cw_cad_faces(BRepPrimAPI_MakeSphere(5).Shape())(1),
+                     ring = cw_cad_faces(BRepPrimAPI_MakeTorus(gp_Ax2(gp_Pnt(0, 0, 50), gp::DZ()), 9, 2).Shape())(1);
+  for (const int count : {1, 2}) {
+    CwCadBodies *bodies = nullptr;
+    double volume = 0;
+    count == 1 ? small_write(path, {ball}) : small_write(path, {ball, ring});
+    if (cw_cad_file_read(path.c_str(), 0, 1e-6, &bodies)) fail_msg("%s", cw_fail_message());
+    assert_int_equal(cw_cad_body_count(bodies), count);
+    for (const CwCadBody &body : bodies->body) {
+      assert_int_equal(body.origin.size(), 1);
+      volume += small_volume(body.solid);
+    }
+    assert_near(volume, 4 * M_PI / 3 * 125 + (count == 2 ? 2 * M_PI * 9 * M_PI * 4 : 0), 0.01);
+    cw_cad_bodies_free(&bodies);
+  }
+  remove(path.c_str());
+}
+
 // The lid of the box stands off by half a percent of a unit of the file: within the tolerance in mm, not in m.
 static void shells_are_sewn_in_the_unit_that_counts(void **) {
   const std::string path = std::string(test_folder) + "/faces.step";
@@ -213,6 +236,7 @@ int main() {
                                      cmocka_unit_test(points_and_units_of_brep_files),
                                      cmocka_unit_test(solids_inside_out_hold_the_same_points),
                                      cmocka_unit_test(shells_are_sewn_or_refused),
+                                     cmocka_unit_test(closed_faces_make_solids),
                                      cmocka_unit_test(shells_are_sewn_in_the_unit_that_counts)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
