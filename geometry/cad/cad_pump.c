@@ -45,7 +45,7 @@ static CwStatus look(const CwCaseCad *cad, CwCadPump *pump) {
   free(pump->role);
   pump->contact = NULL;
   pump->role = NULL;
-  CW_TRY(cw_survey_make(pump->parts, &pump->survey));
+  CW_TRY(cw_survey_make(pump->parts, &pump->frame, &pump->survey));
   CW_NEW(pump->contact, pump->survey.face_count);
   CW_NEW(pump->role, pump->survey.face_count);
   CW_NEW(rotating, cad->domain_count);

@@ -58,7 +58,8 @@ static void show_fault(const CwStageArgs *args, const Work *work) {
   char *path = NULL, title[CW_NAME_SIZE + 80], message[MESSAGE_SIZE];
   snprintf(message, sizeof message, "%s", cw_fail_message());
   snprintf(title, sizeof title, "%s: where it cannot be healed", work->cad->domain[work->pump.fault.part].name);
-  if (cw_survey_make(work->pump.parts, &survey) == CW_OK && cw_geometry_path(args, "fault.svg", &path) == CW_OK &&
+  if (cw_survey_make(work->pump.parts, &work->pump.frame, &survey) == CW_OK &&
+      cw_geometry_path(args, "fault.svg", &path) == CW_OK &&
       cw_faces_picture_write(&survey, work->pump.fault.part, title, work->pump.fault.at, path) == CW_OK)
     cw_log(args->log, "geometry/fault.svg shows the place");
   CW_FAIL(CW_ERR_GEOMETRY, "%s", message);

@@ -154,9 +154,11 @@ CwStatus fail_at(const CwCadPart &part, const CwCadFrame &frame, double unit, co
                  const char *what) {
   const TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
   const gp_Pnt at = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
-  return CW_FAIL(
-      CW_ERR_GEOMETRY, "cad.domains.%s: face %d '%s' %s %s; allowed: faces with edges all around; split it in CAD",
-      part.domain.c_str(), face, part.origin[face - 1].name.c_str(), what, cw_cad_place(at, unit, frame).c_str());
+  const std::string &name = part.origin[face - 1].name;
+  return CW_FAIL(CW_ERR_GEOMETRY,
+                 "cad.domains.%s: a face%s %s %s; allowed: faces with edges all around; split it in CAD",
+                 part.domain.c_str(), name.empty() ? "" : (", '" + name + "',").c_str(), what,
+                 cw_cad_place(at, unit, frame).c_str());
 }
 
 void replace(CwCadPart &part, const TopoDS_Shape &shape) {

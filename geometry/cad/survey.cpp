@@ -95,7 +95,7 @@ gp_Pnt point_of(const TopoDS_Face &face, const BRepAdaptor_Surface &surface, con
   return inside;
 }
 
-void add_face(const TopoDS_Face &face, const CwCadPart &of, int part, int index, double unit, CwSurveyData &lists) {
+void add_face(const TopoDS_Face &face, int part, int index, double unit, CwSurveyData &lists) {
   CwSurveyFace made = {};
   made.part = part;
   made.face = index;
@@ -109,8 +109,6 @@ void add_face(const TopoDS_Face &face, const CwCadPart &of, int part, int index,
   made.height[1] = -INFINITY;
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
-  if (mesh.IsNull())
-    throw Standard_Failure(("face " + std::to_string(index + 1) + " of " + of.domain + " has no triangles").c_str());
   const BRepAdaptor_Surface surface(face, Standard_False);
   BRepTopAdaptor_FClass2d outline(face, Precision::PConfusion());
   // Chords of the triangles may leave the face.
@@ -164,6 +162,23 @@ void add_face(const TopoDS_Face &face, const CwCadPart &of, int part, int index,
   lists.face.push_back(made);
   lists.box.push_back(cw_cad_box(face));
   for (double &x : lists.box.back()) x *= unit;
+}
+
+// That all faces of a part have triangles.
+CwStatus check_triangles(const CwCadPart &of, const CwCadFrame &frame, double unit) {
+  const TopTools_IndexedMapOfShape faces = cw_cad_faces(of.solid);
+  for (int i = 1; i <= faces.Extent(); i++) {
+    TopLoc_Location place;
+    if (!BRep_Tool::Triangulation(TopoDS::Face(faces(i)), place).IsNull()) continue;
+    TopExp_Explorer corner(faces(i), TopAbs_VERTEX);
+    const gp_Pnt at = corner.More() ? BRep_Tool::Pnt(TopoDS::Vertex(corner.Current())) : gp_Pnt();
+    return CW_FAIL(
+        CW_ERR_GEOMETRY,
+        "cad.domains.%s: a face with a corner %s cannot be triangulated; allowed: outlines that do not cross "
+        "themselves; draw it anew",
+        of.domain.c_str(), cw_cad_place(at, unit, frame).c_str());
+  }
+  return CW_OK;
 }
 
 void add_edges(const TopoDS_Shape &shape, int first_face, double unit, CwSurveyData &lists) {
@@ -225,8 +240,8 @@ template <class To, class From> void show(std::vector<From> &list, To *&array, i
 
 } // namespace
 
-CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
-  return cw_cad_guard("cad", [&] {
+CwStatus cw_survey_make(const CwCadParts *parts, const CwCadFrame *frame, CwSurvey *survey) {
+  return cw_cad_guard("cad", [&]() -> CwStatus {
     survey->data = new CwSurveyData;
     CwSurveyData &lists = *survey->data;
     const double size = extent(*parts);
@@ -236,9 +251,10 @@ CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey) {
       const int first = (int)lists.face.size();
       BRepTools::Clean(solid);
       BRepMesh_IncrementalMesh mesh(solid, DEFLECTION * size, Standard_False, ANGLE);
+      const CwStatus status = check_triangles(parts->part[p], *frame, parts->unit);
+      if (status != CW_OK) return status;
       const TopTools_IndexedMapOfShape faces = cw_cad_faces(solid);
-      for (int i = 1; i <= faces.Extent(); i++)
-        add_face(TopoDS::Face(faces(i)), parts->part[p], (int)p, i - 1, parts->unit, lists);
+      for (int i = 1; i <= faces.Extent(); i++) add_face(TopoDS::Face(faces(i)), (int)p, i - 1, parts->unit, lists);
       BRepTools::Clean(solid); // a stored triangulation would go into the files
       add_edges(solid, first, parts->unit, lists);
     }

@@ -56,8 +56,9 @@ typedef struct {
   CwSurveyData *data;
 } CwSurvey;
 
-// Free also after a failure; zeroed `survey` on entry.
-CwStatus cw_survey_make(const CwCadParts *parts, CwSurvey *survey);
+// CW_ERR_GEOMETRY, naming domain and place in the file, where a face cannot be triangulated. Free also after a failure;
+// zeroed `survey` on entry.
+CwStatus cw_survey_make(const CwCadParts *parts, const CwCadFrame *frame, CwSurvey *survey);
 void cw_survey_free(CwSurvey *survey);
 
 // The face nearest to a point, of one part or (-1) of all, and its distance; -1 where none is within `reach`. `second`,

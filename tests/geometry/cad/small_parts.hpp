@@ -43,7 +43,7 @@ struct SmallParts {
     free(contact);
   }
   CwStatus look() {
-    CwStatus status = cw_survey_make(&parts, &survey);
+    CwStatus status = cw_survey_make(&parts, &small_frame, &survey);
     contact = (CwContact *)calloc(survey.face_count + 1, sizeof *contact);
     if (status == CW_OK) status = cw_contact_find(&parts, &survey, &small_frame, &cad, small_tolerance, contact);
     return status;

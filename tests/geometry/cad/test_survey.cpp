@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Areas, forms and edges of a box, a pipe and a step, by hand.
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <gp_Pln.hxx>
+
 #include "cad/small_parts.hpp"
 
 static const double mm = 1e-3;
 
 static void a_box_has_planes_and_right_angles(void **) {
   SmallParts small({{"water", small_box(10, 20, 30, 2, 3, 4)}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   assert_near(small.survey.size, 4 * mm, 1e-9); // the longest side
   assert_int_equal(small.survey.face_count, 6);
   assert_int_equal(small.survey.edge_count, 12);
@@ -32,7 +36,7 @@ static void a_box_has_planes_and_right_angles(void **) {
 // Into a notch the water has three right angles.
 static void notches_are_concave(void **) {
   SmallParts small({{"water", BRepAlgoAPI_Cut(small_box(0, 0, 0, 4, 4, 4), small_box(2, 2, -1, 4, 4, 6)).Shape()}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   int concave = 0;
   for (int e = 0; e < small.survey.edge_count; e++)
     if (small.survey.edge[e].angle > M_PI) {
@@ -44,7 +48,7 @@ static void notches_are_concave(void **) {
 
 static void pipes_are_revolved(void **) {
   SmallParts small({{"water", small_cylinder(-3, 5, 10)}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   int revolved = 0;
   for (int f = 0; f < small.survey.face_count; f++) {
     const CwSurveyFace &face = small.survey.face[f];
@@ -63,7 +67,7 @@ static void pipes_are_revolved(void **) {
 // The ends of a ring that is narrower than its chords are deep, 0.2 mm: no triangle has its middle on them.
 static void narrow_rings_have_a_point(void **) {
   SmallParts small({{"water", BRepAlgoAPI_Cut(small_cylinder(0, 100.05, 50), small_cylinder(0, 100, 50)).Shape()}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   int ends = 0;
   for (int f = 0; f < small.survey.face_count; f++) {
     const CwSurveyFace &face = small.survey.face[f];
@@ -77,18 +81,36 @@ static void narrow_rings_have_a_point(void **) {
   assert_int_equal(ends, 2);
 }
 
+// The outline of a bow tie crosses itself: no triangles. The file's origin is at x = 100 mm of the pump.
+static void faces_without_triangles_are_told_with_their_place(void **) {
+  const CwCadFrame frame = {{-100 * mm, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0};
+  BRepBuilderAPI_MakePolygon outline(gp_Pnt(1, 1, 3), gp_Pnt(2, 2, 3), gp_Pnt(2, 1, 3), gp_Pnt(1, 2, 3), Standard_True);
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid solid;
+  builder.MakeShell(shell);
+  builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 3), gp::DZ()), outline.Wire(), Standard_False).Face());
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  SmallParts small({{"water", solid}});
+  assert_int_equal(cw_survey_make(&small.parts, &frame, &small.survey), CW_ERR_GEOMETRY);
+  const char *told = strstr(cw_fail_message(), "cad.domains.water: a face with a corner at (-9");
+  assert_non_null(told);
+  assert_non_null(strstr(told, ", 3.000) mm cannot be triangulated"));
+}
+
 // Of a pipe beside the axis nothing is revolved; the blade-like wall has a twist where it looks along the rotation.
 static void off_the_axis_nothing_is_revolved(void **) {
   gp_Trsf aside;
   aside.SetTranslation(gp_Vec(20, 0, 0));
   SmallParts small({{"water", BRepBuilderAPI_Transform(small_cylinder(0, 5, 10), aside, Standard_True).Shape()}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   for (int f = 0; f < small.survey.face_count; f++) assert_int_not_equal(small.survey.face[f].form, CW_FORM_REVOLVED);
 }
 
 static void the_nearest_face_is_found(void **) {
   SmallParts small({{"water", small_box(0, 0, 0, 10, 10, 10)}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   const double at[] = {5 * mm, 4 * mm, 10.5 * mm};
   int face;
   double distance, second;
@@ -103,7 +125,7 @@ static void the_nearest_face_is_found(void **) {
 // A place 0.55 mm off a pipe is not within a little less, however the quotient of reach and unit is rounded.
 static void no_face_is_nearer_than_it_is(void **) {
   SmallParts small({{"water", small_cylinder(0, 10, 20)}});
-  assert_int_equal(cw_survey_make(&small.parts, &small.survey), CW_OK);
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   const double at[] = {10.55 * mm * std::sqrt(0.5), 10.55 * mm * std::sqrt(0.5), 10 * mm};
   int face;
   double distance;
@@ -122,6 +144,7 @@ int main() {
                                      cmocka_unit_test(notches_are_concave),
                                      cmocka_unit_test(pipes_are_revolved),
                                      cmocka_unit_test(narrow_rings_have_a_point),
+                                     cmocka_unit_test(faces_without_triangles_are_told_with_their_place),
                                      cmocka_unit_test(off_the_axis_nothing_is_revolved),
                                      cmocka_unit_test(the_nearest_face_is_found),
                                      cmocka_unit_test(no_face_is_nearer_than_it_is)};
