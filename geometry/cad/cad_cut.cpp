@@ -16,7 +16,7 @@
 namespace {
 
 const double millimetre = 1e-3; // m
-const double ON_SURFACE = 1e-4; // mm: faces that lie farther from all of the file are those of the cut
+const double ON_SURFACE = 1e-6; // of the body's extent: faces that lie farther from all of the file are the cut's
 const double BEYOND = 2;        // of the body's extent: how far a cylinder reaches past it
 
 gp_Pnt at_file(const CwCadFrame &frame, double r, double z) {
@@ -70,9 +70,11 @@ std::vector<CwCadBody> pieces_of(const CwCadCut &cut, const CwCadFrame &frame, c
   std::stable_sort(solids.begin(), solids.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   std::vector<CwCadBody> pieces;
   const CwCadPart whole = {"", body.solid, body.origin};
+  const std::array<double, 6> box = cw_cad_box(body.solid);
+  const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
   for (const auto &[distance, solid] : solids) {
     CwCadPart piece = {"", solid, {}};
-    cw_cad_carry({whole}, piece, ON_SURFACE);
+    cw_cad_carry({whole}, piece, ON_SURFACE * extent);
     const std::string number = "_" + std::to_string(pieces.size() + 1);
     pieces.push_back({body.file, body.name + number, body.instance + number, solid, piece.origin});
   }

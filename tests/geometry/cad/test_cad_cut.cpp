@@ -7,9 +7,9 @@ extern "C" {
 #include "geometry/cad/cad_cut.h"
 }
 
-// A disc of radius 80 and width 10, its faces named.
-static CwCadBodies disc() {
-  CwCadBody body = {"pump.step", "water", "", small_solid_of(small_cylinder(-5, 80, 10)), {}};
+// A disc of radius 80 and width 10, or `size` times as large, its faces named.
+static CwCadBodies disc(double size = 1) {
+  CwCadBody body = {"pump.step", "water", "", small_solid_of(small_cylinder(-5 * size, 80 * size, 10 * size)), {}};
   body.origin.resize(3, {"WALL", "", -1, 0});
   return {{body}};
 }
@@ -33,6 +33,17 @@ static void a_radius_parts_wheel_and_casing(void **) {
   int unnamed = 0;
   for (const CwCadFaceOrigin &origin : bodies.body[0].origin) unnamed += origin.name.empty();
   assert_int_equal(unnamed, 1); // the cut
+}
+
+// What lies on the cut is a matter of the body's size: of a tiny one all faces are nearer to one another than 1e-4 mm.
+static void small_bodies_are_parted_alike(void **) {
+  const double size = 1.8e-5;
+  CwCadBodies bodies = disc(size);
+  if (cut({0.05 * size, 0, nullptr}, bodies)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(bodies.body.size(), 2);
+  int unnamed = 0;
+  for (const CwCadFaceOrigin &origin : bodies.body[0].origin) unnamed += origin.name.empty();
+  assert_int_equal(unnamed, 1);
 }
 
 // From radius 40 at one side to 60 at the other: a frustum of a cone.
@@ -59,6 +70,7 @@ static void without_the_key_nothing_happens(void **) {
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_radius_parts_wheel_and_casing), cmocka_unit_test(a_meridian_parts_it_too),
-      cmocka_unit_test(a_surface_beside_the_water_parts_nothing), cmocka_unit_test(without_the_key_nothing_happens)};
+      cmocka_unit_test(small_bodies_are_parted_alike), cmocka_unit_test(a_surface_beside_the_water_parts_nothing),
+      cmocka_unit_test(without_the_key_nothing_happens)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
