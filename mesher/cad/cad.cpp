@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include <unistd.h>
+
 #include <BRepGProp_Domain.hxx>
 #include <BRepGProp_Face.hxx>
 #include <BRepGProp_Vinert.hxx>
@@ -21,6 +23,7 @@
 #include "mesher/cad/cad_shape.h"
 #include "mesher/cad/cad_unit.h"
 #include "mesher/common/vec.h"
+#include "mesher/parallel/ranks.h"
 
 static const double least_tolerance = 1e-9; // of the model's unit
 static const double same_parameter = 1e-9;  // of the range of an edge
@@ -129,17 +132,28 @@ static void to_metres(const CwCad *cad, const gp_XYZ &p, double x[3]) {
   x[2] = p.Z() * cad->unit;
 }
 
+// Evaluates a face or an edge of it. OpenCASCADE fails at singular points, as of an offset surface whose base has no
+// normal; then there is nothing to go on with, and the one error line, with the face's place, ends all ranks.
+template <class Work> static void evaluate(const CwCad *cad, int face, const Work &work) {
+  try {
+    work();
+  } catch (const Standard_Failure &failure) {
+    _exit(cw_mpi_fail(nullptr, cw_cad_face_failure(cad, face, failure)));
+  }
+}
+
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]) {
   const CwCadFace &f = cad->face[face];
   gp_Pnt p;
-  if (!xu && !xv) {
-    p = f.point(uv);
-  } else {
-    gp_Vec first[2];
-    f.derive(uv, p, first, nullptr);
-    if (xu) to_metres(cad, first[0].XYZ(), xu);
-    if (xv) to_metres(cad, first[1].XYZ(), xv);
-  }
+  gp_Vec first[2];
+  evaluate(cad, face, [&] {
+    if (!xu && !xv)
+      p = f.point(uv);
+    else
+      f.derive(uv, p, first, nullptr);
+  });
+  if (xu) to_metres(cad, first[0].XYZ(), xu);
+  if (xv) to_metres(cad, first[1].XYZ(), xv);
   to_metres(cad, p.XYZ(), x);
 }
 
@@ -169,7 +183,7 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
   gp_Pnt p;
   gp_Vec first[2];
   CwCadSecond second;
-  f.derive(uv, p, first, &second);
+  evaluate(cad, face, [&] { f.derive(uv, p, first, &second); });
   const gp_Vec &su = first[0], &sv = first[1], &suu = second.uu, &svv = second.vv, &suv = second.uv;
   gp_Vec normal = su.Crossed(sv);
   double area = normal.Magnitude();
@@ -205,10 +219,8 @@ static bool pushes_out(double value, const double range[2], double gradient) {
   return (value <= range[0] && gradient > 0) || (value >= range[1] && gradient < 0);
 }
 
-double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]) {
-  const CwCadFace &f = cad->face[face];
-  const gp_Pnt target(x[0] / cad->unit, x[1] / cad->unit, x[2] / cad->unit);
-  double at[2] = {uv[0], uv[1]};
+// Nearest point by Newton from `at`, which it updates; returns the distance, in the B-rep's unit.
+static double nearest_of(const CwCadFace &f, const gp_Pnt &target, double at[2]) {
   f.keep_in_ranges(at);
   gp_Pnt p;
   gp_Vec first[2];
@@ -235,7 +247,13 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
     f.derive(at, p, first, &second);
     distance = p.Distance(target);
   }
-  std::copy(at, at + 2, uv);
+  return distance;
+}
+
+double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]) {
+  const gp_Pnt target(x[0] / cad->unit, x[1] / cad->unit, x[2] / cad->unit);
+  double distance = 0;
+  evaluate(cad, face, [&] { distance = nearest_of(cad->face[face], target, uv); });
   return distance * cad->unit;
 }
 
@@ -304,13 +322,14 @@ static int moved_end(const CwCadEdge &e, double t) {
 void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double xt[3]) {
   const CwCadEdge &e = cad->edge[edge];
   gp_Pnt p;
-  if (xt) {
-    gp_Vec tangent;
-    e.curve.D1(e.knots.snap(t), p, tangent);
-    to_metres(cad, tangent.XYZ(), xt);
-  } else {
-    e.curve.D0(e.knots.snap(t), p);
-  }
+  gp_Vec tangent;
+  evaluate(cad, e.face[0], [&] {
+    if (xt)
+      e.curve.D1(e.knots.snap(t), p, tangent);
+    else
+      e.curve.D0(e.knots.snap(t), p);
+  });
+  if (xt) to_metres(cad, tangent.XYZ(), xt);
   int end = moved_end(e, t);
   if (end >= 0) p = cad->vertex[e.vertex[end]];
   to_metres(cad, p.XYZ(), x);
@@ -321,11 +340,13 @@ static void uv_on_face(const CwCad *cad, const CwCadEdge &e, int side, double t,
   const int face = e.face[side];
   gp_Pnt2d p;
   gp_Pnt at;
-  e.pcurve[side].D0(e.pcurve_knots[side].snap(t), p);
+  evaluate(cad, face, [&] {
+    e.pcurve[side].D0(e.pcurve_knots[side].snap(t), p);
+    e.curve.D0(e.knots.snap(t), at);
+  });
   uv[0] = p.X();
   uv[1] = p.Y();
   if (cad->face[face].pole.is) cad->face[face].pole.to_plane(uv);
-  e.curve.D0(e.knots.snap(t), at);
   if (moved >= 0 && e.moved[moved].slides[side]) at = cad->vertex[e.vertex[moved]];
   double on_edge[3], on_face[3];
   to_metres(cad, at.XYZ(), on_edge);

@@ -50,6 +50,9 @@ int cw_cad_face_reversed(const CwCad *cad, int face);
 // that it is cw_background_join that finds it; before that the faces are as the file has them.
 void cw_cad_turn(CwCad *cad);
 
+// Faces and edges are evaluated without a status: where OpenCASCADE fails, as at a singular point of an offset surface,
+// the one error line, with the face and its place, ends all ranks (CW_ERR_GEOMETRY).
+
 // Point of a face at (u,v); with the first derivatives where xu and xv are not NULL.
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]);
 

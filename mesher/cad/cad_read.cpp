@@ -96,6 +96,19 @@ static CwStatus edge_failure(const CwCad *cad, const TopoDS_Edge &edge, int face
                  face >= 0 ? cad->table.face[face].name : "?", CW_MM(x), what);
 }
 
+CwStatus cw_cad_face_failure(const CwCad *cad, int face, const Standard_Failure &failure) {
+  const char *text = failure.GetMessageString();
+  TopExp_Explorer corner(cad->face_map(face + 1), TopAbs_VERTEX);
+  gp_Pnt p = corner.More() ? BRep_Tool::Pnt(TopoDS::Vertex(corner.Current())) : gp_Pnt();
+  const double x[3] = {p.X() * cad->unit, p.Y() * cad->unit, p.Z() * cad->unit};
+  return CW_FAIL(
+      CW_ERR_GEOMETRY,
+      "%s: face '%s' of %s, with a corner at (%.3f, %.3f, %.3f) mm, cannot be evaluated everywhere; allowed: "
+      "surfaces with a normal everywhere, such as splines in place of offsets; OpenCASCADE: %s",
+      cad->path.c_str(), cad->table.face[face].name, cad->table.patch[cad->table.face[face].patch].name, CW_MM(x),
+      text && *text ? text : "failed without a word");
+}
+
 static CwStatus read_face(CwCad *cad, int index) {
   const TopoDS_Face &shape = TopoDS::Face(cad->face_map(index + 1));
   CwCadFace &face = cad->face[index];
@@ -154,7 +167,12 @@ static CwStatus read_edge(CwCad *cad, int index, const TopTools_ListOfShape &fac
 CwStatus cw_cad_read_parts(CwCad *cad) {
   cad->face.resize(cad->face_map.Extent());
   for (int f = 0; f < cad->face_map.Extent(); f++) {
-    CwStatus status = read_face(cad, f);
+    CwStatus status;
+    try {
+      status = read_face(cad, f);
+    } catch (const Standard_Failure &failure) {
+      status = cw_cad_face_failure(cad, f, failure);
+    }
     if (status != CW_OK) return status;
   }
 

@@ -11,6 +11,7 @@
 #include <Geom2dAdaptor_Curve.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <Standard_Failure.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Pnt.hxx>
@@ -94,5 +95,7 @@ void cw_cad_map_parts(CwCad *cad);
 TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power);
 // Checks edges and builds face and edge evaluators; needs the table for its messages.
 CwStatus cw_cad_read_parts(CwCad *cad);
+// CW_ERR_GEOMETRY, with name and place of a face at which OpenCASCADE has failed.
+CwStatus cw_cad_face_failure(const CwCad *cad, int face, const Standard_Failure &failure);
 
 #endif

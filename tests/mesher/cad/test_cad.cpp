@@ -5,7 +5,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -14,7 +16,11 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BinTools.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <Geom_OffsetSurface.hxx>
+#include <TColgp_Array2OfPnt.hxx>
 
+#include "mesher/cad/cad_shape.h"
 #include "mesher/common/vec.h"
 #include "solids.h"
 
@@ -315,6 +321,37 @@ static void places_are_one_within_the_tolerance(void **state) {
   }
 }
 
+// A box one face of which is the offset of a strip without width, which has no normal: whoever evaluates it ends with
+// one line, that names the face and its place.
+static void what_cannot_be_evaluated_ends_in_one_line(void **state) {
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape());
+  TColgp_Array2OfPnt pole(1, 2, 1, 2);
+  for (int i = 1; i <= 2; i++)
+    for (int k = 1; k <= 2; k++) pole(i, k) = gp_Pnt(i, 0, 0);
+  cad->face[2].surface.Load(new Geom_OffsetSurface(new Geom_BezierSurface(pole), 1, Standard_True));
+  int ends[2], ended;
+  assert_int_equal(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const double uv[2] = {0.5, 0.5};
+    double x[3];
+    dup2(ends[1], STDERR_FILENO);
+    cw_cad_face_point(cad, 2, uv, x, nullptr, nullptr);
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string told;
+  char part[1000];
+  for (ssize_t size; (size = read(ends[0], part, sizeof part)) > 0;) told.append(part, (size_t)size);
+  close(ends[0]);
+  assert_int_equal(waitpid(child, &ended, 0), child);
+  assert_true(WIFEXITED(ended));
+  assert_int_equal(WEXITSTATUS(ended), CW_ERR_GEOMETRY);
+  if (told.find("face 'face_3' of wall, with a corner at (") == std::string::npos) fail_msg("%s", told.c_str());
+  assert_int_equal(std::count(told.begin(), told.end(), '\n'), 1);
+  cw_cad_close(&cad);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(box_has_its_parts_and_patches),
@@ -328,6 +365,7 @@ int main(void) {
       cmocka_unit_test(places_are_told_in_millimetres),
       cmocka_unit_test(places_are_one_within_the_tolerance),
       cmocka_unit_test(bad_face_tables_are_refused),
+      cmocka_unit_test(what_cannot_be_evaluated_ends_in_one_line),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
