@@ -69,6 +69,30 @@ static void patches_are_proposed(void **) {
   cw_case_free(&table);
 }
 
+// Water from both sides, and no shaft: it reaches along the whole axis.
+static void wheels_with_two_eyes_need_no_shaft(void **) {
+  CwCase table;
+  CwCadPump pump = {};
+  CwModel model = {};
+  std::string eyes(whole);
+  eyes.replace(eyes.find("pump.brep"), 9, "eyes.brep");
+  if (read_case(eyes, &table) || cw_cad_pump_read(table.cad, NULL, &pump) || cw_cad_pump_name(table.cad, &pump) ||
+      cw_cad_model_make(&table, &pump.survey, &pump.patches, pump.interface_count, pump.interface, pump.blade_count,
+                        cw_cad_parts_unit(pump.parts), &model))
+    fail_msg("%s", cw_fail_message());
+  assert_int_equal(pump.blade_count, 6);
+  assert_near(area_of(pump, "inlet", CW_PATCH_INLET) / (2 * M_PI * 20 * 20), 1, 1e-5);
+  assert_near(area_of(pump, "blade", CW_PATCH_WALL) / (6 * (2 * 20 + 2 * 3) * 10), 1, 1e-5);
+  assert_near(area_of(pump, "shroud", CW_PATCH_WALL) /
+                  (2 * (M_PI * (50 * 50 - 20 * 20) - 6 * 20 * 3 + 2 * M_PI * 20 * 55)),
+              1, 1e-5);
+  assert_true(area_of(pump, "hub", CW_PATCH_WALL) == 0);
+  assert_near(model.flow.inlet_diameter / 0.04, 1, 1e-5);
+  cw_model_free(&model);
+  cw_cad_pump_free(&pump);
+  cw_case_free(&table);
+}
+
 // Round posts for blades, the seam of each elsewhere: the pieces that they are divided into are no turned copies.
 static TopoDS_Shape with_posts(TopoDS_Shape water) {
   for (int k = 0; k < 6; k++) {
@@ -189,6 +213,7 @@ static int make_files(void **) {
   gp_Trsf wider;
   wider.SetScale(gp::Origin(), 50.02 / 50);
   small_write(folder + "/pump.brep", {rotor, stator});
+  small_write(folder + "/eyes.brep", {small_rotor(2), stator});
   small_write(folder + "/line.brep", {BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Shape()});
   BRep_Builder builder;
   TopoDS_Compound open;
@@ -207,9 +232,9 @@ static int make_files(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_proposed),
-                                     cmocka_unit_test(pieces_of_blades_are_blades),
-                                     cmocka_unit_test(numbers_of_fused_solids_may_be_great),
-                                     cmocka_unit_test(rules_name_patches), cmocka_unit_test(wrong_input_is_told)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(patches_are_proposed),        cmocka_unit_test(wheels_with_two_eyes_need_no_shaft),
+      cmocka_unit_test(pieces_of_blades_are_blades), cmocka_unit_test(numbers_of_fused_solids_may_be_great),
+      cmocka_unit_test(rules_name_patches),          cmocka_unit_test(wrong_input_is_told)};
   return cmocka_run_group_tests(tests, make_files, clear_test_folder);
 }
