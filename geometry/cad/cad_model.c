@@ -416,7 +416,7 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
   CW_TRY(measure_eyes(cad, survey, patches, interface_count, interfaces, &sizes));
   CW_TRY(check(cad, &table->operating_point, patches, interface_count, &sizes));
   CwWallFlow flow[CW_ALONG_COUNT];
-  int blades; // with splitters
+  int blades = blade_count; // with splitters
   CW_TRY(count_at_outlet(cad, survey, patches, sizes.wheel_radius, blade_count, &blades));
   const CwWaterWay way = water_way(&table->operating_point, &sizes, blades);
   cw_wall_flows(&way, flow);
