@@ -194,7 +194,7 @@ int main(void) {
       cmocka_unit_test(fillets_take_their_volume),    cmocka_unit_test(fillets_are_tangent_and_named),
       cmocka_unit_test(fillets_go_with_every_option), cmocka_unit_test(too_large_fillets_are_refused),
       cmocka_unit_test(shaft_through_the_inlet),      cmocka_unit_test(hub_follows_the_shaft),
-      cmocka_unit_test(seams_cut_passages_that_wind),
+      cmocka_unit_test(seams_cut_passages_that_wind), cmocka_unit_test(named_fillets_fit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
