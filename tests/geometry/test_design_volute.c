@@ -158,7 +158,7 @@ static void what_could_help(void **state) {
   input.angular_momentum = 0.1;
   assert_int_equal(help_of(&input), CW_VOLUTE_WIDER_SPIRAL);
   input = volute_of_paper();
-  input.throat_area = 0.5;
+  input.throat_area = 0.02;
   assert_int_equal(help_of(&input), CW_VOLUTE_WIDER_SPIRAL);
   input = volute_of_paper();
   input.tongue_radius = 0.015;

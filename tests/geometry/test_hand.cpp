@@ -44,7 +44,7 @@ static void suction_blades_and_spiral(void **) {
     assert_true(rotation == CW_ROTATION_CLOCKWISE ? inlet > 50 : inlet < -50);
     assert_near(degrees_between(middle(rotor, "blade_leading_edge_1"), middle(rotor, "blade_trailing_edge_1")), 71, 10);
     const double thick = degrees_between(middle(rotor, "blade_pressure_1"), middle(rotor, "blade_suction_1"));
-    assert_true(thick > 2 && thick < 15);
+    assert_true(thick > 1 && thick < 15);
     const gp_Pnt outlet = middle(pump.solid[CW_PUMP_STATOR], "outlet");
     assert_true(outlet.X() > 0 && outlet.Y() > 100);
     cw_pump_free(&pump);
