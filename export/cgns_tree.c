@@ -58,7 +58,7 @@ static CwStatus put_families(hid_t base, const CwMesh *mesh) {
   }
   for (int d = 0; d < mesh->domain_count; ++d) {
     char name[CW_MESH_NAME_SIZE];
-    snprintf(name, sizeof name, "%.20s_domain", mesh->domains[d].name);
+    cw_domain_family_name(mesh->domains[d].name, name);
     CW_TRY(cw_cgns_node(base, name, "Family_t", "MT", 0, NULL, NULL, NULL));
   }
 done:
@@ -186,7 +186,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
   CW_TRY(cw_cgns_sections(a, domain, &sections, &section_count));
   CW_TRY(cw_cgns_integers(base, a->mesh->domains[domain].zone, "Zone_t", wide, 3, 1, size, &zone));
   CW_TRY(cw_cgns_text(zone, "ZoneType", "ZoneType_t", "Unstructured", NULL));
-  snprintf(family, sizeof family, "%.20s_domain", a->mesh->domains[domain].name);
+  cw_domain_family_name(a->mesh->domains[domain].name, family);
   CW_TRY(cw_cgns_text(zone, "FamilyName", "FamilyName_t", family, NULL));
   CW_TRY(put_coordinates(zone, total->points));
   for (int s = 0; s < section_count; ++s) CW_TRY(put_section(zone, &sections[s], wide));

@@ -60,13 +60,22 @@ static CwStatus check_name(const char *what, const char *name, int most, const c
              : CW_FAIL(CW_ERR_INPUT, "%s '%s'; allowed are 1 to %d %s, digits and _", what, name, most, text);
 }
 
-// In CGNS the zone of a domain has its name in capitals, and its family one in _domain, beside the families of patches.
+void cw_domain_zone_name(const char *domain, char name[CW_NAME_SIZE]) {
+  size_t length = strlen(domain);
+  for (size_t k = 0; k <= length; k++) name[k] = (char)toupper((unsigned char)domain[k]);
+}
+
+void cw_domain_family_name(const char *domain, char name[CW_NAME_SIZE]) {
+  snprintf(name, CW_NAME_SIZE, "%.*s_domain", CW_DOMAIN_NAME_MOST, domain);
+}
+
+// In CGNS zone and family of a domain stand beside the families of patches.
 static CwStatus check_patch_name(const char *patch, const char *domain) {
   CwStatus status = CW_OK;
-  size_t length = strlen(domain), k = 0;
-  while (patch[k] && patch[k] == toupper((unsigned char)domain[k])) k++;
-  int zone = !patch[k] && !domain[k], family = !strncmp(patch, domain, length) && !strcmp(patch + length, "_domain");
-  CW_REQUIRE(!zone && !family, CW_ERR_INPUT,
+  char zone[CW_NAME_SIZE], family[CW_NAME_SIZE];
+  cw_domain_zone_name(domain, zone);
+  cw_domain_family_name(domain, family);
+  CW_REQUIRE(strcmp(patch, zone) && strcmp(patch, family), CW_ERR_INPUT,
              "patch '%s' has a name that domain '%s' has in CGNS; any other will do, such as '%s_wall'", patch, domain,
              domain);
 done:

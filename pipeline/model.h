@@ -59,14 +59,14 @@ typedef struct {
   char name[CW_NAME_SIZE];
   CwPatchKind kind;
   int domain;
-  CwPatchGroup size;  // relative size of its edges
-  CwPatchGroup group; // of a wall
-  CwWallFlow flow;    // of a wall
+  CwPatchGroup size;   // relative size of its edges
+  CwPatchGroup group;  // of a wall
+  CwWallFlow flow;     // of a wall
   double y_plus_asked; // of a wall, in place of its group's; NAN: none
   double y_plus;       // of a wall, that its layers were made for; NAN: not yet, or the flow along it is laminar
-  int turns;          // of a wall: 1: it turns with the impeller
-  int monitored;      // of a wall: 1: solvers record its mean pressure
-  double flow_share;  // of an outlet: its part of the flow rate
+  int turns;           // of a wall: 1: it turns with the impeller
+  int monitored;       // of a wall: 1: solvers record its mean pressure
+  double flow_share;   // of an outlet: its part of the flow rate
 } CwModelPatch;
 
 typedef struct {
@@ -106,6 +106,10 @@ CwStatus cw_model_add_domain(CwModel *model, const char *name, int rotating);
 CwStatus cw_model_add_patch(CwModel *model, const char *name, CwPatchKind kind, CwModelPatch **patch);
 // Between two patches of kind interface, of two domains, by name; `radius` of a cylinder. CW_ERR_INPUT else.
 CwStatus cw_model_add_interface(CwModel *model, const char *const patch[2], CwInterfaceSurface surface, double radius);
+
+// What a domain's zone (CGNS, CFX) and its family (CGNS) are called: the name in capitals, and with _domain behind it.
+void cw_domain_zone_name(const char *domain, char name[CW_NAME_SIZE]);
+void cw_domain_family_name(const char *domain, char name[CW_NAME_SIZE]);
 
 // The index of what is called so, or -1.
 int cw_model_domain_find(const CwModel *model, const char *name);

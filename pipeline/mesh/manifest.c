@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/mesh/manifest.h"
 
-#include <ctype.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,10 +111,8 @@ static void take_model(CwModel *model, CwMesh *mesh) {
     made->rotating = of->rotating;
     made->first_patch = of->first_patch;
     made->patch_count = of->patch_count;
-    for (size_t k = 0; k <= strlen(of->name); ++k) {
-      made->name[k] = of->name[k];
-      made->zone[k] = (char)toupper((unsigned char)of->name[k]);
-    }
+    strcpy(made->name, of->name);
+    cw_domain_zone_name(of->name, made->zone);
   }
 }
 
