@@ -77,7 +77,7 @@ static double solve_scale(const CwMeshRun *run, double (*cells)(const CwMeshRun 
   for (int i = 0; i < SCALE_STEPS; i++) {
     double off = log(cells(run, scale) / asked);
     if (fabs(off) < 1e-12) break;
-    if (i > 0 && off != before) slope = fmin(fmax((off - before) / step, -6), -1);
+    if (i > 0 && off != before) slope = fmin((off - before) / step, -1);
     step = fmin(fmax(-off / slope, -1), 1);
     before = off;
     scale *= exp(step);

@@ -149,14 +149,14 @@ static void take_best(CwMeshRun *run, CwPassState *state) {
 // Asks for shorter edges about flat tetrahedra and missed first heights, as long as these become fewer: where edges are
 // as long as a passage is wide no filling is better. After a second round that did not help an impeller of periodic
 // images is meshed whole once, if it is there that the best mesh falls short: fewer planes leave layers more room. Then
-// the best mesh is made again. met: whether there is a mesh of as many cells as asked; *again: 1 where there is
-// anything to make.
-static CwStatus improve(CwMeshRun *run, CwPassState *state, int met, int *again) {
+// the best mesh is made again. made: whether there is a mesh that may stand, of as many cells as asked or what the
+// first passes came to; *again: 1 where there is anything to make.
+static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again) {
   CwStatus status = CW_OK;
   int32_t poor = 0;
-  double deficit = met ? cw_poor_deficit(run, &poor) : INFINITY;
-  int many = met && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare;
-  int best = met && (state->poor_rounds == 0 || deficit < state->least_deficit);
+  double deficit = made ? cw_poor_deficit(run, &poor) : INFINITY;
+  int many = made && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare;
+  int best = made && (state->poor_rounds == 0 || deficit < state->least_deficit);
   int more = many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1);
   if (best) {
     state->best = state->start;
@@ -196,7 +196,7 @@ static CwStatus judge_pass(CwMeshRun *run, CwPassState *state, int *last, int *a
          100 * off, asked);
   cw_learn_tets(run);
   *last = met || run->passes - state->first_pass + 1 >= PASSES_MOST;
-  if (met || (*last && state->poor_rounds > 0)) CW_TRY(improve(run, state, met, again));
+  if (*last) CW_TRY(improve(run, state, met || state->poor_rounds == 0, again));
   if (*last && !*again && !met)
     cw_log_warn(run->context.log,
                 "mesh.cells: %lld cells made, %.1f %% off the asked %.0f after %d passes; wanted: within %.0f %%",
