@@ -6,13 +6,12 @@
 What each number of the mesher's policy does, over the first random pumps (random_pumps.py) and the named cases at each
 size. BUILD is configured with -DCUTWATER_EXPERIMENT=ON. Geometry is made once a pump; the mesher runs on one rank.
 
-Without --singly all numbers are moved at once, each by the factor to one side or the other, in a folded screening
+In the first table all numbers are moved at once, each by the factor to one side or the other, in a folded screening
 design (screening.py). A row tells a number's effects: the mean with the number times the factor, less the mean with it
 divided. The last column calls a number idle where no effect is 2.5 standard errors or more, else it names those that
-are.
+are. In the second each number that can be switched off is, alone. A row tells the differences to the pumps as they are.
 
-With --singly each number is moved alone, down and up, and then takes the value that switches it off, where it has one.
-A row tells the differences to the pumps as they are.
+With --singly each number is also moved alone, down and up, in place of the first table.
 
 A move stops at the value that switches a number off; whole numbers move by 1 at least. A run that ends with an error
 is a failure, and has the means of its pump in the other columns. DIR keeps results.jsonl, one line a run: a second call
@@ -71,20 +70,22 @@ def moved(number, factor):
     return there
 
 
-def settings_of(numbers, options):
-    """Lists of (label, {name: value}) to be run, and the screening design, or None."""
-    names = list(numbers)
-    if options.singly:
-        single = [("as it is", {})]
-        for name in names:
-            single += [(f"{name}/{side}", {name: moved(numbers[name], factor)})
-                       for side, factor in (("down", 1 / options.factor), ("up", options.factor))]
-            if numbers[name][2] is not None:
-                single.append((f"{name}/off", {name: numbers[name][2]}))
-        return single, None
-    rows = design(len(names))
-    return [(f"row {index}", {name: moved(numbers[name], options.factor**row[k]) for k, name in enumerate(names)})
-            for index, row in enumerate(rows)], rows
+def moved_together(numbers, factor, rows):
+    """(label, {name: value}) of each run of the screening design."""
+    return [(f"row {index}", {name: moved(numbers[name], factor**row[k]) for k, name in enumerate(numbers)})
+            for index, row in enumerate(rows)]
+
+
+def moved_alone(numbers, factor):
+    """(label, {name: value}) of the pumps as they are, with each number moved by the factor, if any, and off."""
+    single = [("as it is", {})]
+    for name, number in numbers.items():
+        if factor:
+            single += [(f"{name}/{side}", {name: moved(number, by)})
+                       for side, by in (("down", 1 / factor), ("up", factor))]
+        if number[2] is not None:
+            single.append((f"{name}/off", {name: number[2]}))
+    return single
 
 
 def figures_of(run):
@@ -199,11 +200,9 @@ def print_screening(numbers, rows, table):
         print_row(name, f"{number[1]:g}", row, ", ".join(clear) or "idle")
 
 
-def print_singly(numbers, labels, table):
+def print_singly(labels, table):
     print_heading()
     for m, label in enumerate(labels[1:], 1):
-        name, side = label.split("/")
-        kind, value, off = numbers[name]
         print_row(label, "", [column[m] - column[0] for column in table])
 
 
@@ -217,19 +216,25 @@ def main():
         sys.exit(f"ablate.py: no number {min(unknown)}; there are {', '.join(listed)}")
     numbers = {name: listed[name] for name in options.numbers or listed}
     pumps = pumps_of(options)
-    settings, rows = settings_of(numbers, options)
-    labels = [label for label, _ in settings]
-    results = run_all(options, pumps, settings)
-    figures = [responses(results, pumps, options.sizes, labels, key) for key, _, _, _ in FIGURES]
+    rows = [] if options.singly else design(len(numbers))
+    together = moved_together(numbers, options.factor, rows)
+    alone = moved_alone(numbers, options.factor if options.singly else None)
+    labels = [label for label, _ in together + alone]
+    results = run_all(options, pumps, together + alone)
     failed = [results[name, cells, label] for name, _, _ in pumps for cells in options.sizes for label in labels
               if results[name, cells, label]["failed"]]
     print(f"{len(numbers)} numbers, factor {options.factor:g}; {len(pumps)} pumps at {', '.join(options.sizes)} cells: "
-          f"{' '.join(name for name, _, _ in pumps)}; {len(settings)} settings, {len(failed)} meshes failed of "
-          f"{len(settings) * len(pumps) * len(options.sizes)}\n")
+          f"{' '.join(name for name, _, _ in pumps)}; {len(labels)} settings, {len(failed)} meshes failed of "
+          f"{len(labels) * len(pumps) * len(options.sizes)}\n")
+
+    def table(settings):
+        names = [label for label, _ in settings]
+        return [responses(results, pumps, options.sizes, names, key) for key, _, _, _ in FIGURES]
+
     if rows:
-        print_screening(numbers, rows, [effects(rows, figure) for figure in figures])
-    else:
-        print_singly(numbers, labels, figures)
+        print_screening(numbers, rows, [effects(rows, figure) for figure in table(together)])
+        print("\nSwitched off, each alone:\n")
+    print_singly([label for label, _ in alone], table(alone))
 
 
 if __name__ == "__main__":

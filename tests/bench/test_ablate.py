@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The screening design by its definition, its estimates on responses whose effects are known, and the moves of the
 numbers of the policy."""
-import argparse
 import math
 import random
 import unittest
 
-from ablate import moved, policy_numbers, responses, settings_of
+from ablate import moved, moved_alone, moved_together, policy_numbers, responses
 from cutwater import SOURCE
 from screening import DUMMIES_LEAST, design, effects, paley_order, standard_error
 
@@ -80,15 +79,16 @@ class Moves(unittest.TestCase):
         self.assertEqual([moved(("int64_t", 2, 0), factor) for factor in (1.25, 1 / 1.25)], [3, 1])
         self.assertEqual([moved(("int64_t", 100, None), factor) for factor in (1.25, 1 / 1.25)], [125, 80])
 
-    def test_singly_each_number_is_moved_and_taken_away(self):
+    def test_each_number_is_moved_and_taken_away_alone(self):
         numbers = {"one": ("double", 0.5, None), "two": ("int64_t", 3, 0)}
-        single, rows = settings_of(numbers, argparse.Namespace(singly=True, factor=2))
-        self.assertIsNone(rows)
-        self.assertEqual(dict(single), {"as it is": {}, "one/down": {"one": 0.25}, "one/up": {"one": 1},
-                                        "two/down": {"two": 2}, "two/up": {"two": 6}, "two/off": {"two": 0}})
+        off = {"as it is": {}, "two/off": {"two": 0}}
+        self.assertEqual(dict(moved_alone(numbers, None)), off)
+        self.assertEqual(dict(moved_alone(numbers, 2)), {**off, "one/down": {"one": 0.25}, "one/up": {"one": 1},
+                                                         "two/down": {"two": 2}, "two/up": {"two": 6}})
 
     def test_all_numbers_move_at_once_by_the_design(self):
-        settings, rows = settings_of({"one": ("double", 0.5, None)}, argparse.Namespace(singly=False, factor=2))
+        rows = design(1)
+        settings = moved_together({"one": ("double", 0.5, None)}, 2, rows)
         self.assertEqual([setting["one"] for _, setting in settings], [0.5 * 2.0**row[0] for row in rows])
 
 
