@@ -213,7 +213,7 @@ void cw_learn_prisms(CwMeshRun *run) {
     prisms += (double)domain->layer_count * domain->surface.triangle_count;
   }
   double factor = prisms * run->scale * run->scale / integral;
-  cw_cell_law_learn(&run->prisms, factor, run->scale, 2);
+  cw_cell_law_learn(&run->prisms, factor, run->scale, 2, 0);
 }
 
 void cw_learn_tets(CwMeshRun *run) {
@@ -222,7 +222,9 @@ void cw_learn_tets(CwMeshRun *run) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
     integral += cw_domain_tet_integral(&run->domain[d], run->scale);
   }
-  cw_cell_law_learn(&run->tets, made * run->scale * run->scale * run->scale / integral, run->scale, 3);
+  double asked = (double)run->table->mesh.cells, before = run->tets.scale;
+  int between = before > 0 && (all_cells_at(run, before) > asked) != ((double)run->cells > asked);
+  cw_cell_law_learn(&run->tets, made * run->scale * run->scale * run->scale / integral, run->scale, 3, between);
   cw_log_debug(run->context.log,
                "%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals; exponents %.2f, %.2f",
                run->tets.factor, run->prisms.factor, run->tets.exponent, run->prisms.exponent);

@@ -4,19 +4,17 @@
 #include <math.h>
 
 // Of cells with the scale: what two counts tell may be noise. Where they tell that cells hardly fall any more, edges
-// are as long as the model lets them, and a step that counted on so little would be too long. Where layers fill most of
-// the passages, tetrahedra fall with the eleventh power and more: less is left to them too.
-static const double SLOPE_LEAST = 1, SLOPE_MOST = 15;
+// are as long as the model lets them, and a step that counted on so little would be too long.
+static const double SLOPE_LEAST = 1, SLOPE_MOST = 6;
 static const double APART = 0.01; // relative change of the scale from which on two counts tell a slope
 
 double cw_cell_law_at(const CwCellLaw *law, double scale) {
   return law->scale > 0 ? law->factor * pow(scale / law->scale, law->exponent) : law->factor;
 }
 
-void cw_cell_law_learn(CwCellLaw *law, double factor, double scale, int power) {
-  double step = law->scale > 0 ? log(scale / law->scale) : 0;
-  if (fabs(step) >= APART)
-    law->exponent = fmin(fmax(log(factor / law->factor) / step, power - SLOPE_MOST), power - SLOPE_LEAST);
+void cw_cell_law_learn(CwCellLaw *law, double factor, double scale, int power, int between) {
+  double step = law->scale > 0 ? log(scale / law->scale) : 0, least = between ? -INFINITY : power - SLOPE_MOST;
+  if (fabs(step) >= APART) law->exponent = fmin(fmax(log(factor / law->factor) / step, least), power - SLOPE_LEAST);
   law->factor = factor;
   law->scale = scale;
 }

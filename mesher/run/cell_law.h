@@ -18,8 +18,10 @@ typedef struct {
 
 double cw_cell_law_at(const CwCellLaw *law, double scale);
 
-// Takes in what was counted at a scale: cells = factor * integral / scale^power. [in,out] law.
-void cw_cell_law_learn(CwCellLaw *law, double factor, double scale, int power);
+// Takes in what was counted at a scale: cells = factor * integral / scale^power. between: the scale that is wanted lies
+// between this one and the last; however steep they are, it is had from both. Elsewhere cells fall with the sixth power
+// at most. [in,out] law.
+void cw_cell_law_learn(CwCellLaw *law, double factor, double scale, int power, int between);
 
 #ifdef __cplusplus
 }
