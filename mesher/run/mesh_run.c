@@ -23,7 +23,7 @@
 #include "pipeline/log.h"
 
 // Passes with the same places; rounds of shorter edges for layers, and for quality.
-enum { PASSES_MOST = 6, FINER_MOST = 6, POOR_MOST = 4 };
+enum { PASSES_MOST = 10, FINER_MOST = 6, POOR_MOST = 4 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
 // The stages of one attempt, in their order. After the one that the run is to end with it is done.
