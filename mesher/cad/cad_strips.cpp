@@ -293,6 +293,40 @@ int least_patch(const CwCad *cad, const CwCadChain &chain, int row) {
   return least;
 }
 
+// The patch behind an end of a strip.
+int patch_behind(const CwCad *cad, const CwCadChainStrip &strip, int end) {
+  return cw_cad_face_patch(cad, cw_cad_beyond(cad, strip.end[end].edge, strip.face));
+}
+
+// 1 where a strip's loop runs anticlockwise seen from out of the fluid, -1 where it runs clockwise.
+int loop_sense(const CwCad *cad, const CwCadChainStrip &strip) {
+  const CwCadUse &use = strip.side[0][strip.side[0].size() / 2];
+  double x[3], along[3], across[3], uv[2], normal[3], up[3], t = cw_cad_use_at(cad, use, 0.5);
+  cw_cad_edge_point(cad, use.edge, t, x, along);
+  for (int k = 0; k < 3 && use.reversed; k++) along[k] = -along[k];
+  cw_sub(strip.x[CW_CAD_STRIP_SAMPLES / 2], x, across);
+  cw_cad_edge_uv(cad, use.edge, strip.face, t, uv);
+  cw_cad_face_normal(cad, strip.face, uv, normal);
+  cw_cross(along, across, up);
+  return cw_dot(up, normal) > 0 ? 1 : -1;
+}
+
+// Which of two rows of one length between the same patches stays: that on the right of the way from the shorter end to
+// the longer one, or to the end before the later patch, seen from out of the fluid. Images of a chain under a turn
+// decide alike, wherever their loops begin.
+int row_by_hand(const CwCad *cad, const CwCadChain &chain) {
+  double longer = 0, length = 0;
+  int later = 0;
+  for (const CwCadChainStrip &strip : chain) { // its loop runs along row 0 from end[1] to end[0]
+    int sense = loop_sense(cad, strip);
+    double end[2] = {use_length(cad, strip.end[0]), use_length(cad, strip.end[1])};
+    longer += sense * (end[0] - end[1]);
+    later += sense * (patch_behind(cad, strip, 0) - patch_behind(cad, strip, 1));
+    length += end[0] + end[1];
+  }
+  return std::fabs(longer) > SAME_LENGTH * length ? longer < 0 : later < 0;
+}
+
 // Settles which row stays: the longer one of those beside which the other has one edge a strip. False where none is.
 bool settle_row(const CwCad *cad, CwCadChain &chain) {
   double length[2] = {0, 0};
@@ -305,7 +339,8 @@ bool settle_row(const CwCad *cad, CwCadChain &chain) {
   }
   if (!can_go[0] && !can_go[1]) return false;
   bool alike = std::fabs(length[0] - length[1]) <= SAME_LENGTH * (length[0] + length[1]);
-  int longer = alike ? least_patch(cad, chain, 1) < least_patch(cad, chain, 0) : length[1] > length[0];
+  int patch[2] = {least_patch(cad, chain, 0), least_patch(cad, chain, 1)};
+  int longer = !alike ? length[1] > length[0] : patch[0] != patch[1] ? patch[1] < patch[0] : row_by_hand(cad, chain);
   for (CwCadChainStrip &strip : chain) strip.stays = can_go[1 - longer] ? longer : 1 - longer;
   return true;
 }

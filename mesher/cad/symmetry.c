@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
 
 enum { TURNS_MOST = 64, FACE_SAMPLES = 5, EDGE_SAMPLES = 5 };
@@ -131,6 +132,7 @@ static int32_t face_image(const CwCad *cad, double near, const FaceSamples *samp
     if (g == face || cw_cad_face_patch(cad, g) != cw_cad_face_patch(cad, face)) continue;
     if (cw_cad_face_is_wall(cad, g) != cw_cad_face_is_wall(cad, face)) continue;
     if (cw_cad_face_reversed(cad, g) != cw_cad_face_reversed(cad, face)) continue;
+    if (cw_cad_face_is_left_out(cad, g) != cw_cad_face_is_left_out(cad, face)) continue; // it has no edges to tell by
     int same = of->count > 0;
     for (int32_t s = 0; same && s < of->count; s++) {
       double turned[3], x[3];

@@ -5,6 +5,7 @@
 #include "mesher/layers/thin_prism.h"
 
 static const double ENOUGH = 1.05 * CW_SMALL_DETERMINANT;
+static const double SIDE_ENOUGH = 0.1; // of half of the pyramid on a side, over the mean of its halves
 
 double cw_prism_quality(const double *const wall[3], const double *const top[3]) {
   double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
@@ -71,6 +72,26 @@ static double right_determinant(const double base[3][3], const double upper[3][3
   return cw_prism_determinant(base, (const double(*)[3])right, on_wall);
 }
 
+// The least half of the pyramids on the sides of a prism, over the mean of its side.
+static double sides_quality(const double base[3][3], const double upper[3][3]) {
+  double middle[3], least = INFINITY;
+  for (int k = 0; k < 3; k++)
+    middle[k] = (base[0][k] + base[1][k] + base[2][k] + upper[0][k] + upper[1][k] + upper[2][k]) / 6;
+  for (int i = 0; i < 3; i++) {
+    const double *const x[4] = {base[i], base[(i + 1) % 3], upper[(i + 1) % 3], upper[i]};
+    double from[4][3], half[4], mean = 0; // half[k]: that with corner k and its neighbours
+    for (int k = 0; k < 4; k++) cw_sub(x[k], middle, from[k]);
+    for (int k = 0; k < 4; k++) {
+      double c[3];
+      cw_cross(from[k], from[(k + 1) % 4], c);
+      half[k] = cw_dot(from[(k + 3) % 4], c);
+      mean += half[k] / 4;
+    }
+    for (int k = 0; k < 4; k++) least = fmin(least, half[k] / mean);
+  }
+  return least;
+}
+
 double cw_prism_shear_quality(const double *const wall[3], const double *const top[3], int layers,
                               const double last[3]) {
   double least = 1;
@@ -81,6 +102,7 @@ double cw_prism_shear_quality(const double *const wall[3], const double *const t
       cw_lerp(wall[k], top[k], on_wall ? 1.0 / layers : 1, upper[k]);
     }
     const double(*b)[3] = (const double(*)[3])base, (*t)[3] = (const double(*)[3])upper;
+    least = fmin(least, sides_quality(b, t) / SIDE_ENOUGH);
     if (right_determinant(b, t, on_wall) < ENOUGH) continue;
     least = fmin(least, cw_prism_determinant(b, t, on_wall) / ENOUGH);
   }

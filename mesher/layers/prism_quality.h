@@ -16,7 +16,9 @@ double cw_prism_top_quality(const double *const wall[3], const double *const top
 // Least determinant (thin_prism.h) of the lowest of `layers` even layers between wall and layer top and of the highest,
 // which takes the shares `last` of its columns, over what checkMesh asks for; 1 where it is enough. Layers so thin that
 // right prisms would be small too do not count: what is left are columns that lean so much that the sides of their
-// prisms are large for base and height.
+// prisms are large for base and height. Less too where columns lean apart so much that a side is hardly convex, seen
+// from the middle of its prism: of the pyramid between them, either half of either division by a diagonal is to be a
+// tenth of the mean at least. Solvers that divide cells so have to find one for both cells beside a side.
 double cw_prism_shear_quality(const double *const wall[3], const double *const top[3], int layers,
                               const double last[3]);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/layers/layers_normal.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
@@ -31,6 +32,10 @@ int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
   double first = cw_layer_fractions(domain->layers.thickness[vertex], domain->layers.first_height[vertex],
                                     targets->layer_count, targets->growth[vertex], fraction);
   return fabs(first / targets->first_height[vertex] - 1) <= CW_FIRST_HEIGHT_TOLERANCE;
+}
+
+int cw_domain_is_sharp(const CwDomain *domain) {
+  return sin(domain->sharp.angle / 2 * CW_DEGREE) < (1 - CW_FIRST_HEIGHT_TOLERANCE) * CW_CONVEX_FLOOR;
 }
 
 void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage *coverage) {

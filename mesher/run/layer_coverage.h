@@ -20,6 +20,9 @@ typedef struct {
 // Whether the first layer at a wall vertex is as high as asked, within the tolerance.
 int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex);
 
+// Whether walls meet in an edge so sharp that first heights beside it are missed, of which is told before.
+int cw_domain_is_sharp(const CwDomain *domain);
+
 // Of all patches, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage *coverage);
 

@@ -7,8 +7,6 @@
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/model_unit.h"
-#include "mesher/common/quality.h"
-#include "mesher/layers/layers_normal.h"
 #include "mesher/run/layer_coverage.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
@@ -200,18 +198,14 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          domain->name, rounded.text);
 }
 
-static int is_sharp(const CwSharpEdge *edge) {
-  return sin(edge->angle / 2 * CW_DEGREE) < (1 - CW_FIRST_HEIGHT_TOLERANCE) * CW_CONVEX_FLOOR;
-}
-
 void cw_put_sharp_edge(const CwDomain *domain, json_t *result) {
   json_object_set_new(result, "sharp_edge_deg",
-                      is_sharp(&domain->sharp) ? cw_json_number(domain->sharp.angle) : json_null());
+                      cw_domain_is_sharp(domain) ? cw_json_number(domain->sharp.angle) : json_null());
 }
 
 void cw_tell_of_sharp_edge(CwLog *log, const CwDomain *domain) {
   const CwSharpEdge *edge = &domain->sharp;
-  if (!is_sharp(edge)) return;
+  if (!cw_domain_is_sharp(domain)) return;
   cw_log(
       log,
       "%s: walls meet at %.3g degrees (%.40s and %.40s at (%.3f, %.3f, %.3f) mm): over an edge that sharp the layers "

@@ -24,15 +24,17 @@ static int is_judged(const CwDomain *domain, int patch) {
 }
 
 // How many times missed_share of the domain's faces miss their first height, beyond the first time; but for those
-// beside sharp edges, of which is told beforehand too.
+// beside sharp edges, where it has any: of these is told beforehand too. Round edges are as sharp where edges of the
+// mesh are long.
 static double lacks_first_heights(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   double faces = 0, missed = 0;
+  int sharp = cw_domain_is_sharp(domain);
   for (int p = 0; p < run->model.domain[d].patch_count; p++) {
     for (int32_t r = 0; is_judged(domain, p) && r < domain->plan.region_count; r++) {
       const CwLayerCoverage *of = &run->summary[d][r].coverage[p];
       faces += of->faces;
-      missed += of->faces - of->first_met - of->missed[CW_LAYER_SHARPNESS];
+      missed += of->faces - of->first_met - (sharp ? of->missed[CW_LAYER_SHARPNESS] : 0);
     }
   }
   return faces > 0 ? fmax(missed / (cw_policy.missed_share * faces) - 1, 0) : 0;
@@ -83,7 +85,7 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
   int32_t before = run->finer.count;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
-    int heights = lacks_first_heights(run, d) > 0;
+    int heights = lacks_first_heights(run, d) > 0, sharp = cw_domain_is_sharp(domain);
     for (int32_t r = 0; r < domain->plan.region_count; r++) {
       if (lacks_angle(run, d, r) > 0) CW_TRY(add_apart(run, d, run->summary[d][r].quality.flattest_at, before));
     }
@@ -92,7 +94,7 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
       if (surface->source[t] != t || !is_judged(domain, cw_cad_face_patch(domain->cad, surface->face[t]))) continue;
       for (int k = 0; k < 3; k++) {
         int32_t v = domain->layers.triangle[t][k];
-        if (domain->layers.reason[v] == CW_LAYER_SHARPNESS) continue;
+        if (sharp && domain->layers.reason[v] == CW_LAYER_SHARPNESS) continue;
         if (!cw_domain_first_is_met(domain, v)) CW_TRY(add_apart(run, d, surface->x[v], before));
       }
     }

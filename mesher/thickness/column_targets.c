@@ -155,7 +155,8 @@ done:
 }
 
 // What the walls ask of each vertex. Away from where patches meet the first height grows no faster than columns whose
-// layers grow a little can.
+// layers grow a little can. A single layer has no growth to give up where columns may rise less than that: it rises as
+// the first of two.
 static CwStatus take_asked(const CwContext *context, const CwSurfaceMesh *surface, const CwIncident *around,
                            const CwLayerTarget *layers, CwColumnTargets *targets, CwLayerTarget *asked) {
   CwStatus status = CW_OK;
@@ -166,7 +167,8 @@ static CwStatus take_asked(const CwContext *context, const CwSurfaceMesh *surfac
     targets->first_height[v] = asked[v].first_height;
     targets->growth[v] = asked[v].growth;
   }
-  CW_TRY(grade(context, surface, around, cw_policy.slope / cw_layer_thickness(1, targets->layer_count, LITTLE_GROWTH),
+  int count = targets->layer_count > 1 ? targets->layer_count : 2;
+  CW_TRY(grade(context, surface, around, cw_policy.slope / cw_layer_thickness(1, count, LITTLE_GROWTH),
                targets->first_height));
 done:
   return status;

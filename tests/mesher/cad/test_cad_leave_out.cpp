@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A tank with a filleted step in its floor: the fillet is the one strip that cad_strips finds, and is left out.
+// A tank with a filleted step in its floor: the fillet is the one strip that cad_strips finds, and is left out. A prism
+// and a frustum with narrow faces between wide ones, all of which go alike.
 #include <cmath>
 #include <cstdlib>
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
+#include <Bnd_Box.hxx>
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
@@ -98,8 +104,65 @@ static void leaves_out_the_fillet(void **) {
   cw_cad_close(&cad);
 }
 
+// Six wide faces and six narrow ones in turn, from the floor up; the lid is so many times as wide.
+static TopoDS_Shape alternating(double lid) {
+  BRepOffsetAPI_ThruSections made(true, true);
+  for (double z : {0.0, 30.0}) {
+    BRepBuilderAPI_MakePolygon wire;
+    for (int i = 0; i < 12; i++) {
+      double angle = i / 2 * M_PI / 3 + (i % 2 ? 0.02 : -0.02), r = z > 0 ? 20 * lid : 20;
+      wire.Add(gp_Pnt(r * std::cos(angle), r * std::sin(angle), z));
+    }
+    wire.Close();
+    made.AddWire(wire.Wire());
+  }
+  made.Build();
+  return made.Shape();
+}
+
+static std::string by_height(const TopoDS_Face &face) {
+  Bnd_Box box;
+  BRepBndLib::Add(face, box);
+  return box.CornerMax().Z() < 1 ? "floor,wall" : box.CornerMin().Z() > 29 ? "lid,wall" : "sides,wall";
+}
+
+// Both sides of each narrow face are as long and border the same patch. The same one stays on all, so that the solid is
+// as symmetric as before: seen from out of the fluid, on the right of the way from the shorter end to the longer one,
+// or from the earlier patch to the later one.
+static void images_go_alike(void **) {
+  const struct {
+    double lid;
+    bool patches;
+    int sense; // of the side that stays, about the axis of z
+  } shape[] = {{0.6, false, -1}, {1.5, false, 1}, {1, true, 1}};
+  for (const auto &of : shape) {
+    CwCad *cad = open_solid(alternating(of.lid), of.patches ? by_height : all_wall);
+    int count, faces, left = 0;
+    CwCadStrip *strip;
+    assert_int_equal(cw_cad_strips_find(cad, &count, &strip), CW_OK);
+    assert_int_equal(count, 6);
+    const int chain[] = {0, 1, 2, 3, 4, 5};
+    assert_int_equal(cw_cad_leave_out(cad, 6, chain, &faces), CW_OK);
+    assert_int_equal(faces, 6);
+    int up = of.patches && std::string(cw_cad_patch_name(cad, cw_cad_patch_count(cad) - 1)) == "floor" ? -1 : 1;
+    for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+      double range[2], x[3];
+      if (cw_cad_edge_stands_for(cad, e, nullptr) < 0) continue;
+      cw_cad_edge_range(cad, e, range);
+      cw_cad_edge_point(cad, e, 0.5 * (range[0] + range[1]), x, nullptr);
+      double turns = std::atan2(x[1], x[0]) / (M_PI / 3), off = turns - std::round(turns);
+      assert_near(off * M_PI / 3, 0.02 * up * of.sense, 1e-9);
+      left++;
+    }
+    assert_int_equal(left, 6);
+    free(strip);
+    cw_cad_close(&cad);
+  }
+}
+
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(finds_the_fillet), cmocka_unit_test(crest_is_no_strip),
-                              cmocka_unit_test(patch_keeps_a_face), cmocka_unit_test(leaves_out_the_fillet)};
+                              cmocka_unit_test(patch_keeps_a_face), cmocka_unit_test(leaves_out_the_fillet),
+                              cmocka_unit_test(images_go_alike)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

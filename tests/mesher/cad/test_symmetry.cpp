@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The symmetry of a tank with n equal sides and a hub in its middle.
+// The symmetry of a tank with n equal sides and a hub in its middle, and of a pipe with narrow faces that are left out.
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <gp_Circ.hxx>
+
+#include "mesher/cad/cad_leave_out.h"
 
 #include "tank.h"
 
@@ -23,6 +30,45 @@ static void turns_are_counted(void **) {
   assert_int_equal(turns_of(open_tank(5, false, true)), 5);
   const auto box = [](const TopoDS_Face &) -> std::string { return "side,wall"; };
   assert_int_equal(turns_of(open_solid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), box)), 1); // the axis at its edge
+}
+
+// A pipe of five equal parts, each with a wide face and a narrow one on one surface.
+static TopoDS_Shape parted_pipe() {
+  BRepBuilderAPI_MakeWire wire;
+  const double part = 2 * M_PI / 5, narrow = 0.05;
+  for (int i = 0; i < 5; i++) {
+    const gp_Ax2 turned(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(std::cos(i * part), std::sin(i * part), 0));
+    wire.Add(BRepBuilderAPI_MakeEdge(gp_Circ(turned, 20), 0, part - narrow));
+    wire.Add(BRepBuilderAPI_MakeEdge(gp_Circ(turned, 20), part - narrow, part));
+  }
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, 30)).Shape();
+}
+
+static std::string end_or_side(const TopoDS_Face &face) {
+  if (BRepAdaptor_Surface(face).GetType() != GeomAbs_Plane) return "side,wall";
+  return BRepAdaptor_Surface(face).Plane().Location().Z() > 15 ? "end,wall" : "beginning,wall";
+}
+
+static void left_out_faces_have_images(void **) {
+  CwCad *cad = open_solid(parted_pipe(), end_or_side);
+  CwBackground background;
+  CwSymmetry *symmetry;
+  int count, faces;
+  CwCadStrip *strip;
+  check(cw_background_make(cad, 1e-4, 0.2, &background));
+  check(cw_cad_strips_find(cad, &count, &strip));
+  assert_int_equal(count, 5);
+  const int chain[] = {0, 1, 2, 3, 4};
+  check(cw_cad_leave_out(cad, 5, chain, &faces));
+  assert_int_equal(faces, 5);
+  check(cw_symmetry_find(cad, &background, &symmetry));
+  assert_non_null(symmetry);
+  assert_int_equal(symmetry->count, 5);
+  for (int i = 0; i < count; i++) assert_true(cw_cad_face_is_left_out(cad, symmetry->face.next[strip[i].face]));
+  free(strip);
+  cw_symmetry_free(&symmetry);
+  cw_background_free(&background);
+  cw_cad_close(&cad);
 }
 
 // Each turning face stands for n, the two across the axis for themselves; the first ones have edges in common.
@@ -70,6 +116,7 @@ static void images_of_odd_lengths_are_refused(void **) {
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(turns_are_counted),
+      cmocka_unit_test(left_out_faces_have_images),
       cmocka_unit_test(faces_form_images),
       cmocka_unit_test(images_of_odd_lengths_are_refused),
   };

@@ -69,8 +69,20 @@ static void shear_by_hand(void **state) {
   assert_near(cw_prism_shear_quality(a, b, 5, even), 1, 1e-12);
 }
 
+// On the unit right triangle, 1 high, with the end of the column at its right angle moved into the prism by (s, s): the
+// halves of the pyramids on the sides beside it are (2 + s) / 6, twice (1 - s) / 3, and (2 - 5 s) / 6 at the upper end
+// of the other column.
+static void sides_by_hand(void **state) {
+  const double wall[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
+  for (int i = 0; i <= 8; i++) {
+    double s = 0.1 * i, x[3][3] = {{s, s, 1}, {1, 0, 1}, {0, 1, 1}}, least = (2 - 5 * s) / (2 - 2 * s);
+    const double *const b[3] = {x[0], x[1], x[2]}, one[3] = {1, 1, 1};
+    assert_near(cw_prism_shear_quality(a, b, 1, one), fmin(1, least / 0.1), 1e-12);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(prisms_by_hand), cmocka_unit_test(top_by_hand),
-                                     cmocka_unit_test(shear_by_hand)};
+                                     cmocka_unit_test(shear_by_hand), cmocka_unit_test(sides_by_hand)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

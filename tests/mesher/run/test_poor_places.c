@@ -47,6 +47,13 @@ static void missed_first_heights_count(void **state) {
   }
   assert_near(cw_poor_deficit(&run, &count), 1.5, 1e-12);
   assert_int_equal(count, 1);
+  // 15 of them beside a sharp edge are told of, where there is one; else the mesh is too coarse for a round one.
+  made[0].coverage[1].missed[CW_LAYER_SHARPNESS] = 15;
+  run.domain[0].sharp.angle = 90;
+  assert_near(cw_poor_deficit(&run, &count), 1.5, 1e-12);
+  run.domain[0].sharp.angle = 20;
+  assert_near(cw_poor_deficit(&run, &count), 0, 0);
+  run.domain[0].sharp.angle = 180;
   made[0].coverage[1].first_met = 490;
   assert_near(cw_poor_deficit(&run, &count), 0, 0);
   assert_int_equal(count, 0);
