@@ -66,6 +66,25 @@ static int is_skew(int count, const double *const *x, const double centre[3], co
   return length > CW_SKEWNESS_MOST * most;
 }
 
+// Whether neither diagonal divides a quadrilateral into triangles that both cells see from the side on which they are.
+// On the patch of one cell `to` is NULL.
+static int is_twisted(const double *const *x, const double from[3], const double *to) {
+  double behind[4], before[4];
+  for (int k = 0; k < 4; ++k) {
+    double next[3], last[3], normal[3], d[3];
+    cw_sub(x[(k + 1) % 4], x[k], next);
+    cw_sub(x[(k + 3) % 4], x[k], last);
+    cw_cross(next, last, normal); // of the triangle at corner k, out of `from`
+    cw_sub(x[k], from, d);
+    behind[k] = before[k] = cw_dot(normal, d);
+    if (!to) continue;
+    cw_sub(to, x[k], d);
+    before[k] = cw_dot(normal, d);
+  }
+  return (fmin(fmin(behind[0], before[0]), fmin(behind[2], before[2])) <= 0) &
+         (fmin(fmin(behind[1], before[1]), fmin(behind[3], before[3])) <= 0);
+}
+
 // Counts a face that may be skew or light, measured as checkMesh does.
 static void measure(int count, const double *const *x, const double from[3], const double *to, CwFaceKind kind,
                     CwFaceQuality *q) {
@@ -75,6 +94,10 @@ static void measure(int count, const double *const *x, const double from[3], con
   if (line.off_squares > limit * limit * line.line_squares) q->skew[kind] += is_skew(count, x, centre, &line, extent);
   if (to) q->light[kind] += is_light(&line, CW_SMALL_WEIGHT);
 }
+
+// Of |a - b + c - d| times the longer diagonal, over the area vector: below it all corners of a quadrilateral have
+// nearly one normal, and cells that see any of its triangles from the right side see all.
+static const double NEARLY_FLAT = 0.05;
 
 // The cosine of the angle between the face and the line; only what may be skew or light is measured. The centre of a
 // quadrilateral is off the mean of its nodes by a third of what that is off where its diagonals cross: less than a
@@ -95,7 +118,12 @@ static inline double cosine_between(int count, const double *const *x, const dou
   const double limit = CW_SKEWNESS_MOST * LEAST_EXTENT * (count == 3 ? 0.99 : 0.5);
   const double near = fabs(own), far = fabs(along - own), light = 2 * CW_SMALL_WEIGHT * (near + far);
   if (off > limit * limit * length * along * along || near < light || far < light) measure(count, x, from, to, kind, q);
-  const double product = cw_dot(area, area) * length;
+  const double squares = cw_dot(area, area), product = squares * length;
+  if (count == 4) {
+    const double e[3] = {a[0] - b[0] + c[0] - d[0], a[1] - b[1] + c[1] - d[1], a[2] - b[2] + c[2] - d[2]};
+    const double diagonal = fmax(cw_dot(u, u), cw_dot(v, v));
+    if (cw_dot(e, e) * diagonal > NEARLY_FLAT * NEARLY_FLAT * squares) q->twisted += is_twisted(x, from, to);
+  }
   return product > 0 ? along / sqrt(product) : 0;
 }
 
@@ -115,6 +143,7 @@ void cw_face_quality_face(int count, const double *const *x, const CwMiddle *fro
 
 void cw_face_quality_patch(int count, const double *const *x, const double from[3], CwFaceKind kind, CwFaceQuality *q) {
   measure(count, x, from, NULL, kind, q);
+  if (count == 4) q->twisted += is_twisted(x, from, NULL);
 }
 
 void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum) {
@@ -128,6 +157,7 @@ void cw_face_quality_add(const CwFaceQuality *more, CwFaceQuality *sum) {
     sum->open[kind] += more->open[kind];
   }
   sum->slender += more->slender;
+  sum->twisted += more->twisted;
 }
 
 static void face_on_patch(const CwRegionData *data, int32_t ref, const CwMiddle *middle, int32_t first_prism,

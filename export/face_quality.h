@@ -26,6 +26,8 @@ typedef struct {
   // Beyond the limits above: faces by skewness, weight and volume ratio, prisms and other cells by determinant, prisms
   // by aspect ratio.
   int64_t skew[CW_FACE_KINDS], light[CW_FACE_KINDS], uneven[CW_FACE_KINDS], open[CW_FACE_KINDS], slender;
+  // Quadrilaterals that no diagonal divides so that the tetrahedra on the parts are sound in all their cells.
+  int64_t twisted;
 } CwFaceQuality;
 
 // Centroid (m) and volume (m3) of a cell.

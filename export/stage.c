@@ -144,6 +144,7 @@ static void put_counts(const CwFaceQuality *faces, json_t *figures) {
                 {"other_small_weight_faces", faces->light[CW_FACE_OTHER]},
                 {"small_volume_ratio_faces_of_prisms", faces->uneven[CW_FACE_OF_PRISM]},
                 {"other_small_volume_ratio_faces", faces->uneven[CW_FACE_OTHER]},
+                {"twisted_faces", faces->twisted},
                 {"high_aspect_ratio_prisms", faces->slender},
                 {"small_determinant_prisms", faces->open[CW_FACE_OF_PRISM]},
                 {"other_small_determinant_cells", faces->open[CW_FACE_OTHER]}};
@@ -192,6 +193,11 @@ static void warn_of_faces(CwLog *log, const char *domain, const CwFaceQuality *f
       cw_log_warn(log, "domain %s: %lld faces of prisms and %lld others %s %g%s", domain,
                   (long long)kinds[i].count[CW_FACE_OF_PRISM], (long long)kinds[i].count[CW_FACE_OTHER], kinds[i].are,
                   kinds[i].limit, kinds[i].why);
+  if (faces->twisted > 0)
+    cw_log_warn(log,
+                "domain %s: %lld sides of prisms are so twisted that no diagonal divides them for both cells: columns "
+                "lean apart; more mesh.cells or thinner layers make them fewer",
+                domain, (long long)faces->twisted);
   if (faces->slender + open > 0)
     cw_log_warn(
         log,

@@ -14,7 +14,7 @@ A pump is good when every stage ends with status 0 and
   it has said that they are too sharp;
 - cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check
   but those of prisms that the exporter has warned of: prisms of a small determinant or a high aspect ratio, and faces
-  of prisms with a high skewness, a small interpolation weight or a small volume ratio.
+  of prisms with a high skewness, a small interpolation weight or a small volume ratio, or twisted.
 
 Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
 command that repeats one; then quantiles of the quality of all pumps that were meshed. DIR keeps cases/ and
@@ -152,6 +152,7 @@ def prisms_explain(line, zones, flat_as_told):
     for pattern, key in ((r"(\d+) highly skew faces", "skew_faces_of_prisms"),
                          (r"small interpolation weight .*number of faces: (\d+)", "small_weight_faces_of_prisms"),
                          (r"small volume ratio .*number of faces: (\d+)", "small_volume_ratio_faces_of_prisms"),
+                         (r"Error in face tets: (\d+) faces", "twisted_faces"),
                          (r"small determinant .*number of cells: (\d+)", "small_determinant_prisms"),
                          (r"High aspect ratio cells .*number of cells (\d+)", "high_aspect_ratio_prisms")):
         counted = re.search(pattern, line)

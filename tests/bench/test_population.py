@@ -29,11 +29,12 @@ class Population(unittest.TestCase):
 
     def test_prisms_explain_what_the_exporter_counted(self):
         names = ("skew_faces_of_prisms", "small_weight_faces_of_prisms", "small_volume_ratio_faces_of_prisms",
-                 "high_aspect_ratio_prisms", "small_determinant_prisms")
-        zones = [dict(zip(names, counts)) for counts in ((3, 0, 5, 0, 24), (4, 12, 1, 9, 0))]
+                 "twisted_faces", "high_aspect_ratio_prisms", "small_determinant_prisms")
+        zones = [dict(zip(names, counts)) for counts in ((3, 0, 5, 2, 0, 24), (4, 12, 1, 0, 9, 0))]
         lines = (("Max skewness = 9.1, {} highly skew faces detected which may impair the quality of the results", 7),
                  ("Faces with small interpolation weight (< 0.05) found, number of faces: {}", 12),
                  ("Faces with small volume ratio (< 0.01) found, number of faces: {}", 6),
+                 ("Error in face tets: {} faces with low quality or negative volume decomposition tets.", 2),
                  ("High aspect ratio cells found, Max aspect ratio: 6050.8319, number of cells {}", 9),
                  ("Cells with small determinant (< 0.001) found, number of cells: {}", 24))
         for line, count in lines:

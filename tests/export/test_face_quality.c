@@ -144,6 +144,30 @@ static void an_aspect_depends_on_the_axes(void **state) {
   cw_region_faces_free(&faces);
 }
 
+// A square of 2 with corners h above and below its plane in turn. From a centroid `below` under it the triangles at the
+// upper corners are seen from their right side while h < below, from one `above` it those at the lower corners while
+// h < above; all others always are.
+static int64_t twisted_faces(double h, double below, double above) {
+  const double corner[4][3] = {{1, 1, h}, {-1, 1, -h}, {-1, -1, h}, {1, -1, -h}};
+  const double *const x[4] = {corner[0], corner[1], corner[2], corner[3]};
+  const CwMiddle from = {{0, 0, -below}, 1}, to = {{0, 0, above}, 1};
+  CwFaceQuality q;
+  cw_face_quality_start(&q);
+  if (above > 0) cw_face_quality_face(4, x, &from, &to, CW_FACE_OF_PRISM, &q);
+  if (above == 0) cw_face_quality_patch(4, x, from.at, CW_FACE_OF_PRISM, &q);
+  return q.twisted;
+}
+
+static void twists_by_hand(void **state) {
+  assert_int_equal(twisted_faces(0, 1, 1), 0);
+  assert_int_equal(twisted_faces(0.99, 1, 1), 0);
+  assert_int_equal(twisted_faces(1.01, 1, 1), 1);
+  assert_int_equal(twisted_faces(1.5, 2, 1), 0); // the diagonal of the lower corners is left
+  assert_int_equal(twisted_faces(1.5, 1, 2), 0);
+  assert_int_equal(twisted_faces(2.1, 2, 1), 1);
+  assert_int_equal(twisted_faces(5, 1, 0), 0); // on a patch one of the two always is
+}
+
 static void no_face_is_at_no_angle(void **state) {
   CwFaceQuality o;
   cw_face_quality_start(&o);
@@ -159,6 +183,7 @@ int main(void) {
       cmocka_unit_test(volumes_by_hand),
       cmocka_unit_test(aspects_by_hand),
       cmocka_unit_test(an_aspect_depends_on_the_axes),
+      cmocka_unit_test(twists_by_hand),
       cmocka_unit_test(no_face_is_at_no_angle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
