@@ -267,6 +267,15 @@ int cw_cad_edge_stands_for(const CwCad *cad, int edge, double *gap) {
   return e.replaced ? e.replaced->strip : -1;
 }
 
+int cw_cad_edge_borders(const CwCad *cad, int edge, int face, int other) {
+  const CwCadEdge &e = cad->edge[edge];
+  if ((e.face[0] == face && e.face[1] == other) || (e.face[0] == other && e.face[1] == face)) return 1;
+  const int strip = e.replaced ? e.replaced->strip : -1;
+  if (strip < 0 || (strip != face && strip != other)) return 0;
+  const int beside = strip == face ? other : face;
+  return e.face[0] == beside || e.face[1] == beside;
+}
+
 double cw_cad_edge_gap(const CwCad *cad, int edge, int face) {
   const CwCadEdge &e = cad->edge[edge];
   return e.replaced && e.face[e.replaced->side] == face ? e.replaced->gap * cad->unit : 0;

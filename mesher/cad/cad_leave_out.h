@@ -47,6 +47,8 @@ double cw_cad_face_left_out_width(const CwCad *cad, int face);
 // The left-out face that the edge borders in place of the face behind it, or -1; *gap (NULL: not wanted): how far the
 // edge lies off that one, m.
 int cw_cad_edge_stands_for(const CwCad *cad, int edge, double *gap);
+// Whether the edge borders both faces, one of them perhaps in place of a left-out one.
+int cw_cad_edge_borders(const CwCad *cad, int edge, int face, int other);
 // How far the edge lies beside one of its faces, m: 0, but for edges that stay beside left-out faces.
 double cw_cad_edge_gap(const CwCad *cad, int edge, int face);
 // How far an end (0 or 1) of the edge was moved, m.

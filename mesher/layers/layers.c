@@ -64,8 +64,10 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     layers->reason[v] = work.reason[v];
     if (layers->thickness[v] >= 0.99 * input->target[v]) continue;
     layers->thinned_count++;
-    // Neither gap nor neighbours: the offset stops at its floor (cw_layers_floor).
-    if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_SHARPNESS;
+    // The offset stops at its floor (cw_layers_floor): alone, or whatever else thins it; and the neighbours follow.
+    int32_t foot = cw_layers_slope_foot(&work, v);
+    int sharp = work.crease[foot] != CW_CREASE_CONCAVE && work.normal_cos[foot] < 0.99 * CW_CONVEX_FLOOR;
+    if (sharp || work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_SHARPNESS;
   }
 done:
   cw_box_tree_free(&tree);

@@ -312,3 +312,18 @@ done:
   free(graded);
   return status;
 }
+
+int32_t cw_layers_slope_foot(const CwLayerWork *work, int32_t v) {
+  while (work->reason[v] == CW_LAYER_GRADATION) {
+    double least = INFINITY;
+    int32_t lower = -1;
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+      int32_t w = work->near[k];
+      double most = work->t[w] < work->t[v] ? most_beside(work, w, v) : INFINITY;
+      if (most < least) least = most, lower = w;
+    }
+    if (lower < 0) break;
+    v = lower;
+  }
+  return v;
+}

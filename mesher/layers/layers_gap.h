@@ -21,5 +21,8 @@ CwStatus cw_layers_limit_by_concavity(CwLayerWork *work);
 // Lowers thicknesses until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower
 // thickness. lowered: vertices lowered since that last held; NULL: any. Collective.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
+// Where the slope begins that limits the column of v: from each vertex that is limited by its neighbours to that of
+// them which limits it, and on. v itself where none does.
+int32_t cw_layers_slope_foot(const CwLayerWork *work, int32_t v);
 
 #endif

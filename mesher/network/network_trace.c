@@ -123,16 +123,6 @@ static double nearest_sample(const CwCad *cad, int32_t edge, const double x[3], 
   return best;
 }
 
-// Whether the edge borders both faces, one of them perhaps in place of a left-out one.
-static int is_border(const CwCad *cad, int32_t edge, int32_t f, int32_t g) {
-  int faces[2], strip = cw_cad_edge_stands_for(cad, edge, NULL);
-  cw_cad_edge_faces(cad, edge, faces);
-  if ((faces[0] == f && faces[1] == g) || (faces[0] == g && faces[1] == f)) return 1;
-  if (strip < 0 || (strip != f && strip != g)) return 0;
-  int32_t other = strip == f ? g : f;
-  return faces[0] == other || faces[1] == other;
-}
-
 // Moves a place along an edge onto a plane; returns the distance left.
 static double edge_onto_plane(const CwCad *cad, const CwPlane *plane, int32_t edge, double *t, double x[3]) {
   double range[2], distance = INFINITY;
@@ -162,7 +152,7 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
   *corner = (CwCorner){{0}, -1, -1, 0, -1, {node, -1, -1}, 0};
   for (int32_t e = 0; e < cw_cad_edge_count(cad); e++) {
     double t = 0, gap, x[3];
-    if (!is_border(cad, e, f, g)) continue;
+    if (!cw_cad_edge_borders(cad, e, f, g)) continue;
     double distance = nearest_sample(cad, e, guess, &t);
     if (cw_cad_edge_stands_for(cad, e, &gap) >= 0) { // of several, one that the plane crosses
       if (edge_onto_plane(cad, found->plane, e, &t, x) >= FOUND) continue;
@@ -181,6 +171,31 @@ done:
   return status;
 }
 
+// Whether a trace of `node` may be wanted at a crossing x: no piece outside of its cell is.
+static int is_wanted(const CwNetwork *network, const Crossings *found, int32_t node, int32_t key, const double x[3]) {
+  const Crossing *crossing = &found->crossing[2 * key];
+  double length = cw_distance(found->background->x[crossing->a], found->background->x[crossing->b]);
+  return cw_plan_in_cell(network->plan, node, x, length, NULL, 0);
+}
+
+// The end of a trace on the border of a face; outside of the cell one without an edge where there is no corner.
+static CwStatus end_of_trace(const CwNetwork *network, const Crossings *found, int32_t key, int32_t triangle,
+                             int32_t node, CwCorner *end, Point *point, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  int32_t face = found->background->face[triangle];
+  crossing_on_face(found, key, triangle, point->uv, point->x);
+  CW_TRY(corner_on_edge(network, found, key, node, end, outcome));
+  if (outcome->kind == CW_OUTCOME_DONE) {
+    cw_cad_edge_uv(network->cad, end->edge, face, end->t, point->uv);
+    cw_copy(end->x, point->x);
+  } else if (!is_wanted(network, found, node, key, point->x)) {
+    *outcome = (CwOutcome){0};
+    *end = (CwCorner){{0}, -1, -1, 0, -1, {node, -1, -1}, 0};
+  }
+done:
+  return status;
+}
+
 // Walks from `key` through `triangle` to the end of the trace; marks triangles. Fills the trace.
 static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t node, int32_t key, int32_t triangle,
                      uint8_t *seen, Trace *trace, CwOutcome *outcome) {
@@ -190,17 +205,15 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
   *trace = (Trace){.face = face, .closed = !on_face_border(found, key)};
   for (;;) {
     CW_GROW(trace->point, trace->capacity, trace->count + 1);
-    double *x = trace->point[trace->count].x, *uv = trace->point[trace->count].uv;
+    Point *point = &trace->point[trace->count];
     if (on_face_border(found, key)) {
       CwCorner *end = &trace->end[trace->count > 0];
-      CW_TRY_STAGE(corner_on_edge(network, found, key, node, end, outcome), outcome);
-      cw_cad_edge_uv(cad, end->edge, face, end->t, uv);
-      cw_copy(end->x, x);
+      CW_TRY_STAGE(end_of_trace(network, found, key, triangle, node, end, point, outcome), outcome);
     } else {
-      crossing_on_face(found, key, triangle, uv, x);
-      double left = cw_face_onto_plane(cad, face, found->plane, uv, x);
-      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, x, "partition plane %d grazes face %s", node,
-                    cw_cad_face_name(cad, face));
+      crossing_on_face(found, key, triangle, point->uv, point->x);
+      double left = cw_face_onto_plane(cad, face, found->plane, point->uv, point->x);
+      CW_END_UNLESS(left < FOUND || !is_wanted(network, found, node, key, point->x), outcome, CW_OUTCOME_REPLAN,
+                    point->x, "partition plane %d grazes face %s", node, cw_cad_face_name(cad, face));
     }
     trace->count++;
     if (trace->count > 1 && (on_face_border(found, key) || key == first)) break;
@@ -231,7 +244,10 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       const Point *from = &trace->point[i], *to = from + 1;
       double d0 = cw_plane_distance(other, from->x), d1 = cw_plane_distance(other, to->x);
       if ((d0 > 0) == (d1 > 0)) continue;
-      double s = d0 / (d0 - d1);
+      double s = d0 / (d0 - d1), guess[3];
+      int32_t skip[1] = {node};
+      cw_lerp(from->x, to->x, s, guess);
+      if (below && !cw_plan_in_cell(plan, q, guess, cw_distance(from->x, to->x), skip, 1)) continue;
       Split split = {.place = i + s, .plane = q};
       for (int k = 0; k < 2; k++) split.at.uv[k] = from->uv[k] + s * (to->uv[k] - from->uv[k]);
       double left =
@@ -239,7 +255,6 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, from->x,
                     "partition planes %d and %d meet too flatly on face %s", node, q,
                     cw_cad_face_name(network->cad, trace->face));
-      int32_t skip[1] = {node};
       if (below && !cw_plan_in_cell(plan, q, split.at.x, 1e-9, skip, 1)) continue;
       CW_END_UNLESS(trace->closed || (split.place > 0 && split.place < trace->count - 1), outcome, CW_OUTCOME_REPLAN,
                     split.at.x, "partition planes %d and %d meet on the border of face %s", node, q,
@@ -267,7 +282,8 @@ static void add_point(const Point *point, int32_t i, CwCurve *curve) {
 
 // Adds the piece of the trace between two places as a curve, where it lies in the cell of `node`. NULL splits: the
 // ends of the trace. On a closed trace `to` may lie before `from`.
-static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, const Split *from, const Split *to) {
+static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, const Split *from, const Split *to,
+                          CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwCurve curve = {.kind = CW_CURVE_CUT,
                    .edge = -1,
@@ -299,6 +315,8 @@ static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, 
   if (from) ends[0] = split_corner(trace->face, node, from);
   if (to) ends[1] = split_corner(trace->face, node, to);
   for (int k = 0; k < 2; k++) {
+    CW_END_UNLESS(ends[k].face >= 0 || ends[k].edge >= 0, outcome, CW_OUTCOME_REPLAN, middle,
+                  "partition plane %d grazes an edge of face %s", node, cw_cad_face_name(network->cad, trace->face));
     CW_TRY(cw_network_corner(network, &ends[k], cw_same_corner, &curve.corner[k]));
   }
   return cw_network_add_curve(network, &curve);
@@ -313,10 +331,12 @@ static CwStatus add_trace(CwNetwork *network, int32_t node, const Trace *trace, 
   int32_t count = 0;
   CW_TRY_STAGE(find_splits(network, node, trace, &count, &split, outcome), outcome);
   if (trace->closed && count) {
-    for (int32_t i = 0; i < count; i++) CW_TRY(add_piece(network, node, trace, &split[i], &split[(i + 1) % count]));
+    for (int32_t i = 0; i < count; i++)
+      CW_TRY_STAGE(add_piece(network, node, trace, &split[i], &split[(i + 1) % count], outcome), outcome);
   } else {
     for (int32_t i = 0; i <= count; i++) {
-      CW_TRY(add_piece(network, node, trace, i > 0 ? &split[i - 1] : NULL, i < count ? &split[i] : NULL));
+      const Split *from = i > 0 ? &split[i - 1] : NULL, *to = i < count ? &split[i] : NULL;
+      CW_TRY_STAGE(add_piece(network, node, trace, from, to, outcome), outcome);
     }
   }
 done:

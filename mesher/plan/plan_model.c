@@ -11,7 +11,7 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
-enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
+enum { STAND_CHORDS = 16, EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
 enum {
   SAMPLES_OF_REGION = 1000, // of the volume
   TOGETHER = 8,             // places of the size field in one sample, at most
@@ -49,6 +49,57 @@ static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2],
   return (int32_t)fmin(fmax(ceil(length / step) + 1, EDGE_POINTS_LEAST), EDGE_POINTS_MOST);
 }
 
+// Adds the chords of the CAD edges that stand for the border of two faces, one of them left out.
+static CwStatus add_stands(const CwCad *cad, int face, int other, CwPlanModel *model, int32_t *capacity) {
+  CwStatus status = CW_OK;
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    if (!cw_cad_edge_borders(cad, e, face, other)) continue;
+    double range[2];
+    cw_cad_edge_range(cad, e, range);
+    CW_GROW(model->stand, *capacity, model->stand_count + STAND_CHORDS);
+    for (int i = 0; i < STAND_CHORDS; i++) {
+      CwPlanStand *made = &model->stand[model->stand_count++];
+      for (int end = 0; end < 2; end++)
+        cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * (i + end) / STAND_CHORDS, made->x[end], NULL);
+      cw_cad_edge_stands_for(cad, e, &made->gap);
+    }
+  }
+done:
+  return status;
+}
+
+// The borders of left-out faces, where cuts end that have to go on beyond.
+static CwStatus sample_left_out(const CwCad *cad, CwPlanModel *model, int32_t capacity) {
+  CwStatus status = CW_OK;
+  int32_t stands = 0, start = 0;
+  int beside = -1, border = -1; // faces of the border that the chords from `start` on are of
+  const CwBackground *background = model->background;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (!cw_cad_face_is_left_out(cad, background->face[t])) continue;
+    for (int k = 0; k < 3; k++) {
+      int face = background->face[t], other = background->face[background->neighbour[t][k]];
+      if (cw_cad_face_is_left_out(cad, other)) continue;
+      const double *a = background->x[background->triangle[t][k]];
+      const double *b = background->x[background->triangle[t][(k + 1) % 3]];
+      CW_GROW(model->edge, capacity, model->edge_count + 1);
+      CwPlanEdgePoint *made = &model->edge[model->edge_count++];
+      if (face != beside || other != border) {
+        start = model->stand_count;
+        CW_TRY(add_stands(cad, face, other, model, &stands));
+        beside = face;
+        border = other;
+      }
+      *made = (CwPlanEdgePoint){
+          .half = cw_distance(a, b) / 2, .stand_start = start, .stand_count = model->stand_count - start};
+      cw_lerp(a, b, 0.5, made->x);
+      cw_sub(b, a, made->tangent);
+      cw_unit(made->tangent);
+    }
+  }
+done:
+  return status;
+}
+
 static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   int32_t most = 0;
@@ -71,6 +122,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     int32_t points = points_of_edge(cad, e, range, step);
     for (int32_t i = 0; i < points; i++) {
       CwPlanEdgePoint *made = &model->edge[model->edge_count++];
+      *made = (CwPlanEdgePoint){0};
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), made->x, made->tangent);
       cw_unit(made->tangent);
       made->touch = cw_policy.boundary_distance * cw_size_at(model->size, made->x);
@@ -79,6 +131,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
       made->end = i == 0 || i == points - 1;
     }
   }
+  CW_TRY(sample_left_out(cad, model, most));
 done:
   return status;
 }
@@ -368,6 +421,7 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->wall);
   free(model->triangle);
   free(model->edge);
+  free(model->stand);
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);

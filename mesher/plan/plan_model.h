@@ -36,13 +36,20 @@ typedef struct {
   double normal[3], density, thickness; // predicted prisms per m2; of the layers, m
 } CwPlanTriangle;
 
-// A point of a CAD edge.
+// A point of a CAD edge, or the middle of a background edge that bounds a left-out face.
 typedef struct {
   double x[3], tangent[3];
-  double room;  // m: how near a plane may come to it; 0 of an edge that is no feature
-  double touch; // m: nearer than that a cut and the edge leave room for flat triangles alone
-  int end;      // at a CAD vertex
+  double room;                      // m: how near a plane may come to it; 0 of an edge that is no feature
+  double touch;                     // m: nearer than that a cut and the edge leave room for flat triangles alone
+  int end;                          // at a CAD vertex
+  double half;                      // m: half the length of the background edge; 0 of CAD edges
+  int32_t stand_start, stand_count; // of the CAD edges that stand for it: a cut through it has a corner there
 } CwPlanEdgePoint;
+
+// A chord of a CAD edge that stands for another, and how far the edge lies off that one, m.
+typedef struct {
+  double x[2][3], gap;
+} CwPlanStand;
 
 // What cuts are judged by. The fields are points with their attributes: samples of the volume, background triangles,
 // CAD edges and walls.
@@ -57,8 +64,10 @@ typedef struct {
   double base_size;         // see CwPlanOptions
   uint8_t *wall;            // of each background triangle: on a wall
   CwPlanTriangle *triangle; // of each background triangle
-  int32_t edge_count;       // points along CAD edges
+  int32_t edge_count;       // points along CAD edges and borders of left-out faces
   CwPlanEdgePoint *edge;
+  int32_t stand_count;
+  CwPlanStand *stand;
   int32_t wall_count; // points all over the walls
   double (*wall_x)[3];
   int32_t *wall_triangle; // of each, the background triangle

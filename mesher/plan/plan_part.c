@@ -103,7 +103,7 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
   CW_NEW_UNSET(part->edge, whole->edge_count);
   for (int32_t i = 0; i < whole->edge_count; i++) {
     int32_t e = whole->edge[i];
-    double room = fmax(model->edge[e].room, model->edge[e].touch);
+    double room = fmax(fmax(model->edge[e].room, model->edge[e].touch), model->edge[e].half);
     if (cw_plane_distance(&side, model->edge[e].x) <= room) part->edge[part->edge_count++] = e;
   }
   part_measure(model, part);

@@ -27,6 +27,8 @@ double cw_profile_place(const CwPlanProfile *profile, double cells) {
   return profile->low + (low + part) * profile->width;
 }
 
+static const double NO_CORNER = 25; // touches: a plane that does not do, unless no other is there either
+
 typedef struct {
   double low, high;
 } Extent;
@@ -189,13 +191,32 @@ double cw_plan_along_edge(const CwPlanModel *model, int32_t e, const double n[3]
   return fmax(0, 1 - fabs(cw_dot(n, model->edge[e].tangent)) / sin(cw_policy.wanted_angle * CW_DEGREE));
 }
 
+// Whether a plane crosses the border of a left-out face at this point, but no CAD edge that stands for it, or one
+// elsewhere. As corner_on_edge of the network has it, by chords.
+static int has_no_corner(const CwPlanModel *model, int32_t e, const CwPlane *plane) {
+  const CwPlanEdgePoint *edge = &model->edge[e];
+  double off = cw_plane_distance(plane, edge->x), slope = cw_dot(plane->normal, edge->tangent);
+  if (edge->half == 0 || fabs(off) > edge->half * fabs(slope)) return 0;
+  double crossing[3];
+  for (int k = 0; k < 3; k++) crossing[k] = edge->x[k] - (slope == 0 ? 0 : off / slope) * edge->tangent[k];
+  for (int32_t i = edge->stand_start; i < edge->stand_start + edge->stand_count; i++) {
+    const CwPlanStand *stand = &model->stand[i];
+    double a = cw_plane_distance(plane, stand->x[0]), b = cw_plane_distance(plane, stand->x[1]), corner[3];
+    if ((a > 0) == (b > 0)) continue;
+    cw_lerp(stand->x[0], stand->x[1], a / (a - b), corner);
+    if (cw_distance(corner, crossing) < 2 * (edge->half + stand->gap)) return 0;
+  }
+  return 1;
+}
+
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
   double most = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
     double room = model->edge[e].touch, near = nearness(fabs(cw_plane_distance(plane, model->edge[e].x)), room);
-    if (near <= most || (end && cw_plane_distance(end, model->edge[e].x) < -room)) continue;
-    most = fmax(most, near * cw_plan_along_edge(model, e, plane->normal));
+    if (end && cw_plane_distance(end, model->edge[e].x) < -room) continue;
+    if (most < NO_CORNER && has_no_corner(model, e, plane)) most = NO_CORNER;
+    if (near > most) most = fmax(most, near * cw_plan_along_edge(model, e, plane->normal));
   }
   return most;
 }
@@ -205,10 +226,14 @@ void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const dou
   for (int32_t i = 0; i < count; i++) touch[i] = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double place = cw_dot(n, model->edge[e].x), room = model->edge[e].touch, along = cw_plan_along_edge(model, e, n);
-    if (along == 0) continue;
+    double place = cw_dot(n, model->edge[e].x), along = cw_plan_along_edge(model, e, n);
+    double room = fmax(model->edge[e].touch, model->edge[e].half);
+    if (along == 0 && model->edge[e].half == 0) continue;
     int32_t first = (int32_t)fmax(ceil((place - room - low) / step), 0);
-    for (int32_t p = first; p < count && low + step * p <= place + room; p++)
-      touch[p] = fmax(touch[p], along * nearness(fabs(low + step * p - place), room));
+    for (int32_t p = first; p < count && low + step * p <= place + room; p++) {
+      CwPlane plane = {{n[0], n[1], n[2]}, low + step * p};
+      double near = nearness(fabs(plane.offset - place), model->edge[e].touch);
+      touch[p] = fmax(touch[p], has_no_corner(model, e, &plane) ? NO_CORNER : along * near);
+    }
   }
 }

@@ -10,6 +10,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
 
@@ -127,11 +128,40 @@ static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, in
   return status;
 }
 
+// The faces of each tetrahedron that lie on patches, as bits. *on_patches [out]: malloc'd.
+static CwStatus find_on_patches(const CwRegionData *data, uint8_t **on_patches) {
+  CwStatus status = CW_OK;
+  CW_NEW(*on_patches, data->tetrahedron_count);
+  for (int32_t t = 0; t < data->triangle_count; t++) {
+    int32_t cell = data->triangle_cell[t], node[4];
+    const int32_t *on = data->triangles[t];
+    for (int f = 0; f < 4 && cell < data->tetrahedron_count; f++) {
+      int alike = 0;
+      cw_cell_face(data, cell, f, node);
+      for (int k = 0; k < 9; k++) alike += node[k / 3] == on[k % 3];
+      if (alike == 3) (*on_patches)[cell] |= (uint8_t)(1 << f);
+    }
+  }
+done:
+  return status;
+}
+
+// The least dihedral angle of a tetrahedron or, where checkMesh may call its determinant small, what it is worth by
+// that (see judge in fill/tet_search.c).
+static double flatness_of(const double *const *x, double dihedral, unsigned on_patches) {
+  static const double DOUBT = 20; // degrees; steeper ones have greater determinants, but with two faces on patches
+  if (dihedral > DOUBT && (on_patches & (on_patches - 1)) == 0) return dihedral;
+  double determinant = cw_cell_determinant(4, x, 0xf & ~on_patches);
+  return cw_lesser(dihedral, cw_policy.flat_angle * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT)));
+}
+
 static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
   double aspects = 0.0;
   const CwRegionData *data = &r->cells;
+  uint8_t *on_patches = NULL;
+  CW_TRY(find_on_patches(data, &on_patches));
   quality->cells = cw_region_cell_count(data);
   quality->prism_count = r->cells.prism_count;
   for (int32_t c = 0; c < quality->cells; c++) {
@@ -153,7 +183,9 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       int class = 0;
       while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
-      if (shape.dihedral_least < quality->dihedral_least) cw_cell_centre(data, c, quality->flattest_at);
+      double flatness = flatness_of(x, shape.dihedral_least, on_patches[c]);
+      if (flatness < quality->flattest) cw_cell_centre(data, c, quality->flattest_at);
+      quality->flattest = cw_lesser(quality->flattest, flatness);
       quality->dihedral_least = cw_lesser(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = cw_greater(quality->dihedral_greatest, shape.dihedral_greatest);
       quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;
@@ -165,6 +197,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   }
   if (r->cells.tetrahedron_count) quality->aspect_mean = aspects / r->cells.tetrahedron_count;
 done:
+  free(on_patches);
   return status;
 }
 
@@ -195,7 +228,7 @@ done:
 void cw_quality_start(CwQuality *sum) {
   memset(sum, 0, sizeof *sum);
   sum->least_volume = INFINITY;
-  sum->dihedral_least = 180.0;
+  sum->dihedral_least = sum->flattest = 180.0;
   sum->beside.dihedral_least = sum->apart.dihedral_least = 180.0;
   sum->beside.mean_ratio_least = sum->apart.mean_ratio_least = 1.0;
   sum->prism_least_scaled_jacobian = 1.0;
@@ -213,7 +246,8 @@ void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   sum->cells += more->cells;
   sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
   for (int k = 0; k < 8; k++) sum->aspect_class[k] += more->aspect_class[k];
-  if (more->dihedral_least < sum->dihedral_least) memcpy(sum->flattest_at, more->flattest_at, sizeof sum->flattest_at);
+  if (more->flattest < sum->flattest) memcpy(sum->flattest_at, more->flattest_at, sizeof sum->flattest_at);
+  sum->flattest = fmin(sum->flattest, more->flattest);
   sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
   sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);
   for (int k = 0; k < 18; k++) sum->dihedral_bin[k] += more->dihedral_bin[k];

@@ -32,7 +32,7 @@ typedef struct {
   double aspect_mean, aspect_max;           // longest / shortest edge; 0 without tetrahedra
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
-  double flattest_at[3];                    // m, centre of the tetrahedron with the least one
+  double flattest, flattest_at[3];          // of all angles and determinants, degrees; its centre, m
   int64_t dihedral_bin[18];                 // of the least angle of each tetrahedron, 10 degrees wide up to 180
   CwTetFigures beside, apart;               // those with a corner on a partition plane, and the others
   // Sum of hashes of all open faces on partition planes (shared numbers and coordinates to the last bit), negative

@@ -378,6 +378,11 @@ done:
   return status;
 }
 
+int cw_mesh_has_other_plan(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  return !domain->symmetry && domain->more_regions != CW_UNDIVIDED && domain->more_regions < PLANS_MORE;
+}
+
 CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
   CwStatus status = CW_OK;
   CwDomain *domain = &run->domain[why->domain];
@@ -388,7 +393,7 @@ CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
              "%s: %s; after %d other plans, undivided too; allowed: walls without folds and knife edges there, with "
              "layers that have room; fewer walls.layer_count, a lower y+ or other mesh.cells may do",
              domain->name, reason, PLANS_MORE);
-  if (domain->more_regions < PLANS_MORE) {
+  if (cw_mesh_has_other_plan(run, why->domain)) {
     cw_log_warn(run->context.log, "%s: %s; planned again with one region more", domain->name, reason);
     domain->more_regions++;
   } else {

@@ -26,5 +26,7 @@ CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason);
 // after three such plans, where it is small enough to be one region, it is not divided at all; else, or where that was
 // so, CW_ERR_MESH with the reason.
 CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why);
+// Whether that would be a divided one with the symmetry that the domain has.
+int cw_mesh_has_other_plan(const CwMeshRun *run, int d);
 
 #endif

@@ -47,7 +47,7 @@ done:
 // One pass at the present scale. Where equal passages do not come out equal, the impeller is meshed whole; a domain
 // with a plane that grazes a wall, or on which no column leaves one, gets other planes; surfaces and regions that fail
 // are tried again with thinner layers, and with other planes where these do not do. Outcome: CW_OUTCOME_FINER where
-// no layers stand; where `optional`, that of any attempt for which layers would have to be thinner or planes others.
+// no layers stand; where `optional`, that of an attempt for which there are no other planes.
 static CwStatus mesh_pass(CwMeshRun *run, int optional, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwThinPlaces places = {0};
@@ -55,12 +55,13 @@ static CwStatus mesh_pass(CwMeshRun *run, int optional, CwOutcome *outcome) {
     *outcome = (CwOutcome){0};
     places.count = 0;
     CW_TRY(mesh_attempt(run, &places, outcome));
-    if (optional || outcome->kind == CW_OUTCOME_DONE || outcome->kind == CW_OUTCOME_FINER) break;
+    if (outcome->kind == CW_OUTCOME_DONE || outcome->kind == CW_OUTCOME_FINER) break;
     if (outcome->kind == CW_OUTCOME_THIN) {
       *outcome = (CwOutcome){0};
       CW_TRY(cw_thin(run, &places, attempt++, outcome));
       if (outcome->kind == CW_OUTCOME_DONE) continue;
     }
+    if (optional && !(outcome->kind == CW_OUTCOME_REPLAN && cw_mesh_has_other_plan(run, outcome->domain))) break;
     attempt = 0;
     cw_end_thinning(run); // the walls will be others
     CW_TRY(cw_mesh_plan_again(run, outcome));
@@ -86,7 +87,6 @@ static CwStatus keep_state(CwMeshRun *run, const char *fingerprint, CwPassState 
   CwStatus status = CW_OK;
   state->pass = run->passes;
   state->finer = run->finer;
-  for (int d = 0; d < run->model.domain_count; d++) state->more_regions[d] = run->domain[d].more_regions;
   if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, state));
 done:
   return status;
@@ -94,7 +94,12 @@ done:
 
 // What the next mesh follows from, with as many digits as the file keeps.
 static CwPassStart start_of(const CwMeshRun *run) {
-  return (CwPassStart){rounded_law(&run->prisms), rounded_law(&run->tets), run->finer.count, run->whole};
+  CwPassStart start = {.prisms = rounded_law(&run->prisms),
+                       .tets = rounded_law(&run->tets),
+                       .places = run->finer.count,
+                       .whole = run->whole};
+  for (int d = 0; d < run->model.domain_count; d++) start.more_regions[d] = run->domain[d].more_regions;
+  return start;
 }
 
 static void take_laws(CwMeshRun *run, const CwPassStart *start) {
@@ -107,6 +112,7 @@ static void take_laws(CwMeshRun *run, const CwPassStart *start) {
 // the run has opened with.
 static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   CwStatus status = CW_OK;
+  for (int d = 0; d < run->model.domain_count; d++) run->domain[d].more_regions = state->start.more_regions[d];
   if (again) CW_TRY(cw_mesh_resize(run));
   CW_TRY(cw_stage_view(run, CW_STAGE_SIZE));
   if (run->stopped) goto done;
@@ -169,9 +175,8 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
   if (!*again) goto done;
   if (more) {
     cw_log(run->context.log,
-           "tetrahedra below %.0f degrees in regions, or first heights missed: %d; made again with "
-           "shorter edges there",
-           cw_policy.flat_angle, poor);
+           "regions with flat tetrahedra, or domains that miss first heights: %d; made again with shorter edges there",
+           poor);
     CW_TRY(cw_finer_at_poor(run));
     state->start = start_of(run);
     state->poor_rounds++;
@@ -252,7 +257,6 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   if (run->rank == 0) CW_TRY(cw_pass_state_read(run->context.log, run->run_path, fingerprint, &state));
   CW_TRY(cw_pass_state_share(run->context.team, &state));
   run->finer = state.finer;
-  for (int d = 0; d < run->model.domain_count; d++) run->domain[d].more_regions = state.more_regions[d];
   if (state.pass > 0) cw_log(run->context.log, "going on with pass %d of an earlier run", state.pass);
   CW_TRY(begin(run, &state, run->finer.count > 0));
   if (run->stopped) goto done;

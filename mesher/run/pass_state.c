@@ -104,13 +104,20 @@ static int int_in(const json_t *file, const char *key) {
 }
 
 static CwPassStart start_in(const json_t *file) {
-  return (CwPassStart){law_in(json_object_get(file, "prisms")), law_in(json_object_get(file, "tetrahedra")),
-                       int_in(file, "places"), json_is_true(json_object_get(file, "whole"))};
+  CwPassStart start = {.prisms = law_in(json_object_get(file, "prisms")),
+                       .tets = law_in(json_object_get(file, "tetrahedra")),
+                       .places = int_in(file, "places"),
+                       .whole = json_is_true(json_object_get(file, "whole"))};
+  for (size_t d = 0; d < CW_DOMAINS_MOST; d++)
+    start.more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
+  return start;
 }
 
 static json_t *start_packed(const CwPassStart *start) {
-  return json_pack("{s:o, s:o, s:i, s:b}", "prisms", law_packed(&start->prisms), "tetrahedra", law_packed(&start->tets),
-                   "places", start->places, "whole", start->whole);
+  json_t *more = json_array();
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(start->more_regions[d]));
+  return json_pack("{s:o, s:o, s:i, s:b, s:o}", "prisms", law_packed(&start->prisms), "tetrahedra",
+                   law_packed(&start->tets), "places", start->places, "whole", start->whole, "more_regions", more);
 }
 
 CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {
@@ -132,8 +139,6 @@ CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *finger
                          .best_round = int_in(file, "best_round"),
                          .best_lacks = json_is_true(json_object_get(file, "best_lacks")),
                          .tried_whole = json_is_true(json_object_get(file, "tried_whole"))};
-  for (size_t d = 0; d < CW_DOMAINS_MOST; d++)
-    state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
   CW_TRY(places_in(json_object_get(file, "finer"), &state->finer));
 done:
   json_decref(file);
@@ -158,14 +163,12 @@ done:
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
-  json_t *more = json_array(), *file = NULL;
-  for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
-  file = json_pack("{s:s, s:i, s:i, s:o, s:o, s:i, s:i, s:o, s:f, s:i, s:b, s:b, s:o}", "fingerprint", fingerprint,
-                   "pass", state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start),
-                   "more_regions", more, "finer_rounds", state->finer_rounds, "poor_rounds", state->poor_rounds, "best",
-                   start_packed(&state->best), "least_deficit", state->least_deficit, "best_round", state->best_round,
-                   "best_lacks", state->best_lacks, "tried_whole", state->tried_whole, "finer",
-                   places_packed(&state->finer));
+  json_t *file =
+      json_pack("{s:s, s:i, s:i, s:o, s:i, s:i, s:o, s:f, s:i, s:b, s:b, s:o}", "fingerprint", fingerprint, "pass",
+                state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start), "finer_rounds",
+                state->finer_rounds, "poor_rounds", state->poor_rounds, "best", start_packed(&state->best),
+                "least_deficit", state->least_deficit, "best_round", state->best_round, "best_lacks", state->best_lacks,
+                "tried_whole", state->tried_whole, "finer", places_packed(&state->finer));
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_sealed_json_write(file, path));

@@ -13,18 +13,18 @@
 
 // What a mesh follows from, beside the case and its geometry.
 typedef struct {
-  CwCellLaw prisms, tets; // as learned; factor 0: not yet
-  int32_t places;         // of `finer` that its size fields have
-  int whole;              // 1: the symmetry of the impeller is given up
+  CwCellLaw prisms, tets;                // as learned; factor 0: not yet
+  int32_t places;                        // of `finer` that its size fields have
+  int whole;                             // 1: the symmetry of the impeller is given up
+  int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
 } CwPassStart;
 
 typedef struct {
   int pass;       // the pass to run, from 1; 0: none
   int first_pass; // of those with these places
   CwPassStart start;
-  int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
-  int finer_rounds, poor_rounds;         // of shorter edges: for layers, and for quality
-  CwPassStart best;                      // of the mesh with the least deficit (poor_places)
+  int finer_rounds, poor_rounds; // of shorter edges: for layers, and for quality
+  CwPassStart best;              // of the mesh with the least deficit (poor_places)
   double least_deficit;
   int best_round;  // of poor_rounds
   int best_lacks;  // 1: passages of the best mesh, periodic images, fall short

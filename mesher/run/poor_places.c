@@ -13,7 +13,7 @@ static const double PLACES_APART = 2; // h, of those where first heights are mis
 static double lacks_angle(const CwMeshRun *run, int d, int32_t r) {
   const CwDomain *domain = &run->domain[d];
   const CwRegionSummary *made = &run->summary[d][r];
-  double wanted = fmin(cw_policy.flat_angle, made->dihedral_allowed), least = made->quality.dihedral_least;
+  double wanted = fmin(cw_policy.flat_angle, made->dihedral_allowed), least = made->quality.flattest;
   int first = cw_image_region_first(&domain->images, &domain->plan, r) == r;
   return first && least < wanted ? 1 - least / wanted : 0;
 }

@@ -8,7 +8,7 @@
 
 typedef enum {
   CW_LAYER_FULL,      // thickness as asked
-  CW_LAYER_SHARPNESS, // limited by a convex edge so sharp that columns over it would be too long
+  CW_LAYER_SHARPNESS, // limited by a convex edge so sharp that columns over it would be too long, or beside one
   CW_LAYER_GAP,       // limited by a narrow gap or a concave place
   CW_LAYER_GRADATION, // limited by neighbours
   CW_LAYER_REPAIR     // limited by validity of the prisms or of the layer top

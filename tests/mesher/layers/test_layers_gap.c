@@ -51,6 +51,24 @@ static void room_by_hand(void **state) {
   assert_near(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
 }
 
+// Four columns in a row, each limited by that before it: the slope begins at the first, or at the last of those that
+// something else limits.
+static void the_foot_of_a_slope(void **state) {
+  double x[4][3] = {{0}, {1}, {2}, {3}}, column[4][3] = {{0}}, t[4] = {1, 1.3, 1.6, 1.9};
+  int32_t near_start[5] = {0, 1, 3, 5, 6}, near[6] = {1, 0, 2, 1, 3, 2};
+  uint8_t reason[4] = {CW_LAYER_REPAIR, CW_LAYER_GRADATION, CW_LAYER_GRADATION, CW_LAYER_GRADATION};
+  CwLayerInput in = {.x = (const double(*)[3])x};
+  CwLayerWork work = {
+      .in = &in, .n = 4, .near_start = near_start, .near = near, .column = column, .t = t, .reason = reason};
+  assert_int_equal(cw_layers_slope_foot(&work, 3), 0);
+  assert_int_equal(cw_layers_slope_foot(&work, 0), 0);
+  reason[1] = CW_LAYER_FULL;
+  assert_int_equal(cw_layers_slope_foot(&work, 3), 1);
+  t[2] = 2.5; // higher than both
+  assert_int_equal(cw_layers_slope_foot(&work, 2), 1);
+  assert_int_equal(cw_layers_slope_foot(&work, 3), 3);
+}
+
 // A plate 0.5 mm before an open patch: 0.6 of the gap.
 static void gap_to_open_patch(void **state) {
   Case c = {.target = 0.6 * MM};
@@ -181,10 +199,15 @@ static void low_crease(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(thin_gap),     cmocka_unit_test(coarse_gap),
-      cmocka_unit_test(room_by_hand), cmocka_unit_test(gap_to_open_patch),
-      cmocka_unit_test(gradation),    cmocka_unit_test(hollow),
-      cmocka_unit_test(low_crease),   cmocka_unit_test(gap_beside_bent_patch),
+      cmocka_unit_test(thin_gap),
+      cmocka_unit_test(coarse_gap),
+      cmocka_unit_test(room_by_hand),
+      cmocka_unit_test(the_foot_of_a_slope),
+      cmocka_unit_test(gap_to_open_patch),
+      cmocka_unit_test(gradation),
+      cmocka_unit_test(hollow),
+      cmocka_unit_test(low_crease),
+      cmocka_unit_test(gap_beside_bent_patch),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,6 +70,21 @@ static void a_plane_that_grazes_is_refused(void **) {
   print_message("  %s\n", cw_outcome_text(&half.outcome, 1e3, text));
 }
 
+// A plane that touches the upper arc and goes into the half cylinder below it: cells that the arc does not
+// reach can be divided by it.
+static void a_plane_may_graze_outside_of_its_cell(void **) {
+  Half half;
+  const double tilt = 0.05;
+  double x = 0, top = highest(half.background, &x);
+  const CwPlane slanted = {{std::cos(tilt) * x / 0.02, std::cos(tilt) * top / 0.02, -std::sin(tilt)},
+                           (0.02 - 1e-7) * std::cos(tilt) - 0.03 * std::sin(tilt)};
+  const CwPlane below = {{0, 0, 1}, 0.017}, above = {{0, 0, -1}, -0.017};
+  assert_int_equal(half.divide(slanted), CW_OUTCOME_REPLAN);
+  assert_int_equal(half.divide(above, &slanted), CW_OUTCOME_REPLAN);
+  assert_non_null(strstr(half.outcome.reason, "partition plane 1 grazes"));
+  assert_int_equal(half.divide(below, &slanted), CW_OUTCOME_DONE);
+}
+
 // The second holds the very corner in which the first crosses the edge where the half cylinder's flat side begins; a
 // millimetre beside it they meet on faces, not on a border.
 static void planes_that_meet_on_an_edge_are_refused(void **) {
@@ -95,6 +110,7 @@ static void planes_that_meet_on_an_edge_are_refused(void **) {
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(a_plane_through_the_middle_divides),
                               cmocka_unit_test(a_plane_that_grazes_is_refused),
+                              cmocka_unit_test(a_plane_may_graze_outside_of_its_cell),
                               cmocka_unit_test(planes_that_meet_on_an_edge_are_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -74,6 +74,38 @@ static void planes_of_one_direction_are_told_together(void **) {
   assert_near(most, 1, 1e-6);
 }
 
+// A border of a left-out face along x, 2 mm long, and chords beside it that stand for it or not.
+static void cuts_at_a_left_out_face_need_a_corner(void **) {
+  CwPlanEdgePoint point = {};
+  point.tangent[0] = 1;
+  point.half = 1e-3;
+  CwPlanStand stand[2] = {{{{-2e-3, 1e-4, 0}, {0.2e-3, 1e-4, 0}}, 1e-4}, {{{0.2e-3, 0.1, 0}, {2e-3, 0.1, 0}}, 1e-4}};
+  CwPlanModel model = {};
+  model.edge_count = 1;
+  model.edge = &point;
+  model.stand = stand;
+  int32_t only = 0;
+  CwPlanPart part = {};
+  part.edge_count = 1;
+  part.edge = &only;
+  const double across[] = {1, 0, 0};
+  for (int stands = 0; stands <= 2; stands++) {
+    point.stand_count = stands;
+    // Where the plane crosses the border: beside it the first chord, beyond that none, and the second far away.
+    const double place[] = {-1.5e-3, -0.5e-3, 0.5e-3, 1.5e-3};
+    for (int i = 0; i < 4; i++) {
+      const int crosses = i == 1 || i == 2, corner = i == 1 && stands > 0;
+      const CwPlane plane = {{1, 0, 0}, place[i]};
+      double touch;
+      cw_plan_touches(&model, &part, across, place[i], 1, 1, &touch);
+      assert_int_equal(cw_plan_touch(&model, &part, &plane, nullptr) > 1, crosses && !corner);
+      assert_int_equal(touch > 1, crosses && !corner);
+    }
+  }
+  const CwPlane along = {{0, 1, 0}, 1e-5};
+  assert_near(cw_plan_touch(&model, &part, &along, nullptr), 0, 0);
+}
+
 // Both sides of a plane know the edge beside it.
 static void parts_keep_the_edges_beside_them(void **) {
   Ring ring;
@@ -90,6 +122,7 @@ int main() {
                               cmocka_unit_test(planes_that_pass_an_edge_closely_touch_it),
                               cmocka_unit_test(planes_that_cross_edges_do_not_touch_them),
                               cmocka_unit_test(planes_of_one_direction_are_told_together),
+                              cmocka_unit_test(cuts_at_a_left_out_face_need_a_corner),
                               cmocka_unit_test(parts_keep_the_edges_beside_them)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -69,6 +69,7 @@ static void single_tetrahedron(void **state) {
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_near(q.volume, 1.0 / 6.0, 1e-16);
   assert_int_equal(q.prism_count, 0);
+  assert_near(q.flattest, 0, 0); // by its determinant: all its faces lie on patches
 }
 
 static void inverted_cells_are_named_with_their_place(void **state) {
@@ -107,6 +108,7 @@ static void cells_above_and_below_one_face(void **state) {
       fails_with(&r, fault[count]);
     else
       assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+    if (!fault[count]) assert_near(q.flattest, q.dihedral_least, 0);
   }
 }
 
@@ -286,7 +288,8 @@ static void sums_of_two_regions(void **state) {
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   cw_quality_start(&sum);
   cw_quality_add(&sum, &q, 1);
-  q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0;
+  sum.flattest = 13.0; // that of the first lies on patches all over
+  q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0, q.flattest = 11.0, q.flattest_at[1] = 3.0;
   q.aspect_class[0] = 0, q.aspect_class[2] = 3;
   q.beside = (CwTetFigures){5, 9.0, 3.0, 2.5, 0.25, 20.0};
   q.apart = (CwTetFigures){7, 8.0, 2.0, 4.5, 0.5, 30.0};
@@ -295,6 +298,8 @@ static void sums_of_two_regions(void **state) {
   assert_near(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
   assert_near(sum.aspect_max, 4.0, 0.0);
   assert_near(sum.dihedral_least, 12.0, 0.0);
+  assert_near(sum.flattest, 11.0, 0.0);
+  assert_near(sum.flattest_at[1], 3.0, 0.0);
   assert_near(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
   assert_int_equal(sum.cells, 4);
   assert_int_equal(sum.beside.count, beside.count + 5);

@@ -12,14 +12,14 @@ static void what_lacks_angle_counts(void **state) {
   const double least[5] = {30, 6, 9, 12, 3}, allowed[5] = {40, 40, 9, 40, 9};
   int32_t count;
   for (int r = 0; r < 5; r++) {
-    made[r].quality.dihedral_least = least[r];
+    made[r].quality.flattest = least[r];
     made[r].dihedral_allowed = allowed[r];
   }
   run.domain[0].plan.region_count = 5;
   run.summary[0] = made;
   assert_near(cw_poor_deficit(&run, &count), 1. / 2 + 2. / 3, 1e-12);
   assert_int_equal(count, 2);
-  made[1].quality.dihedral_least = 12;
+  made[1].quality.flattest = 12;
   made[4].dihedral_allowed = 3;
   assert_near(cw_poor_deficit(&run, &count), 0, 0);
   assert_int_equal(count, 0);
@@ -41,7 +41,7 @@ static void missed_first_heights_count(void **state) {
   memset(target, 0, sizeof target);
   target[2].first.source = CW_FIRST_FITTED;
   for (int r = 0; r < 2; r++) {
-    made[r].quality.dihedral_least = made[r].dihedral_allowed = 20;
+    made[r].quality.flattest = made[r].dihedral_allowed = 20;
     made[r].coverage[1] = (CwLayerCoverage){.faces = 500, .first_met = r == 0 ? 475 : 500};
     made[r].coverage[2] = (CwLayerCoverage){.faces = 500};
   }
@@ -66,7 +66,7 @@ static void what_passages_lack_is_told(void **state) {
   CwRegionSummary made[2] = {0};
   int32_t count;
   for (int d = 0; d < 2; d++) {
-    made[d].quality.dihedral_least = 6;
+    made[d].quality.flattest = 6;
     made[d].dihedral_allowed = 12;
     run.domain[d].plan.region_count = 1;
     run.summary[d] = &made[d];
@@ -76,7 +76,7 @@ static void what_passages_lack_is_told(void **state) {
   assert_int_equal(cw_poor_in_passages(&run), 1);
   assert_near(cw_poor_deficit(&run, &count), 1, 1e-12);
   assert_int_equal(count, 2);
-  made[1].quality.dihedral_least = 12;
+  made[1].quality.flattest = 12;
   assert_int_equal(cw_poor_in_passages(&run), 0);
 }
 
