@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { CW_BLADE_STEPS = 400 };
+enum { CW_BLADE_STEPS = 400, CW_SPAN_POINTS = 13 }; // of a section; sections of a blade
 
 typedef enum { CW_BLADE_PRESSURE, CW_BLADE_SUCTION } CwBladeSide;
 
@@ -62,6 +62,20 @@ CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian,
 // The least clear width on hub and shroud between a blade or splitter and the next, without root fillets, m; negative
 // where they overlap. Fails as cw_blade_section().
 CwStatus cw_blade_clearance(const CwDesign *design, const CwMeridian *meridian, double *least);
+
+// The seams that divide a passage between blades whose walls would wind round the axis by a revolution, into equal
+// parts that do not. Splitters divide it already.
+typedef struct {
+  int parts;
+  double reach; // how far the walls of a part wind round the axis, rad
+} CwBladeSeams;
+#define CW_SEAM_MARGIN 0.15                                  // rad, least of a part's ends beyond its blades
+#define CW_SEAM_REACH_MOST (2 * M_PI - 1.5 * CW_SEAM_MARGIN) // of a part
+// last: angle of the foremost leading edge, rad (cw_blade_foremost).
+CwBladeSeams cw_blade_seams(const CwDesign *design, double last);
+
+// Angle of the foremost leading edge of blade and splitter, rad. Fails as cw_blade_section().
+CwStatus cw_blade_foremost(const CwDesign *design, const CwMeridian *meridian, double *angle);
 
 // Longest ellipse of the leading edge, in p: within half of the blade, and ending before it is thickest.
 double cw_blade_longest_nose(const CwBladeSection *section);

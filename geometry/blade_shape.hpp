@@ -13,7 +13,6 @@
 #include "geometry/meridian.h"
 
 enum { CW_HUB, CW_SHROUD }; // the two walls
-enum { CW_SPAN_POINTS = 13 };
 
 // A grid of points. Angles are of blade 0. The sides run from the leading to the trailing edge, the leading
 // edge from suction to pressure, bevel and trailing edge towards greater theta.

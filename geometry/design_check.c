@@ -8,6 +8,7 @@
 
 #include "geometry/correlations.h"
 #include "geometry/design_value.h"
+#include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
 #include "geometry/viscous_correction.h"
 
@@ -132,6 +133,10 @@ static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(remarks, strstr(at_shroud, "at the eye") != NULL,
          "leading_edge_radius_shroud_mm lies at the eye or inside it: the blades begin at r = %.4g mm, %s",
          1e3 * d->leading_edge_radius_shroud, at_shroud);
+  remark(remarks, !strcmp(d->source[CW_DESIGN_wrap_angle], CW_WRAP_WITHIN_A_REVOLUTION),
+         "the wrap is %.0f deg, the greatest with which no passage of %d blades%s winds round the axis, and the blade "
+         "angles follow it; more blade_count have room for more",
+         d->wrap_angle / CW_DEGREE, d->blade_count, d->splitter_start > 0 ? " and as many splitters" : "");
   remark(remarks, d->wrap_spread != 0 && strcmp(d->source[CW_DESIGN_wrap_spread], "case"),
          "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay within 12 to "
          "60 deg and the blades stand steep on the walls; wrap_spread_deg gives another difference",

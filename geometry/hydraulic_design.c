@@ -15,6 +15,8 @@
 #include "geometry/viscous_correction.h"
 #include "pipeline/water.h"
 
+static const double HEAD_MET = 1e-6; // of the head
+
 // The duty point with water to which that of the fluid corresponds.
 static void water_duty(const CwCase *table, CwDesign *design) {
   SET(viscosity, table->fluid.kinematic_viscosity, "case or its default");
@@ -235,6 +237,37 @@ static CwStatus pump_of_nearest_wrap(const CwCase *table, CwDesign *design) {
   return CW_OK;
 }
 
+// A wrap that follows from the blade angles, with which a passage would wind round the axis by more than a solid can
+// have, becomes the greatest with which none does; the blade angles follow it. Where no pump of that wrap meets the
+// head the first one stays, for the geometry to refuse.
+static CwStatus pump_within_a_revolution(const CwCase *table, CwDesign *design) {
+  enum { STEPS = 8 };
+  const double closeness = 0.99;
+  const CwDesign before = *design;
+  const CwStatus status = pump_of_nearest_wrap(table, design);
+  if (status != CW_OK || table->impeller.priority != CW_PRIORITY_AUTO || before.priority != CW_PRIORITY_HEAD)
+    return status;
+  const CwDesign wound = *design;
+  CwCase trial = *table;
+  for (int i = 0; i < STEPS && fabs(design->head_residual) < HEAD_MET * design->head; i++) {
+    CwMeridian meridian;
+    double last;
+    if (cw_meridian_make(design, &meridian) != CW_OK || cw_blade_foremost(design, &meridian, &last) != CW_OK) break;
+    const CwBladeSeams seams = cw_blade_seams(design, last);
+    if (seams.reach <= CW_SEAM_REACH_MOST) {
+      if (i > 0) design->source[CW_DESIGN_wrap_angle] = CW_WRAP_WITHIN_A_REVOLUTION;
+      return CW_OK;
+    }
+    trial.impeller.wrap_angle = closeness * design->wrap_angle * (1 - (seams.reach - CW_SEAM_REACH_MOST) / last);
+    *design = before;
+    design->priority = CW_PRIORITY_WRAP;
+    if (pump_of_any_base(&trial, design) != CW_OK) break;
+  }
+  cw_fail_clear();
+  *design = wound;
+  return CW_OK;
+}
+
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   *design = (CwDesign){.priority = resolved_priority(&table->impeller),
                        .correlations = table->design.correlations,
@@ -251,5 +284,5 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(vapour_pressure, cw_case_given(vapour) ? vapour : cw_water_vapour_pressure(20), "case, or that of water (IAPWS)");
   water_duty(table, design);
   specific_speeds(table, design);
-  return pump_of_nearest_wrap(table, design);
+  return pump_within_a_revolution(table, design);
 }

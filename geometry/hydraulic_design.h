@@ -16,6 +16,9 @@
 extern "C" {
 #endif
 
+// Source of a wrap that is less than the blade angles ask for.
+#define CW_WRAP_WITHIN_A_REVOLUTION "greatest with which no passage winds round the axis"
+
 // Computes the design of a case. Fails with CW_ERR_DESIGN where it has no solution (for instance blade angles
 // outside 12 to 60 degrees), with the value and the allowed range.
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design);

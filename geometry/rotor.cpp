@@ -17,8 +17,7 @@ namespace {
 // Parameter planes of the surfaces of revolution begin a margin before a blade's trailing edge, so that a whole passage
 // has angles between 0 and 2 pi; half of it is left behind the leading edge. rad; bevels and leaning edges need the
 // least.
-const double usual_margin = 0.5, least_margin = 0.15;
-const int most_parts = 4; // of a passage between seams
+const double usual_margin = 0.5;
 
 // From the design to the solid: the sections of blade, splitter and seams, their patches, then edges and faces.
 class RotorMaker {
@@ -66,19 +65,16 @@ done:
   return status;
 }
 
-// A passage whose walls would wind round the axis by a revolution is cut by seams into equal parts that do not. `last`:
-// angle of the foremost leading edge.
+// Cuts a passage by the seams that it needs. `last`: angle of the foremost leading edge.
 CwStatus RotorMaker::seams(double last) {
   CwStatus status = CW_OK;
-  const double whole = 2 * M_PI - 1.5 * least_margin, turned = 0.2; // of a part: how far its seam turns at the eye
-  int parts = 1;
-  double reach = last + pitch;
-  while (reach > whole && shapes.size() == 1 && parts < most_parts) reach = last + pitch / ++parts * (1 + turned);
-  CW_REQUIRE(reach <= whole, CW_ERR_GEOMETRY,
+  const CwBladeSeams seams = cw_blade_seams(design, last);
+  const int parts = seams.parts;
+  CW_REQUIRE(seams.reach <= CW_SEAM_REACH_MOST, CW_ERR_GEOMETRY,
              "the blades and a part of their pitch of %.1f deg wind round the axis by %.1f deg; at most %.1f deg are "
              "allowed: lower wrap_angle_deg, raise blade_count or leave splitter_start out",
-             pitch * 180 / M_PI, reach * 180 / M_PI, whole * 180 / M_PI);
-  margin = std::min(usual_margin, (2 * M_PI - reach) / 1.5);
+             pitch * 180 / M_PI, seams.reach * 180 / M_PI, CW_SEAM_REACH_MOST * 180 / M_PI);
+  margin = std::min(usual_margin, (2 * M_PI - seams.reach) / 1.5);
   for (int part = 1; part < parts; part++) {
     CwBladeShape seam = {};
     seam.name = "seam";

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "geometry/blade.h"
 #include "geometry/design_value.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
@@ -320,6 +321,36 @@ static void impossible_wrap_is_refused(void **state) {
   cw_fail_clear();
 }
 
+static double reach_of(const CwDesign *design) {
+  CwMeridian meridian;
+  double last = 0;
+  assert_int_equal(cw_meridian_make(design, &meridian), CW_OK);
+  assert_int_equal(cw_blade_foremost(design, &meridian, &last), CW_OK);
+  return cw_blade_seams(design, last).reach;
+}
+
+// Two blades and two splitters: half a revolution of pitch, and a wrap that leaves no room for it; as a given one it is
+// left for the geometry to refuse. A D2 that would miss the head with another wrap leaves it too.
+static void wraps_stay_within_a_revolution(void **state) {
+  CwCase table = duty_point(25, 40, 1450);
+  table.impeller.blade_count = 2;
+  table.impeller.priority = CW_PRIORITY_HEAD;
+  table.impeller.splitter_start = 0.4;
+  const CwDesign wound = design_of(&table);
+  assert_true(reach_of(&wound) > CW_SEAM_REACH_MOST);
+  table.impeller.priority = CW_PRIORITY_AUTO;
+  CwDesign design = design_of(&table);
+  assert_string_equal(design.source[CW_DESIGN_wrap_angle], CW_WRAP_WITHIN_A_REVOLUTION);
+  assert_true(reach_of(&design) > 0.9 * CW_SEAM_REACH_MOST && reach_of(&design) <= CW_SEAM_REACH_MOST);
+  assert_near(design.predicted_head, 40, 1e-6);
+  table.impeller.outlet_diameter = wound.outlet_diameter;
+  design = design_of(&table);
+  assert_near(design.wrap_angle, wound.wrap_angle, 1e-6);
+  table = duty_point(25, 40, 1450);
+  design = design_of(&table);
+  assert_string_not_equal(design.source[CW_DESIGN_wrap_angle], CW_WRAP_WITHIN_A_REVOLUTION);
+}
+
 // Nine blades and nine splitters leave no room for root fillets of 10 mm: they become those that fit, but for a
 // twentieth, and what fits stays as it is.
 static void fillets_need_room_between_the_blades(void **state) {
@@ -368,6 +399,7 @@ int main(void) {
       cmocka_unit_test(shaft_narrows_the_suction_pipe),
       cmocka_unit_test(case_overrides),
       cmocka_unit_test(impossible_wrap_is_refused),
+      cmocka_unit_test(wraps_stay_within_a_revolution),
       cmocka_unit_test(fillets_need_room_between_the_blades),
       cmocka_unit_test(rows_are_lines),
   };
