@@ -155,6 +155,22 @@ static double flatness_of(const double *const *x, double dihedral, unsigned on_p
   return cw_lesser(dihedral, cw_policy.flat_angle * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT)));
 }
 
+// Of places within `apart` of one another only the flattest stays, and of all the flattest.
+static void add_flat(const CwFlatPlace *place, double apart, CwQuality *quality) {
+  CwFlatPlace *flat = quality->flat;
+  int32_t kept = 0;
+  for (int32_t i = 0; i < quality->flat_count; i++) {
+    int near = cw_distance(flat[i].x, place->x) < apart;
+    if (near && flat[i].flatness <= place->flatness) return;
+    if (!near) flat[kept++] = flat[i];
+  }
+  if (kept == CW_FLAT_PLACES && flat[kept - 1].flatness <= place->flatness) return;
+  int32_t at = kept < CW_FLAT_PLACES ? kept : kept - 1;
+  quality->flat_count = at + 1;
+  for (; at > 0 && flat[at - 1].flatness > place->flatness; at--) flat[at] = flat[at - 1];
+  flat[at] = *place;
+}
+
 static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
@@ -184,8 +200,12 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
       double flatness = flatness_of(x, shape.dihedral_least, on_patches[c]);
-      if (flatness < quality->flattest) cw_cell_centre(data, c, quality->flattest_at);
       quality->flattest = cw_lesser(quality->flattest, flatness);
+      if (flatness < cw_policy.flat_angle) {
+        CwFlatPlace place = {.flatness = flatness};
+        cw_cell_centre(data, c, place.x);
+        add_flat(&place, 2 * shape.edge_longest, quality);
+      }
       quality->dihedral_least = cw_lesser(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = cw_greater(quality->dihedral_greatest, shape.dihedral_greatest);
       quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;
@@ -246,7 +266,7 @@ void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   sum->cells += more->cells;
   sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
   for (int k = 0; k < 8; k++) sum->aspect_class[k] += more->aspect_class[k];
-  if (more->flattest < sum->flattest) memcpy(sum->flattest_at, more->flattest_at, sizeof sum->flattest_at);
+  for (int32_t i = 0; i < more->flat_count; i++) add_flat(&more->flat[i], 0, sum);
   sum->flattest = fmin(sum->flattest, more->flattest);
   sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
   sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);

@@ -23,6 +23,12 @@ typedef struct {
   double dihedral_least; // degrees
 } CwTetFigures;
 
+// The centre of a flat tetrahedron, the flattest within two of its edges.
+typedef struct {
+  double x[3], flatness; // m; degrees
+} CwFlatPlace;
+enum { CW_FLAT_PLACES = 12 };
+
 // The fields are figures of their own: of all cells, of tetrahedra, of open faces and of prisms.
 typedef struct {
   double volume;       // m3, all cells
@@ -32,9 +38,11 @@ typedef struct {
   double aspect_mean, aspect_max;           // longest / shortest edge; 0 without tetrahedra
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
-  double flattest, flattest_at[3];          // of all angles and determinants, degrees; its centre, m
-  int64_t dihedral_bin[18];                 // of the least angle of each tetrahedron, 10 degrees wide up to 180
-  CwTetFigures beside, apart;               // those with a corner on a partition plane, and the others
+  double flattest;                          // of all angles and determinants, degrees
+  CwFlatPlace flat[CW_FLAT_PLACES];         // where there are tetrahedra flatter than flat_angle, the flattest first
+  int32_t flat_count;
+  int64_t dihedral_bin[18];   // of the least angle of each tetrahedron, 10 degrees wide up to 180
+  CwTetFigures beside, apart; // those with a corner on a partition plane, and the others
   // Sum of hashes of all open faces on partition planes (shared numbers and coordinates to the last bit), negative
   // where the face is seen from its other side: 0 over all regions of a domain where each face has its two cells.
   uint64_t open_faces;

@@ -9,11 +9,15 @@
 
 static const double PLACES_APART = 2; // h, of those where first heights are missed: one reaches about as far
 
+static double wanted_of(const CwRegionSummary *made) {
+  return fmin(cw_policy.flat_angle, made->dihedral_allowed);
+}
+
 // What region r of domain d lacks; 0 where it is not flat, or not the first of its images.
 static double lacks_angle(const CwMeshRun *run, int d, int32_t r) {
   const CwDomain *domain = &run->domain[d];
   const CwRegionSummary *made = &run->summary[d][r];
-  double wanted = fmin(cw_policy.flat_angle, made->dihedral_allowed), least = made->quality.flattest;
+  double wanted = wanted_of(made), least = made->quality.flattest;
   int first = cw_image_region_first(&domain->images, &domain->plan, r) == r;
   return first && least < wanted ? 1 - least / wanted : 0;
 }
@@ -87,7 +91,10 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     int heights = lacks_first_heights(run, d) > 0, sharp = cw_domain_is_sharp(domain);
     for (int32_t r = 0; r < domain->plan.region_count; r++) {
-      if (lacks_angle(run, d, r) > 0) CW_TRY(add_apart(run, d, run->summary[d][r].quality.flattest_at, before));
+      const CwRegionSummary *made = &run->summary[d][r];
+      for (int32_t i = 0; lacks_angle(run, d, r) > 0 && i < made->quality.flat_count; i++)
+        if (made->quality.flat[i].flatness < wanted_of(made))
+          CW_TRY(add_apart(run, d, made->quality.flat[i].x, before));
     }
     for (int32_t t = 0; heights && t < domain->surface.triangle_count; t++) {
       const CwSurfaceMesh *surface = &domain->surface;

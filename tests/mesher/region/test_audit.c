@@ -69,6 +69,8 @@ static void single_tetrahedron(void **state) {
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_near(q.volume, 1.0 / 6.0, 1e-16);
   assert_int_equal(q.prism_count, 0);
+  assert_int_equal(q.flat_count, 1);
+  for (int k = 0; k < 3; k++) assert_near(q.flat[0].x[k], 0.25, 1e-15);
   assert_near(q.flattest, 0, 0); // by its determinant: all its faces lie on patches
 }
 
@@ -289,7 +291,9 @@ static void sums_of_two_regions(void **state) {
   cw_quality_start(&sum);
   cw_quality_add(&sum, &q, 1);
   sum.flattest = 13.0; // that of the first lies on patches all over
-  q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0, q.flattest = 11.0, q.flattest_at[1] = 3.0;
+  q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0, q.flattest = 11.0;
+  q.flat[0] = (CwFlatPlace){{0, 3, 0}, 11};
+  q.flat_count = 1;
   q.aspect_class[0] = 0, q.aspect_class[2] = 3;
   q.beside = (CwTetFigures){5, 9.0, 3.0, 2.5, 0.25, 20.0};
   q.apart = (CwTetFigures){7, 8.0, 2.0, 4.5, 0.5, 30.0};
@@ -299,7 +303,9 @@ static void sums_of_two_regions(void **state) {
   assert_near(sum.aspect_max, 4.0, 0.0);
   assert_near(sum.dihedral_least, 12.0, 0.0);
   assert_near(sum.flattest, 11.0, 0.0);
-  assert_near(sum.flattest_at[1], 3.0, 0.0);
+  assert_int_equal(sum.flat_count, 2);
+  assert_near(sum.flat[0].flatness, 0, 0);
+  assert_near(sum.flat[1].x[1], 3, 0);
   assert_near(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
   assert_int_equal(sum.cells, 4);
   assert_int_equal(sum.beside.count, beside.count + 5);
