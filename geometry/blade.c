@@ -200,26 +200,22 @@ done:
   return status;
 }
 
-CwBladeSeams cw_blade_seams(const CwDesign *design, double last) {
+CwStatus cw_blade_seams(const CwDesign *design, const CwMeridian *meridian, CwBladeSeams *seams) {
   enum { PARTS_MOST = 4 };
-  const double pitch = 2 * M_PI / design->blade_count, turned = 0.2; // of a part: how far its seam turns at the eye
-  CwBladeSeams seams = {1, last + pitch};
-  while (seams.reach > CW_SEAM_REACH_MOST && design->splitter_start == 0 && seams.parts < PARTS_MOST)
-    seams.reach = last + pitch / ++seams.parts * (1 + turned);
-  return seams;
-}
-
-CwStatus cw_blade_foremost(const CwDesign *design, const CwMeridian *meridian, double *angle) {
   CwStatus status = CW_OK;
-  *angle = 0;
+  const double pitch = 2 * M_PI / design->blade_count, turned = 0.2; // of a part: how far its seam turns at the eye
+  double last = 0;
   for (int j = 0; j < CW_SPAN_POINTS; j++) {
     CwBladeSection section;
     CW_TRY(cw_blade_section(design, meridian, (double)j / (CW_SPAN_POINTS - 1), &section));
-    *angle = fmax(*angle, cw_blade_theta(&section, 0));
+    last = fmax(last, cw_blade_theta(&section, 0));
     if (design->splitter_start == 0) continue;
     section = cw_blade_splitter(design, &section);
-    *angle = fmax(*angle, cw_blade_theta(&section, 0));
+    last = fmax(last, cw_blade_theta(&section, 0));
   }
+  *seams = (CwBladeSeams){1, last, last + pitch};
+  while (seams->reach > CW_SEAM_REACH_MOST && design->splitter_start == 0 && seams->parts < PARTS_MOST)
+    seams->reach = last + pitch / ++seams->parts * (1 + turned);
 done:
   return status;
 }

@@ -67,15 +67,12 @@ CwStatus cw_blade_clearance(const CwDesign *design, const CwMeridian *meridian, 
 // parts that do not. Splitters divide it already.
 typedef struct {
   int parts;
-  double reach; // how far the walls of a part wind round the axis, rad
+  double foremost; // angle of the foremost leading edge of blade and splitter, rad
+  double reach;    // how far the walls of a part wind round the axis, rad; at most CW_SEAM_REACH_MOST can be built
 } CwBladeSeams;
-#define CW_SEAM_MARGIN 0.15                                  // rad, least of a part's ends beyond its blades
-#define CW_SEAM_REACH_MOST (2 * M_PI - 1.5 * CW_SEAM_MARGIN) // of a part
-// last: angle of the foremost leading edge, rad (cw_blade_foremost).
-CwBladeSeams cw_blade_seams(const CwDesign *design, double last);
-
-// Angle of the foremost leading edge of blade and splitter, rad. Fails as cw_blade_section().
-CwStatus cw_blade_foremost(const CwDesign *design, const CwMeridian *meridian, double *angle);
+#define CW_SEAM_REACH_MOST (2 * M_PI - 1.5 * 0.15) // less the margins of a part beyond its blades
+// Fails as cw_blade_section().
+CwStatus cw_blade_seams(const CwDesign *design, const CwMeridian *meridian, CwBladeSeams *seams);
 
 // Longest ellipse of the leading edge, in p: within half of the blade, and ending before it is thickest.
 double cw_blade_longest_nose(const CwBladeSection *section);

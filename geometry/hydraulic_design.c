@@ -15,8 +15,6 @@
 #include "geometry/viscous_correction.h"
 #include "pipeline/water.h"
 
-static const double HEAD_MET = 1e-6; // of the head
-
 // The duty point with water to which that of the fluid corresponds.
 static void water_duty(const CwCase *table, CwDesign *design) {
   SET(viscosity, table->fluid.kinematic_viscosity, "case or its default");
@@ -249,16 +247,16 @@ static CwStatus pump_within_a_revolution(const CwCase *table, CwDesign *design) 
     return status;
   const CwDesign wound = *design;
   CwCase trial = *table;
-  for (int i = 0; i < STEPS && fabs(design->head_residual) < HEAD_MET * design->head; i++) {
+  for (int i = 0; i < STEPS && cw_design_meets_head(design); i++) {
     CwMeridian meridian;
-    double last;
-    if (cw_meridian_make(design, &meridian) != CW_OK || cw_blade_foremost(design, &meridian, &last) != CW_OK) break;
-    const CwBladeSeams seams = cw_blade_seams(design, last);
+    CwBladeSeams seams;
+    if (cw_meridian_make(design, &meridian) != CW_OK || cw_blade_seams(design, &meridian, &seams) != CW_OK) break;
     if (seams.reach <= CW_SEAM_REACH_MOST) {
       if (i > 0) design->source[CW_DESIGN_wrap_angle] = CW_WRAP_WITHIN_A_REVOLUTION;
       return CW_OK;
     }
-    trial.impeller.wrap_angle = closeness * design->wrap_angle * (1 - (seams.reach - CW_SEAM_REACH_MOST) / last);
+    trial.impeller.wrap_angle =
+        closeness * design->wrap_angle * (1 - (seams.reach - CW_SEAM_REACH_MOST) / seams.foremost);
     *design = before;
     design->priority = CW_PRIORITY_WRAP;
     if (pump_of_any_base(&trial, design) != CW_OK) break;

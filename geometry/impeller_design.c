@@ -218,7 +218,7 @@ static double straight_wrap(const CwMeridian *meridian, double beta1, double bet
 static const double allowed_beta[2] = {12 * CW_DEGREE, 60 * CW_DEGREE};
 static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
 
-static int meets_head(const CwDesign *design) {
+int cw_design_meets_head(const CwDesign *design) {
   return fabs(design->head_residual) < 1e-6 * design->head;
 }
 
@@ -235,9 +235,9 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
     const double solved =
         cw_case_given(fixed) ? fixed : cw_outlet_angle_for_head(meridian, allowed_beta, usual_beta, design);
     SET(outlet_blade_angle, solved,
-        cw_case_given(fixed) ? "limit of the usual 18 to 32 deg; D2 meets the head"
-        : meets_head(design) ? "solved for the head"
-                             : "nearest to the head of 12 to 60 deg");
+        cw_case_given(fixed)           ? "limit of the usual 18 to 32 deg; D2 meets the head"
+        : cw_design_meets_head(design) ? "solved for the head"
+                                       : "nearest to the head of 12 to 60 deg");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else {
     for (int i = 0; i < 60; i++) {
@@ -320,15 +320,15 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
   double fixed = NAN;
   CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
   if (by_head) {
-    if (meets_head(design) && design->outlet_blade_angle >= usual_beta[0] &&
+    if (cw_design_meets_head(design) && design->outlet_blade_angle >= usual_beta[0] &&
         design->outlet_blade_angle <= usual_beta[1])
       goto done;
     fixed = usual_limit(meridian, design);
   }
   CW_TRY(outlet_diameter_for_head(table, fixed, meridian, design));
-  if (by_head && !meets_head(design) && design->outlet_diameter > (1 - 1e-9) * largest)
+  if (by_head && !cw_design_meets_head(design) && design->outlet_diameter > (1 - 1e-9) * largest)
     CW_TRY(impeller(table, largest, NAN, 1, meridian, design));
-  CW_REQUIRE(meets_head(design) || design->outlet_diameter > (1 - 1e-9) * largest, CW_ERR_DESIGN,
+  CW_REQUIRE(cw_design_meets_head(design) || design->outlet_diameter > (1 - 1e-9) * largest, CW_ERR_DESIGN,
              "no outlet diameter from 0.7 to 3 times the correlation's meets the head of %.3f m with beta2 "
              "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
@@ -353,7 +353,8 @@ static CwStatus with_outlet_width(const CwCase *table, double width, double fixe
 static CwStatus solve_outlet_width(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
   CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
-  if (design->priority != CW_PRIORITY_HEAD || cw_case_given(table->impeller.outlet_width) || meets_head(design))
+  if (design->priority != CW_PRIORITY_HEAD || cw_case_given(table->impeller.outlet_width) ||
+      cw_design_meets_head(design))
     goto done;
   const int more = design->head_residual < 0;
   const double usual = design->outlet_width, fixed = usual_limit(meridian, design);

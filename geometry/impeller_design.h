@@ -14,6 +14,9 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
+// Whether the predicted head is the one asked.
+int cw_design_meets_head(const CwDesign *design);
+
 // design: [in] duty, specific speeds, efficiencies and the kinds that the case chooses; [out] the wheel and its
 // predicted head. Fails with CW_ERR_DESIGN and one line that names the keys to change.
 CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design);

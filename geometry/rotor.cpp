@@ -33,12 +33,11 @@ private:
   std::vector<CwBladeShape> shapes; // the blade and, behind its pressure side, the splitter or seams
   double pitch, margin;
 
-  CwStatus seams(double last);
+  CwStatus seams();
 };
 
 CwStatus RotorMaker::sections() {
   CwStatus status = CW_OK;
-  double last = 0; // angle of the foremost leading edge
   pitch = 2 * M_PI / design->blade_count;
   CW_TRY(cw_meridian_make(design, &meridian));
   shapes.resize(design->splitter_start > 0 ? 2 : 1);
@@ -52,7 +51,6 @@ CwStatus RotorMaker::sections() {
   if (shapes.size() > 1) shapes[1].name = "splitter";
   for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
-      last = std::max(last, cw_blade_theta(&s, 0));
       const double longest = cw_blade_longest_nose(&s),
                    thickness = 0.99 * longest / s.nose * design->leading_edge_thickness;
       CW_REQUIRE(s.nose < longest, CW_ERR_GEOMETRY,
@@ -60,27 +58,27 @@ CwStatus RotorMaker::sections() {
                  "leading_edge_thickness_mm to %.3g, or raise thickest_at",
                  100 * s.nose, shape.name, s.span, 100 * longest, 1e3 * thickness);
     }
-  CW_TRY(seams(last));
+  CW_TRY(seams());
 done:
   return status;
 }
 
-// Cuts a passage by the seams that it needs. `last`: angle of the foremost leading edge.
-CwStatus RotorMaker::seams(double last) {
+// Cuts a passage by the seams that it needs.
+CwStatus RotorMaker::seams() {
   CwStatus status = CW_OK;
-  const CwBladeSeams seams = cw_blade_seams(design, last);
-  const int parts = seams.parts;
+  CwBladeSeams seams;
+  CW_TRY(cw_blade_seams(design, &meridian, &seams));
   CW_REQUIRE(seams.reach <= CW_SEAM_REACH_MOST, CW_ERR_GEOMETRY,
              "the blades and a part of their pitch of %.1f deg wind round the axis by %.1f deg; at most %.1f deg are "
              "allowed: lower wrap_angle_deg, raise blade_count or leave splitter_start out",
              pitch * 180 / M_PI, seams.reach * 180 / M_PI, CW_SEAM_REACH_MOST * 180 / M_PI);
   margin = std::min(usual_margin, (2 * M_PI - seams.reach) / 1.5);
-  for (int part = 1; part < parts; part++) {
+  for (int part = 1; part < seams.parts; part++) {
     CwBladeShape seam = {};
     seam.name = "seam";
     seam.section = shapes[0].section;
     seam.seam = true;
-    seam.begin = pitch * part / parts;
+    seam.begin = pitch * part / seams.parts;
     for (CwBladeSection &s : seam.section) s.shift += seam.begin;
     shapes.push_back(seam);
   }

@@ -323,10 +323,10 @@ static void impossible_wrap_is_refused(void **state) {
 
 static double reach_of(const CwDesign *design) {
   CwMeridian meridian;
-  double last = 0;
+  CwBladeSeams seams;
   assert_int_equal(cw_meridian_make(design, &meridian), CW_OK);
-  assert_int_equal(cw_blade_foremost(design, &meridian, &last), CW_OK);
-  return cw_blade_seams(design, last).reach;
+  assert_int_equal(cw_blade_seams(design, &meridian, &seams), CW_OK);
+  return seams.reach;
 }
 
 // Two blades and two splitters: half a revolution of pitch, and a wrap that leaves no room for it; as a given one it is
