@@ -177,8 +177,9 @@ double cw_cad_face_volume(const CwCad *cad, int face) {
   }
 }
 
-double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
+double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2], double *lesser) {
   const CwCadFace &f = cad->face[face];
+  if (lesser) *lesser = 0;
   if (f.surface.GetType() == GeomAbs_Plane) return 0;
   gp_Pnt p;
   gp_Vec first[2];
@@ -194,8 +195,10 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
   double l = suu.Dot(normal) / area, n = svv.Dot(normal) / area, k = suv.Dot(normal) / area;
   double mean = (e * n - 2 * m * k + g * l) / (2 * det);
   double gauss = (l * n - k * k) / det;
-  double amount = (std::fabs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss))) / cad->unit;
-  return (mean > 0) != (cw_cad_face_reversed(cad, face) != 0) ? amount : -amount;
+  double apart = std::sqrt(std::max(0.0, mean * mean - gauss));
+  double sign = (mean > 0) != (cw_cad_face_reversed(cad, face) != 0) ? 1 : -1;
+  if (lesser) *lesser = sign * (std::fabs(mean) - apart) / cad->unit;
+  return sign * ((std::fabs(mean) + apart) / cad->unit);
 }
 
 // One damped Newton step for the nearest point, in the B-rep's unit: from u, v with the vector d from x to the surface.

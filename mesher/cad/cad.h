@@ -64,7 +64,8 @@ void cw_cad_face_normal(const CwCad *cad, int face, const double uv[2], double n
 double cw_cad_face_volume(const CwCad *cad, int face);
 
 // The principal curvature of the greater amount, 1/m: above 0 where the face bends away from the fluid, as round a rod.
-double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]);
+// *lesser: the other one, unless NULL.
+double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2], double *lesser);
 
 // Nearest point of the face's surface to x by Newton from the given (u,v), which it updates. Returns the
 // distance, m.

@@ -17,39 +17,59 @@ static int by_radius(const void *a, const void *b) {
   return (p->area > q->area) - (p->area < q->area);
 }
 
-CwStatus cw_face_radii(const CwCad *cad, const CwBackground *background, double *radius) {
+// The greatest curvature of each bend, 1/m: of the principal ones.
+typedef struct {
+  double of[CW_BENDS];
+} Curvature;
+
+static Curvature curvature_at(const CwCad *cad, int face, const double uv[2]) {
+  double lesser, greater = cw_cad_face_curvature(cad, face, uv, &lesser);
+  return (Curvature){{fmax(0, fmax(greater, lesser)), fmax(0, -fmin(greater, lesser))}};
+}
+
+CwStatus cw_face_radii(const CwCad *cad, const CwBackground *background, double (*radius)[CW_BENDS]) {
   CwStatus status = CW_OK;
-  Piece *piece = NULL;
-  double *area = NULL, *sharper = NULL, *curvature = NULL, centre[3];
+  Piece *piece[CW_BENDS] = {NULL};
+  double *area = NULL, *sharper[CW_BENDS] = {NULL}, centre[3];
+  Curvature *curvature = NULL;
+  int32_t count = background->triangle_count;
   int faces = cw_cad_face_count(cad), *face_at = NULL; // the face of which a point's curvature is known, and 1
-  CW_NEW_UNSET(piece, background->triangle_count);
   CW_NEW(area, faces);
-  CW_NEW(sharper, faces);
   CW_NEW(face_at, background->point_count);
   CW_NEW_UNSET(curvature, background->point_count);
-  for (int f = 0; f < faces; f++) radius[f] = INFINITY;
-  for (int32_t t = 0; t < background->triangle_count; t++) {
+  for (int bend = 0; bend < CW_BENDS; bend++) {
+    CW_NEW_UNSET(piece[bend], count);
+    CW_NEW(sharper[bend], faces);
+    for (int f = 0; f < faces; f++) radius[f][bend] = INFINITY;
+  }
+  for (int32_t t = 0; t < count; t++) {
     int face = background->face[t];
-    double most = 0;
+    double most[CW_BENDS] = {0}, of = cw_background_area(background, t, centre);
     for (int k = 0; k < 3; k++) {
       int32_t p = background->triangle[t][k];
-      if (face_at[p] != face + 1) curvature[p] = cw_cad_face_curvature(cad, face, background->uv[t][k]);
+      if (face_at[p] != face + 1) curvature[p] = curvature_at(cad, face, background->uv[t][k]);
       face_at[p] = face + 1;
-      most = fmax(most, curvature[p]);
+      for (int bend = 0; bend < CW_BENDS; bend++) most[bend] = fmax(most[bend], curvature[p].of[bend]);
     }
-    piece[t] = (Piece){face, most > 0 ? 1 / most : INFINITY, cw_background_area(background, t, centre)};
-    area[face] += piece[t].area;
+    for (int bend = 0; bend < CW_BENDS; bend++)
+      piece[bend][t] = (Piece){face, most[bend] > 0 ? 1 / most[bend] : INFINITY, of};
+    area[face] += of;
   }
-  qsort(piece, (size_t)background->triangle_count, sizeof *piece, by_radius);
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    int face = piece[t].face;
-    sharper[face] += piece[t].area;
-    if (isinf(radius[face]) && sharper[face] > cw_policy.missed_share * area[face]) radius[face] = piece[t].radius;
+  for (int bend = 0; bend < CW_BENDS; bend++) {
+    qsort(piece[bend], (size_t)count, sizeof **piece, by_radius);
+    for (int32_t t = 0; t < count; t++) {
+      const Piece *of = &piece[bend][t];
+      double *least = &radius[of->face][bend];
+      sharper[bend][of->face] += of->area;
+      if (isinf(*least) && sharper[bend][of->face] > cw_policy.missed_share * area[of->face]) *least = of->radius;
+    }
   }
 done:
-  free(piece);
+  for (int bend = 0; bend < CW_BENDS; bend++) {
+    free(piece[bend]);
+    free(sharper[bend]);
+  }
   free(area);
-  free(sharper);
   free(face_at);
   free(curvature);
   return status;

@@ -17,9 +17,8 @@ enum { BISECTIONS = 20 };
 // Least cosine between a ray and the normal of what stands opposite: less is grazed. A column on an open edge runs
 // inside its own open patch and must not take that for an obstacle.
 static const double FACING = 0.05, FACING_OF_CONSTRAINED = 0.3;
-static const double START = 1e-3;        // of the shortest edge of the wall: what a ray meets nearer is its own wall
-static const double ALONG_CREASE = 0.7;  // cosine of an edge that lies along a crease
-static const double CLOSING_SHARE = 0.6; // of the thickness at which columns that lean to each other would meet
+static const double START = 1e-3;       // of the shortest edge of the wall: what a ray meets nearer is its own wall
+static const double ALONG_CREASE = 0.7; // cosine of an edge that lies along a crease
 
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
@@ -266,7 +265,7 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
     // Without constraints: the smoothing sees to what those tilt. Of the edge's length squared, by the thickness:
     double closing = cw_dot(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
                      cw_dot(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
-    if (closing > 0) most = fmin(most, CLOSING_SHARE * cw_dot(e, e) / closing);
+    if (closing > 0) most = fmin(most, CW_CLOSING_SHARE * cw_dot(e, e) / closing);
   }
   *(double *)out = most;
   return CW_OK;

@@ -7,13 +7,14 @@
 
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
-#include "mesher/cad/face_radius.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/layers/bare_faces.h"
+#include "mesher/layers/thickness_gradation.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
 #include "mesher/policy.h"
 #include "mesher/region/region_number.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "mesher/thickness/passage_width.h"
 #include "pipeline/log.h"
 
@@ -129,6 +130,15 @@ done:
   return status;
 }
 
+double cw_domain_first_height(const CwDomain *domain, int face) {
+  int count = domain->layer_count;
+  const double *radius = domain->face_radius[face];
+  // Round a lesser radius the first layer would be more than twice as long on its outer side; inside of one, the layers
+  // would be higher than where their columns meet.
+  double inside = CW_CLOSING_SHARE * radius[CW_CONCAVE] / cw_layer_thickness(1, count, cw_layer_growth_least(count));
+  return fmin(domain->patch_layers[cw_cad_face_patch(domain->cad, face)].first_height, fmin(radius[CW_CONVEX], inside));
+}
+
 double cw_domain_longest_edge(const CwDomain *domain, int patch) {
   const CwLayerTarget *layers = &domain->patch_layers[patch];
   return cw_policy.prism_longest * layers->growth * layers->first_height;
@@ -221,8 +231,7 @@ CwStatus cw_domain_targets(const CwContext *context, CwDomain *domain) {
   CW_NEW(layers, faces);
   for (int f = 0; f < faces; f++) {
     layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
-    // Round a lesser radius the first layer would be more than twice as long on its outer side.
-    layers[f].first_height = fmin(layers[f].first_height, domain->face_radius[f]);
+    layers[f].first_height = cw_domain_first_height(domain, f);
   }
   CW_TRY(cw_incident_make(domain->surface.vertex_count, domain->surface.triangle_count,
                           (const int32_t(*)[3])domain->surface.triangle, &around));

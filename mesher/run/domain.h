@@ -4,6 +4,7 @@
 #define CUTWATER_MESHER_RUN_DOMAIN_H
 
 #include "mesher/cad/background.h"
+#include "mesher/cad/face_radius.h"
 #include "mesher/cad/sharp_edge.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/parallel/context.h"
@@ -36,12 +37,12 @@ typedef struct {
   CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
   CwSize *size;
-  double base_size;            // edge length at relative size 1 and scale 1; the same for all domains
-  CwPatchTarget *patch_target; // of each patch
-  double *face_radius;         // of each face (face_radius.h)
-  CwSharpEdge sharp;           // the sharpest of the walls
-  double *relative_size;       // of each patch
-  CwLayerTarget *patch_layers; // of each patch, for so many layers
+  double base_size;                // edge length at relative size 1 and scale 1; the same for all domains
+  CwPatchTarget *patch_target;     // of each patch
+  double (*face_radius)[CW_BENDS]; // of each face (face_radius.h)
+  CwSharpEdge sharp;               // the sharpest of the walls
+  double *relative_size;           // of each patch
+  CwLayerTarget *patch_layers;     // of each patch, for so many layers
   int layer_count;
   double prism_integral;       // sum over walls of area / h^2, for h over the scale
   double *face_triangles;      // area / h^2 of each face, likewise
@@ -88,6 +89,9 @@ CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
 // Walls on which no layers can stand become bare, with a warning.
 CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain);
+
+// First height asked on a face, in the model's unit: that of its patch, or the greatest that its bend has room for.
+double cw_domain_first_height(const CwDomain *domain, int face);
 
 // Longest edge on walls of a patch, m: longer edges make prisms of small determinant.
 double cw_domain_longest_edge(const CwDomain *domain, int patch);

@@ -7,6 +7,7 @@
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/layers/thickness_gradation.h"
 #include "mesher/run/layer_coverage.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
@@ -152,18 +153,18 @@ void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, j
        given, scale, round_up(cells));
 }
 
-// Where faces of a patch are rounded to less than its first height, that of the sharpest.
+// Where faces of a patch are too round for its first height, that of the roundest.
 static void add_rounded(const CwDomain *domain, int patch, List *list) {
   const CwFirstHeight *first = &domain->patch_target[patch].first;
   const char *group = cw_patch_group_name(domain->patch[patch].group);
-  double radius = INFINITY;
+  double height = INFINITY;
   for (int f = 0; f < cw_cad_face_count(domain->cad); f++)
     if (cw_cad_face_patch(domain->cad, f) == patch && cw_cad_face_is_wall(domain->cad, f))
-      radius = fmin(radius, domain->face_radius[f] * cw_model_unit());
-  if (radius >= (1 - CW_FIRST_HEIGHT_TOLERANCE) * first->height) return;
+      height = fmin(height, cw_domain_first_height(domain, f) * cw_model_unit());
+  if (height >= (1 - CW_FIRST_HEIGHT_TOLERANCE) * first->height) return;
   add(list, "%s%.40s %.3g mm instead of %.3g mm (", list->length ? ", " : "", cw_cad_patch_name(domain->cad, patch),
-      1e3 * radius, 1e3 * first->height);
-  add_key(group, radius, first->y_plus * radius / first->height, list);
+      1e3 * height, 1e3 * first->height);
+  add_key(group, height, first->y_plus * height / first->height, list);
 }
 
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines) {
@@ -193,9 +194,9 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          domain->layer_count > CW_LAYERS_LEAST ? "; fewer walls.layer_count have room for greater ones" : "");
   if (rounded.length)
     tell(log, headlines,
-         "%s: first heights greater than the radius that a face is rounded to are that radius there, and grow from it "
-         "beside: %s",
-         domain->name, rounded.text);
+         "%s: round faces have no room for their first heights: on noses those become the radius, in fillets so small "
+         "that all layers end at %g of the radius, and grow from there: %s",
+         domain->name, CW_CLOSING_SHARE, rounded.text);
 }
 
 void cw_put_sharp_edge(const CwDomain *domain, json_t *result) {

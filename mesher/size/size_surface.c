@@ -187,7 +187,7 @@ static void seed_triangle(Surface *surface, int32_t t) {
   for (int k = 0; k < 3; k++) {
     memcpy(stack[0].x[k], b->x[b->triangle[t][k]], sizeof stack[0].x[k]);
     float *curvature = &surface->curvature[b->triangle[t][k]];
-    if (*curvature < 0) *curvature = (float)fabs(cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k]));
+    if (*curvature < 0) *curvature = (float)fabs(cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k], NULL));
     stack[0].curvature[k] = *curvature;
   }
   while (top > 0) {

@@ -93,7 +93,7 @@ static void check_sphere(const TopoDS_Shape &solid, double most_off) {
     cw_cad_face_normal(cad, face, uv, normal);
     for (int c = 0; c < 3; c++) assert_near(on[c], radius * n[c], 1e-9);
     for (int c = 0; c < 3; c++) assert_near(normal[c], n[c], 1e-5);
-    assert_near(cw_cad_face_curvature(cad, face, uv), -1 / radius, 1e-3 / radius);
+    assert_near(cw_cad_face_curvature(cad, face, uv, nullptr), -1 / radius, 1e-3 / radius);
   }
   const double pole[] = {0, 0};
   double normal[3];

@@ -52,7 +52,7 @@ Answers ask(const CwCad *cad) {
         cw_cad_face_normal(cad, face[side], uv, n);
         add(answers.lengths, x);
         add(answers.directions, n);
-        double curvature = cw_cad_face_curvature(cad, face[side], uv);
+        double curvature = cw_cad_face_curvature(cad, face[side], uv, nullptr);
         answers.lengths.push_back(curvature != 0 ? 1 / curvature : 0);
       }
     }
