@@ -12,10 +12,10 @@ double cw_column_room(const CwWallFlow *flow) {
   return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
 }
 
-// The greatest first height that fits: of so many even layers in fit_share of the passage, and before an open patch,
-// where one end of a wall is short of room, of layers that fall by cw_layer_growth_least().
-static double greatest_fitting(const CwWallFlow *flow, int count) {
-  double across = cw_policy.fit_share * flow->width / count;
+// The greatest first height that fits: of as many even layers as the case has at least, in fit_share of the passage;
+// and before an open patch, where one end of a wall is short of room, of all layers that fall by cw_layer_growth_least().
+static double greatest_fitting(const CwWallFlow *flow, const CwWalls *walls, int count) {
+  double across = cw_policy.fit_share * flow->width / (walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
   if (flow->before == 0) return across;
   return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_layer_growth_least(count)));
 }
@@ -26,7 +26,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
   double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
-  double fitting = greatest_fitting(flow, walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
+  double fitting = greatest_fitting(flow, walls, layer_count);
   CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
   if (cw_case_given(group->first_height)) {
     first.asked = group->first_height;

@@ -78,18 +78,21 @@ static void an_open_face_before_the_wall_leaves_less_room(void **state) {
   assert_int_equal(first.source, CW_FIRST_AUTO);
   table.walls.layer_count = 4;
   table.walls.blade.y_plus = 30; // 0.07 mm
-  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 4);
   double falling = 1 + 0.6 + 0.36 + 0.216;
   flow.before = 1.001 * 30 * UNIT * falling / 0.6;
-  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 4);
   NEAR(first.height, 30 * UNIT);
   assert_int_equal(first.source, CW_FIRST_ASKED);
   flow.before = 0.5 * 30 * UNIT * falling / 0.6;
-  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6);
+  first = cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 4);
   NEAR(first.height, 0.5 * 30 * UNIT);
   assert_int_equal(first.source, CW_FIRST_FITTED);
+  table.walls.layer_count = 0; // and as many as the domain has
+  assert_int_equal(cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 1).source, CW_FIRST_ASKED);
+  NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 4).height, 0.5 * 30 * UNIT);
   flow.before = 0.01; // farther than the other wall
-  NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 6).height, 30 * UNIT);
+  NEAR(cw_first_height_choose(&table, &table.walls.blade, &flow, 300, 4).height, 30 * UNIT);
 }
 
 static void laminar_flow_takes_a_share_of_the_passage(void **state) {
