@@ -69,20 +69,11 @@ static int is_skew(int count, const double *const *x, const double centre[3], co
 // Whether neither diagonal divides a quadrilateral into triangles that both cells see from the side on which they are.
 // On the patch of one cell `to` is NULL.
 static int is_twisted(const double *const *x, const double from[3], const double *to) {
-  double behind[4], before[4];
-  for (int k = 0; k < 4; ++k) {
-    double next[3], last[3], normal[3], d[3];
-    cw_sub(x[(k + 1) % 4], x[k], next);
-    cw_sub(x[(k + 3) % 4], x[k], last);
-    cw_cross(next, last, normal); // of the triangle at corner k, out of `from`
-    cw_sub(x[k], from, d);
-    behind[k] = before[k] = cw_dot(normal, d);
-    if (!to) continue;
-    cw_sub(to, x[k], d);
-    before[k] = cw_dot(normal, d);
-  }
-  return (fmin(fmin(behind[0], before[0]), fmin(behind[2], before[2])) <= 0) &
-         (fmin(fmin(behind[1], before[1]), fmin(behind[3], before[3])) <= 0);
+  double half[4], other[4];
+  cw_quad_halves(x, from, half);
+  if (to) cw_quad_halves(x, to, other);
+  for (int k = 0; to && k < 4; ++k) half[k] = fmin(half[k], -other[k]);
+  return (fmin(half[0], half[2]) <= 0) & (fmin(half[1], half[3]) <= 0);
 }
 
 // Counts a face that may be skew or light, measured as checkMesh does.

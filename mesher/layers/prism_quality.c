@@ -3,6 +3,7 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/layers/thin_prism.h"
+#include "pipeline/mesh/cell.h"
 
 static const double ENOUGH = 1.05 * CW_SMALL_DETERMINANT;
 static const double SIDE_ENOUGH = 0.1; // of half of the pyramid on a side, over the mean of its halves
@@ -79,14 +80,9 @@ static double sides_quality(const double base[3][3], const double upper[3][3]) {
     middle[k] = (base[0][k] + base[1][k] + base[2][k] + upper[0][k] + upper[1][k] + upper[2][k]) / 6;
   for (int i = 0; i < 3; i++) {
     const double *const x[4] = {base[i], base[(i + 1) % 3], upper[(i + 1) % 3], upper[i]};
-    double from[4][3], half[4], mean = 0; // half[k]: that with corner k and its neighbours
-    for (int k = 0; k < 4; k++) cw_sub(x[k], middle, from[k]);
-    for (int k = 0; k < 4; k++) {
-      double c[3];
-      cw_cross(from[k], from[(k + 1) % 4], c);
-      half[k] = cw_dot(from[(k + 3) % 4], c);
-      mean += half[k] / 4;
-    }
+    double half[4];
+    cw_quad_halves(x, middle, half);
+    double mean = half[0] / 4 + half[1] / 4 + half[2] / 4 + half[3] / 4;
     for (int k = 0; k < 4; k++) least = fmin(least, half[k] / mean);
   }
   return least;

@@ -4,6 +4,7 @@
 #define CUTWATER_PIPELINE_MESH_CELL_H
 
 #include "pipeline/mesh/region_items.h"
+#include "pipeline/vec.h"
 
 enum { CW_CELL_FACES = 5 }; // the most a cell has
 
@@ -61,6 +62,18 @@ double cw_cell_aspect(int count, const double *const *x);
 // area vectors' squares over the square of their mean, of the faces with a bit in `inner`, those to another cell. 1 of
 // a cube, near 0 of a cell whose faces leave a direction open.
 double cw_cell_determinant(int count, const double *const *x, unsigned inner);
+
+// Of a quadrilateral seen from a point, six times the volume over the triangle of each corner and its two neighbours:
+// above 0 where the corners run anticlockwise about an outward normal. Those of corners 0 and 2 are what one diagonal
+// leaves, those of 1 and 3 the other.
+static inline void cw_quad_halves(const double *const *x, const double from[3], double half[4]) {
+  double to[4][3], c[3];
+  for (int k = 0; k < 4; k++) cw_sub(x[k], from, to[k]);
+  for (int k = 0; k < 4; k++) {
+    cw_cross(to[k], to[(k + 1) % 4], c);
+    half[k] = cw_dot(to[(k + 3) % 4], c);
+  }
+}
 
 // The places of the nodes of a cell; returns their number.
 static inline int cw_cell_points(const CwRegionData *region, int32_t cell, const double *x[6]) {
