@@ -44,7 +44,8 @@ SECTIONS = {
         "60 pumps with options", "tests/bench/population.py 60 --options --limit 240",
         "The same with blade counts, splitters, fillets, shafts, sections, zones and y+ targets drawn too."),
     "population": Section("500 pumps by flow, head and speed", "tests/bench/population.py 500", ""),
-    "population_options": Section("500 pumps with options", "tests/bench/population.py 500 --options", ""),
+    "population_options": Section("500 pumps with options", "tests/bench/population.py 500 --options --check-mesh 1",
+                                  ""),
     "ablation": Section(
         "What each number of the policy does", "tests/bench/ablate.py --pumps 29 --sizes 60k 150k",
         "Effects of the numbers of `mesher/policy_table.h` on failures, quality, layers, count and time, by a "

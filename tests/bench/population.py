@@ -14,7 +14,8 @@ A pump is good when every stage ends with status 0 and
   it has said that they are too sharp;
 - cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check
   but those of prisms that the exporter has warned of: prisms of a small determinant or a high aspect ratio, and faces
-  of prisms with a high skewness, a small interpolation weight or a small volume ratio, or twisted.
+  of prisms with a high skewness, a small interpolation weight or a small volume ratio, or twisted; and those of
+  tetrahedra too where the mesher has said before that walls.layer_count is too great for mesh.cells.
 
 Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
 command that repeats one; then quantiles of the quality of all pumps that were meshed. DIR keeps cases/ and
@@ -137,8 +138,8 @@ def judge_mesh(run, figures):
     bad = []
     if abs(figures["count"] - 1) > COUNT_OFF:
         bad.append(f"count {100 * (figures['count'] - 1):+.1f} % off")
-    figures["flat_as_told"] = margin < 0 and crowded
-    if margin < 0 and not figures["flat_as_told"]:
+    figures["crowded"] = crowded
+    if margin < 0 and not crowded:
         bad.append(f"least dihedral {worst['least_dihedral_deg']:.2f} degrees "
                    f"(the boundary allows {worst['least_dihedral_allowed_deg']:.1f})")
     if fit_met < FIRST_HEIGHT_MET and not crowded:
@@ -146,9 +147,9 @@ def judge_mesh(run, figures):
     return bad
 
 
-def prisms_explain(line, zones, flat_as_told):
+def prisms_explain(line, zones, crowded):
     """Whether a failed check is of prisms and their faces alone, all of which the exporter has told of; or of flat
-    tetrahedra besides, where the mesher has told of those."""
+    tetrahedra besides, where the mesher has told that layers crowd them."""
     for pattern, key in ((r"(\d+) highly skew faces", "skew_faces_of_prisms"),
                          (r"small interpolation weight .*number of faces: (\d+)", "small_weight_faces_of_prisms"),
                          (r"small volume ratio .*number of faces: (\d+)", "small_volume_ratio_faces_of_prisms"),
@@ -158,7 +159,7 @@ def prisms_explain(line, zones, flat_as_told):
         counted = re.search(pattern, line)
         if counted:
             prisms = sum(zone[key] for zone in zones)
-            return int(counted[1]) == prisms or (flat_as_told and int(counted[1]) > prisms)
+            return int(counted[1]) == prisms or (crowded and int(counted[1]) > prisms)
     return False
 
 
@@ -175,7 +176,7 @@ def judge_files(run, check_mesh, figures):
         failed = failed_checks(run)
         figures["check_mesh"] = failed or ["Mesh OK"]
         bad += [f"checkMesh: {line}" for line in failed
-                if not prisms_explain(line, zones, figures["flat_as_told"])]
+                if not prisms_explain(line, zones, figures["crowded"])]
     return bad
 
 
@@ -281,10 +282,10 @@ def main():
     by_stage = ", ".join(f"{stages.count(stage)} fail in {stage}" for stage in STAGES)
     print(f"{len(results)} pumps, {'with options' if options.options else 'duty only'}, seed {options.seed}, "
           f"{options.cells} cells: {verdicts.count('good')} good, {verdicts.count('bad')} judged bad, {by_stage}\n")
-    told = [result["index"] for result in results if result["figures"].get("flat_as_told")]
+    told = [result["index"] for result in results if result["figures"].get("crowded")]
     if told:
-        print(f"{len(told)} have angles under {LEAST_DIHEDRAL:g} degrees of which the mesher has said before that "
-              f"walls.layer_count is too great:\n{'':17}pumps {' '.join(map(str, told))}\n")
+        print(f"of {len(told)} the mesher has said before that walls.layer_count is too great for mesh.cells:\n"
+              f"{'':17}pumps {' '.join(map(str, told))}\n")
     print_failures(options, results)
     print_quantiles(results)
     failed = any(result["verdict"] == "bad" or result.get("stage") in ("mesh", "export") for result in results)
