@@ -13,7 +13,7 @@ double cw_column_room(const CwWallFlow *flow) {
 }
 
 // The greatest first height that fits: of as many even layers as the case has at least, in fit_share of the passage;
-// and before an open patch, where one end of a wall is short of room, of all layers that fall by cw_layer_growth_least().
+// before an open patch, where one end of a wall is short of room, of all layers that fall by cw_layer_growth_least().
 static double greatest_fitting(const CwWallFlow *flow, const CwWalls *walls, int count) {
   double across = cw_policy.fit_share * flow->width / (walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
   if (flow->before == 0) return across;
