@@ -193,7 +193,7 @@ static CwStatus collect_region(void *context, int region, CwRegionData *data) {
   const CwMesh *mesh = a->mesh;
   int32_t *open = NULL, count = 0;
   CwFaceCount inner; // twice
-  CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, data, 1, &open, &count));
+  CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, data, 1, NULL, NULL, &open, &count));
   collect_points(data, c);
   CW_TRY(collect_patches(mesh, region, data, a, c));
   // Each face of a cell is one of two at an inner face, or lies on a patch or a partition plane.

@@ -39,14 +39,53 @@ static uint64_t open_face_hash(const CwRegionData *data, int32_t open) {
   return back ? -hash : hash;
 }
 
-// All faces, or those of shared points alone; adds up the open ones.
-static CwStatus check_faces(const CwRegionMesh *r, int only_shared, uint64_t *sum) {
+// Of places within `apart` of one another only the flattest stays, and of all the flattest.
+static void add_flat(const CwFlatPlace *place, double apart, CwQuality *quality) {
+  CwFlatPlace *flat = quality->flat;
+  int32_t kept = 0;
+  for (int32_t i = 0; i < quality->flat_count; i++) {
+    int near = cw_distance(flat[i].x, place->x) < apart;
+    if (near && flat[i].flatness <= place->flatness) return;
+    if (!near) flat[kept++] = flat[i];
+  }
+  if (kept == CW_FLAT_PLACES && flat[kept - 1].flatness <= place->flatness) return;
+  int32_t at = kept < CW_FLAT_PLACES ? kept : kept - 1;
+  quality->flat_count = at + 1;
+  for (; at > 0 && flat[at - 1].flatness > place->flatness; at--) flat[at] = flat[at - 1];
+  flat[at] = *place;
+}
+
+// The tetrahedra of a region, whose pairs are judged.
+typedef struct {
+  const CwRegionData *data;
+  float *volume; // of each
+  CwQuality *quality;
+} Tetrahedra;
+
+// Two tetrahedra on a face are as high over it as they have volume: where checkMesh calls the weight of the face small
+// they count as flat, the larger as the place.
+static void judge_pair(void *given, int32_t cell, int32_t other) {
+  const Tetrahedra *of = given;
+  if (cell >= of->data->tetrahedron_count || other >= of->data->tetrahedron_count) return;
+  double a = of->volume[cell], b = of->volume[other], weight = cw_lesser(a, b) / (a + b), length = 0;
+  if (weight >= CW_SMALL_WEIGHT) return;
+  const int32_t larger = a > b ? cell : other, *corner = of->data->tetrahedra[larger];
+  for (int k = 0; k < 3; k++)
+    length = cw_greater(length, cw_distance(of->data->points[corner[k]], of->data->points[corner[k + 1]]));
+  CwFlatPlace place = {.flatness = cw_policy.flat_angle * weight / CW_SMALL_WEIGHT};
+  cw_cell_centre(of->data, larger, place.x);
+  of->quality->flattest = cw_lesser(of->quality->flattest, place.flatness);
+  add_flat(&place, 2 * length, of->quality);
+}
+
+// All faces, with the pairs of tetrahedra, or where these are NULL those of shared points alone; adds up the open ones.
+static CwStatus check_faces(const CwRegionMesh *r, Tetrahedra *pairs, uint64_t *sum) {
   CwStatus status = CW_OK;
   const CwRegionData *data = &r->cells;
   int32_t *open = NULL, count = 0;
   char name[40];
   snprintf(name, sizeof name, "%s region %d", r->domain, r->region);
-  CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, data, only_shared, &open, &count));
+  CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, data, !pairs, pairs ? judge_pair : NULL, pairs, &open, &count));
   for (int32_t k = 0; k < count; k++) *sum += open_face_hash(data, open[k]);
 done:
   free(open);
@@ -155,23 +194,7 @@ static double flatness_of(const double *const *x, double dihedral, unsigned on_p
   return cw_lesser(dihedral, cw_policy.flat_angle * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT)));
 }
 
-// Of places within `apart` of one another only the flattest stays, and of all the flattest.
-static void add_flat(const CwFlatPlace *place, double apart, CwQuality *quality) {
-  CwFlatPlace *flat = quality->flat;
-  int32_t kept = 0;
-  for (int32_t i = 0; i < quality->flat_count; i++) {
-    int near = cw_distance(flat[i].x, place->x) < apart;
-    if (near && flat[i].flatness <= place->flatness) return;
-    if (!near) flat[kept++] = flat[i];
-  }
-  if (kept == CW_FLAT_PLACES && flat[kept - 1].flatness <= place->flatness) return;
-  int32_t at = kept < CW_FLAT_PLACES ? kept : kept - 1;
-  quality->flat_count = at + 1;
-  for (; at > 0 && flat[at - 1].flatness > place->flatness; at--) flat[at] = flat[at - 1];
-  flat[at] = *place;
-}
-
-static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
+static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality *quality) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
   double aspects = 0.0;
@@ -189,6 +212,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
     quality->least_volume = cw_lesser(quality->least_volume, volume);
     if (corners == 4) {
       CwTetShape shape;
+      tet_volume[c] = (float)volume;
       cw_tet_shape(x, &shape);
       double aspect = shape.edge_longest / shape.edge_shortest;
       aspects += aspect;
@@ -223,11 +247,14 @@ done:
 
 CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality) {
   CwStatus status = CW_OK;
+  Tetrahedra tetrahedra = {.data = &region->cells, .quality = quality};
   cw_quality_start(quality);
+  CW_NEW_UNSET(tetrahedra.volume, region->cells.tetrahedron_count);
   CW_TRY(check_indices(region));
-  CW_TRY(check_cells(region, quality));
-  CW_TRY(check_faces(region, 0, &quality->open_faces));
+  CW_TRY(check_cells(region, tetrahedra.volume, quality));
+  CW_TRY(check_faces(region, &tetrahedra, &quality->open_faces));
 done:
+  free(tetrahedra.volume);
   return status;
 }
 
@@ -240,7 +267,7 @@ CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces) {
   const CwRegionData *data = &copy->cells;
   for (int32_t c = 0, cells = cw_region_cell_count(data); c < cells; c++)
     CW_TRY(check_volume(copy, data, c, &corners, x, &volume));
-  CW_TRY(check_faces(copy, 1, open_faces));
+  CW_TRY(check_faces(copy, NULL, open_faces));
 done:
   return status;
 }

@@ -23,7 +23,7 @@ typedef struct {
   double dihedral_least; // degrees
 } CwTetFigures;
 
-// The centre of a flat tetrahedron, the flattest within two of its edges.
+// The centre of a flat tetrahedron, or of one far larger than the next: the flattest within two of its edges.
 typedef struct {
   double x[3], flatness; // m; degrees
 } CwFlatPlace;
@@ -38,7 +38,7 @@ typedef struct {
   double aspect_mean, aspect_max;           // longest / shortest edge; 0 without tetrahedra
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
-  double flattest;                          // of all angles and determinants, degrees
+  double flattest;                          // of all angles, determinants and weights of faces, degrees
   CwFlatPlace flat[CW_FLAT_PLACES];         // where there are tetrahedra flatter than flat_angle, the flattest first
   int32_t flat_count;
   int64_t dihedral_bin[18];   // of the least angle of each tetrahedron, 10 degrees wide up to 180

@@ -32,7 +32,9 @@ typedef struct {
   Side *sides;
   int32_t capacity, used, free; // of `sides`: places, those taken so far, the first that is free again
   CwRegionFaces *faces;         // NULL where only open faces are asked for
-  int32_t *open;                // these, as refs
+  void (*pair)(void *given, int32_t cell, int32_t other);
+  void *given;
+  int32_t *open; // these, as refs
   int32_t open_count, open_capacity;
 } Match;
 
@@ -150,6 +152,7 @@ static inline CwStatus take_pair(const Match *m, const Side *first, const Side *
     faces->across[second->ref] = first->ref / CW_CELL_FACES;
     ++*(first->opposite < 0 ? &faces->inner_triangles : &faces->inner_quads);
   }
+  if (m->pair) m->pair(m->given, first->ref / CW_CELL_FACES, second->ref / CW_CELL_FACES);
   return CW_OK;
 }
 
@@ -319,8 +322,14 @@ done:
 }
 
 CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionData *data, int only_shared,
-                              int32_t **open, int32_t *count) {
-  Match m = {.name = name, .fault = fault, .data = data, .end = only_shared ? data->shared_count : data->point_count};
+                              void (*pair)(void *given, int32_t cell, int32_t other), void *given, int32_t **open,
+                              int32_t *count) {
+  Match m = {.name = name,
+             .fault = fault,
+             .data = data,
+             .end = only_shared ? data->shared_count : data->point_count,
+             .pair = pair,
+             .given = given};
   CwStatus status = match_all(&m);
   if (status == CW_OK) qsort(m.open, (size_t)m.open_count, sizeof *m.open, cw_order_int32s);
   *open = m.open;

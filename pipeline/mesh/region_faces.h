@@ -27,9 +27,10 @@ void cw_region_faces_free(CwRegionFaces *faces);
 
 // The open faces alone, each as CW_CELL_FACES * cell + face, ascending, into new memory. Fails alike; where
 // `only_shared`, faces of shared points alone are looked at, so that it takes a small part of the time and what others
-// have wrong is not seen.
+// have wrong is not seen. Two cells that share a face are shown to `pair`, unless it is NULL.
 CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionData *data, int only_shared,
-                              int32_t **open, int32_t *count);
+                              void (*pair)(void *given, int32_t cell, int32_t other), void *given, int32_t **open,
+                              int32_t *count);
 
 // The nodes of a face in a form that does not depend on who names it: the smallest first and then towards the smaller
 // of its two neighbours; `order` are their places in `nodes`. True where that runs against the order of `nodes`.

@@ -42,7 +42,7 @@ static int compare_points(const void *left, const void *right) {
 static CwStatus add_sides(const CwRegionMesh *region, int32_t place, Side **side, int32_t *count) {
   CwStatus status = CW_OK;
   int32_t *open = NULL, opens = 0;
-  CW_TRY(cw_region_open_faces(region->domain, CW_ERR_MESH, &region->cells, 0, &open, &opens));
+  CW_TRY(cw_region_open_faces(region->domain, CW_ERR_MESH, &region->cells, 0, NULL, NULL, &open, &opens));
   Side *grown = realloc(*side, (size_t)(*count + opens + 1) * sizeof **side);
   CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory");
   *side = grown;

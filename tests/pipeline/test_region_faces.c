@@ -52,7 +52,7 @@ static void make(Region *r) {
 static void fails_with(const Region *r, const char *words) {
   CwRegionFaces faces = {0};
   int32_t *open = NULL, count;
-  assert_int_equal(cw_region_open_faces(name, CW_ERR_MESH, &r->data, 0, &open, &count), CW_ERR_MESH);
+  assert_int_equal(cw_region_open_faces(name, CW_ERR_MESH, &r->data, 0, NULL, NULL, &open, &count), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), words));
   free(open);
   assert_int_equal(cw_region_faces(name, CW_ERR_INPUT, &r->data, &faces), CW_ERR_INPUT);
@@ -93,7 +93,7 @@ static void a_face_of_shared_points_stays_open(void **state) {
   assert_int_equal(faces.across[2], CW_ACROSS_OPEN);
   cw_region_faces_free(&faces);
   for (int only_shared = 0; only_shared < 2; ++only_shared) {
-    assert_int_equal(cw_region_open_faces(name, CW_ERR_INPUT, &r.data, only_shared, &open, &count), CW_OK);
+    assert_int_equal(cw_region_open_faces(name, CW_ERR_INPUT, &r.data, only_shared, NULL, NULL, &open, &count), CW_OK);
     assert_int_equal(count, 1);
     assert_int_equal(open[0], 2);
     free(open);

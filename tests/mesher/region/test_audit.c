@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mesher/region/audit.h"
+#include "mesher/policy.h"
 #include "tests/unit_test.h"
 
 // A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
@@ -111,6 +112,32 @@ static void cells_above_and_below_one_face(void **state) {
     else
       assert_int_equal(cw_audit_region(&r, &q), CW_OK);
     if (!fault[count]) assert_near(q.flattest, q.dihedral_least, 0);
+  }
+}
+
+// A needle of the given height on a face of a tetrahedron that is 0.8 high: the face parts them as 0.8 to its height.
+static void a_tetrahedron_far_larger_than_the_next_counts_as_flat(void **state) {
+  int32_t cells[2][4] = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  int64_t shared_id[5] = {0, 1, 2, 3, 4};
+  for (int low = 0; low < 2; low++) {
+    double height = low ? 15.1 : 15.3, middle = sqrt(1.0 / 12);
+    double points[5][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, sqrt(0.75), 0}, {0.5, middle, height}, {0.5, middle, -0.8}};
+    CwRegionMesh r = {.domain = "rotor",
+                      .cells = {.points = points,
+                                .tetrahedra = cells,
+                                .shared_id = shared_id,
+                                .point_count = 5,
+                                .shared_count = 5,
+                                .tetrahedron_count = 2}};
+    CwQuality q;
+    assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+    assert_int_equal(q.flat_count, !low);
+    if (low) {
+      assert_near(q.flattest, q.dihedral_least, 0);
+    } else {
+      assert_near(q.flattest, cw_policy.flat_angle * 0.8 / 16.1 / 0.05, 1e-5);
+      for (int k = 0; k < 3; k++) assert_near(q.flat[0].x[k], k == 0 ? 0.5 : k == 1 ? middle : height / 4, 1e-14);
+    }
   }
 }
 
@@ -324,6 +351,7 @@ int main(void) {
       cmocka_unit_test(single_tetrahedron),
       cmocka_unit_test(inverted_cells_are_named_with_their_place),
       cmocka_unit_test(cells_above_and_below_one_face),
+      cmocka_unit_test(a_tetrahedron_far_larger_than_the_next_counts_as_flat),
       cmocka_unit_test(two_cells_on_one_side),
       cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
       cmocka_unit_test(corners_may_be_turned),
