@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
@@ -16,6 +17,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
+#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
@@ -155,9 +157,16 @@ CwStatus own_unit(const char *path, STEPControl_Reader &reader, double *unit) {
   return CW_OK;
 }
 
+// Gap that is sewn where no tolerance is given, over the diagonal of the box about all faces.
+constexpr double sewn_share = 2e-5;
+
 // All faces of the shapes, sewn, as solids.
 CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double tolerance, CwCadBodies &bodies) {
-  BRepBuilderAPI_Sewing sewing(tolerance / millimetre);
+  Bnd_Box box;
+  for (const TopoDS_Shape &shape : shapes) BRepBndLib::Add(shape, box);
+  const double gap =
+      tolerance > 0 || box.IsVoid() ? tolerance / millimetre : sewn_share * box.CornerMin().Distance(box.CornerMax());
+  BRepBuilderAPI_Sewing sewing(gap);
   int faces = 0;
   for (const TopoDS_Shape &shape : shapes)
     for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next(), faces++) sewing.Add(at.Current());
@@ -171,7 +180,7 @@ CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double t
         CW_ERR_INPUT,
         "%s: holds no solid, and its %d faces do not close within %.3g mm: %d edges stay open, one at (%.3f, "
         "%.3f, %.3f) mm; allowed: the water as closed solids, or a greater cad.tolerance_mm",
-        path, faces, tolerance / millimetre, sewing.NbFreeEdges(), at.X(), at.Y(), at.Z());
+        path, faces, gap, sewing.NbFreeEdges(), at.X(), at.Y(), at.Z());
   }
   const auto add = [&](const TopoDS_Shell &shell) {
     TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(shell).Solid();

@@ -14,8 +14,8 @@ extern "C" {
 typedef struct CwCadBodies CwCadBodies;
 
 // Adds the solids of a file to *bodies, which is made where it is NULL. `unit`: length of one unit of the file, m; of a
-// STEP file 0 takes its own. `tolerance`: gaps up to it are sewn, m. CW_ERR_IO; CW_ERR_INPUT where the file is none of
-// these, or holds no solid and its faces do not close.
+// STEP file 0 takes its own. `tolerance`: gaps up to it are sewn, m; 0: a share of what the faces reach over.
+// CW_ERR_IO; CW_ERR_INPUT where the file is none of these, or holds no solid and its faces do not close.
 CwStatus cw_cad_file_read(const char *path, double unit, double tolerance, CwCadBodies **bodies);
 void cw_cad_bodies_free(CwCadBodies **bodies);
 

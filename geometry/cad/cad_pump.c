@@ -12,14 +12,13 @@
 
 // Gap that is closed where the case gives none, over the model unit: the wheel has 128 to 256 of them.
 static const double TOLERANCE = 0.01;
-static const double TOLERANCE_BEFORE = 1e-5; // m, where faces are sewn before the unit is known
-enum { PIECES = 3 };                         // of a closed face that does not rotate
+enum { PIECES = 3 }; // of a closed face that does not rotate
 
 static CwStatus read_parts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwStatus status = CW_OK;
   CwCadBodies *bodies = NULL;
   int *domain = NULL;
-  const double tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE_BEFORE;
+  const double tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : 0;
   cw_cad_frame_make(cad, &pump->frame);
   for (int i = 0; i < cad->files.count; i++)
     CW_TRY(cw_cad_file_read(cad->files.text[i], cad->unit, tolerance, &bodies));

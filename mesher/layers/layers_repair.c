@@ -420,11 +420,12 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
   CwStatus status = CW_OK;
   Repair repair = {.work = work, .top = top};
   CW_TRY(start(&repair, tree));
-  for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
+  for (*rounds = 0;; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
     repair.limit = *rounds < ROUNDS / 2 ? cw_policy.prism_good : cw_policy.sound_quality;
     CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
+      if (*rounds >= ROUNDS) break;
       CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
       mark_bad(&repair, 1);
@@ -436,6 +437,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
       }
       cw_layers_crossing_judge(&repair.crossing, outcome);
       if (outcome->kind != CW_OUTCOME_DONE) goto done;
+      if (*rounds >= ROUNDS) break;
     }
     CW_TRY(thin_marked(&repair));
     // What is bad still leans as the old thicknesses asked; less thickness needs less lean. Once only: the turned

@@ -202,22 +202,43 @@ static void closed_faces_make_solids(void **) {
   remove(path.c_str());
 }
 
-// The lid of the box stands off by half a percent of a unit of the file: within the tolerance in mm, not in m.
-static void shells_are_sewn_in_the_unit_that_counts(void **) {
-  const std::string path = std::string(test_folder) + "/faces.step";
-  CwCadBodies *bodies = nullptr;
+// A box of one unit of the file, its lid off by so many.
+static void write_with_lid_off(const std::string &path, double off) {
   BRep_Builder builder;
   TopoDS_Compound faces;
   builder.MakeCompound(faces);
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
   for (int i = 1; i <= 6; i++) {
     gp_Trsf motion;
-    if (i == 6) motion.SetTranslation(gp_Vec(0, 0, 0.005));
+    if (i == 6) motion.SetTranslation(gp_Vec(0, 0, off));
     builder.Add(faces, BRepBuilderAPI_Transform(cw_cad_faces(box)(i), motion, Standard_True).Shape());
   }
   STEPControl_Writer writer;
   assert_int_equal(writer.Transfer(faces, STEPControl_AsIs), IFSelect_RetDone);
   assert_int_equal(writer.Write(path.c_str()), IFSelect_RetDone);
+}
+
+// Where no tolerance is given a share of the box's diagonal counts, of whatever unit.
+static void shells_of_any_size_are_sewn_alike(void **) {
+  const std::string path = std::string(test_folder) + "/faces.step";
+  for (const double unit : {0.001, 0.01, 10.0}) {
+    CwCadBodies *bodies = nullptr;
+    write_with_lid_off(path, 2e-5);
+    if (cw_cad_file_read(path.c_str(), unit, 0, &bodies)) fail_msg("%s", cw_fail_message());
+    assert_int_equal(cw_cad_body_count(bodies), 1);
+    cw_cad_bodies_free(&bodies);
+    write_with_lid_off(path, 2e-4);
+    assert_int_equal(cw_cad_file_read(path.c_str(), unit, 0, &bodies), CW_ERR_INPUT);
+    cw_cad_bodies_free(&bodies);
+  }
+  remove(path.c_str());
+}
+
+// The lid stands off by half a percent of a unit of the file: within the tolerance in mm, not in m.
+static void shells_are_sewn_in_the_unit_that_counts(void **) {
+  const std::string path = std::string(test_folder) + "/faces.step";
+  CwCadBodies *bodies = nullptr;
+  write_with_lid_off(path, 0.005);
   if (cw_cad_file_read(path.c_str(), 0, 1e-5, &bodies)) fail_msg("%s", cw_fail_message());
   assert_int_equal(cw_cad_body_count(bodies), 1);
   cw_cad_bodies_free(&bodies);
@@ -237,6 +258,7 @@ int main() {
                                      cmocka_unit_test(solids_inside_out_hold_the_same_points),
                                      cmocka_unit_test(shells_are_sewn_or_refused),
                                      cmocka_unit_test(closed_faces_make_solids),
-                                     cmocka_unit_test(shells_are_sewn_in_the_unit_that_counts)};
+                                     cmocka_unit_test(shells_are_sewn_in_the_unit_that_counts),
+                                     cmocka_unit_test(shells_of_any_size_are_sewn_alike)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
