@@ -17,8 +17,8 @@
 #include "pipeline/mesh/cell.h"
 
 static const CwPolicy *const policy = &cw_policy;
-enum { PLACES = 6, CHANGES = 3, DETERMINANT_TRIES = 5 }; // places searched; of one disturbance; times search_fewest
-static const double SHAKEN = 0.3;                        // edges: farthest that points are moved by a disturbance
+enum { PLACES = 6, CHANGES = 3 }; // places searched; of one disturbance
+static const double SHAKEN = 0.3; // edges: farthest that points are moved by a disturbance
 
 typedef struct {
   double least, sine, deficit; // least judged, and least sine; what all lack, the worst by far the most
@@ -384,7 +384,7 @@ CwStatus cw_tet_search(CwTetWork *w) {
   s.determinants = 1;
   s.begin = s.work.insert = s.work.insert_round = flat_sine();
   s.again = flat_sine();
-  s.tries = DETERMINANT_TRIES * policy->search_fewest;
+  s.tries = policy->search_fewest;
   CW_TRY(search_places(&s));
 done:
   cw_tet_mesh_free(&s.trial);
