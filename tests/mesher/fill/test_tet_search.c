@@ -207,7 +207,7 @@ static void tries_are_bounded(void **state) {
   judge_all(&w);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 12.0);
-  assert_int_equal(w.count.search_tries, 6 * cw_policy.search_fewest); // for angles, and for determinants
+  assert_int_equal(w.count.search_tries, 2 * cw_policy.search_fewest); // for angles, and for determinants
   finish(&w, &patch);
 }
 
