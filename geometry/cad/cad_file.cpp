@@ -157,15 +157,17 @@ CwStatus own_unit(const char *path, STEPControl_Reader &reader, double *unit) {
   return CW_OK;
 }
 
-// Gap that is sewn where no tolerance is given, over the diagonal of the box about all faces.
-constexpr double sewn_share = 2e-5;
+// Gap that is sewn where no tolerance is given, mm: a share of the diagonal of the box about all faces.
+double usual_gap(const std::vector<TopoDS_Shape> &shapes) {
+  constexpr double share = 2e-5;
+  Bnd_Box box;
+  for (const TopoDS_Shape &shape : shapes) BRepBndLib::Add(shape, box);
+  return share * std::sqrt(box.SquareExtent());
+}
 
 // All faces of the shapes, sewn, as solids.
 CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double tolerance, CwCadBodies &bodies) {
-  Bnd_Box box;
-  for (const TopoDS_Shape &shape : shapes) BRepBndLib::Add(shape, box);
-  const double gap =
-      tolerance > 0 || box.IsVoid() ? tolerance / millimetre : sewn_share * box.CornerMin().Distance(box.CornerMax());
+  const double gap = tolerance > 0 ? tolerance / millimetre : usual_gap(shapes);
   BRepBuilderAPI_Sewing sewing(gap);
   int faces = 0;
   for (const TopoDS_Shape &shape : shapes)

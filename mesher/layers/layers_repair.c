@@ -388,20 +388,16 @@ done:
   return status;
 }
 
-static CwStatus not_repaired(Repair *repair, CwOutcome *outcome) {
-  CwStatus status = CW_OK;
+// What was found last, bad or crossing, is marked.
+static void not_repaired(const Repair *repair, CwOutcome *outcome) {
   const CwLayerWork *work = repair->work;
   int32_t last = 0;
-  CW_TRY(find_bad(repair));
-  if (repair->bad_count == 0) CW_TRY(find_crossings(repair));
   for (int32_t v = 0; v < work->n; v++) {
     if (repair->mark[v]) last = v;
   }
   cw_outcome_set(outcome, cw_layers_kind_at(work, last), work->in->x[last],
                  "no valid layer top after %d rounds: %d prisms of a quality below %g, %d pairs crossing", ROUNDS,
                  repair->bad_count, repair->limit, repair->crossing.pair_count);
-done:
-  return status;
 }
 
 static void repair_free(Repair *repair) {
@@ -444,7 +440,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
     // columns are lost by it, and only thinning is sure to come to an end.
     if (*rounds == RESMOOTH) CW_TRY(smoothing_again(&repair));
   }
-  CW_TRY(not_repaired(&repair, outcome));
+  not_repaired(&repair, outcome);
 done:
   repair_free(&repair);
   return status;

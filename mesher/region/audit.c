@@ -55,6 +55,15 @@ static void add_flat(const CwFlatPlace *place, double apart, CwQuality *quality)
   flat[at] = *place;
 }
 
+// Counts a tetrahedron of that flatness, its longest edge or about so `length`.
+static void count_flat(const CwRegionData *data, int32_t cell, double flatness, double length, CwQuality *quality) {
+  CwFlatPlace place = {.flatness = flatness};
+  quality->flattest = cw_lesser(quality->flattest, flatness);
+  if (flatness >= cw_policy.flat_angle) return;
+  cw_cell_centre(data, cell, place.x);
+  add_flat(&place, 2 * length, quality);
+}
+
 // The tetrahedra of a region, whose pairs are judged.
 typedef struct {
   const CwRegionData *data;
@@ -72,10 +81,7 @@ static void judge_pair(void *given, int32_t cell, int32_t other) {
   const int32_t larger = a > b ? cell : other, *corner = of->data->tetrahedra[larger];
   for (int k = 0; k < 3; k++)
     length = cw_greater(length, cw_distance(of->data->points[corner[k]], of->data->points[corner[k + 1]]));
-  CwFlatPlace place = {.flatness = cw_policy.flat_angle * weight / CW_SMALL_WEIGHT};
-  cw_cell_centre(of->data, larger, place.x);
-  of->quality->flattest = cw_lesser(of->quality->flattest, place.flatness);
-  add_flat(&place, 2 * length, of->quality);
+  count_flat(of->data, larger, cw_policy.flat_angle * weight / CW_SMALL_WEIGHT, length, of->quality);
 }
 
 // All faces, with the pairs of tetrahedra, or where these are NULL those of shared points alone; adds up the open ones.
@@ -223,13 +229,7 @@ static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality 
       int class = 0;
       while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
-      double flatness = flatness_of(x, shape.dihedral_least, on_patches[c]);
-      quality->flattest = cw_lesser(quality->flattest, flatness);
-      if (flatness < cw_policy.flat_angle) {
-        CwFlatPlace place = {.flatness = flatness};
-        cw_cell_centre(data, c, place.x);
-        add_flat(&place, 2 * shape.edge_longest, quality);
-      }
+      count_flat(data, c, flatness_of(x, shape.dihedral_least, on_patches[c]), shape.edge_longest, quality);
       quality->dihedral_least = cw_lesser(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = cw_greater(quality->dihedral_greatest, shape.dihedral_greatest);
       quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;

@@ -131,11 +131,10 @@ done:
 }
 
 double cw_domain_first_height(const CwDomain *domain, int face) {
-  int count = domain->layer_count;
   const double *radius = domain->face_radius[face];
   // Round a lesser radius the first layer would be more than twice as long on its outer side; inside of one, the layers
   // would be higher than where their columns meet.
-  double inside = CW_CLOSING_SHARE * radius[CW_CONCAVE] / cw_layer_thickness(1, count, cw_layer_growth_least(count));
+  double inside = CW_CLOSING_SHARE * radius[CW_CONCAVE] / cw_layer_lowest(domain->layer_count);
   return fmin(domain->patch_layers[cw_cad_face_patch(domain->cad, face)].first_height, fmin(radius[CW_CONVEX], inside));
 }
 

@@ -92,7 +92,8 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
     int heights = lacks_first_heights(run, d) > 0, sharp = cw_domain_is_sharp(domain);
     for (int32_t r = 0; r < domain->plan.region_count; r++) {
       const CwRegionSummary *made = &run->summary[d][r];
-      for (int32_t i = 0; lacks_angle(run, d, r) > 0 && i < made->quality.flat_count; i++)
+      if (lacks_angle(run, d, r) == 0) continue;
+      for (int32_t i = 0; i < made->quality.flat_count; i++)
         if (made->quality.flat[i].flatness < wanted_of(made))
           CW_TRY(add_apart(run, d, made->quality.flat[i].x, before));
     }

@@ -201,7 +201,7 @@ CwStatus cw_column_targets_make(const CwContext *context, const CwBoundaryInput 
   CW_TRY(cw_parallel_for(context, "thicknesses: fair ones", surface->vertex_count, sizeof *targets->target, find_fair,
                          &columns, targets->target));
   turn_copies(&surface->images, surface->vertex_count, targets);
-  double lowest = cw_layer_thickness(1, layer_count, cw_layer_growth_least(layer_count));
+  double lowest = cw_layer_lowest(layer_count);
   for (int32_t v = 0; v < surface->vertex_count; v++) targets->least[v] = lowest * targets->first_height[v];
 done:
   free(asked);

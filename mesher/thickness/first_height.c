@@ -13,11 +13,11 @@ double cw_column_room(const CwWallFlow *flow) {
 }
 
 // The greatest first height that fits: of as many even layers as the case has at least, in fit_share of the passage;
-// before an open patch, where one end of a wall is short of room, of all layers that fall by cw_layer_growth_least().
+// before an open patch, where one end of a wall is short of room, of the lowest column of all layers.
 static double greatest_fitting(const CwWallFlow *flow, const CwWalls *walls, int count) {
   double across = cw_policy.fit_share * flow->width / (walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
   if (flow->before == 0) return across;
-  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_thickness(1, count, cw_layer_growth_least(count)));
+  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_lowest(count));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,

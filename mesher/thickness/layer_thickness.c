@@ -49,6 +49,10 @@ double cw_layer_growth_least(int count) {
   return pow(cw_policy.least_growth, (CW_LAYER_COUNT_USUAL - 1.0) / fmax(CW_LAYER_COUNT_USUAL - 1, count - 1));
 }
 
+double cw_layer_lowest(int count) {
+  return geometric_sum(count, cw_layer_growth_least(count), NULL);
+}
+
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction) {
   double growth = fmax(growth_max, 1.0), least = cw_layer_growth_least(count);
   double most_sum = geometric_sum(count, growth, NULL), least_sum = geometric_sum(count, least, NULL);

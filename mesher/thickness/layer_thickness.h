@@ -21,6 +21,9 @@ enum { CW_LAYER_COUNT_USUAL = 6 };
 // more than the usual number, whose last layer is no smaller a part of the first than among so many.
 double cw_layer_growth_least(int count);
 
+// The height of the lowest column that has its first height, over that: its layers grow by cw_layer_growth_least().
+double cw_layer_lowest(int count);
+
 // Fractions f[0] = 0 < f[1] < ... < f[count] = 1 of a column of thickness `thickness`. Holds `first` and solves the
 // growth ratio: in columns too short for even layers it is below 1, the outer layers give way. Where it would exceed
 // `growth_max`, or fall below cw_layer_growth_least(), it stays there and the first height follows the column. Returns

@@ -32,9 +32,9 @@ typedef struct {
   Side *sides;
   int32_t capacity, used, free; // of `sides`: places, those taken so far, the first that is free again
   CwRegionFaces *faces;         // NULL where only open faces are asked for
-  void (*pair)(void *given, int32_t cell, int32_t other);
+  void (*pair)(void *given, int32_t cell, int32_t other); // is shown the two cells of each face; may be NULL
   void *given;
-  int32_t *open; // these, as refs
+  int32_t *open; // open faces, as refs
   int32_t open_count, open_capacity;
 } Match;
 

@@ -53,6 +53,7 @@ static void a_short_column_gives_up_its_outer_layers(void **state) {
   assert_near(f[2], 1.8 / 2.952, 1e-14);
   assert_near(f[3], 2.44 / 2.952, 1e-14);
   // 1 + 0.6 + 0.36 + 0.216 = 2.176 is the least that holds it: half of that halves every layer.
+  assert_near(cw_layer_lowest(4), 2.176, 1e-14);
   assert_near(cw_layer_fractions(2.176, 1.0, 4, 1.2, f), 1.0, 1e-14);
   assert_near(cw_layer_fractions(2.176 / 2, 1.0, 4, 1.2, f), 0.5, 1e-14);
   assert_near(f[1], 1.0 / 2.176, 1e-14);
