@@ -282,6 +282,8 @@ def main():
     by_stage = ", ".join(f"{stages.count(stage)} fail in {stage}" for stage in STAGES)
     print(f"{len(results)} pumps, {'with options' if options.options else 'duty only'}, seed {options.seed}, "
           f"{options.cells} cells: {verdicts.count('good')} good, {verdicts.count('bad')} judged bad, {by_stage}\n")
+    for judge in (name for name in ("cgnscheck", "checkMesh") if not shutil.which(name)):
+        print(f"not judged by {judge}, which is not installed (pipeline/packages.sh check)\n")
     told = [result["index"] for result in results if result["figures"].get("crowded")]
     if told:
         print(f"of {len(told)} the mesher has said before that walls.layer_count is too great for mesh.cells:\n"
