@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make,
-as far as they were made on the present sources: those of the programs and of the bench, whose digest stands beside each
-section. A change of docs alone leaves a section as it is; the rest is named at the end of the page."""
+as far as they were made on the present sources: those of the programs and of its bench, whose digest stands beside each
+section. A change of docs, of comments in C or of other benches leaves a section as it is; the rest is named at the end
+of the page."""
 import hashlib
 import re
 import subprocess
@@ -10,22 +11,37 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
 PROGRAMS = ["pipeline", "geometry", "mesher", "export", "cases", "CMakeLists.txt"]
-MORE = {"table1": ["tests/measure/chew*"], "verify": ["tests/bench/verify.mk", "tests/cad"]}  # by a word of the command
+MORE = {"table1": ["tests/measure/chew*"], "verify": ["tests/bench/verify.mk", "tests/cad"],
+        "fill": ["tests/bench/fill.c"], "patch_mesh": ["tests/bench/patch_mesh.c"]}  # by a word of the command
 
 
 def run_text(*line):
     return subprocess.run(line, cwd=SOURCE, capture_output=True, text=True, check=True).stdout.strip()
 
 
+def with_imports(path, found=()):
+    """A bench and the benches that it imports, and so on, as paths from SOURCE."""
+    found = [*found, path]
+    for name in re.findall(r"^(?:from|import) (\w+)", (SOURCE / path).read_text(), re.M):
+        imported = f"tests/bench/{name}.py"
+        if imported not in found and (SOURCE / imported).exists():
+            found = with_imports(imported, found)
+    return found
+
+
 def sources_digest(command):
-    """Of all tracked files that a section follows from."""
-    bench = ["tests/bench/*.py" if word.startswith("tests/bench/") else "tests/mesher" for word in command.split()[:1]]
+    """Of all tracked files that a section follows from, those in C and C++ without their comments."""
+    script = command.split()[0]
+    bench = with_imports(script) if script.startswith("tests/bench/") else ["tests/mesher"]
     for word, files in MORE.items():
         bench += files if word in command else []
     digest = hashlib.sha256()
     for name in run_text("git", "ls-files", *PROGRAMS, *bench).splitlines():
-        if not name.endswith((".md", "/measurements.py", "/page.py")):
-            digest.update(name.encode() + b"\0" + (SOURCE / name).read_bytes())
+        text = (SOURCE / name).read_bytes()
+        if name.endswith((".c", ".h", ".cpp")):
+            text = re.sub(rb"(?m)(^|[ \t])//.*", b"", text)
+        if not name.endswith((".md", "/page.py")):
+            digest.update(name.encode() + b"\0" + text)
     return digest.hexdigest()
 
 
