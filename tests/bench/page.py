@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make,
-as far as they were made on the present sources: those of the programs and of its bench, whose digest stands beside each
-section. A change of docs, of comments in C or of other benches leaves a section as it is; the rest is named at the end
-of the page."""
+as far as they were made on the present sources: those of its bench and of the stages that it runs, whose digest stands
+beside each section. A change of docs, of comments in C or of other benches leaves a section as it is; the rest is named
+at the end of the page."""
 import hashlib
 import re
 import subprocess
@@ -13,6 +13,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 PROGRAMS = ["pipeline", "geometry", "mesher", "export", "cases", "CMakeLists.txt"]
 MORE = {"table1": ["tests/measure/chew*"], "verify": ["tests/bench/verify.mk", "tests/cad"],
         "fill": ["tests/bench/fill.c"], "patch_mesh": ["tests/bench/patch_mesh.c"]}  # by a word of the command
+ROOMS = {"export": "export", "report": "pipeline/report"}  # of stages that a bench without the word does not run
 
 
 def run_text(*line):
@@ -32,7 +33,10 @@ def with_imports(path, found=()):
 def sources_digest(command):
     """Of all tracked files that a section follows from, those in C and C++ without their comments."""
     script = command.split()[0]
-    bench = with_imports(script) if script.startswith("tests/bench/") else ["tests/mesher"]
+    is_bench = script.startswith("tests/bench/")
+    bench = with_imports(script) if is_bench else ["tests/mesher"]
+    said = (SOURCE / script).read_text() if is_bench else ""
+    bench += [f":(exclude){room}" for word, room in ROOMS.items() if word not in said]
     for word, files in MORE.items():
         bench += files if word in command else []
     digest = hashlib.sha256()
