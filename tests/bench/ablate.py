@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""ablate.py [--pumps 8 | --only I ...] [--cases paper ...] [--sizes 60k 150k] [--factor 1.25]
+"""ablate.py [--pumps 8 | --only I ...] [--cases paper ...] [--sizes 150k 600k] [--in-turn] [--factor 1.25]
           [--numbers NAME ...] [--singly] [--work DIR] [--bin BUILD/bin] [--jobs 2] [--limit 120]
 
 What each number of the mesher's policy does, over the first random pumps (random_pumps.py) and the named cases at each
-size. BUILD is configured with -DCUTWATER_EXPERIMENT=ON. Geometry is made once a pump; the mesher runs on one rank.
+size, or with --in-turn each pump at one of the sizes, in turn. BUILD is configured with -DCUTWATER_EXPERIMENT=ON.
+Geometry is made once a pump; the mesher runs on one rank.
 
-In the first table all numbers are moved at once, each by the factor to one side or the other, in a folded screening
-design (screening.py). A row tells a number's effects: the mean with the number times the factor, less the mean with it
-divided. The last column calls a number idle where no effect is 2.5 standard errors or more, else it names those that
-are. In the second each number that can be switched off is, alone. A row tells the differences to the pumps as they are.
+In the first table all numbers are moved at once, each by the factor to one side or the other, in a screening design
+(screening.py), and in its opposite for half of the meshes. A row tells a number's effects: the mean with the number
+times the factor, less the mean with it divided. The last column calls a number idle where no effect is 2.5 standard
+errors or more, else it names those that are. In the second each number that can be switched off is, alone. A row tells
+the differences to the pumps as they are.
 
 With --singly each number is also moved alone, down and up, in place of the first table.
 
 A move stops at the value that switches a number off; whole numbers move by 1 at least. A run that ends with an error
-is a failure, and has the means of its pump in the other columns. DIR keeps results.jsonl, one line a run: a second call
+is a failure, and has the means of its mesh in the other columns. DIR keeps results.jsonl, one line a run: a second call
 with the same programs does only what is missing."""
 import hashlib
 import json
@@ -24,27 +26,29 @@ import shutil
 import statistics
 import sys
 import tempfile
+from collections import namedtuple
 from pathlib import Path
 
 import random_pumps
 from programs import ENVIRONMENT, SOURCE, execute, options_of
 from runs import quality, record, rows_before, run_tasks, stage_line
-from screening import design, effects, standard_error
+from screening import design, effects, opposite, standard_error
 
 # Of a run: key, heading, format. Time is that of the processor in tasks of the mesher, relative to the pump's mean.
 FIGURES = (("failed", "failures %", "{:+.2f}", 100), ("dihedral", "dihedral deg", "{:+.2f}", 1),
            ("aspect", "aspect %", "{:+.2f}", 100), ("first_height", "first h. %", "{:+.2f}", 100),
            ("even", "even %", "{:+.2f}", 100), ("count", "count %", "{:+.2f}", 100),
            ("passes", "passes", "{:+.3f}", 1), ("time", "time %", "{:+.1f}", 100))
+Mesh = namedtuple("Mesh", "name cells case geometry rows")  # rows: of the screening design
 CLEAR = 2.5  # standard errors: one of 80 columns of noise is past them
 
 
 def arguments(words=None):
-    parser = options_of(__doc__, pumps=8, seed=1, factor=1.25, singly=False, work=SOURCE / "build/ablate",
-                        bin=SOURCE / "build/experiment/bin", jobs=2)
+    parser = options_of(__doc__, pumps=8, seed=1, factor=1.25, singly=False, in_turn=False, jobs=2,
+                        work=SOURCE / "build/ablate", bin=SOURCE / "build/experiment/bin")
     parser.add_argument("--only", type=int, nargs="*", metavar="I", help="these random pumps instead of the first")
     parser.add_argument("--cases", nargs="*", default=["paper"])
-    parser.add_argument("--sizes", nargs="+", default=["60k", "150k"])
+    parser.add_argument("--sizes", nargs="+", default=["150k", "600k"])
     parser.add_argument("--numbers", nargs="*")
     parser.add_argument("--limit", type=float, default=120, help="seconds of a run; past it the run has failed")
     return parser.parse_args(words)
@@ -104,13 +108,13 @@ def policy_of(run, setting):
     return f"CUTWATER_POLICY={policy}"
 
 
-def mesh(options, case, geometry, cells, setting):
-    """Figures of a pump with these numbers."""
+def figures_with(options, mesh, setting):
+    """Figures of a mesh with these numbers."""
     with tempfile.TemporaryDirectory(dir=options.work) as folder:
         run = Path(folder)
-        (run / "geometry").symlink_to(geometry / "geometry")
+        (run / "geometry").symlink_to(mesh.geometry / "geometry")
         done = execute("env", policy_of(run, setting), "timeout", options.limit,
-                       *stage_line(options.bin, "mesh", case, run, cells), check=False)
+                       *stage_line(options.bin, "mesh", mesh.case, run, mesh.cells), check=False)
         if done.status:
             told = re.findall(r"error: (.*)", done.text)
             return {"failed": 1, "message": told[0][:200] if told else f"status {done.status}"}
@@ -137,25 +141,32 @@ def pumps_of(options):
     return made
 
 
-def run_all(options, pumps, settings):
-    """Figures by (pump, cells, label), those of earlier calls among them."""
+def meshes_of(pumps, sizes, in_turn, rows):
+    """Each pump at each size, or at one of them; the rows and their opposite in turn, at every size alike."""
+    pairs = [(pump, size) for k, pump in enumerate(pumps)
+             for size in ([sizes[k % len(sizes)]] if in_turn else sizes)]
+    return [Mesh(name, cells, case, folder, opposite(rows) if m // len(sizes) % 2 else rows)
+            for m, ((name, case, folder), cells) in enumerate(pairs)]
+
+
+def run_all(options, work):
+    """Figures by (mesh's name, cells, label) of (mesh, label, setting), those of earlier calls among them."""
     digest = hashlib.sha256((options.bin / "cutwater-mesh").read_bytes()).hexdigest()[:16]
     path = options.work / "results.jsonl"
     before = rows_before(path)
     results, waiting = {}, []
 
-    def row(key, place, *work):
-        return {"key": key, "place": place, "figures": mesh(options, *work)}
+    def row(key, place, mesh, setting):
+        return {"key": key, "place": place, "figures": figures_with(options, mesh, setting)}
 
-    for label, setting in settings:
-        for name, case, folder in pumps:
-            for cells in options.sizes:
-                text = json.dumps([digest, case.read_text(), cells, sorted(setting.items())])
-                key = hashlib.sha256(text.encode()).hexdigest()[:20]
-                if key in before:
-                    results[name, cells, label] = before[key]["figures"]
-                else:
-                    waiting.append((row, key, (name, cells, label), case, folder, cells, setting))
+    for mesh, label, setting in work:
+        text = json.dumps([digest, mesh.case.read_text(), mesh.cells, sorted(setting.items())])
+        key = hashlib.sha256(text.encode()).hexdigest()[:20]
+        place = (mesh.name, mesh.cells, label)
+        if key in before:
+            results[place] = before[key]["figures"]
+        else:
+            waiting.append((row, key, place, mesh, setting))
     for number, left, made in run_tasks(path, waiting, options.jobs):
         results[made["place"]] = made["figures"]
         if number % 50 == 0:
@@ -163,20 +174,21 @@ def run_all(options, pumps, settings):
     return results
 
 
-def responses(results, pumps, sizes, labels, key):
-    """Mean over pumps and sizes of each label's figure; a failure has the mean of its pump and size."""
-    sums = [0.0] * len(labels)
-    meshes = 0
-    for name, _, _ in pumps:
-        for cells in sizes:
-            values = [results[name, cells, label].get(key) for label in labels]
-            known = [value for value in values if value is not None]
-            if not known:
-                continue
-            mean = statistics.fmean(known)
-            sums = [total + (mean if value is None else value) for total, value in zip(sums, values)]
-            meshes += 1
-    return [total / max(meshes, 1) for total in sums]
+def responses(results, mesh, labels, key):
+    """A mesh's figure at each label, where it failed its mean over the others; None where it has none."""
+    values = [results[mesh.name, mesh.cells, label].get(key) for label in labels]
+    known = [value for value in values if value is not None]
+    return [statistics.fmean(known) if value is None else value for value in values] if known else None
+
+
+def table_of(results, meshes, labels, turned):
+    """For each figure the means over all meshes of what `turned` makes of a mesh and its figure at each label."""
+    table = []
+    for key, _, _, _ in FIGURES:
+        found = [(mesh, responses(results, mesh, labels, key)) for mesh in meshes]
+        found = [turned(mesh, values) for mesh, values in found if values]
+        table.append([statistics.fmean(column) for column in zip(*found)])
+    return table
 
 
 def print_heading():
@@ -188,7 +200,7 @@ def print_row(name, value, row, last=""):
                                             for x, (_, _, form, scale) in zip(row, FIGURES)) + "  " + last)
 
 
-def print_screening(numbers, rows, table):
+def print_screening(numbers, table):
     """table: for each figure the effects of all columns."""
     errors = [standard_error(column[len(numbers):]) for column in table]
     print_heading()
@@ -215,26 +227,25 @@ def main():
     if unknown:
         sys.exit(f"ablate.py: no number {min(unknown)}; there are {', '.join(listed)}")
     numbers = {name: listed[name] for name in options.numbers or listed}
-    pumps = pumps_of(options)
     rows = [] if options.singly else design(len(numbers))
-    together = moved_together(numbers, options.factor, rows)
+    pumps = pumps_of(options)
+    meshes = meshes_of(pumps, options.sizes, options.in_turn, rows)
     alone = moved_alone(numbers, options.factor if options.singly else None)
-    labels = [label for label, _ in together + alone]
-    results = run_all(options, pumps, together + alone)
-    failed = [results[name, cells, label] for name, _, _ in pumps for cells in options.sizes for label in labels
-              if results[name, cells, label]["failed"]]
-    print(f"{len(numbers)} numbers, factor {options.factor:g}; {len(pumps)} pumps at {', '.join(options.sizes)} cells: "
-          f"{' '.join(name for name, _, _ in pumps)}; {len(labels)} settings, {len(failed)} meshes failed of "
-          f"{len(labels) * len(pumps) * len(options.sizes)}\n")
-
-    def table(settings):
-        names = [label for label, _ in settings]
-        return [responses(results, pumps, options.sizes, names, key) for key, _, _, _ in FIGURES]
-
+    work = [(mesh, label, setting) for mesh in meshes
+            for label, setting in moved_together(numbers, options.factor, mesh.rows) + alone]
+    results = run_all(options, work)
+    failed = sum(figures["failed"] for figures in results.values())
+    if failed == len(work):
+        sys.exit(f"ablate.py: no mesh was made: {next(iter(results.values()))['message']}")
+    print(f"{len(numbers)} numbers, factor {options.factor:g}; {len(pumps)} pumps at {', '.join(options.sizes)} cells"
+          f"{' in turn' if options.in_turn else ''}: {' '.join(name for name, _, _ in pumps)}; "
+          f"{len(rows) + len(alone)} settings, {failed} meshes failed of {len(work)}\n")
     if rows:
-        print_screening(numbers, rows, [effects(rows, figure) for figure in table(together)])
+        labels = [f"row {index}" for index in range(len(rows))]
+        print_screening(numbers, table_of(results, meshes, labels, lambda mesh, values: effects(mesh.rows, values)))
         print("\nSwitched off, each alone:\n")
-    print_singly([label for label, _ in alone], table(alone))
+    labels = [label for label, _ in alone]
+    print_singly(labels, table_of(results, meshes, labels, lambda mesh, values: values))
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ SECTIONS = {
     "population_options": Section("500 pumps with options", "tests/bench/population.py 500 --options --check-mesh 1",
                                   ""),
     "ablation": Section(
-        "What each number of the policy does", "tests/bench/ablate.py --pumps 29 --sizes 60k 150k",
+        "What each number of the policy does", "tests/bench/ablate.py --pumps 29 --sizes 150k 600k --in-turn",
         "Effects of the numbers of `mesher/policy_table.h` on failures, quality, layers, count and time, by a "
         "screening design (`tests/bench/ablate.py --help`). Needs `make programs BUILD=build/experiment "
         "OPTIONS=-DCUTWATER_EXPERIMENT=ON`; takes hours, so it is measured only where it is named."),

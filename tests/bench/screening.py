@@ -3,8 +3,9 @@
 
 R. Plackett, J. Burman, 1946: the columns of a Hadamard matrix but its first are balanced, and orthogonal to one
 another. With the same runs at the opposite levels (G. Box, K. Wilson, 1951: fold-over) main effects are also orthogonal
-to the interactions of two factors. Columns to which no factor belongs estimate nothing but noise and higher
-interactions: their root mean square is the standard error of an effect."""
+to the interactions of two factors: the mean of the effects of a design and of its opposite. Columns to which no factor
+belongs estimate nothing but noise and higher interactions: their root mean square is the standard error of an
+effect."""
 import math
 
 DUMMIES_LEAST = 8  # columns without a factor: the standard error is known within 25 % (1 / sqrt(2 * 8))
@@ -22,13 +23,16 @@ def paley_order(least):
 
 
 def design(factors):
-    """Rows of -1 and 1, one a run, folded over. Column k is factor k; those past `factors` are dummies.
+    """Rows of -1 and 1, one a run. Column k is factor k; those past `factors` are dummies.
 
     R. Paley, 1933: with q a prime, q = 3 modulo 4, row i of the matrix has 1 where j - i is a square modulo q."""
     prime = paley_order(factors + 1 + DUMMIES_LEAST) - 1
     squares = {k * k % prime for k in range(1, prime)}
-    rows = [[1 if (j - i) % prime in squares else -1 for j in range(prime)] for i in range(prime)] + [[1] * prime]
-    return rows + [[-level for level in row] for row in rows]
+    return [[1 if (j - i) % prime in squares else -1 for j in range(prime)] for i in range(prime)] + [[1] * prime]
+
+
+def opposite(rows):
+    return [[-level for level in row] for row in rows]
 
 
 def effects(rows, responses):

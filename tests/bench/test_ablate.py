@@ -5,9 +5,9 @@ import math
 import random
 import unittest
 
-from ablate import moved, moved_alone, moved_together, policy_numbers, responses
+from ablate import FIGURES, meshes_of, moved, moved_alone, moved_together, policy_numbers, responses, table_of
 from cutwater import SOURCE
-from screening import DUMMIES_LEAST, design, effects, paley_order, standard_error
+from screening import DUMMIES_LEAST, design, effects, opposite, paley_order, standard_error
 
 FACTORS = (1, 5, 15, 50, 60)
 
@@ -21,29 +21,31 @@ class Design(unittest.TestCase):
         # 3, 7, 11, 19, 23, 59 are primes; 15, 27, 35, 39, 51 and 55 are not.
         self.assertEqual([paley_order(least) for least in (2, 5, 12, 14, 21, 25, 49)], [4, 8, 12, 20, 24, 32, 60])
 
-    def test_half_of_it_is_a_hadamard_matrix(self):
+    def test_it_is_a_hadamard_matrix_but_for_a_column(self):
         for factors in FACTORS:
-            half = design(factors)[:len(design(factors)) // 2]
-            columns = range(len(half[0]))
+            rows = design(factors)
+            columns = range(len(rows[0]))
             self.assertGreaterEqual(len(columns), factors + DUMMIES_LEAST)
-            self.assertEqual(len(half), len(columns) + 1)
-            self.assertEqual([product(half, k) for k in columns], [0 for _ in columns])
-            self.assertFalse([pair for pair in ((j, k) for k in columns for j in range(k)) if product(half, *pair)])
+            self.assertEqual(len(rows), len(columns) + 1)
+            self.assertEqual([product(rows, k) for k in columns], [0 for _ in columns])
+            self.assertFalse([pair for pair in ((j, k) for k in columns for j in range(k)) if product(rows, *pair)])
 
     def test_folded_over_main_effects_are_clear_of_pairs(self):
-        rows = design(5)
+        rows = design(5) + opposite(design(5))
         columns = range(len(rows[0]))
         self.assertFalse([(i, j, k) for k in columns for j in range(k) for i in range(j) if product(rows, i, j, k)])
 
 
 class Effects(unittest.TestCase):
     def test_known_effects_are_found_beside_interactions_of_two(self):
-        rows = design(12)
-        wanted = [0.5 * k for k in range(12)] + [0] * (len(rows[0]) - 12)
-        response = [7 + sum(effect / 2 * level for effect, level in zip(wanted, row)) + 3 * row[1] * row[2] -
-                    5 * row[4] * row[11] for row in rows]
-        for got, effect in zip(effects(rows, response), wanted):
-            self.assertAlmostEqual(got, effect, places=12)
+        wanted = [0.5 * k for k in range(12)] + [0] * (len(design(12)[0]) - 12)
+        found = []
+        for rows in (design(12), opposite(design(12))):
+            response = [7 + sum(effect / 2 * level for effect, level in zip(wanted, row)) + 3 * row[1] * row[2] -
+                        5 * row[4] * row[11] for row in rows]
+            found.append(effects(rows, response))
+        for one, other, effect in zip(*found, wanted):
+            self.assertAlmostEqual((one + other) / 2, effect, places=12)
 
     def test_the_standard_error_is_that_of_the_noise(self):
         # Of a mean of n/2 values less that of n/2 others: sigma 2 / sqrt(n), known within a few of its 1 / sqrt(2 k).
@@ -51,13 +53,24 @@ class Effects(unittest.TestCase):
         estimate = standard_error(effects(rows, [draw.gauss(10, 3) for _ in rows])[:60])
         self.assertAlmostEqual(estimate * math.sqrt(len(rows)) / 2 / 3, 1, delta=3 / math.sqrt(120))
 
-    def test_a_failure_takes_the_mean_of_its_pump(self):
+    def test_a_failure_takes_the_mean_of_its_mesh(self):
         results = {("a", "60k", "x"): {"failed": 0, "aspect": 1}, ("a", "60k", "y"): {"failed": 1},
                    ("a", "60k", "z"): {"failed": 0, "aspect": 2}, ("b", "60k", "x"): {"failed": 0, "aspect": 4},
                    ("b", "60k", "y"): {"failed": 0, "aspect": 5}, ("b", "60k", "z"): {"failed": 0, "aspect": 6}}
-        pumps = [("a", None, None), ("b", None, None)]
-        self.assertEqual(responses(results, pumps, ["60k"], "xyz", "aspect"), [2.5, 3.25, 4])
-        self.assertEqual(responses(results, pumps, ["60k"], "xyz", "failed"), [0, 0.5, 0])
+        meshes = meshes_of([("a", None, None), ("b", None, None)], ["60k"], False, [[1], [-1]])
+        self.assertEqual(responses(results, meshes[0], "xyz", "aspect"), [1, 1.5, 2])
+        table = table_of(results, meshes, "xyz", lambda mesh, values: values)
+        self.assertEqual([table[[key for key, *_ in FIGURES].index(key)] for key in ("aspect", "failed")],
+                         [[2.5, 3.25, 4], [0, 0.5, 0]])
+
+    def test_every_size_has_both_halves_of_the_design(self):
+        pumps = [(name, None, None) for name in "abcdefgh"]
+        for in_turn, count in ((False, 16), (True, 8)):
+            meshes = meshes_of(pumps, ["1k", "2k"], in_turn, [[1], [-1]])
+            self.assertEqual(len({(mesh.name, mesh.cells) for mesh in meshes}), count)
+            halves = [(mesh.cells, mesh.rows[0][0]) for mesh in meshes]
+            self.assertEqual({half: halves.count(half) for half in halves},
+                             {(cells, level): count // 4 for cells in ("1k", "2k") for level in (1, -1)})
 
 
 class Moves(unittest.TestCase):
