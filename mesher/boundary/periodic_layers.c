@@ -66,7 +66,7 @@ static CwStatus find_near(void *context, int32_t v, void *out) {
   Near near = reach->near;
   near.p = near.x[v];
   near.met = reach->is_first[v];
-  if (!near.met) cw_box_tree_near(reach->tree, near.p, near.reach, meet, &near);
+  if (!near.met) cw_box_tree_near(reach->tree, near.p, &near.reach, meet, &near);
   *(uint8_t *)out = (uint8_t)near.met;
   return CW_OK;
 }

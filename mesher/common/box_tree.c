@@ -137,18 +137,24 @@ static double squared_distance(const CwBox *box, const double p[3]) {
   return sum;
 }
 
-void cw_box_tree_near(const CwBoxTree *tree, const double p[3], double reach, CwBoxVisit visit, void *context) {
-  int32_t stack[DEPTH], depth = 0;
-  if (tree->count) stack[depth++] = 1;
+void cw_box_tree_near(const CwBoxTree *tree, const double p[3], const double *reach, CwBoxVisit visit, void *context) {
+  struct {
+    int32_t node;
+    double square; // of its distance
+  } stack[DEPTH];
+  int32_t depth = 0;
+  if (tree->count) stack[depth].node = 1, stack[depth++].square = squared_distance(&tree->node[1], p);
   while (depth) {
-    int32_t k = stack[--depth];
-    if (!(squared_distance(&tree->node[k], p) < reach * reach)) continue;
+    int32_t k = stack[--depth].node;
+    if (!(stack[depth].square < *reach * *reach)) continue;
     if (k >= tree->leaves) {
       if (visit_leaf(tree, k, visit, context)) return;
       continue;
     }
-    stack[depth++] = 2 * k + 1;
-    stack[depth++] = 2 * k;
+    double left = squared_distance(&tree->node[2 * k], p), right = squared_distance(&tree->node[2 * k + 1], p);
+    int far = left <= right; // the nearer one comes first
+    stack[depth].node = 2 * k + far, stack[depth++].square = far ? right : left;
+    stack[depth].node = 2 * k + 1 - far, stack[depth++].square = far ? left : right;
   }
 }
 

@@ -41,8 +41,9 @@ void cw_box_tree_free(CwBoxTree *tree);
 // Visits the items of every leaf whose box meets `box`.
 void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit visit, void *context);
 
-// Visits the items of every leaf whose box comes nearer to p than `reach`.
-void cw_box_tree_near(const CwBoxTree *tree, const double p[3], double reach, CwBoxVisit visit, void *context);
+// Visits the items of every leaf whose box comes nearer to p than *reach, which the visitor may lower; of two halves of
+// a node the nearer one first.
+void cw_box_tree_near(const CwBoxTree *tree, const double p[3], const double *reach, CwBoxVisit visit, void *context);
 
 // Nodes of a tree, in its order, below which all lies that meets a box: from there walks for many boxes within it go
 // the shorter way.

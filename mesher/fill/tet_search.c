@@ -10,7 +10,6 @@
 #include "mesher/common/tet.h"
 #include "mesher/fill/tet_bound.h"
 #include "mesher/fill/tet_insert.h"
-#include "mesher/fill/tet_judge.h"
 #include "mesher/fill/tet_loop.h"
 #include "mesher/fill/tet_patch.h"
 #include "mesher/policy.h"
@@ -33,7 +32,6 @@ typedef struct {
 
 typedef struct {
   CwTetWork *whole, work; // of the mesh; of a trial
-  CwTetShapes shapes;     // of a trial
   Found now, best;        // of this beginning; of all of a place
   CwTetMesh trial;
   uint64_t random;
@@ -185,13 +183,51 @@ static void shake(Search *s) {
       const int32_t *c = mesh->tet[star[k]].corner;
       good = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]) > policy->sound_quality;
     }
-    if (!good) memcpy(mesh->point[p].x, old, sizeof old);
+    if (good)
+      mesh->point[p].mark = s->work.pass;
+    else
+      memcpy(mesh->point[p].x, old, sizeof old);
   }
 }
 
-static CwStatus try_disturbed(Search *s, Rated *result) {
+// A trial begins as what has been found, nothing of it changed.
+static CwStatus begin_trial(Search *s) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_tet_patch_copy_mesh(&s->now.patch.mesh, &s->trial));
+  CwTetMesh *mesh = &s->trial;
+  CW_TRY(cw_tet_patch_copy_mesh(&s->now.patch.mesh, mesh));
+  for (int32_t t = 0; t < mesh->tet_count; t++) mesh->tet[t].star = 0;
+  for (int32_t p = 0; p < mesh->point_count; p++) mesh->point[p].mark = 0;
+  s->work.pass += 2;
+done:
+  return status;
+}
+
+static int has_changed_point(const Search *s, const CwTet *tet) {
+  for (int i = 0; i < 4; i++)
+    if (s->trial.point[tet->corner[i]].mark == s->work.pass) return 1;
+  return 0;
+}
+
+// Improves what touches a change, or all of it: the rest has been tried as it is.
+static CwStatus improve_trial(Search *s, int all, Rated *result) {
+  CwStatus status = CW_OK;
+  s->work.next.count = 0;
+  for (int32_t t = 0; t < s->trial.tet_count; t++) {
+    CwTet *tet = &s->trial.tet[t];
+    const int32_t *c = tet->corner;
+    tet->pass = CW_TET_NO_PASS;
+    if (c[0] < 0 || !(all || has_changed_point(s, tet))) continue;
+    tet->quality = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]);
+    if (tet->quality < s->work.limit) CW_TRY(cw_tet_push(&s->work, t));
+  }
+  CW_TRY(cw_tet_improve_list(&s->work, policy->improve_passes, 1));
+  *result = rate(s, &s->trial);
+done:
+  return status;
+}
+
+static CwStatus disturb(Search *s) {
+  CwStatus status = CW_OK;
   for (int changes = 1 + choose(s, CHANGES); changes > 0; changes--) {
     int32_t t = choose_tet(s), kind = choose(s, 3);
     if (kind == 0)
@@ -201,10 +237,6 @@ static CwStatus try_disturbed(Search *s, Rated *result) {
     else
       shake(s);
   }
-  s->work.next.count = 0;
-  CW_TRY(cw_tet_judge_all(&s->work, &s->shapes));
-  CW_TRY(cw_tet_improve_list(&s->work, policy->improve_passes, 1));
-  *result = rate(s, &s->trial);
 done:
   return status;
 }
@@ -241,7 +273,9 @@ static CwStatus search_patch(Search *s, int32_t t) {
   for (int k = 0; best->least < s->begin && k < policy->search_tries && s->tries > 0; k++) {
     s->tries--;
     s->whole->count.search_tries++;
-    CW_TRY(try_disturbed(s, &trial));
+    CW_TRY(begin_trial(s));
+    if (k > 0) CW_TRY(disturb(s));
+    CW_TRY(improve_trial(s, k == 0, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
     if (trial.sine < allowed) continue;
     CwTetMesh swap = s->now.patch.mesh;
@@ -388,7 +422,6 @@ CwStatus cw_tet_search(CwTetWork *w) {
   CW_TRY(search_places(&s));
 done:
   cw_tet_mesh_free(&s.trial);
-  cw_tet_shapes_free(&s.shapes);
   cw_tet_work_free(&s.work);
   return status;
 }

@@ -21,10 +21,9 @@ static const double HAIR = 1e-6;      // of the reach of a ray: the triangle tha
 static const double EDGE_STEP = 0.25; // base sizes between points along CAD edges
 // Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the layer top (the paper's pump from
 // 1 to 20 million cells, by region).
-static const double LATTICE = 8.4;   // per volume / h^3
-static const double SHELL = 4.2;     // per area of the walls / h^2
-static const double WALL_STEP = 1;   // base sizes between points on walls, at most
-static const double FIRST_REACH = 1; // base sizes: how far the wall near a place is looked for first
+static const double LATTICE = 8.4; // per volume / h^3
+static const double SHELL = 4.2;   // per area of the walls / h^2
+static const double WALL_STEP = 1; // base sizes between points on walls, at most
 
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
   int face[2];
@@ -192,8 +191,15 @@ static CwStatus find_points(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
+static CwBox box_of_point(const void *x, int32_t item) {
+  CwBox box = cw_box_empty();
+  cw_box_add_point(&box, ((const double(*)[3])x)[item]);
+  return box;
+}
+
 static CwStatus sample_walls(CwPlanModel *model) {
   CwStatus status = CW_OK;
+  CwBox within = cw_box_empty();
   int32_t triangles = model->background->triangle_count, *count = NULL, *start = NULL;
   CW_NEW_UNSET(count, triangles);
   CW_NEW_UNSET(start, triangles + 1);
@@ -211,50 +217,42 @@ static CwStatus sample_walls(CwPlanModel *model) {
   }
   CW_TRY(cw_parallel_for_lists(model->context, "decomposition", triangles, start, sizeof *model->wall_x, find_points,
                                model, model->wall_x));
-  CW_TRY(
-      cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP * model->base_size, &model->walls));
+  for (int32_t i = 0; i < model->wall_count; i++) cw_box_add_point(&within, model->wall_x[i]);
+  CW_TRY(cw_box_tree_make(model->context, model->wall_count, &within, box_of_point, model->wall_x, &model->walls));
 done:
   free(count);
   free(start);
   return status;
 }
 
-// The point on a wall nearest to x, -1 where none is within `reach`; *square: of its distance.
-static int32_t wall_point_near(const CwPlanModel *model, const double x[3], double reach, double *square) {
-  const CwCubes *walls = &model->walls;
-  int32_t nearest = -1, from[3], to[3];
-  *square = INFINITY;
-  cw_cubes_near(walls, x, reach, from, to);
-  for (int32_t c = from[2]; c <= to[2]; c++) {
-    for (int32_t b = from[1]; b <= to[1]; b++) {
-      if (from[0] > to[0]) continue;
-      int32_t end = walls->start[cw_cube(walls, to[0], b, c) + 1];
-      for (int32_t i = walls->start[cw_cube(walls, from[0], b, c)]; i < end; i++) {
-        double d[3];
-        cw_sub(model->wall_x[walls->member[i]], x, d);
-        double other = cw_dot(d, d);
-        if (other < *square) *square = other, nearest = walls->member[i];
-      }
-    }
-  }
-  return nearest;
+// The nearest point on a wall so far.
+typedef struct {
+  const CwPlanModel *model;
+  const double *x;
+  double reach, square; // its distance, and the square of it
+  int32_t point;        // -1: none yet
+} Nearest;
+
+static int take_nearer(void *context, int32_t point) {
+  Nearest *nearest = context;
+  double d[3];
+  cw_sub(nearest->model->wall_x[point], nearest->x, d);
+  double square = cw_dot(d, d);
+  if (square < nearest->square) *nearest = (Nearest){nearest->model, nearest->x, sqrt(square), square, point};
+  return 0;
 }
 
 CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach) {
-  double step = WALL_STEP * model->base_size, most = hypot(reach, 0.5 * step), square, d[3];
-  int32_t nearest = -1;
-  // As a rule the wall is much nearer than the reach; the search is the dearer the farther it goes.
-  for (double radius = fmin(FIRST_REACH * model->base_size, most);; radius = fmin(2 * radius, most)) {
-    nearest = wall_point_near(model, x, radius, &square);
-    if (radius == most || (nearest >= 0 && square <= radius * radius)) break;
-  }
-  if (nearest < 0) return (CwPlanWall){-1, INFINITY, 0};
-  CwPlanWall wall = {model->wall_triangle[nearest], sqrt(square), 0};
+  double step = WALL_STEP * model->base_size, d[3];
+  Nearest nearest = {model, x, hypot(reach, 0.5 * step), INFINITY, -1};
+  cw_box_tree_near(&model->walls, x, &nearest.reach, take_nearer, &nearest);
+  if (nearest.point < 0) return (CwPlanWall){-1, INFINITY, 0};
+  CwPlanWall wall = {model->wall_triangle[nearest.point], nearest.reach, 0};
   wall.thickness = model->triangle[wall.triangle].thickness;
   // Beside a point the wall goes on: then its plane is what counts.
-  cw_sub(x, model->wall_x[nearest], d);
+  cw_sub(x, model->wall_x[nearest.point], d);
   double off = fabs(cw_dot(d, model->triangle[wall.triangle].normal));
-  if (square - off * off < step * step) wall.distance = off;
+  if (nearest.square - off * off < step * step) wall.distance = off;
   return wall;
 }
 
@@ -424,6 +422,6 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->stand);
   free(model->wall_x);
   free(model->wall_triangle);
-  cw_cubes_free(&model->walls);
+  cw_box_tree_free(&model->walls);
   memset(model, 0, sizeof *model);
 }

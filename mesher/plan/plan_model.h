@@ -7,7 +7,7 @@
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
 #include "mesher/common/verticals.h"
-#include "mesher/common/cubes.h"
+#include "mesher/common/box_tree.h"
 #include "mesher/parallel/context.h"
 #include "mesher/plan/plan.h"
 #include "mesher/size/size.h"
@@ -72,9 +72,9 @@ typedef struct {
   double (*wall_x)[3];
   int32_t *wall_triangle; // of each, the background triangle
   double thickest;        // m, of the layers anywhere
-  CwCubes walls;
-  int32_t region_count; // asked
-  double mean_work;     // of the regions to be
+  CwBoxTree walls;        // of these points
+  int32_t region_count;   // asked
+  double mean_work;       // of the regions to be
 } CwPlanModel;
 
 // Convex pieces of background triangles: corner[start[i] .. start[i+1]) of piece i, cut from triangle[i].

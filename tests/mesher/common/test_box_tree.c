@@ -97,13 +97,55 @@ static void finds_all_that_are_near(void **state) {
   for (int i = 0; i < COUNT; i++) {
     const double *p = box[i].low, reach = 0.001 * i / COUNT * 100;
     uint8_t seen[COUNT] = {0};
-    cw_box_tree_near(&tree, p, reach, mark, seen);
+    cw_box_tree_near(&tree, p, &reach, mark, seen);
     for (int j = 0; j < COUNT; j++) {
       double square = 0;
       for (int k = 0; k < 3; k++) square += pow(fmax(0, fmax(box[j].low[k] - p[k], p[k] - box[j].high[k])), 2);
       if (sqrt(square) < reach) assert_true(seen[j]);
       visits += seen[j];
     }
+  }
+  assert_true(visits < COUNT * COUNT / 8);
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
+typedef struct {
+  const CwBox *box;
+  const double *p;
+  double reach;
+  int item, visits;
+} Nearest;
+
+static int take_nearer(void *context, int32_t item) {
+  Nearest *nearest = context;
+  double square = 0;
+  for (int k = 0; k < 3; k++) square += pow(nearest->box[item].low[k] - nearest->p[k], 2);
+  if (square < nearest->reach * nearest->reach) nearest->reach = sqrt(square), nearest->item = item;
+  nearest->visits++;
+  return 0;
+}
+
+static void finds_the_nearest_where_the_visitor_lowers_the_reach(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree;
+  int visits = 0;
+  random_boxes(8, box);
+  for (int i = 0; i < COUNT; i++) memcpy(box[i].high, box[i].low, sizeof box[i].high);
+  assert_int_equal(cw_box_tree_make(NULL, COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  for (int i = 0; i < COUNT; i++) {
+    double p[3], least = INFINITY;
+    for (int k = 0; k < 3; k++) p[k] = 0.99 * box[i].low[k] + 0.005;
+    Nearest nearest = {box, p, 2, -1, 0};
+    cw_box_tree_near(&tree, p, &nearest.reach, take_nearer, &nearest);
+    for (int j = 0; j < COUNT; j++) {
+      double square = 0;
+      for (int k = 0; k < 3; k++) square += pow(box[j].low[k] - p[k], 2);
+      least = fmin(least, sqrt(square));
+    }
+    assert_true(nearest.item >= 0);
+    assert_true(nearest.reach == least);
+    visits += nearest.visits;
   }
   assert_true(visits < COUNT * COUNT / 8);
   cw_box_tree_free(&tree);
@@ -228,6 +270,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(finds_all_that_meet),
                                      cmocka_unit_test(starts_lead_to_the_same),
                                      cmocka_unit_test(finds_all_that_are_near),
+                                     cmocka_unit_test(finds_the_nearest_where_the_visitor_lowers_the_reach),
                                      cmocka_unit_test(follows_those_that_move),
                                      cmocka_unit_test(passes_by_most),
                                      cmocka_unit_test(rays_meet_what_lies_on_them),
