@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <BRepMesh_Context.hxx>
-#include <BRepMesh_DelabellaMeshAlgoFactory.hxx>
 #include <BRepMesh_MeshAlgoFactory.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
@@ -192,30 +191,19 @@ IMeshData::IPCurveHandle pcurve_of(const CwTessellation &tessellation, int e, co
   return found;
 }
 
-// Triangulates a face of the model; whether that went well.
-bool triangulated(const CwTessellation &tessellation, const IMeshData::IFaceHandle &face,
-                  const IMeshTools_MeshAlgoFactory &factory) {
-  const IMeshTools_Parameters &parameters = tessellation.context->GetParameters();
-  Handle(IMeshTools_MeshAlgo) way = factory.GetAlgo(face->GetSurface()->GetType(), parameters);
-  if (way.IsNull()) return false;
-  way->Perform(face, parameters, Message_ProgressRange());
-  if (!face->IsSet(IMeshData_Failure)) return true;
-  face->UnsetStatus(IMeshData_Failure);
-  return false;
-}
-
-// The model's face of a face of the solid, triangulated if that goes; null where the model has none. The sweep hull of
-// Delabella first: the library's other way inserts point by point, and looks for circles in a grid of cells that faces
-// much longer than wide in their parameters fill (a volute: 30 times the time).
+// The model's face of a face of the solid, triangulated; null where that fails.
 IMeshData::IFaceHandle triangulate(const CwTessellation &tessellation, const TopoDS_Face &shape) {
   const Handle(IMeshData_Model) &model = tessellation.context->GetModel();
+  BRepMesh_MeshAlgoFactory factory;
   TopLoc_Location location;
   for (int i = 0; i < model->FacesNb(); i++) {
     IMeshData::IFaceHandle face = model->GetFace(i);
     if (!face->GetFace().IsPartner(shape)) continue;
-    if (!face->IsSet(IMeshData_Failure) && BRep_Tool::Triangulation(shape, location).IsNull() &&
-        !triangulated(tessellation, face, BRepMesh_DelabellaMeshAlgoFactory()))
-      triangulated(tessellation, face, BRepMesh_MeshAlgoFactory());
+    Handle(IMeshTools_MeshAlgo) way =
+        factory.GetAlgo(face->GetSurface()->GetType(), tessellation.context->GetParameters());
+    if (face->IsSet(IMeshData_Failure) || way.IsNull()) break;
+    if (BRep_Tool::Triangulation(shape, location).IsNull())
+      way->Perform(face, tessellation.context->GetParameters(), Message_ProgressRange());
     return face;
   }
   return IMeshData::IFaceHandle();
