@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <vector>
 
 #include <BRepMesh_Context.hxx>
+#include <BRepMesh_DelaunayBaseMeshAlgo.hxx>
+#include <BRepMesh_DelaunayDeflectionControlMeshAlgo.hxx>
 #include <BRepMesh_MeshAlgoFactory.hxx>
+#include <BRepMesh_NURBSRangeSplitter.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -191,16 +195,34 @@ IMeshData::IPCurveHandle pcurve_of(const CwTessellation &tessellation, int e, co
   return found;
 }
 
+// The library's way for B-spline surfaces, but for the cells of the grid in which it looks for circles: it takes about
+// sqrt(n) along each side, and the circles of slender triangles, as those of a volute are in (u,v), fill hundreds of
+// them each. Of the square root of that the triangles are the same, and take a tenth of the time.
+using UsualSplineWay =
+    BRepMesh_DelaunayDeflectionControlMeshAlgo<BRepMesh_NURBSRangeSplitter, BRepMesh_DelaunayBaseMeshAlgo>;
+class SplineWay : public UsualSplineWay {
+protected:
+  std::pair<Standard_Integer, Standard_Integer> getCellsCount(const Standard_Integer nodes) override {
+    const auto usual = UsualSplineWay::getCellsCount(nodes);
+    return {(int)std::ceil(std::sqrt(usual.first)), (int)std::ceil(std::sqrt(usual.second))};
+  }
+};
+
+// How the library triangulates a face; null where it cannot.
+Handle(IMeshTools_MeshAlgo) way_of(const IMeshData::IFaceHandle &face, const IMeshTools_Parameters &parameters) {
+  const GeomAbs_SurfaceType type = face->GetSurface()->GetType();
+  if (type == GeomAbs_BSplineSurface) return new SplineWay;
+  return BRepMesh_MeshAlgoFactory().GetAlgo(type, parameters);
+}
+
 // The model's face of a face of the solid, triangulated; null where that fails.
 IMeshData::IFaceHandle triangulate(const CwTessellation &tessellation, const TopoDS_Face &shape) {
   const Handle(IMeshData_Model) &model = tessellation.context->GetModel();
-  BRepMesh_MeshAlgoFactory factory;
   TopLoc_Location location;
   for (int i = 0; i < model->FacesNb(); i++) {
     IMeshData::IFaceHandle face = model->GetFace(i);
     if (!face->GetFace().IsPartner(shape)) continue;
-    Handle(IMeshTools_MeshAlgo) way =
-        factory.GetAlgo(face->GetSurface()->GetType(), tessellation.context->GetParameters());
+    Handle(IMeshTools_MeshAlgo) way = way_of(face, tessellation.context->GetParameters());
     if (face->IsSet(IMeshData_Failure) || way.IsNull()) break;
     if (BRep_Tool::Triangulation(shape, location).IsNull())
       way->Perform(face, tessellation.context->GetParameters(), Message_ProgressRange());
