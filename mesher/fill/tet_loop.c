@@ -30,13 +30,6 @@ done:
   return status;
 }
 
-static int has_changed(const CwTetWork *w, int32_t t) {
-  for (int i = 0; i < 4; i++) {
-    if (w->mesh->point[w->mesh->tet[t].corner[i]].mark + 1 >= w->pass) return 1;
-  }
-  return 0;
-}
-
 CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move) {
   CwStatus status = CW_OK;
   for (int pass = 0; pass < passes && w->next.count; pass++) {
@@ -51,7 +44,7 @@ CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move) {
       int done_it = 0;
       cw_tet_prefetch_list(w, w->bad.tet, w->bad.count, k);
       if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= w->limit) continue;
-      if (pass <= 1 || has_changed(w, t)) CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
+      if (pass <= 1 || cw_tet_has_changed(w, t)) CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
       changes += done_it;
       if (!done_it) CW_TRY(cw_tet_push(w, t));
     }

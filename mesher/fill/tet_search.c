@@ -202,12 +202,6 @@ done:
   return status;
 }
 
-static int has_changed_point(const Search *s, const CwTet *tet) {
-  for (int i = 0; i < 4; i++)
-    if (s->trial.point[tet->corner[i]].mark == s->work.pass) return 1;
-  return 0;
-}
-
 // Improves what touches a change, or all of it: the rest has been tried as it is.
 static CwStatus improve_trial(Search *s, int all, Rated *result) {
   CwStatus status = CW_OK;
@@ -216,7 +210,7 @@ static CwStatus improve_trial(Search *s, int all, Rated *result) {
     CwTet *tet = &s->trial.tet[t];
     const int32_t *c = tet->corner;
     tet->pass = CW_TET_NO_PASS;
-    if (c[0] < 0 || !(all || has_changed_point(s, tet))) continue;
+    if (c[0] < 0 || !(all || cw_tet_has_changed(&s->work, t))) continue;
     tet->quality = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]);
     if (tet->quality < s->work.limit) CW_TRY(cw_tet_push(&s->work, t));
   }

@@ -47,6 +47,14 @@ static inline double cw_tet_quality_of(const CwTetWork *w, int32_t a, int32_t b,
   return cw_tet_quality(cw_tet_at(w, a), cw_tet_at(w, b), cw_tet_at(w, c), cw_tet_at(w, d));
 }
 
+// Whether something changed at a point of a tetrahedron in this pass or the one before.
+static inline int cw_tet_has_changed(const CwTetWork *w, int32_t t) {
+  for (int i = 0; i < 4; i++) {
+    if (w->mesh->point[w->mesh->tet[t].corner[i]].mark + 1 >= w->pass) return 1;
+  }
+  return 0;
+}
+
 // Prefetches the neighbours of one that comes a little later in the list, and one that comes later still. Always
 // inline, since compilers drop calls of what only prefetches.
 static inline __attribute__((always_inline)) void cw_tet_prefetch_list(const CwTetWork *w, const int32_t *list,

@@ -192,14 +192,11 @@ static CwStatus find_points(void *context, int32_t t, void *out) {
 }
 
 static CwBox box_of_point(const void *x, int32_t item) {
-  CwBox box = cw_box_empty();
-  cw_box_add_point(&box, ((const double(*)[3])x)[item]);
-  return box;
+  return cw_box_of_point(((const double(*)[3])x)[item]);
 }
 
 static CwStatus sample_walls(CwPlanModel *model) {
   CwStatus status = CW_OK;
-  CwBox within = cw_box_empty();
   int32_t triangles = model->background->triangle_count, *count = NULL, *start = NULL;
   CW_NEW_UNSET(count, triangles);
   CW_NEW_UNSET(start, triangles + 1);
@@ -217,7 +214,7 @@ static CwStatus sample_walls(CwPlanModel *model) {
   }
   CW_TRY(cw_parallel_for_lists(model->context, "decomposition", triangles, start, sizeof *model->wall_x, find_points,
                                model, model->wall_x));
-  for (int32_t i = 0; i < model->wall_count; i++) cw_box_add_point(&within, model->wall_x[i]);
+  CwBox within = cw_box_of_points(model->wall_count, (const double(*)[3])model->wall_x);
   CW_TRY(cw_box_tree_make(model->context, model->wall_count, &within, box_of_point, model->wall_x, &model->walls));
 done:
   free(count);
