@@ -100,15 +100,15 @@ static Rated rate(const Search *s, const CwTetMesh *mesh) {
   return rated;
 }
 
-// One of the tetrahedra that count, or of what lies a face or two beside it.
+// One of the tetrahedra that count, or of what lies a face or two beside it; -1 where none counts any more.
 static int32_t choose_tet(Search *s) {
-  int32_t count = 0, chosen = 0;
+  int32_t count = 0, chosen = -1;
   for (int32_t t = 0; t < s->trial.tet_count; t++) {
     double sine;
     if (s->trial.tet[t].corner[0] >= 0 && judge(s, &s->trial, t, &sine) < wanted_sine() && choose(s, ++count) == 0)
       chosen = t;
   }
-  for (int steps = choose(s, 3); steps > 0; steps--) {
+  for (int steps = chosen < 0 ? 0 : choose(s, 3); steps > 0; steps--) {
     int32_t next = s->trial.tet[chosen].neighbour[choose(s, 4)];
     chosen = next < 0 ? chosen : next / 4;
   }
@@ -224,6 +224,7 @@ static CwStatus disturb(Search *s) {
   CwStatus status = CW_OK;
   for (int changes = 1 + choose(s, CHANGES); changes > 0; changes--) {
     int32_t t = choose_tet(s), kind = choose(s, 3);
+    if (t < 0) break;
     if (kind == 0)
       CW_TRY(insert(s, t));
     else if (kind == 1)

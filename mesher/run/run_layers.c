@@ -52,9 +52,7 @@ done:
 // Share of the column over a vertex that its last layer takes where it is so high.
 static double last_layer(const void *context, int32_t vertex, double thickness) {
   const CwColumnTargets *targets = context;
-  double fraction[CW_LAYERS_MOST + 1];
-  cw_layer_fractions(thickness, targets->first_height[vertex], targets->layer_count, targets->growth[vertex], fraction);
-  return 1 - fraction[targets->layer_count - 1];
+  return cw_layer_last(thickness, targets->first_height[vertex], targets->layer_count, targets->growth[vertex]);
 }
 
 static CwStatus grow(void *given, const CwContext *context, int32_t d, CwOutcome *outcome) {

@@ -28,19 +28,16 @@ double cw_layer_thickness(double first, int count, double growth) {
   return first * geometric_sum(count, growth, NULL);
 }
 
-// The growth ratio between `low` and `high` whose sum is `wanted`, which lies between the sums of both.
-// The sum is convex and increasing, so Newton from the right end does not overshoot but by rounding.
-static double solve_growth(int count, double wanted, double low, double high) {
-  double growth = high;
-  for (int round = 0; round < 200; round++) {
-    double slope, excess = geometric_sum(count, growth, &slope) - wanted;
-    if (excess > 0.0)
-      high = growth;
-    else
-      low = growth;
-    if (fabs(excess) <= 1e-14 * wanted || high - low <= 1e-15) break;
-    double next = slope > 0.0 ? growth - excess / slope : low;
-    growth = next > low && next < high ? next : 0.5 * (low + high);
+// The growth ratio, `high` at most, whose sum is `wanted`. By Newton for the logarithm of the sum over that of the
+// ratio: convex, so the next steps come from above, and not far from a parabola, from which they begin.
+static double solve_growth(int count, double wanted, double high) {
+  double mean = 0.5 * (count - 1), bend = (count * count - 1) / 12.0; // of the exponents and, squared, about it
+  double log_growth = (sqrt(fmax(0.0, mean * mean + 2 * bend * log(wanted / count))) - mean) / bend;
+  double growth = fmin(exp(log_growth), high), step = 1.0;
+  for (int round = 0; round < 50 && fabs(step) > 1e-8; round++) { // the square of that is rounding
+    double slope, sum = geometric_sum(count, growth, &slope);
+    step = log(wanted / sum) * sum / (slope * growth);
+    growth = fmin(growth * exp(step), high);
   }
   return growth;
 }
@@ -53,20 +50,32 @@ double cw_layer_lowest(int count) {
   return geometric_sum(count, cw_layer_growth_least(count), NULL);
 }
 
-double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction) {
-  double growth = fmax(growth_max, 1.0), least = cw_layer_growth_least(count);
-  double most_sum = geometric_sum(count, growth, NULL), least_sum = geometric_sum(count, least, NULL);
-  double start = first;
-  if (thickness >= first * most_sum) {
-    start = thickness / most_sum;
-  } else if (thickness <= first * least_sum) {
-    growth = least;
-    start = thickness / least_sum;
-  } else {
-    growth = solve_growth(count, thickness / first, least, growth);
+// The height of the first layer of a column, m, and the growth of those above.
+static double divide(double thickness, double first, int count, double growth_max, double *growth) {
+  *growth = fmax(growth_max, 1.0);
+  double most_sum = geometric_sum(count, *growth, NULL);
+  if (thickness >= first * most_sum) return thickness / most_sum;
+  double least = cw_layer_growth_least(count), least_sum = geometric_sum(count, least, NULL);
+  if (thickness <= first * least_sum) {
+    *growth = least;
+    return thickness / least_sum;
   }
+  *growth = solve_growth(count, thickness / first, *growth);
+  return first;
+}
+
+double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction) {
+  double growth, start = divide(thickness, first, count, growth_max, &growth), sum = 0.0;
   fraction[0] = 0.0;
-  for (int k = 1; k < count; k++) fraction[k] = start * geometric_sum(k, growth, NULL) / thickness;
+  for (int k = 1; k < count; k++) {
+    sum = sum * growth + 1.0;
+    fraction[k] = start * sum / thickness;
+  }
   fraction[count] = 1.0;
   return count == 1 ? thickness : start;
+}
+
+double cw_layer_last(double thickness, double first, int count, double growth_max) {
+  double growth, start = divide(thickness, first, count, growth_max, &growth);
+  return 1 - start * geometric_sum(count - 1, growth, NULL) / thickness;
 }

@@ -29,4 +29,8 @@ double cw_layer_lowest(int count);
 // `growth_max`, or fall below cw_layer_growth_least(), it stays there and the first height follows the column. Returns
 // the first height it came to, m.
 double cw_layer_fractions(double thickness, double first, int count, double growth_max, double *fraction);
+
+// The share of the column that the last of these layers takes.
+double cw_layer_last(double thickness, double first, int count, double growth_max);
+
 #endif

@@ -88,6 +88,7 @@ static void fractions_hold_their_rules_at_all_thickness(void **state) {
     for (double thickness = 1e-6; thickness < 2e-2; thickness *= 1.13) {
       double first = cw_layer_fractions(thickness, 3e-6, count, 1.25, f);
       assert_near(f[1] * thickness, first, 1e-12 * thickness);
+      assert_near(cw_layer_last(thickness, 3e-6, count, 1.25), 1 - f[count - 1], 1e-12);
       double ratio = (f[2] - f[1]) / f[1];
       assert_true(ratio <= 1.25 * (1 + 1e-9) && ratio >= cw_layer_growth_least(count) - 1e-9);
       for (int k = 1; k < count; k++) {
