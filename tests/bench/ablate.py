@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""ablate.py [--pumps 8 | --only I ...] [--cases paper ...] [--sizes 150k 600k] [--in-turn] [--factor 1.25]
-          [--numbers NAME ...] [--singly] [--work DIR] [--bin BUILD/bin] [--jobs 2] [--limit 120]
+"""ablate.py [--pumps 8 | --only I ...] [--cases paper ...] [--sizes 150k 600k] [--in-turn] [--factor 1.1]
+          [--numbers NAME ...] [--part together | off | singly] [--work DIR] [--bin BUILD/bin] [--jobs 2] [--limit 120]
 
 What each number of the mesher's policy does, over the first random pumps (random_pumps.py) and the named cases at each
 size, or with --in-turn each pump at one of the sizes, in turn. BUILD is configured with -DCUTWATER_EXPERIMENT=ON.
@@ -13,7 +13,7 @@ times the factor, less the mean with it divided. The last column calls a number 
 errors or more, else it names those that are. In the second each number that can be switched off is, alone. A row tells
 the differences to the pumps as they are.
 
-With --singly each number is also moved alone, down and up, in place of the first table.
+--part makes one of the tables; singly: the second, in which each number is also moved alone, down and up.
 
 A move stops at the value that switches a number off; whole numbers move by 1 at least. A run that ends with an error
 is a failure, and has the means of its mesh in the other columns. DIR keeps results.jsonl, one line a run: a second call
@@ -44,12 +44,13 @@ CLEAR = 2.5  # standard errors: one of 80 columns of noise is past them
 
 
 def arguments(words=None):
-    parser = options_of(__doc__, pumps=8, seed=1, factor=1.25, singly=False, in_turn=False, jobs=2,
+    parser = options_of(__doc__, pumps=8, seed=1, factor=1.1, in_turn=False, jobs=2,
                         work=SOURCE / "build/ablate", bin=SOURCE / "build/experiment/bin")
     parser.add_argument("--only", type=int, nargs="*", metavar="I", help="these random pumps instead of the first")
     parser.add_argument("--cases", nargs="*", default=["paper"])
     parser.add_argument("--sizes", nargs="+", default=["150k", "600k"])
     parser.add_argument("--numbers", nargs="*")
+    parser.add_argument("--part", choices=("together", "off", "singly"))
     parser.add_argument("--limit", type=float, default=120, help="seconds of a run; past it the run has failed")
     return parser.parse_args(words)
 
@@ -227,10 +228,11 @@ def main():
     if unknown:
         sys.exit(f"ablate.py: no number {min(unknown)}; there are {', '.join(listed)}")
     numbers = {name: listed[name] for name in options.numbers or listed}
-    rows = [] if options.singly else design(len(numbers))
+    rows = design(len(numbers)) if options.part in (None, "together") else []
     pumps = pumps_of(options)
     meshes = meshes_of(pumps, options.sizes, options.in_turn, rows)
-    alone = moved_alone(numbers, options.factor if options.singly else None)
+    alone = moved_alone(numbers, options.factor if options.part == "singly" else None)
+    alone = [] if options.part == "together" else alone
     work = [(mesh, label, setting) for mesh in meshes
             for label, setting in moved_together(numbers, options.factor, mesh.rows) + alone]
     results = run_all(options, work)
@@ -243,9 +245,11 @@ def main():
     if rows:
         labels = [f"row {index}" for index in range(len(rows))]
         print_screening(numbers, table_of(results, meshes, labels, lambda mesh, values: effects(mesh.rows, values)))
-        print("\nSwitched off, each alone:\n")
-    labels = [label for label, _ in alone]
-    print_singly(labels, table_of(results, meshes, labels, lambda mesh, values: values))
+        print()
+    if alone:
+        print("Moved, and switched off, each alone:\n" if options.part == "singly" else "Switched off, each alone:\n")
+        labels = [label for label, _ in alone]
+        print_singly(labels, table_of(results, meshes, labels, lambda mesh, values: values))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ from page import SOURCE, Page, stamp
 
 Section = namedtuple("Section", "title command text")
 
+ABLATE = "tests/bench/ablate.py --pumps 29 --sizes 150k 600k --in-turn"
 SECTIONS = {
     "scale": Section(
         "One pump, from 0.3 to 8 million cells", "tests/bench/scale.py 300k 1M 3M 8M --judge",
@@ -37,20 +38,20 @@ SECTIONS = {
         "All cases at their own sizes", "tests/bench/cases.py",
         "The options print what the columns mean (`tests/bench/cases.py --help`)."),
     "cases_1M": Section("All cases at 300,000 and 1 million cells", "tests/bench/cases.py --cells 300k 1M", ""),
-    "population_60": Section(
-        "60 pumps by flow, head and speed", "tests/bench/population.py 60 --limit 240",
+    "population": Section(
+        "500 pumps by flow, head and speed", "tests/bench/population.py 500",
         "Drawn at random over the whole range of the case file (`tests/bench/population.py --help`)."),
-    "population_60_options": Section(
-        "60 pumps with options", "tests/bench/population.py 60 --options --limit 240",
+    "population_options": Section(
+        "500 pumps with options", "tests/bench/population.py 500 --options --check-mesh 1",
         "The same with blade counts, splitters, fillets, shafts, sections, zones and y+ targets drawn too."),
-    "population": Section("500 pumps by flow, head and speed", "tests/bench/population.py 500", ""),
-    "population_options": Section("500 pumps with options", "tests/bench/population.py 500 --options --check-mesh 1",
-                                  ""),
     "ablation": Section(
-        "What each number of the policy does", "tests/bench/ablate.py --pumps 29 --sizes 150k 600k --in-turn",
+        "What each number of the policy does", f"{ABLATE} --part together",
         "Effects of the numbers of `mesher/policy_table.h` on failures, quality, layers, count and time, by a "
         "screening design (`tests/bench/ablate.py --help`). Needs `make programs BUILD=build/experiment "
         "OPTIONS=-DCUTWATER_EXPERIMENT=ON`; takes hours, so it is measured only where it is named."),
+    "ablation_off": Section(
+        "What each number of the policy does: without it", f"{ABLATE} --part off",
+        "The same pumps with each number switched off that can be, alone."),
     "region_rule": Section(
         "With the rule of region numbers and without it", "tests/bench/region_rule.py",
         "What the rule does to the interfaces of each case, and the tetrahedra beside them "
@@ -81,7 +82,7 @@ SECTIONS = {
                         "Processor seconds on one rank."),
 }
 
-ONLY_NAMED = {"ablation", "region_rule", "scale_1G"}  # what needs another build, and the largest
+ONLY_NAMED = {"ablation", "ablation_off", "region_rule", "scale_1G"}  # what needs another build, and the largest
 HEAD = """<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->
 <!-- Made by tests/bench/measurements.py (`make measurements`): change that, not this page. -->
 # Measurements
