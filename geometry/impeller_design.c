@@ -162,60 +162,13 @@ static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
   SET(inlet_passage_width, edge.height, "square to the flow from the shroud's leading edge");
 }
 
-// The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan
-// beta.
-static double spiral_angle(const CwMeridian *meridian, double wrap) {
-  const double beta[3] = {M_PI / 4, M_PI / 4, M_PI / 4};
-  return atan(cw_blade_wrap(meridian, 0.5, beta) / wrap);
-}
-
-static const double SAME_ANGLE = 0.1 * M_PI / 180;
-
-static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDesign *design) {
-  double x[2];
-  cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
-  const double r = x[0], u = design->angular_speed * r, z = design->blade_count;
-  const double cm = design->water_flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
-  SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
-  SET(inlet_meridional_speed, cm, "Q / area");
-  // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
-  // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
-  const int wrapped = design->priority == CW_PRIORITY_WRAP;
-  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) : 0;
-  const char *source;
-  const double usual = CORRELATED(CW_CORRELATED_INCIDENCE), asked = table->impeller.incidence;
-  const double incidence = cw_case_given(asked) ? asked : usual;
-  source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
-  // On the shroud, at a greater radius, the angle is less; 12 degrees are the least.
-  const double least = fmax(13 * CW_DEGREE, atan(tan(12.05 * CW_DEGREE) * design->leading_edge_radius_shroud / r));
-  double beta = cw_case_given(given) ? given : 25 * CW_DEGREE, tau = 1, flow = 0;
-  for (int i = 0; i < 50; i++) {
-    tau = cw_blockage(z, design->leading_edge_thickness, r, beta);
-    flow = atan2(cm * tau, u);
-    if (!cw_case_given(given)) beta = fmax(flow + incidence, least);
-    if (!cw_case_given(given) && wrapped) beta = fmin(fmax(beta, spiral - 4 * CW_DEGREE), spiral + 2 * CW_DEGREE);
-  }
-  if (wrapped && beta == spiral - 4 * CW_DEGREE) source = "4 deg under the logarithmic spiral of the wrap";
-  if (wrapped && beta == spiral + 2 * CW_DEGREE) source = "2 deg over the logarithmic spiral of the wrap";
-  TAKE(inlet_blade_angle, given, beta, source);
-  SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
-  SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
-  SET(incidence, beta - flow, "beta1 - flow angle");
-  if (fabs(design->incidence - asked) > SAME_ANGLE) // not where it is left out
-    GIVE_WAY(incidence, beta - flow, asked,
-             cw_case_given(given) ? "incidence_deg gives way to inlet_blade_angle_deg"
-                                  : "incidence_deg gives way to blade angles of 12 deg and more, or to the wrap");
-  SET(inlet_relative_speed, hypot(u, cm * tau), "inlet triangle");
-}
-
 // Wrap of the straight law beta1 to beta2 at mid-span.
 static double straight_wrap(const CwMeridian *meridian, double beta1, double beta2) {
   const double beta[3] = {beta1, 0.5 * (beta1 + beta2), beta2};
   return cw_blade_wrap(meridian, 0.5, beta);
 }
 
-// Range of beta2, and of a computed one where D2 is open, and so can meet the head instead.
-static const double allowed_beta[2] = {12 * CW_DEGREE, 60 * CW_DEGREE};
+// Of a computed beta2 where D2 is open, and so can meet the head instead.
 static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
 
 int cw_design_meets_head(const CwDesign *design) {
@@ -226,14 +179,14 @@ int cw_design_meets_head(const CwDesign *design) {
 static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
   CwStatus status = CW_OK;
   const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
-  const double table_wrap = table->impeller.wrap_angle, least = allowed_beta[0], largest = allowed_beta[1];
+  const double table_wrap = table->impeller.wrap_angle, least = cw_allowed_beta[0], largest = cw_allowed_beta[1];
   double low = least, high = largest;
   if (design->priority == CW_PRIORITY_BETA) {
     TAKE(outlet_blade_angle, given, 25 * CW_DEGREE, "25 deg: middle of the usual 18 to 32");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else if (design->priority == CW_PRIORITY_HEAD) {
     const double solved =
-        cw_case_given(fixed) ? fixed : cw_outlet_angle_for_head(meridian, allowed_beta, usual_beta, design);
+        cw_case_given(fixed) ? fixed : cw_outlet_angle_for_head(meridian, cw_allowed_beta, usual_beta, design);
     SET(outlet_blade_angle, solved,
         cw_case_given(fixed)           ? "limit of the usual 18 to 32 deg; D2 meets the head"
         : cw_design_meets_head(design) ? "solved for the head"
@@ -276,7 +229,7 @@ static CwStatus impeller(const CwCase *table, double outlet_diameter, double fix
   if (shape) cw_meridian_shape(&table->impeller, design);
   leading_edge_hub(&table->impeller, design);
   CW_TRY(cw_meridian_make(design, meridian));
-  inlet_triangle(table, meridian, design);
+  cw_inlet_triangle(table, meridian, design);
   CW_TRY(outlet_angle(table, meridian, fixed, design));
 done:
   return status;
@@ -421,6 +374,7 @@ static CwStatus solve_wheel(const CwCase *table, CwMeridian *meridian, CwDesign 
     CW_TRY(solve_outlet_width(table, meridian, design));
   else
     CW_TRY(solve_outlet_diameter(table, meridian, design));
+  CW_TRY(cw_inlet_check(table, design));
   CW_TRY(check_head(table, design));
   CW_TRY(check_hub(design));
 done:

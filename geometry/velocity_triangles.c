@@ -2,12 +2,129 @@
 #include "geometry/velocity_triangles.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "geometry/blade.h"
+#include "geometry/correlations.h"
 #include "geometry/design_source.h"
+#include "geometry/root.h"
+
+const double cw_allowed_beta[2] = {12 * CW_DEGREE, 60 * CW_DEGREE};
 
 double cw_blockage(double count, double thickness, double radius, double angle) {
   return 1 / (1 - count * thickness / (2 * M_PI * radius * sin(angle)));
+}
+
+// The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan
+// beta.
+static double spiral_angle(const CwMeridian *meridian, double wrap) {
+  const double beta[3] = {M_PI / 4, M_PI / 4, M_PI / 4};
+  return atan(cw_blade_wrap(meridian, 0.5, beta) / wrap);
+}
+
+static const double SAME_ANGLE = 0.1 * M_PI / 180; // an incidence that is off by less is met
+
+// The inlet at mid-span, whose blades fill the share `filled` / sin beta of the circumference.
+typedef struct {
+  double meridional, blade; // c_m1 before the blades, u1
+  double filled;            // z e / (2 pi r)
+  double incidence;         // wanted
+} Inlet;
+
+// Between blades of the angle beta; 90 degrees and more where they fill the inlet.
+static double flow_angle(const Inlet *inlet, double beta) {
+  return atan2(inlet->meridional, inlet->blade * (1 - inlet->filled / sin(beta)));
+}
+
+// Grows with beta, since steeper blades leave the flow more room: it has one root.
+static double incidence_excess(double beta, const void *context) {
+  const Inlet *inlet = context;
+  return beta - flow_angle(inlet, beta) - inlet->incidence;
+}
+
+// The blade angle that meets the flow with the wanted incidence, or the end of the range that is nearer to it.
+static double met_angle(const Inlet *inlet, double low, double high) {
+  if (incidence_excess(low, inlet) >= 0) return low;
+  return incidence_excess(high, inlet) <= 0 ? high : cw_root_find(incidence_excess, inlet, low, high);
+}
+
+static Inlet inlet_of(const CwCase *table, const CwDesign *design, const char **source) {
+  const double usual = cw_correlation(design->correlations, CW_CORRELATED_INCIDENCE, design, source);
+  const double asked = table->impeller.incidence, r = design->inlet_blade_speed / design->angular_speed;
+  *source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
+  return (Inlet){.meridional = design->inlet_meridional_speed,
+                 .blade = design->inlet_blade_speed,
+                 .filled = design->blade_count * design->leading_edge_thickness / (2 * M_PI * r),
+                 .incidence = cw_case_given(asked) ? asked : usual};
+}
+
+void cw_inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDesign *design) {
+  double x[2];
+  cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
+  const double r = x[0], cm = design->water_flow_rate / cw_meridian_area(meridian, 0);
+  const double given = table->impeller.inlet_blade_angle, asked = table->impeller.incidence;
+  SET(inlet_blade_speed, design->angular_speed * r, "omega r at the mid-span leading edge");
+  SET(inlet_meridional_speed, cm, "Q / area");
+  const char *source;
+  const Inlet inlet = inlet_of(table, design, &source);
+  // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
+  // On the shroud, at a greater radius, the angle is less; 12 degrees are the least.
+  const int wrapped = design->priority == CW_PRIORITY_WRAP;
+  double low = fmax(13 * CW_DEGREE, atan(tan(12.05 * CW_DEGREE) * design->leading_edge_radius_shroud / r));
+  double high = fmax(low, cw_allowed_beta[1]);
+  if (wrapped) {
+    const double spiral = spiral_angle(meridian, design->wrap_angle);
+    high = spiral + 2 * CW_DEGREE;
+    low = fmin(high, fmax(low, spiral - 4 * CW_DEGREE));
+    if (incidence_excess(low, &inlet) >= 0 && low == spiral - 4 * CW_DEGREE)
+      source = "4 deg under the logarithmic spiral of the wrap";
+    if (incidence_excess(high, &inlet) <= 0) source = "2 deg over the logarithmic spiral of the wrap";
+  }
+  TAKE(inlet_blade_angle, given, met_angle(&inlet, low, high), source);
+  const double beta = design->inlet_blade_angle, flow = flow_angle(&inlet, beta);
+  SET(inlet_blockage, cw_blockage(design->blade_count, design->leading_edge_thickness, r, beta),
+      "1 / (1 - z e / (pi D sin beta1))");
+  SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
+  SET(incidence, beta - flow, "beta1 - flow angle");
+  if (fabs(design->incidence - asked) > SAME_ANGLE) // not where it is left out
+    GIVE_WAY(incidence, beta - flow, asked,
+             cw_case_given(given) ? "incidence_deg gives way to inlet_blade_angle_deg"
+                                  : "incidence_deg gives way to blade angles of 12 deg and more, or to the wrap");
+  SET(inlet_relative_speed, hypot(inlet.blade, cm * design->inlet_blockage), "inlet triangle");
+}
+
+// Where the inlet is open between blades of beta1 at mid-span and on the hub, over the circumference at mid-span.
+static double least_opening(const CwDesign *design) {
+  const double beta = design->inlet_blade_angle, r = design->inlet_blade_speed / design->angular_speed;
+  const double hub = design->leading_edge_radius_hub / r;
+  return fmin(sin(beta), hub * sin(atan(tan(beta) / hub)));
+}
+
+CwStatus cw_inlet_check(const CwCase *table, const CwDesign *design) {
+  CwStatus status = CW_OK;
+  const char *source;
+  const Inlet inlet = inlet_of(table, design, &source);
+  const double beta = design->inlet_blade_angle, incidence = inlet.incidence;
+  const int open = !cw_case_given(table->impeller.inlet_blade_angle) && design->priority != CW_PRIORITY_WRAP;
+  const int steep = open && incidence_excess(beta, &inlet) < -1e-9; // at the end of the range
+  // What the flow needs of the circumference to come at beta1 less the incidence.
+  const double need = steep ? inlet.meridional / (inlet.blade * tan(beta - incidence)) : 0;
+  const double most = fmin(least_opening(design), (1 - need) * sin(beta)), share = most / inlet.filled;
+  const double fewer = floor((1 - 1e-9) * share * design->blade_count);
+  char count[60] = "";
+  CW_REQUIRE(need < 1, CW_ERR_DESIGN,
+             "the flow comes to the blades at %.1f deg without their blockage; with an incidence of %.1f deg blades "
+             "have at most %.0f deg: raise inlet_diameter_mm, or lower incidence_deg",
+             atan2(inlet.meridional, inlet.blade) / CW_DEGREE, incidence / CW_DEGREE, beta / CW_DEGREE);
+  if (fewer >= 2) snprintf(count, sizeof count, ", or lower blade_count to at most %.0f", fewer);
+  CW_REQUIRE(
+      share > 1, CW_ERR_DESIGN,
+      "%d blades of leading_edge_thickness_mm %.4g with beta1 = %.2f deg leave the flow too little of the inlet: "
+      "lower leading_edge_thickness_mm to less than %.4g%s",
+      design->blade_count, 1e3 * design->leading_edge_thickness, beta / CW_DEGREE,
+      1e3 * share * design->leading_edge_thickness, count);
+done:
+  return status;
 }
 
 // Slip factor gamma by Wiesner in Guelich's form, for `count` blades, beta2 and the ratio of mean inlet to

@@ -7,10 +7,23 @@
 
 #include "geometry/design.h"
 #include "geometry/meridian.h"
+#include "pipeline/case.h"
 #include "pipeline/status.h"
 
 // Blockage 1 / (1 - z e / (2 pi r sin beta)) of `count` blades.
 double cw_blockage(double count, double thickness, double radius, double angle);
+
+// Range of the blade angles, rad.
+extern const double cw_allowed_beta[2];
+
+// Sets beta1 and the inlet triangle at mid-span: beta1 as given; else the blades meet the flow, which their own
+// blockage turns, with the wanted incidence, within what the least angle on the shroud or the priority of the wrap
+// allow.
+void cw_inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDesign *design);
+
+// Fails with CW_ERR_DESIGN where the blades of a design with an inlet triangle fill the inlet, or no beta1 within its
+// range meets the flow between them; the line says how thick and how many they may be.
+CwStatus cw_inlet_check(const CwCase *table, const CwDesign *design);
 
 // Blades as the slip counts them: a splitter by its share of the length.
 double cw_slip_blades(const CwDesign *design);
