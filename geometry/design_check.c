@@ -11,6 +11,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
 #include "geometry/viscous_correction.h"
+#include "geometry/volute_design.h"
 
 static void remark(CwDesignRemarks *remarks, int wanted, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
@@ -164,22 +165,47 @@ static void of_passage(const CwDesign *d, CwDesignRemarks *remarks) {
          ceil(d->vapour_pressure + d->density * CW_GRAVITY * d->npsh_required));
 }
 
-// Of D3/2: about the least gap of a tongue that a spiral has room for (docs/volute.md).
-static const double LEAST_GAP = 0.03;
+// The gap of the tongue that the spiral has room for and that is nearest to the wanted one, whatever the diffuser; NAN:
+// none. With what three digits may be off by, it is no less, or no more, than can be had.
+static double nearest_gap(const CwVolute *volute, double wanted) {
+  const double digits = 5e-3, slack = CW_VOLUTE_TONGUE_SLACK * volute->input.base_diameter / 2;
+  CwVoluteInput input = volute->input;
+  CwVolute with_gap;
+  input.tongue_gap = fmax(0, wanted);
+  input.tongue_angle = input.outlet_diameter = input.diffuser_area_ratio = input.diffuser_length = NAN;
+  if (cw_volute_design(&input, &with_gap) != CW_OK) {
+    cw_fail_clear();
+    return NAN;
+  }
+  const double gap = with_gap.tip_radius - input.base_diameter / 2;
+  return gap > input.tongue_gap + slack   ? (1 + digits) * gap
+         : gap < input.tongue_gap - slack ? (1 - digits) * gap
+                                          : input.tongue_gap;
+}
+
+// 1.05 to 1.2 of the wheel's radius, as far as the spiral has room for such a gap.
+static void of_tongue(const CwDesign *d, CwDesignRemarks *remarks) {
+  const double d2 = d->outlet_diameter, r3 = d->base_diameter / 2, tip = 2 * d->tongue_tip_radius / d2;
+  const int by_angle = !strcmp(d->source[CW_DESIGN_tongue_angle], "case") || !isnan(d->asked[CW_DESIGN_tongue_angle]);
+  const int unusual = tip < 1.045 || tip > 1.25;
+  const double largest = 1.2 * d2 / 2 - r3;
+  const double least = unusual ? nearest_gap(&d->volute, 1.05 * d2 / 2 - r3) : NAN;
+  const double most = least < largest ? nearest_gap(&d->volute, largest) : NAN;
+  const int usual = least < most;
+  remark(remarks, unusual && usual,
+         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: tongue_gap_mm of %.3g to %.3g%s",
+         tip, 1e3 * least, 1e3 * most, by_angle ? " in place of tongue_angle_deg" : "");
+  remark(remarks, unusual && !usual,
+         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: base_diameter_mm of %s %.4g", tip,
+         tip > 1.25 ? "at most" : "at least", 1e3 * d2 * (tip > 1.25 ? 1.08 : 1.05));
+}
 
 static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
-  const double d2 = d->outlet_diameter, r3 = d->base_diameter / 2, tip = 2 * d->tongue_tip_radius / d2;
+  const double d2 = d->outlet_diameter;
   remark(remarks, d->base_diameter < 1.03 * d2 || d->base_diameter > 1.15 * d2,
          "D3 is %.3f D2; 1.03 to 1.08 are usual: base_diameter_mm of %.4g to %.4g", d->base_diameter / d2, 1.03e3 * d2,
          1.08e3 * d2);
-  const int by_angle = !strcmp(d->source[CW_DESIGN_tongue_angle], "case") || !isnan(d->asked[CW_DESIGN_tongue_angle]);
-  const double nearest = fmax(0, 1.05 * d2 / 2 - r3), farthest = 1.2 * d2 / 2 - r3;
-  remark(remarks, (tip < 1.045 || tip > 1.25) && farthest > LEAST_GAP * r3,
-         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: tongue_gap_mm of %.3g to %.3g%s",
-         tip, 1e3 * nearest, 1e3 * farthest, by_angle ? " in place of tongue_angle_deg" : "");
-  remark(remarks, tip > 1.25 && farthest <= LEAST_GAP * r3,
-         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: base_diameter_mm of at most %.4g",
-         tip, 1.08e3 * d2);
+  of_tongue(d, remarks);
   const CwVolute *v = &d->volute;
   const double touching = 0.5 * M_PI + v->input.side_wall_angle;
   remark(

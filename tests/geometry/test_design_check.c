@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "geometry/design_check.h"
@@ -121,6 +123,30 @@ static void remarks_name_keys_of_use(void **state) {
   assert_true(remarked(&design, "1.5 to 3 are usual: diffuser_area_ratio of 1.5 to 3"));
 }
 
+// D3 = 1.09 D2 leaves 2.4 to 9 mm, of which both ends can be had: 1.05 of the wheel's radius lies inside D3/2.
+static void advised_gaps_can_be_had(void **state) {
+  CwCase table = duty_point(25, 10, 1450);
+  table.impeller.outlet_diameter = 0.165;
+  table.volute.base_diameter = 0.18;
+  table.volute.tongue_gap = 0.025;
+  const CwDesign design = design_of(&table);
+  CwDesignRemarks remarks;
+  const char *advice = NULL;
+  double gap[2];
+  cw_design_check(&design, &remarks);
+  for (int i = 0; i < remarks.count && !advice; i++) advice = strstr(remarks.text[i], "tongue_gap_mm of ");
+  assert_non_null(advice);
+  assert_int_equal(sscanf(advice, "tongue_gap_mm of %lf to %lf", &gap[0], &gap[1]), 2);
+  assert_true(gap[0] > 2 && gap[0] < 3);
+  assert_near(gap[1], 9, 1e-9);
+  for (int i = 0; i < 2; i++) {
+    table.volute.tongue_gap = 1e-3 * gap[i];
+    const CwDesign better = design_of(&table);
+    assert_true(isnan(better.asked[CW_DESIGN_tongue_tip_radius]));
+    assert_false(remarked(&better, "the tongue's tip"));
+  }
+}
+
 // The texts by which remarks know what the case gives are those of the design.
 static void sources_of_the_diffuser(void **state) {
   CwCase table = paper();
@@ -214,6 +240,7 @@ int main(void) {
                                      cmocka_unit_test(splitters_count_as_blades),
                                      cmocka_unit_test(spread_of_the_wrap),
                                      cmocka_unit_test(remarks_name_keys_of_use),
+                                     cmocka_unit_test(advised_gaps_can_be_had),
                                      cmocka_unit_test(leading_edges_moved_out_of_the_eye),
                                      cmocka_unit_test(edges_thicker_than_the_blade),
                                      cmocka_unit_test(sources_of_the_diffuser)};
