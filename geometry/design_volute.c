@@ -44,6 +44,7 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   const int chosen = !cw_case_given(given->tongue_gap) && !cw_case_given(given->tongue_angle);
   const CwVoluteInput input = {
       .flow_rate = design->water_flow_rate,
+      .pipe_flow_rate = design->flow_rate,
       .area_law = given->area_law,
       .angular_momentum = design->swirl_constant,
       .section_speed = design->section_speed,

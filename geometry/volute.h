@@ -52,7 +52,8 @@
 
 // The fields are what the keys of the case, the design of the impeller and the correlations leave.
 typedef struct {
-  double flow_rate; // Q, m3/s
+  double flow_rate;      // Q of the spiral's law, m3/s; of a viscous fluid that with water
+  double pipe_flow_rate; // Q that is delivered, m3/s, by which an open bore is chosen
   CwAreaLaw area_law;
   double angular_momentum; // K = c_u2 r2, m2/s; for constant angular momentum
   double section_speed;    // c3, m/s; for constant velocity

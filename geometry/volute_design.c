@@ -191,6 +191,7 @@ static CwStatus check_input(const CwVoluteInput *in) {
     int optional;
   } ranges[] = {
       {"flow rate", in->flow_rate, 1e-12, 1e6, 1, "m3/s", 0},
+      {"flow rate in the discharge", in->pipe_flow_rate, 1e-12, 1e6, 1, "m3/s", 0},
       {"angular momentum c_u2 r2", in->angular_momentum, 1e-12, 1e6, 1, "m2/s", velocity},
       {"speed in the sections (K3 sqrt(2 g H))", in->section_speed, 1e-6, 1e6, 1, "m/s", !velocity},
       {"base_diameter_mm (D3)", d3, 1e-6, 1e3, 1e3, "mm", 0},

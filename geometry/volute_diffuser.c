@@ -92,7 +92,7 @@ static CwStatus set_bore_and_length(CwVolute *volute) {
   if (!isnan(in->diffuser_area_ratio))
     in->outlet_diameter = sqrt(in->diffuser_area_ratio * volute->throat_area * 4 / M_PI);
   else if (isnan(in->outlet_diameter))
-    in->outlet_diameter = cw_diffuser_bore(in->flow_rate, volute->throat_area);
+    in->outlet_diameter = cw_diffuser_bore(in->pipe_flow_rate, volute->throat_area);
   if (isnan(in->discharge_pipe_length)) in->discharge_pipe_length = PIPE_LENGTH * in->outlet_diameter;
   const double radius = 0.5 * in->outlet_diameter, throat_radius = sqrt(volute->throat_area / M_PI);
   CW_REQUIRE(radius > throat_radius, CW_ERR_DESIGN,

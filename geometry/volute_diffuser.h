@@ -19,8 +19,9 @@ extern "C" {
 #define CW_DIFFUSER_LARGEST_RATIO 3.0
 #define CW_DIFFUSER_ANGLE (9 * M_PI / 180) // full angle, where neither it nor the length is given
 
-// Bore of the outlet behind a throat: the smallest standard bore of at least CW_DIFFUSER_LEAST_RATIO; the next larger
-// ones while the flow there is faster than the economic speed of pipes, 4 m/s, up to CW_DIFFUSER_LARGEST_RATIO. m.
+// Bore of the outlet behind a throat for the flow rate that is delivered: the smallest standard bore of at least
+// CW_DIFFUSER_LEAST_RATIO; the next larger ones while the flow there is faster than the economic speed of pipes, 4 m/s,
+// up to CW_DIFFUSER_LARGEST_RATIO. m.
 double cw_diffuser_bore(double flow_rate, double throat_area);
 
 // The wall's lines from the throat's contour to the outlet's circle: they leave in the direction of the wall before the

@@ -11,7 +11,7 @@
 static inline CwVoluteInput volute_of_paper(void) {
   CwVoluteInput input;
   memset(&input, 0, sizeof input);
-  input.flow_rate = 25 / 3600.0;
+  input.flow_rate = input.pipe_flow_rate = 25 / 3600.0;
   input.angular_momentum = 0.95;
   input.interface_radius = 0.101;
   input.neck_width = 0.008;

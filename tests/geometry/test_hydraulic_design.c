@@ -203,6 +203,9 @@ static void viscous_fluid_by_hand(void **state) {
   assert_near(design.theoretical_head * design.hydraulic_efficiency * design.viscous_head_factor, 32, 1e-4);
   assert_true(design.outlet_diameter > 1.05 * water.outlet_diameter);
   assert_true(design.efficiency < 0.65 * water.efficiency);
+  // The spiral takes up the water's flow, the pipe's bore is chosen for what flows there.
+  assert_near(design.volute.input.flow_rate, design.water_flow_rate, 1e-15);
+  assert_near(design.volute.input.pipe_flow_rate, 50 / 3600.0, 1e-15);
   // The same wheel as that of water for the water's duty.
   CwCase larger = duty_point(3600 * design.water_flow_rate, design.water_head, 2900);
   assert_near(design_of(&larger).outlet_diameter, design.outlet_diameter, 1e-6);

@@ -34,7 +34,7 @@ static CwVoluteInput draw_volute() {
   double rpm = uniform(0, 1) < 0.5 ? 1450 : 2900, d2 = 0.12 * std::pow(4, uniform(0, 1)), nq = uniform(8, 55);
   double u2 = rpm * M_PI / 30 * d2 / 2, head = uniform(0.9, 1.1) * u2 * u2 / (2 * gravity);
   double b2 = std::max(3e-3, d2 * (0.012 + 0.0021 * nq) * uniform(0.85, 1.15));
-  in.flow_rate = std::pow(nq * std::pow(head, 0.75) / rpm, 2);
+  in.flow_rate = in.pipe_flow_rate = std::pow(nq * std::pow(head, 0.75) / rpm, 2);
   in.area_law = uniform(0, 1) < 0.5 ? CW_AREA_LAW_ANGULAR_MOMENTUM : CW_AREA_LAW_VELOCITY;
   in.angular_momentum = gravity * head / (rpm * M_PI / 30 * uniform(0.75, 0.9));
   in.section_speed = 0.42 * std::pow(nq / 20, -0.2) * uniform(0.9, 1.1) * std::sqrt(2 * gravity * head);

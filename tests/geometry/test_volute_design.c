@@ -159,6 +159,19 @@ static void area_ratio(void **state) {
   assert_near(volute.diffuser_area_ratio, 1.8, 1e-12);
 }
 
+// Of 1200 mm2, by test_volute_diffuser: DN 65 with 50 m3/h and DN 50 with 25 in the pipe, whatever the law's flow rate.
+static void bore_of_what_is_delivered(void **state) {
+  CwVoluteInput input = volute_of_paper();
+  input.outlet_diameter = NAN;
+  input.throat_area = 1200e-6;
+  assert_near(designed(&input).input.outlet_diameter, 50 * mm, 1e-12);
+  input.pipe_flow_rate = 50 / 3600.0;
+  assert_near(designed(&input).input.outlet_diameter, 65 * mm, 1e-12);
+  input.pipe_flow_rate = 25 / 3600.0;
+  input.flow_rate = 30 / 3600.0;
+  assert_near(designed(&input).input.outlet_diameter, 50 * mm, 1e-12);
+}
+
 // The pipe's axis goes through the pump's, and the throat's middle and the diffuser's end lie on a circle
 // that touches both directions: equal angles of the chord to them.
 static void radial_discharge(void **state) {
@@ -459,16 +472,27 @@ static void least_base_diameter(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(trapezoid_heights), cmocka_unit_test(section_by_strips),
-      cmocka_unit_test(spiral_by_swirl),   cmocka_unit_test(throat_by_strips),
-      cmocka_unit_test(tongue_touches),    cmocka_unit_test(diffuser),
-      cmocka_unit_test(widest_diffuser),   cmocka_unit_test(long_diffusers_are_not_pinched),
-      cmocka_unit_test(chosen_gap),        cmocka_unit_test(free_gap),
-      cmocka_unit_test(slim_gap),          cmocka_unit_test(throat_passes_the_flow),
-      cmocka_unit_test(wrong_input),       cmocka_unit_test(least_base_diameter),
-      cmocka_unit_test(arc_beyond_axis),   cmocka_unit_test(families_of_sections),
-      cmocka_unit_test(wall_derivatives),  cmocka_unit_test(tongue_angle),
-      cmocka_unit_test(nearest_tongue),    cmocka_unit_test(area_ratio),
+      cmocka_unit_test(trapezoid_heights),
+      cmocka_unit_test(section_by_strips),
+      cmocka_unit_test(spiral_by_swirl),
+      cmocka_unit_test(throat_by_strips),
+      cmocka_unit_test(tongue_touches),
+      cmocka_unit_test(diffuser),
+      cmocka_unit_test(widest_diffuser),
+      cmocka_unit_test(long_diffusers_are_not_pinched),
+      cmocka_unit_test(chosen_gap),
+      cmocka_unit_test(free_gap),
+      cmocka_unit_test(slim_gap),
+      cmocka_unit_test(throat_passes_the_flow),
+      cmocka_unit_test(wrong_input),
+      cmocka_unit_test(least_base_diameter),
+      cmocka_unit_test(arc_beyond_axis),
+      cmocka_unit_test(families_of_sections),
+      cmocka_unit_test(wall_derivatives),
+      cmocka_unit_test(tongue_angle),
+      cmocka_unit_test(nearest_tongue),
+      cmocka_unit_test(area_ratio),
+      cmocka_unit_test(bore_of_what_is_delivered),
       cmocka_unit_test(radial_discharge),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
