@@ -148,12 +148,28 @@ static void of_blades(const CwDesign *d, CwDesignRemarks *remarks) {
                                    : "lower inlet_blade_angle_deg or raise blade_count");
 }
 
+// ", or leave out" those of the poles that the case gives.
+static void given_poles(const CwDesign *d, char text[80]) {
+  static const struct {
+    CwDesignQuantity quantity;
+    const char *key;
+  } poles[] = {{CW_DESIGN_hub_pole_radial, "hub_pole_radial"},
+               {CW_DESIGN_shroud_pole_axial, "shroud_pole_axial"},
+               {CW_DESIGN_shroud_pole_radial, "shroud_pole_radial"}};
+  size_t used = 0;
+  *text = '\0';
+  for (size_t i = 0; i < sizeof poles / sizeof *poles; i++)
+    if (!strcmp(d->source[poles[i].quantity], "case"))
+      used += (size_t)snprintf(text + used, 80 - used, "%s %s", used ? " and" : ", or leave out", poles[i].key);
+}
+
 static void of_passage(const CwDesign *d, CwDesignRemarks *remarks) {
+  char poles[80];
+  given_poles(d, poles);
   remark(remarks, d->passage_area_reversal > 1e-3,
          "the passage's area goes from %.3g mm2 in the eye to %.3g mm2 at D2, but steps back by %.1f %% on its way; "
-         "0.1 %% are usual: change axial_length_mm, or leave out hub_pole_radial, shroud_pole_axial and "
-         "shroud_pole_radial",
-         d->passage_area_eye * 1e6, d->passage_area_outlet * 1e6, 100 * d->passage_area_reversal);
+         "0.1 %% are usual: change axial_length_mm%s",
+         d->passage_area_eye * 1e6, d->passage_area_outlet * 1e6, 100 * d->passage_area_reversal, poles);
   remark(remarks, d->shroud_bend_radius < 0.6 * d->inlet_passage_width,
          "the shroud bends with a radius of %.3g mm, %.2f of the passage's width there; at least 0.6 (%.3g mm) are "
          "usual: raise axial_length_mm",

@@ -132,8 +132,9 @@ static CwStatus make_clearance(const CwMeridian *meridian, CwDesign *design) {
   const char *splitters = design->splitter_start > 0 ? " and as many splitters" : "";
   CW_REQUIRE(clear > least, CW_ERR_DESIGN,
              "%d blades%s are %.2f mm apart on hub or shroud; at least %.2f mm are allowed (a quarter of the blade's "
-             "thickness): lower blade_count, blade_thickness_mm or the wrap, or leave splitter_start out",
-             design->blade_count, splitters, clear * 1e3, least * 1e3);
+             "thickness): lower blade_count, blade_thickness_mm or the wrap%s",
+             design->blade_count, splitters, clear * 1e3, least * 1e3,
+             *splitters ? ", or leave splitter_start out" : "");
   if (clear <= least + fillets)
     GIVE_WAY(root_fillet_radius, FILLETS_LEFT * design->root_fillet_radius * (clear - least) / fillets,
              design->root_fillet_radius,

@@ -41,7 +41,7 @@ static void show_design(CwLog *log, const CwDesign *design) {
   for (int i = 0; i < remarks.count; i++) cw_log_warn(log, "%s", remarks.text[i]);
 }
 
-static void show_solid(CwLog *log, const CwSolid *solid, const CwMeasuredSolid *measured) {
+static void show_solid(CwLog *log, const CwDesign *design, const CwSolid *solid, const CwMeasuredSolid *measured) {
   cw_log(log,
          "%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed; shortest edge %.2f mm, narrowest "
          "face %.2f mm",
@@ -61,7 +61,7 @@ static void show_solid(CwLog *log, const CwSolid *solid, const CwMeasuredSolid *
                 "usual: %s",
                 cw_solid_domain(solid), cw_solid_face_name(solid, measured->corner_of),
                 measured->corner.angle / CW_DEGREE, measured->corner.at[0] * 1e3, measured->corner.at[1] * 1e3,
-                measured->corner.at[2] * 1e3, cw_pump_blunter_corner(cw_solid_domain(solid)));
+                measured->corner.at[2] * 1e3, cw_pump_blunter_corner(design, cw_solid_domain(solid)));
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
@@ -84,21 +84,22 @@ static void show_rotor(CwLog *log, const CwDesign *design, const CwMeasuredRotor
         "blades meet the %s at %.1f deg at (%.2f, %.2f, %.2f) mm; under 66 deg the prism layers there are skewed: "
         "%s",
         on_hub ? "hub" : "shroud", least, crease->at[0] * 1e3, crease->at[1] * 1e3, crease->at[2] * 1e3,
-        design->blade_form == CW_BLADE_CYLINDRICAL
-            ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
-            : "lower lean_deg, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
+        design->blade_form == CW_BLADE_CYLINDRICAL ? "take blade_form twisted, or raise leading_edge_radius_shroud_mm"
+        : design->lean_angle != 0
+            ? "bring lean_deg nearer to 0, or raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm"
+            : "raise leading_edge_radius_hub_mm and leading_edge_radius_shroud_mm");
   if (wedge < 75)
     cw_log_warn(
         log,
         "the trailing edge has a wedge of %.1f deg at (%.2f, %.2f, %.2f) mm; under 75 deg the prism layers there "
-        "are skewed: take trailing_edge bevelled, or raise trailing_edge_bevel_mm",
-        wedge, edge->at[0] * 1e3, edge->at[1] * 1e3, edge->at[2] * 1e3);
+        "are skewed: %s",
+        wedge, edge->at[0] * 1e3, edge->at[1] * 1e3, edge->at[2] * 1e3, cw_pump_blunter_edge(design));
 }
 
 static void show_measured(CwLog *log, const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {
   const CwMeasuredRotor *rotor = &measured->rotor;
   const CwMeasuredStator *stator = &measured->stator;
-  for (int i = 0; i < pump->count; i++) show_solid(log, pump->solid[i], &measured->solid[i]);
+  for (int i = 0; i < pump->count; i++) show_solid(log, design, pump->solid[i], &measured->solid[i]);
   cw_log(log, "measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
          100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1),
          rotor->kink.angle / CW_DEGREE);

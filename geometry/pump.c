@@ -110,9 +110,21 @@ static const char *maker_of(const char *face) {
   return "the dimension that makes it";
 }
 
-const char *cw_pump_blunter_corner(const char *domain) {
-  return strcmp(domain, "rotor") ? "raise tongue_angle_deg or tongue_gap_mm, or leave both out"
-                                 : "leave out root_fillet_radius_mm, or take trailing_edge bevelled";
+const char *cw_pump_blunter_corner(const CwDesign *design, const char *domain) {
+  const int bevelled = design->trailing_edge == CW_EDGE_BEVELLED, filleted = design->root_fillet_radius > 0;
+  if (strcmp(domain, "rotor"))
+    return cw_case_given(design->volute.input.tongue_angle) ? "raise tongue_angle_deg, or leave it out"
+           : cw_case_given(design->volute.input.tongue_gap) ? "raise tongue_gap_mm, or leave it out"
+                                                            : "give a tongue_gap_mm greater than that of the design";
+  return filleted && bevelled ? "leave out root_fillet_radius_mm"
+         : filleted           ? "leave out root_fillet_radius_mm, or take trailing_edge bevelled"
+         : !bevelled          ? "take trailing_edge bevelled"
+                              : "change leading_edge_radius_hub_mm or leading_edge_radius_shroud_mm";
+}
+
+const char *cw_pump_blunter_edge(const CwDesign *design) {
+  return design->trailing_edge == CW_EDGE_BEVELLED ? "take trailing_edge rounded"
+                                                   : "take trailing_edge bevelled or rounded";
 }
 
 static CwStatus check_solid(const CwDesign *design, const CwSolid *solid, const CwMeasuredSolid *measured) {
@@ -149,11 +161,14 @@ static CwStatus check_rotor(const CwDesign *design, const CwPump *pump, CwMeasur
       fabs(volume / measured->rotor_volume_of_sections - 1) < CW_PUMP_VOLUME_TOLERANCE, CW_ERR_GEOMETRY,
       "rotor: the solid has %.3f cm3, the sections of meridian and blades %.3f cm3; allowed: %.2g %% apart: " OWN_FAULT,
       volume * 1e6, measured->rotor_volume_of_sections * 1e6, 100 * CW_PUMP_VOLUME_TOLERANCE);
-  CW_REQUIRE(kink->angle < CW_PUMP_LARGEST_KINK, CW_ERR_GEOMETRY,
-             "rotor: faces that should be smooth meet with a kink of %.2f deg at (%.2f, %.2f, %.2f) mm; %.0f deg "
-             "are allowed: lower root_fillet_radius_mm or leading_edge_ratio",
-             kink->angle / CW_DEGREE, kink->at[0] * 1e3, kink->at[1] * 1e3, kink->at[2] * 1e3,
-             CW_PUMP_LARGEST_KINK / CW_DEGREE);
+  CW_REQUIRE(
+      kink->angle<CW_PUMP_LARGEST_KINK, CW_ERR_GEOMETRY,
+                  "rotor: faces that should be smooth meet with a kink of %.2f deg at (%.2f, %.2f, %.2f) mm; %.0f deg "
+                  "are allowed: lower %sleading_edge_ratio",
+                  kink->angle / CW_DEGREE, kink->at[0] * 1e3, kink->at[1] * 1e3, kink->at[2] * 1e3,
+                  CW_PUMP_LARGEST_KINK / CW_DEGREE, design->root_fillet_radius> 0
+          ? "root_fillet_radius_mm or "
+          : "");
 done:
   return status;
 }

@@ -68,8 +68,11 @@ void cw_pump_free(CwPump *pump);
 CwStatus cw_pump_measure(const CwDesign *design, const CwPump *pump, CwMeasuredPump *measured);
 
 // What to change in the case where a face of a domain has a sharp corner: those of the wheel lie where blades end on
-// its walls, those of the casing beside the tongue.
-const char *cw_pump_blunter_corner(const char *domain);
+// its walls, those of the casing beside the tongue. Nothing that is not there is to be left out, nothing in use taken.
+const char *cw_pump_blunter_corner(const CwDesign *design, const char *domain);
+
+// The same where the trailing edge has a sharp wedge. The length of a bevel does not change its wedges.
+const char *cw_pump_blunter_edge(const CwDesign *design);
 
 #ifdef __cplusplus
 }

@@ -70,8 +70,9 @@ CwStatus RotorMaker::seams() {
   CW_TRY(cw_blade_seams(design, &meridian, &seams));
   CW_REQUIRE(seams.reach <= CW_SEAM_REACH_MOST, CW_ERR_GEOMETRY,
              "the blades and a part of their pitch of %.1f deg wind round the axis by %.1f deg; at most %.1f deg are "
-             "allowed: lower wrap_angle_deg, raise blade_count or leave splitter_start out",
-             pitch * 180 / M_PI, seams.reach * 180 / M_PI, CW_SEAM_REACH_MOST * 180 / M_PI);
+             "allowed: lower wrap_angle_deg or raise blade_count%s",
+             pitch * 180 / M_PI, seams.reach * 180 / M_PI, CW_SEAM_REACH_MOST * 180 / M_PI,
+             design->splitter_start > 0 ? ", or leave splitter_start out" : "");
   margin = std::min(usual_margin, (2 * M_PI - seams.reach) / 1.5);
   for (int part = 1; part < seams.parts; part++) {
     CwBladeShape seam = {};
@@ -109,9 +110,10 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
       cw_solid_free(rotor);
       return CW_FAIL(CW_ERR_GEOMETRY,
                      "rotor: %s; there are %d blades%s with a wrap of %.1f deg: lower blade_count or "
-                     "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
+                     "blade_thickness_mm%s%s",
                      fault.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
-                     design->wrap_angle * 180 / M_PI);
+                     design->wrap_angle * 180 / M_PI, design->splitter_start > 0 ? ", or leave splitter_start out" : "",
+                     design->blade_form == CW_BLADE_CYLINDRICAL ? ", or take blade_form twisted" : "");
     }
     return CW_OK;
   });

@@ -123,6 +123,20 @@ static void remarks_name_keys_of_use(void **state) {
   assert_true(remarked(&design, "1.5 to 3 are usual: diffuser_area_ratio of 1.5 to 3"));
 }
 
+// Only poles that the case gives can be left out.
+static void given_poles_are_named(void **state) {
+  const CwCase table = paper();
+  CwDesign design = design_of(&table);
+  design.passage_area_reversal = 0.02;
+  assert_true(remarked(&design, "0.1 % are usual: change axial_length_mm"));
+  assert_false(remarked(&design, "leave out"));
+  design.source[CW_DESIGN_hub_pole_radial] = "case";
+  assert_true(remarked(&design, "change axial_length_mm, or leave out hub_pole_radial"));
+  assert_false(remarked(&design, "shroud_pole"));
+  design.source[CW_DESIGN_shroud_pole_radial] = "case";
+  assert_true(remarked(&design, "leave out hub_pole_radial and shroud_pole_radial"));
+}
+
 // D3 = 1.09 D2 leaves 2.4 to 9 mm, of which both ends can be had: 1.05 of the wheel's radius lies inside D3/2.
 static void advised_gaps_can_be_had(void **state) {
   CwCase table = duty_point(25, 10, 1450);
@@ -241,6 +255,7 @@ int main(void) {
                                      cmocka_unit_test(spread_of_the_wrap),
                                      cmocka_unit_test(remarks_name_keys_of_use),
                                      cmocka_unit_test(advised_gaps_can_be_had),
+                                     cmocka_unit_test(given_poles_are_named),
                                      cmocka_unit_test(leading_edges_moved_out_of_the_eye),
                                      cmocka_unit_test(edges_thicker_than_the_blade),
                                      cmocka_unit_test(sources_of_the_diffuser)};

@@ -71,9 +71,34 @@ static void too_short_an_edge_is_named(void **state) {
 
 // Root fillets and trailing edges are the wheel's: a sharp corner of the casing lies beside its tongue.
 static void sharp_corners_have_the_keys_of_their_domain(void **state) {
-  assert_non_null(strstr(cw_pump_blunter_corner(cw_solid_domain(rotor)), "root_fillet_radius_mm"));
-  assert_non_null(strstr(cw_pump_blunter_corner(cw_solid_domain(stator)), "tongue_angle_deg"));
-  assert_null(strstr(cw_pump_blunter_corner(cw_solid_domain(stator)), "fillet"));
+  CwDesign with = design;
+  with.root_fillet_radius = 1e-3;
+  with.volute.input.tongue_gap = NAN;
+  with.volute.input.tongue_angle = 30 * CW_DEGREE;
+  assert_non_null(strstr(cw_pump_blunter_corner(&with, cw_solid_domain(rotor)), "root_fillet_radius_mm"));
+  assert_non_null(strstr(cw_pump_blunter_corner(&with, cw_solid_domain(stator)), "tongue_angle_deg"));
+  assert_null(strstr(cw_pump_blunter_corner(&with, cw_solid_domain(stator)), "fillet"));
+}
+
+// Nothing is to be left out that is not there, nothing taken that is in use.
+static void advice_is_of_use(void **state) {
+  CwDesign with = design;
+  with.root_fillet_radius = 0;
+  with.trailing_edge = CW_EDGE_BEVELLED;
+  with.volute.input.tongue_gap = with.volute.input.tongue_angle = NAN;
+  assert_null(strstr(cw_pump_blunter_corner(&with, "rotor"), "root_fillet_radius_mm"));
+  assert_null(strstr(cw_pump_blunter_corner(&with, "rotor"), "bevelled"));
+  assert_null(strstr(cw_pump_blunter_corner(&with, "stator"), "leave"));
+  assert_string_equal(cw_pump_blunter_edge(&with), "take trailing_edge rounded");
+  with.volute.input.tongue_gap = 5e-3;
+  assert_string_equal(cw_pump_blunter_corner(&with, "stator"), "raise tongue_gap_mm, or leave it out");
+  with.trailing_edge = CW_EDGE_BLUNT;
+  assert_string_equal(cw_pump_blunter_corner(&with, "rotor"), "take trailing_edge bevelled");
+  assert_string_equal(cw_pump_blunter_edge(&with), "take trailing_edge bevelled or rounded");
+  with.root_fillet_radius = 1e-3;
+  assert_non_null(strstr(cw_pump_blunter_corner(&with, "rotor"), "leave out root_fillet_radius_mm, or take"));
+  with.trailing_edge = CW_EDGE_BEVELLED;
+  assert_string_equal(cw_pump_blunter_corner(&with, "rotor"), "leave out root_fillet_radius_mm");
 }
 
 int main(void) {
@@ -82,6 +107,7 @@ int main(void) {
       cmocka_unit_test(missing_patch_is_named),
       cmocka_unit_test(too_short_an_edge_is_named),
       cmocka_unit_test(sharp_corners_have_the_keys_of_their_domain),
+      cmocka_unit_test(advice_is_of_use),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
