@@ -60,6 +60,10 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
       "%.3g m3/h lie below the %.0f m3/h to which Guelich's efficiencies reach; %.0f %% (hydraulic %.0f %%) continue "
       "his losses to this size",
       q, 3600 * CW_GUELICH_LEAST_FLOW, 100 * d->efficiency, 100 * d->hydraulic_efficiency);
+  remark(remarks, d->correlations == CW_CORRELATIONS_GUAN && d->water_flow_rate < CW_GUAN_LEAST_FLOW,
+         "%.3g m3/h lie below the %.0f m3/h to which Guan's efficiencies reach; %.0f %% (hydraulic %.0f %%) are more "
+         "than so small a pump has: take design.correlations guelich, which continues the losses",
+         q, 3600 * CW_GUAN_LEAST_FLOW, 100 * d->efficiency, 100 * d->hydraulic_efficiency);
   remark(remarks, d->specific_speed_nq > 100,
          "nq is %.0f; the correlations are those of radial wheels, nq up to 100: speed_rpm of at most %.4g",
          d->specific_speed_nq, rpm * 100 / d->specific_speed_nq);

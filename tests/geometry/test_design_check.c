@@ -123,6 +123,19 @@ static void remarks_name_keys_of_use(void **state) {
   assert_true(remarked(&design, "1.5 to 3 are usual: diffuser_area_ratio of 1.5 to 3"));
 }
 
+// Guan's formulas have no term by which a pump becomes poor as it becomes small: 60 % at 0.1 m3/h.
+static void small_pumps_by_guan(void **state) {
+  CwCase table = duty_point(0.1, 1.25, 2900);
+  table.design.correlations = CW_CORRELATIONS_GUAN;
+  CwDesign design = design_of(&table);
+  assert_true(
+      remarked(&design, "0.1 m3/h lie below the 5 m3/h to which Guan's efficiencies reach; 60 % (hydraulic 78"));
+  assert_true(remarked(&design, "take design.correlations guelich"));
+  assert_false(remarked(&design, "Guelich's efficiencies"));
+  design.water_flow_rate = 5.01 / 3600;
+  assert_false(remarked(&design, "Guan's efficiencies"));
+}
+
 // Only poles that the case gives can be left out.
 static void given_poles_are_named(void **state) {
   const CwCase table = paper();
@@ -256,6 +269,7 @@ int main(void) {
                                      cmocka_unit_test(remarks_name_keys_of_use),
                                      cmocka_unit_test(advised_gaps_can_be_had),
                                      cmocka_unit_test(given_poles_are_named),
+                                     cmocka_unit_test(small_pumps_by_guan),
                                      cmocka_unit_test(leading_edges_moved_out_of_the_eye),
                                      cmocka_unit_test(edges_thicker_than_the_blade),
                                      cmocka_unit_test(sources_of_the_diffuser)};
