@@ -115,11 +115,39 @@ static void what_a_refusal_names_works(void **state) {
   assert_int_equal(run(path, "given"), 0);
 }
 
+// A duty alone at nq 115, where no volute is wide enough: the refusal names a key that the case leaves open, or at last
+// the speed, with a value that works.
+static void a_refused_duty_gets_a_value(void **state) {
+  static const char duty[] =
+      "name: duty\noperating_point:\n  flow_rate_m3_per_h: 500\n  head_m: 4.5\n  speed_rpm: %.6g\n";
+  char section[32], key[64];
+  double value;
+  const char *path = in_test_folder("duty.yaml");
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, duty, 960.0);
+  fclose(file);
+  assert_int_not_equal(run(path, "duty"), 0);
+  char *messages = read_whole(in_test_folder("messages"), NULL);
+  const char *tried = strstr(messages, "tried: ");
+  assert_non_null(tried);
+  assert_int_equal(sscanf(tried, "tried: %31[a-z_].%63[a-z_0-9]: %lf works", section, key, &value), 3);
+  free(messages);
+  const int speed = !strcmp(key, "speed_rpm");
+  file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, duty, speed ? value : 960.0);
+  if (!speed) fprintf(file, "%s:\n  %s: %.6g\n", section, key, value);
+  fclose(file);
+  assert_int_equal(run(path, "duty"), 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(files_are_written_and_the_same_each_time),
       cmocka_unit_test(failure_leaves_no_record),
       cmocka_unit_test(what_a_refusal_names_works),
+      cmocka_unit_test(a_refused_duty_gets_a_value),
   };
   return cmocka_run_group_tests(tests, make_test_folder, clear_test_folder);
 }
