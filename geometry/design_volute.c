@@ -155,9 +155,10 @@ static void place_of_tongue(const CwVoluteTable *given, CwDesign *design) {
   const double r3 = design->base_diameter / 2, gap = given->tongue_gap, angle = given->tongue_angle;
   const double tip = design->volute.tip_radius, at = design->volute.tip_angle;
   SET(tongue_tip_radius, tip,
-      cw_case_given(gap)     ? "case: D3/2 + tongue gap"
-      : cw_case_given(angle) ? "where its angle leads to"
-                             : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
+      cw_case_given(gap) ? "case: D3/2 + tongue gap"
+      : cw_case_given(angle)
+          ? "where its angle leads to"
+          : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m)) to 1.2 r2");
   if (cw_case_given(gap) && fabs(tip - r3 - gap) > CW_VOLUTE_TONGUE_SLACK * r3)
     GIVE_WAY(tongue_tip_radius, tip, r3 + gap, "tongue_gap_mm gives way to the nearest tongue that the spiral allows");
   SET(tongue_angle, at, cw_case_given(angle) ? "case" : "where its gap asks for it");

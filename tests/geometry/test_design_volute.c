@@ -86,6 +86,7 @@ static void least_walls_replace_less(void **state) {
   assert_string_equal(d.source[CW_DESIGN_side_wall_angle], "side_wall_angle_deg gives way to the least of 5 deg");
   assert_string_equal(d.source[CW_DESIGN_tongue_tip_radius], "where its angle leads to");
   assert_true(duty(21, 0.2, &wide));
+  assert_non_null(strstr(wide.source[CW_DESIGN_tongue_tip_radius], "0.07 rho H/(1000 kg/m3 1000 m)) to 1.2 r2"));
   cw_case_defaults(&table);
   table.volute.inlet_width = wide.outlet_width;
   assert_true(duty_with(21, 0.2, &table.volute, &d));
