@@ -9,7 +9,7 @@
 enum { CW_CORRELATION_FAMILIES = 2 };
 
 #define CW_GUELICH_LEAST_FLOW 0.005     // m3/s, to which the efficiencies of his table 3.9 reach, as commonly quoted
-#define CW_GUAN_LEAST_FLOW (5 / 3600.0) // m3/s, at which GB/T 13007 begins, the efficiencies of the pumps of his book
+#define CW_GUAN_LEAST_FLOW (5 / 3600.0) // m3/s, at which the efficiencies of GB/T 13007 begin, as commonly quoted
 #define CW_LARGEST_HUB_SHARE 0.35       // of D2, of a hub that is left open
 
 // Quantities that are correlated. Each reads members of the design that come before it in this order, besides
