@@ -5,8 +5,16 @@
 
 const CwWallName *cw_wall_name(const char *name) {
   // The suction pipe stands still in the rotor; a shaft turns in a pipe of its own.
-  static const CwWallName whole[] = {
+  static const CwWallName names[] = {
+      {"blade", CW_ALONG_BLADE, CW_GROUP_BLADE, CW_GROUP_BLADE, -1, 0},
+      {"blade_pressure", CW_ALONG_BLADE, CW_GROUP_BLADE, CW_GROUP_BLADE, -1, 0},
+      {"blade_suction", CW_ALONG_BLADE, CW_GROUP_BLADE, CW_GROUP_BLADE, -1, 0},
+      {"blade_leading_edge", CW_ALONG_BLADE, CW_GROUP_BLADE, CW_GROUP_BLADE, -1, 0},
       {"blade_trailing_edge", CW_ALONG_TRAILING_EDGE, CW_GROUP_BLADE, CW_GROUP_BLADE, -1, 0},
+      {"hub", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, -1, 0},
+      {"hub_nut", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, -1, 0},
+      {"hub_shaft", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, -1, 0},
+      {"shroud", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, -1, 0},
       {"hub_shaft_pipe", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, 1, 0},
       {"neck", CW_ALONG_NECK, CW_GROUP_VOLUTE, CW_GROUP_INTERFACE, -1, 0},
       {"step", CW_ALONG_NECK, CW_GROUP_VOLUTE, CW_GROUP_INTERFACE, -1, 0},
@@ -18,14 +26,7 @@ const CwWallName *cw_wall_name(const char *name) {
       {"discharge", CW_ALONG_DISCHARGE, CW_GROUP_PIPE, CW_GROUP_PIPE, -1, 0},
       {"outlet_pipe", CW_ALONG_DISCHARGE, CW_GROUP_PIPE, CW_GROUP_PIPE, -1, 0},
   };
-  static const CwWallName start[] = {
-      {"blade", CW_ALONG_BLADE, CW_GROUP_BLADE, CW_GROUP_BLADE, -1, 0},
-      {"hub", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, -1, 0},
-      {"shroud", CW_ALONG_BLADE, CW_GROUP_HUB_SHROUD, CW_GROUP_HUB_SHROUD, -1, 0},
-  };
-  for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
-    if (!strcmp(name, whole[i].name)) return &whole[i];
-  for (size_t i = 0; i < sizeof start / sizeof *start; i++)
-    if (!strncmp(name, start[i].name, strlen(start[i].name))) return &start[i];
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (!strcmp(name, names[i].name)) return &names[i];
   return NULL;
 }

@@ -25,6 +25,6 @@ typedef struct {
   int monitored;
 } CwWallName;
 
-// NULL: no name of these. What begins with blade, hub or shroud is of these.
+// NULL: no name of these. Only whole names count: hub_seal_pipe is none of them.
 const CwWallName *cw_wall_name(const char *name);
 #endif

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Names of walls: whole ones, beginnings, and others.
+// Names of walls: those that the program gives, and others.
 
 #include "geometry/wall_name.h"
 #include "tests/unit_test.h"
 
-static void whole_names_go_before_beginnings(void **state) {
+static void names_that_the_program_gives(void **state) {
   assert_int_equal(cw_wall_name("blade_trailing_edge")->along, CW_ALONG_TRAILING_EDGE);
   assert_int_equal(cw_wall_name("blade_pressure")->along, CW_ALONG_BLADE);
   assert_int_equal(cw_wall_name("hub_nut")->group, CW_GROUP_HUB_SHROUD);
@@ -24,11 +24,14 @@ static void other_names_say_nothing(void **state) {
   assert_null(cw_wall_name("casing"));
   assert_null(cw_wall_name("volute_2"));
   assert_null(cw_wall_name("hu"));
+  assert_null(cw_wall_name("hub_seal_pipe"));
+  assert_null(cw_wall_name("blade_of_guide"));
+  assert_null(cw_wall_name("shroud_2"));
   assert_null(cw_wall_name(""));
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(whole_names_go_before_beginnings),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(names_that_the_program_gives),
                                      cmocka_unit_test(what_stands_still_and_what_is_monitored),
                                      cmocka_unit_test(other_names_say_nothing)};
   return cmocka_run_group_tests(tests, NULL, NULL);

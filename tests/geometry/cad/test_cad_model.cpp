@@ -191,10 +191,22 @@ static void names_are_those_of_generated_walls(void **) {
   assert_int_equal(patch.monitored, 0);
 }
 
+// A name that begins as one of the wheel's does says nothing: the casing's side is a wall of the casing.
+static void beginnings_of_names_say_nothing(void **) {
+  static double point[][3] = {{-65 * mm, 0, 8 * mm}};
+  Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  CwCadPatch rule = back_as("hub_seal_pipe");
+  rule.near = {1, point};
+  made.cad.patch = &rule;
+  made.cad.patch_count = 1;
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(made.patch("hub_seal_pipe").group, CW_GROUP_VOLUTE);
+}
+
 // A side of the casing as a wall of the wheel's kind, by name or by `walls`: its group is that, its flow the spiral's.
 static void blades_that_stand_still_have_the_flow_of_a_spiral(void **) {
   double point[][3] = {{-65 * mm, 0, 8 * mm}};
-  for (const char *name : {"blade_of_guide", "side"}) {
+  for (const char *name : {"blade_pressure", "side"}) {
     Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
     CwCadPatch rule = back_as(name);
     rule.near = {1, point};
@@ -324,6 +336,7 @@ int main() {
                                      cmocka_unit_test(the_spiral_has_a_free_vortex),
                                      cmocka_unit_test(rules_go_before),
                                      cmocka_unit_test(names_are_those_of_generated_walls),
+                                     cmocka_unit_test(beginnings_of_names_say_nothing),
                                      cmocka_unit_test(blades_that_stand_still_have_the_flow_of_a_spiral),
                                      cmocka_unit_test(interfaces_of_three_patches_are_told),
                                      cmocka_unit_test(outlets_share_the_flow),
