@@ -19,11 +19,14 @@ static void list_bodies(const CwCadBodies *bodies, char list[LIST_SIZE]) {
   }
 }
 
-static int body_matches(const CwCadBodies *bodies, int body, const char *word) {
+// `whole`: a name to the letter, not a pattern.
+static int body_matches(const CwCadBodies *bodies, int body, const char *word, int whole) {
   char *end;
   const long number = strtol(word, &end, 10);
+  const char *name = cw_cad_body_name(bodies, body), *instance = cw_cad_body_instance(bodies, body);
   if (*word && !*end) return number == body + 1;
-  return !fnmatch(word, cw_cad_body_name(bodies, body), 0) || !fnmatch(word, cw_cad_body_instance(bodies, body), 0);
+  if (whole) return !strcmp(word, name) || !strcmp(word, instance);
+  return !fnmatch(word, name, 0) || !fnmatch(word, instance, 0);
 }
 
 static CwStatus take(const CwCaseCad *cad, const CwCadBodies *bodies, int which, int body, int *domain) {
@@ -41,19 +44,22 @@ static CwStatus choose_by_word(const CwCaseCad *cad, const CwCadBodies *bodies, 
                                int *domain) {
   CwStatus status = CW_OK;
   char list[LIST_SIZE];
-  int found = 0;
-  for (int i = 0; i < cw_cad_body_count(bodies); i++) {
-    if (!body_matches(bodies, i, word)) continue;
-    CW_TRY(take(cad, bodies, which, i, domain));
-    found++;
+  int found = 0, whole = 2;
+  while (whole && !found) { // names have brackets: what is called so goes before what the pattern takes
+    whole--;
+    for (int i = 0; i < cw_cad_body_count(bodies); i++) {
+      if (!body_matches(bodies, i, word, whole)) continue;
+      CW_TRY(take(cad, bodies, which, i, domain));
+      found++;
+    }
   }
   list_bodies(bodies, list);
   CW_REQUIRE(found, CW_ERR_INPUT, "cad.domains.%s.solid: '%s' matches no solid of cad.files; allowed: %s",
              cad->domain[which].name, word, list);
-  CW_REQUIRE(found == 1 || strpbrk(word, "*?["), CW_ERR_INPUT,
-             "cad.domains.%s.solid: '%s' matches %d solids; allowed: one of the numbers of %s, or a pattern such as "
-             "'%.40s*' for all of them",
-             cad->domain[which].name, word, found, list, word);
+  CW_REQUIRE(found == 1 || !whole, CW_ERR_INPUT,
+             "cad.domains.%s.solid: '%s' matches %d solids; allowed: one of the numbers of %s, or a list of them, such "
+             "as [1, 2]",
+             cad->domain[which].name, word, found, list);
 done:
   return status;
 }

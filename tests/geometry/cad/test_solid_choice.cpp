@@ -8,7 +8,7 @@ extern "C" {
 
 static CwCadBodies bodies() {
   CwCadBodies made;
-  const char *names[][2] = {{"wheel", "wheel_1"}, {"casing", "casing_1"}, {"casing", "casing_2"}};
+  const char *names[][2] = {{"wheel", "wheel_1"}, {"casing", "casing_1"}, {"casing", "wheel[_]1"}};
   for (int i = 0; i < 3; i++)
     made.body.push_back({"pump.step", names[i][0], names[i][1], small_solid_of(small_box(10 * i, 0, 0, 9, 9, 9)), {}});
   return made;
@@ -46,6 +46,16 @@ static void words_choose(void **) {
   }
 }
 
+// What is called so to the letter goes before what the pattern takes.
+static void names_with_brackets_match_themselves(void **) {
+  int domain[3];
+  if (choose("wheel[_]1", nullptr, domain)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(domain[0], -1);
+  assert_int_equal(domain[2], 0);
+  if (choose("whee[l]", nullptr, domain)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(domain[0], 0);
+}
+
 static void points_choose(void **) {
   int domain[3];
   const double inside[] = {0.025, 0.004, 0.004}, outside[] = {0.5, 0, 0};
@@ -70,7 +80,8 @@ static void wrong_words_are_told(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(words_choose), cmocka_unit_test(points_choose),
-                                     cmocka_unit_test(wrong_words_are_told)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(words_choose),
+                                     cmocka_unit_test(names_with_brackets_match_themselves),
+                                     cmocka_unit_test(points_choose), cmocka_unit_test(wrong_words_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
