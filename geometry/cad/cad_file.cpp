@@ -61,14 +61,16 @@ int label_colour(const Document &document, const TDF_Label &label) {
   return -1;
 }
 
-std::string label_layer(const Document &document, const TDF_Label &label) {
+std::vector<std::string> label_layers(const Document &document, const TDF_Label &label) {
   Handle(TColStd_HSequenceOfExtendedString) names;
-  if (!document.layers->GetLayers(label, names) || names->IsEmpty()) return "";
-  return TCollection_AsciiString(names->First()).ToCString();
+  std::vector<std::string> layers;
+  if (!document.layers->GetLayers(label, names)) return layers;
+  for (int i = 1; i <= names->Length(); i++) layers.push_back(TCollection_AsciiString(names->Value(i)).ToCString());
+  return layers;
 }
 
 CwCadFaceOrigin label_origin(const Document &document, const TDF_Label &label) {
-  return {label_name(label), label_layer(document, label), label_colour(document, label)};
+  return {label_name(label), label_layers(document, label), label_colour(document, label)};
 }
 
 using Origins = std::vector<std::pair<TopoDS_Shape, CwCadFaceOrigin>>;
@@ -80,7 +82,7 @@ void take(const TopTools_IndexedMapOfShape &map, const Origins &of, CwCadBody &b
     if (!index) continue;
     CwCadFaceOrigin &its = body.origin[index - 1];
     if (!origin.name.empty()) its.name = origin.name;
-    if (!origin.layer.empty()) its.layer = origin.layer;
+    if (!origin.layers.empty()) its.layers = origin.layers;
     if (origin.colour >= 0) its.colour = origin.colour;
   }
 }
@@ -100,7 +102,7 @@ void add_product(const Document &document, const TDF_Label &label, const TopLoc_
       faces.emplace_back(part, origin);
     } else {
       for (TopExp_Explorer at(part, TopAbs_FACE); at.More(); at.Next())
-        inherited.emplace_back(at.Current(), CwCadFaceOrigin{"", origin.layer, origin.colour});
+        inherited.emplace_back(at.Current(), CwCadFaceOrigin{"", origin.layers, origin.colour});
       if (part.ShapeType() == TopAbs_SOLID && !origin.name.empty()) solids.emplace_back(part, origin.name);
     }
   }
@@ -110,7 +112,7 @@ void add_product(const Document &document, const TDF_Label &label, const TopLoc_
     CwCadBody body = {file, whole.name, instance, at.Current().Moved(place), {}};
     for (const auto &[solid, its_name] : solids)
       if (solid.IsSame(at.Current())) body.name = its_name;
-    body.origin.resize(map.Extent(), {"", whole.layer, whole.colour});
+    body.origin.resize(map.Extent(), {"", whole.layers, whole.colour});
     take(map, inherited, body);
     take(map, faces, body);
     bodies.body.push_back(body);

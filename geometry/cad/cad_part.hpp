@@ -27,7 +27,8 @@
 
 // What the file says of a face.
 struct CwCadFaceOrigin {
-  std::string name, layer;
+  std::string name;
+  std::vector<std::string> layers;
   int colour = -1; // 0xRRGGBB
   int number = -1; // of the face, over all that were chosen: its pieces share it
 };

@@ -138,7 +138,12 @@ int cw_cad_part_face_count(const CwCadParts *parts, int part) {
 
 CwCadFaceInfo cw_cad_part_face(const CwCadParts *parts, int part, int face) {
   const CwCadFaceOrigin &of = parts->part[part].origin[face];
-  return {of.name.c_str(), of.layer.c_str(), of.colour, of.number};
+  return {of.name.c_str(), of.colour, of.number};
+}
+
+const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face, int i) {
+  const std::vector<std::string> &layers = parts->part[part].origin[face].layers;
+  return i < (int)layers.size() ? layers[i].c_str() : nullptr;
 }
 
 CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const CwPatchKind *kind,

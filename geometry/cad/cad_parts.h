@@ -28,14 +28,16 @@ double cw_cad_parts_unit(const CwCadParts *parts); // m
 
 // What the file says of a face; the texts are the part's.
 typedef struct {
-  const char *name, *layer; // "" without
-  int colour;               // 0xRRGGBB, -1 without
-  int number; // of the face in the file that it is all or a piece of; pieces have the same number, others another
+  const char *name; // "" without
+  int colour;       // 0xRRGGBB, -1 without
+  int number;       // of the face in the file that it is all or a piece of; pieces have the same number, others another
 } CwCadFaceInfo;
 
 // Faces count from 0.
 int cw_cad_part_face_count(const CwCadParts *parts, int part);
 CwCadFaceInfo cw_cad_part_face(const CwCadParts *parts, int part, int face);
+// Name of the i-th layer of a face, from 0; the part's text. NULL behind the last.
+const char *cw_cad_part_face_layer(const CwCadParts *parts, int part, int face, int i);
 
 // A part as a solid of the stage. Patch, kind and name of its faces, in their order, are copied.
 CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const *patch, const CwPatchKind *kind,

@@ -134,8 +134,8 @@ done:
 
 CwStatus cw_cad_pump_name(const CwCaseCad *cad, CwCadPump *pump) {
   CwStatus status = CW_OK;
-  CW_TRY(
-      cw_face_patches_make(cad, &pump->frame, pump->parts, &pump->survey, pump->contact, pump->role, &pump->patches));
+  CW_TRY(cw_face_patches_make(cad, &pump->frame, pump->parts, &pump->survey, pump->contact, pump->role, pump->tolerance,
+                              &pump->patches));
   CW_TRY(cw_cad_interfaces_make(cad, &pump->survey, pump->contact, &pump->patches, pump->tolerance,
                                 &pump->interface_count, &pump->interface));
 done:

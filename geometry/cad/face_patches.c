@@ -3,12 +3,13 @@
 
 #include <ctype.h>
 #include <fnmatch.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double NEAR = 0.05;  // of the size: how far a point may lie from the face that it chooses
-static const double CLEAR = 1e-3; // of the size: by which the next face must lie farther off
+static const double NEAR = 0.05; // of the size: how far a point may lie from the face that it chooses
+static const double CLEAR = 2;   // how much farther than that face the next one must lie
 enum { ROLES = CW_ROLE_PIPE + 1 };
 
 static const char *const role_names[] = {"wall", "interface", "inlet", "outlet", "hub", "shroud", "blade", "pipe"};
@@ -20,7 +21,9 @@ typedef struct {
   const CwSurvey *survey;
   const CwContact *contact;
   const CwFaceRole *role;
-  int *rule; // of each face; -1: none
+  double tolerance; // m
+  int *number;      // of each face: that of the face in the file, or below 0 one of its own
+  int *rule;        // of each face; -1: none
 } Work;
 
 const char *cw_face_role_name(CwFaceRole role) {
@@ -41,12 +44,32 @@ static int in_domain(const Work *work, const CwCadPatch *rule, int face) {
   return !rule->domain[0] || !strcmp(work->cad->domain[work->survey->face[face].part].name, rule->domain);
 }
 
-// A word of the rule: the number of a face over all parts, or a name or pattern.
-static int word_takes(const Work *work, const char *word, int face) {
+// A text of a rule that faces are called by. Where one is called so to the letter it is no pattern: names have
+// brackets.
+typedef struct {
+  const char *text;
+  int whole;
+} Word;
+
+static int takes(Word word, const char *name) {
+  return word.whole ? !strcmp(word.text, name) : !fnmatch(word.text, name, 0);
+}
+
+// The number of a face over all parts, or a name.
+static int word_takes_face(const Work *work, Word word, int face) {
   char *end;
-  const long number = strtol(word, &end, 10);
+  const long number = strtol(word.text, &end, 10);
   if (!*end) return number == face + 1;
-  return !fnmatch(word, info_of(work, face).name, 0);
+  return takes(word, info_of(work, face).name);
+}
+
+// Any of its layers.
+static int word_takes_layer(const Work *work, Word word, int face) {
+  const CwSurveyFace *of = &work->survey->face[face];
+  const char *layer;
+  for (int i = 0; (layer = cw_cad_part_face_layer(work->parts, of->part, of->face, i)); i++)
+    if (takes(word, layer)) return 1;
+  return 0;
 }
 
 // Faces that a rule chooses, whether or not an earlier rule has them.
@@ -60,11 +83,45 @@ static void take(const Work *work, int rule, int face, Found *found) {
   if (work->rule[face] < 0) work->rule[face] = rule;
 }
 
+// What a word chooses, to the letter or else as a pattern. Returns how many faces.
+static int take_word(const Work *work, int r, const char *text, int (*word_takes)(const Work *, Word, int),
+                     Found *found) {
+  const int before = found->count;
+  for (int whole = 1; whole >= 0 && found->count == before; whole--)
+    for (int f = 0; f < work->survey->face_count; f++)
+      if (in_domain(work, &work->cad->patch[r], f) && word_takes(work, (Word){text, whole}, f)) take(work, r, f, found);
+  return found->count - before;
+}
+
 // All of the face in the file that a face is all or a piece of; faces whose origin is not known are no pieces of one.
 static int is_piece_of(const Work *work, int face, int other) {
-  const int number = info_of(work, face).number;
-  return face == other || (number >= 0 && number == info_of(work, other).number &&
-                           (work->contact[face].part < 0) == (work->contact[other].part < 0));
+  return work->number[face] == work->number[other] && (work->contact[face].part < 0) == (work->contact[other].part < 0);
+}
+
+// A point on a face chooses it however near its edges are, but for those that it lies on within the tolerance.
+static CwStatus take_point(const Work *work, int r, int part, const double at[3], Found *found) {
+  CwStatus status = CW_OK;
+  const char *name = work->cad->patch[r].name;
+  const double reach = NEAR * work->survey->size;
+  CwSurveyNext next = {.number = work->number};
+  double x[3], distance;
+  int face;
+  cw_cad_frame_from_file(work->frame, at, x);
+  CW_TRY(cw_survey_nearest(work->survey, part, x, reach, &face, &distance, &next));
+  CW_REQUIRE(face >= 0, CW_ERR_INPUT,
+             "cad.patches.%s.near_mm: no face lies within %.3g mm of (%.6g, %.6g, %.6g); allowed: a point on the face",
+             name, 1e3 * reach, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
+  CW_REQUIRE(next.face < 0 || work->contact[face].part >= 0 || next.distance > fmax(CLEAR * distance, work->tolerance),
+             CW_ERR_INPUT,
+             "cad.patches.%s.near_mm: (%.6g, %.6g, %.6g) lies as near to another face, %d, %.3g mm off, as to face %d, "
+             "%.3g mm off; allowed: a point on the face, more than %.3g mm off its edges, such as that of "
+             "geometry/faces_sheet.csv",
+             name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], next.face + 1, 1e3 * next.distance, face + 1, 1e3 * distance,
+             1e3 * work->tolerance);
+  for (int f = 0; f < work->survey->face_count; f++)
+    if (is_piece_of(work, f, face)) take(work, r, f, found);
+done:
+  return status;
 }
 
 static CwStatus take_points(const Work *work, int r, Found *found) {
@@ -73,24 +130,7 @@ static CwStatus take_points(const Work *work, int r, Found *found) {
   int part = -1;
   for (int d = 0; d < work->cad->domain_count; d++)
     if (rule->domain[0] && !strcmp(work->cad->domain[d].name, rule->domain)) part = d;
-  for (int i = 0; i < rule->near.count; i++) {
-    const double *at = rule->near.at[i];
-    double x[3], distance, second;
-    int face;
-    cw_cad_frame_from_file(work->frame, at, x);
-    CW_TRY(cw_survey_nearest(work->survey, part, x, NEAR * work->survey->size, &face, &distance, &second));
-    CW_REQUIRE(
-        face >= 0, CW_ERR_INPUT,
-        "cad.patches.%s.near_mm: no face lies within %.3g mm of (%.6g, %.6g, %.6g); allowed: a point on the face",
-        rule->name, 1e3 * NEAR * work->survey->size, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
-    CW_REQUIRE(
-        second > distance + CLEAR * work->survey->size || work->contact[face].part >= 0, CW_ERR_INPUT,
-        "cad.patches.%s.near_mm: (%.6g, %.6g, %.6g) lies as near to another face as to face %d; allowed: a point "
-        "on the face, off its edges",
-        rule->name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], face + 1);
-    for (int f = 0; f < work->survey->face_count; f++)
-      if (is_piece_of(work, f, face)) take(work, r, f, found);
-  }
+  for (int i = 0; i < rule->near.count; i++) CW_TRY(take_point(work, r, part, rule->near.at[i], found));
 done:
   return status;
 }
@@ -101,20 +141,13 @@ static CwStatus take_words(const Work *work, int r, Found *found) {
   const CwCadPatch *rule = &work->cad->patch[r];
   const char *of = rule->domain[0] ? " of " : "";
   for (int i = 0; i < rule->faces.count; i++) {
-    const int before = found->count;
-    for (int f = 0; f < work->survey->face_count; f++)
-      if (in_domain(work, rule, f) && word_takes(work, rule->faces.text[i], f)) take(work, r, f, found);
-    CW_REQUIRE(found->count > before, CW_ERR_INPUT,
+    CW_REQUIRE(take_word(work, r, rule->faces.text[i], word_takes_face, found), CW_ERR_INPUT,
                "cad.patches.%s.faces: '%s' matches no face%s%s; allowed: names, patterns and numbers of "
                "geometry/faces_sheet.csv",
                rule->name, rule->faces.text[i], of, rule->domain);
   }
   for (int i = 0; i < rule->layers.count; i++) {
-    const int before = found->count;
-    for (int f = 0; f < work->survey->face_count; f++)
-      if (in_domain(work, rule, f) && !fnmatch(rule->layers.text[i], info_of(work, f).layer, 0))
-        take(work, r, f, found);
-    CW_REQUIRE(found->count > before, CW_ERR_INPUT,
+    CW_REQUIRE(take_word(work, r, rule->layers.text[i], word_takes_layer, found), CW_ERR_INPUT,
                "cad.patches.%s.layer: no face%s%s has its layer, '%s'; allowed: those of geometry/faces_sheet.csv",
                rule->name, of, rule->domain, rule->layers.text[i]);
   }
@@ -265,12 +298,17 @@ static void set_roles(const Work *work, CwFacePatches *patches) {
 
 CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadParts *parts,
                               const CwSurvey *survey, const CwContact *contact, const CwFaceRole *role,
-                              CwFacePatches *patches) {
+                              double tolerance, CwFacePatches *patches) {
   CwStatus status = CW_OK;
-  Work work = {cad, frame, parts, survey, contact, role, NULL};
+  Work work = {cad, frame, parts, survey, contact, role, tolerance, NULL, NULL};
+  CW_NEW(work.number, survey->face_count);
   CW_NEW(work.rule, survey->face_count);
   CW_NEW(patches->of_face, survey->face_count);
-  for (int f = 0; f < survey->face_count; f++) work.rule[f] = -1;
+  for (int f = 0; f < survey->face_count; f++) {
+    const int number = info_of(&work, f).number;
+    work.number[f] = number >= 0 ? number : -1 - f;
+    work.rule[f] = -1;
+  }
   for (int r = 0; r < cad->patch_count; r++) CW_TRY(apply_rule(&work, r));
   for (int f = 0; f < survey->face_count; f++) {
     char name[CW_NAME_SIZE];
@@ -285,6 +323,7 @@ CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, con
   }
   set_roles(&work, patches);
 done:
+  free(work.number);
   free(work.rule);
   return status;
 }

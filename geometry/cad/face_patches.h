@@ -29,12 +29,12 @@ typedef struct {
   int *of_face;       // face_count of them
 } CwFacePatches;
 
-// CW_ERR_INPUT, naming the key, where a name, colour, layer or point of a rule chooses no face, or all are earlier
-// rules', a point lies near two faces or none, or a wall is asked for where parts touch. Free also after a failure;
-// zeroed on entry.
+// `tolerance`, m: a point within it of an edge between faces chooses none of them. CW_ERR_INPUT, naming the key, where
+// a name, colour, layer or point of a rule chooses no face, or all are earlier rules', a point lies near two faces or
+// none, or a wall is asked for where parts touch. Free also after a failure; zeroed on entry.
 CwStatus cw_face_patches_make(const CwCaseCad *cad, const CwCadFrame *frame, const CwCadParts *parts,
                               const CwSurvey *survey, const CwContact *contact, const CwFaceRole *role,
-                              CwFacePatches *patches);
+                              double tolerance, CwFacePatches *patches);
 void cw_face_patches_free(CwFacePatches *patches);
 
 const char *cw_face_role_name(CwFaceRole role);

@@ -3,13 +3,21 @@
 
 #include "pipeline/atomic_file.h"
 
+// Within quotes.
 static void write_text(FILE *stream, const char *text) {
-  fputc('"', stream);
   for (const char *c = text; *c; c++) {
     if (*c == '"') fputc('"', stream);
     fputc((unsigned char)*c < 0x20 ? ' ' : *c, stream);
   }
-  fputc('"', stream);
+}
+
+// All in one cell.
+static void write_layers(FILE *stream, const CwCadParts *parts, const CwSurveyFace *face) {
+  const char *layer;
+  for (int i = 0; (layer = cw_cad_part_face_layer(parts, face->part, face->face, i)); i++) {
+    if (i) fputs("; ", stream);
+    write_text(stream, layer);
+  }
 }
 
 static void write_neighbours(FILE *stream, const CwSurvey *survey, int face) {
@@ -48,15 +56,16 @@ CwStatus cw_faces_sheet_write(const CwCaseCad *cad, const CwCadFrame *frame, con
     cw_cad_frame_to_file(frame, ahead, foot);
     for (int i = 0; i < 3; i++) normal[i] = foot[i] - at[i];
     const CwCadFaceInfo info = cw_cad_part_face(parts, face->part, face->face);
-    fprintf(stream, "%d,%s,", f + 1, cad->domain[face->part].name);
+    fprintf(stream, "%d,%s,\"", f + 1, cad->domain[face->part].name);
     write_text(stream, info.name);
     if (info.colour >= 0)
-      fprintf(stream, ",#%06x,", info.colour);
+      fprintf(stream, "\",#%06x,\"", info.colour);
     else
-      fprintf(stream, ",,");
-    write_text(stream, info.layer);
-    fprintf(stream, ",%s,%.6g,%.4f,%.4f,%.4f,%.6g,%.6g,%.4f,%.4f,%.4f,", forms[face->form], 1e6 * face->area, normal[0],
-            normal[1], normal[2], 1e3 * face->radius[0], 1e3 * face->radius[1], 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
+      fprintf(stream, "\",,\"");
+    write_layers(stream, parts, face);
+    fprintf(stream, "\",%s,%.6g,%.4f,%.4f,%.4f,%.6g,%.6g,%.4f,%.4f,%.4f,", forms[face->form], 1e6 * face->area,
+            normal[0], normal[1], normal[2], 1e3 * face->radius[0], 1e3 * face->radius[1], 1e3 * at[0], 1e3 * at[1],
+            1e3 * at[2]);
     write_neighbours(stream, survey, f);
     fprintf(stream, ",%s,%s,%s,%s\n", cw_face_role_name(role[f]), patch ? patch->name : "",
             patch ? cw_patch_kind_name(patch->kind) : "", patch ? cw_patch_source_name(patch->source) : "");

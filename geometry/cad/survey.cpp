@@ -277,27 +277,31 @@ void cw_survey_free(CwSurvey *survey) {
 }
 
 CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[3], double reach, int *face,
-                           double *distance, double *second) {
+                           double *distance, CwSurveyNext *next) {
   return cw_cad_guard("cad", [&] {
     const double unit = survey->data->unit;
     const gp_Pnt at(point[0] / unit, point[1] / unit, point[2] / unit);
-    double best = reach / unit, next = best; // in model units, so that what is not nearer comes back as it is
+    double best = reach / unit, second = best; // in model units, so that what is not nearer comes back as it is
+    int other = -1;
     *face = -1;
     for (int i = 0; i < survey->face_count; i++) {
       const CwSurveyFace &of = survey->face[i];
-      if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= unit * next) continue;
-      if (std::isfinite(next) && !may_reach(*survey, of, point, unit * next)) continue;
-      const double d = survey->data->part[of.part].at(of.face, at, next);
+      const double within = next ? second : best;
+      if ((part >= 0 && of.part != part) || box_distance(survey->box[i], point) >= unit * within) continue;
+      if (std::isfinite(within) && !may_reach(*survey, of, point, unit * within)) continue;
+      const double d = survey->data->part[of.part].at(of.face, at, within);
+      const bool same = next && *face >= 0 && next->number[i] == next->number[*face];
       if (d < best) {
-        next = best;
+        if (!same) second = best, other = *face;
         best = d;
         *face = i;
-      } else if (d < next) {
-        next = d;
+      } else if (d < second && !same) {
+        second = d;
+        other = i;
       }
     }
     *distance = unit * best;
-    if (second) *second = unit * next;
+    if (next) next->face = other, next->distance = unit * second;
     return CW_OK;
   });
 }

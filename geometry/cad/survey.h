@@ -61,10 +61,17 @@ typedef struct {
 CwStatus cw_survey_make(const CwCadParts *parts, const CwCadFrame *frame, CwSurvey *survey);
 void cw_survey_free(CwSurvey *survey);
 
-// The face nearest to a point, of one part or (-1) of all, and its distance; -1 where none is within `reach`. `second`,
-// where not NULL: the distance of the second nearest, or `reach`.
+// The nearest face of another number than that of the nearest one.
+typedef struct {
+  const int *number; // [in] of each face: pieces of one face share it
+  int face;          // [out] -1: none within the reach
+  double distance;   // [out] the reach where there is none
+} CwSurveyNext;
+
+// The face nearest to a point, of one part or (-1) of all, and its distance; -1 where none is within `reach`. [in,out]
+// next: NULL where it is not asked for.
 CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[3], double reach, int *face,
-                           double *distance, double *second);
+                           double *distance, CwSurveyNext *next);
 
 #ifdef __cplusplus
 }

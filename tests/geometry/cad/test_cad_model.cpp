@@ -48,7 +48,7 @@ struct Made : SmallParts {
     CW_TRY(look());
     role = (CwFaceRole *)calloc(survey.face_count, sizeof *role);
     CW_TRY(cw_proposal_make(&survey, contact, rotating, role, &blades));
-    CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, &patches));
+    CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, small_tolerance, &patches));
     CW_TRY(cw_cad_interfaces_make(&cad, &survey, contact, &patches, small_tolerance, &interface_count, &interfaces));
     CW_TRY(cw_cad_model_make(&table, &survey, &patches, interface_count, interfaces, blades, 1e-3, &model));
   done:

@@ -29,7 +29,7 @@ struct Blocks : SmallParts {
   }
   CwStatus make() {
     cw_face_patches_free(&made);
-    return cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, &made);
+    return cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, small_tolerance, &made);
   }
   int count(const char *name, CwPatchKind kind) const {
     int faces = 0;
@@ -172,7 +172,7 @@ static void colours_and_layers_without_a_face_are_told(void **) {
   strcpy(rule.domain, "rotor");
   assert_int_equal(blocks.make(), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "cad.patches.lid.layer: no face of rotor has its layer, 'wet'"));
-  blocks.parts.part[0].origin[1].layer = "wet";
+  blocks.parts.part[0].origin[1].layers = {"dry", "wet"};
   if (blocks.make()) fail_msg("%s", cw_fail_message());
   assert_int_equal(blocks.made.patch[blocks.made.of_face[0]].rule, 0);
   assert_int_equal(blocks.made.patch[blocks.made.of_face[1]].rule, 0);
@@ -186,6 +186,68 @@ static void rules_that_come_too_late_are_told(void **) {
   assert_int_equal(blocks.make(), CW_ERR_INPUT);
   assert_non_null(
       strstr(cw_fail_message(), "cad.patches.one: earlier patches take all its faces, such as face 3 (all); "));
+}
+
+// A point beside the edge between two pieces of one face chooses both; between two faces it chooses none.
+static void edges_of_pieces_are_no_edges(void **) {
+  Blocks blocks;
+  double point[][3] = {{5e-3, 5e-6, 10e-3}};
+  int top = -1, side = -1;
+  for (int f = 0; f < 6; f++) {
+    if (blocks.survey.face[f].normal[2] > 0.5) top = f;
+    if (blocks.survey.face[f].normal[1] < -0.5) side = f;
+  }
+  CwCadPatch &rule = blocks.rule("lid");
+  rule.near = {1, point};
+  strcpy(rule.domain, "rotor");
+  assert_int_equal(blocks.make(), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "cad.patches.lid.near_mm: (5, 0.005, 10) lies as near to another face, "));
+  blocks.parts.part[0].origin[side].number = blocks.parts.part[0].origin[top].number;
+  if (blocks.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(blocks.count("lid", CW_PATCH_WALL), 2);
+}
+
+// A strip of 0.05 mm on a plate of 100 mm: its own point chooses it, and one that is a little off it too.
+static void points_choose_narrow_faces(void **) {
+  SmallParts small({{"plate", small_box(0, 0, 0, 100, 100, 0.05)}});
+  CwCadPatch rule = {};
+  CwFacePatches made = {};
+  const CwFaceRole role[6] = {CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL};
+  double point[][3] = {{0, 0, 0}};
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  strcpy(rule.name, "edge");
+  rule.near = {1, point};
+  rule.colour = rule.turns = -1;
+  small.cad.patch = &rule;
+  small.cad.patch_count = 1;
+  for (const double off : {0.0, 0.005e-3, 0.2e-3}) {
+    for (int f = 0; f < 6; f++)
+      if (small.survey.face[f].normal[0] > 0.5) memcpy(point[0], small.survey.face[f].at, sizeof point[0]);
+    point[0][0] += off;
+    const CwStatus status = cw_face_patches_make(&small.cad, &small_frame, &small.parts, &small.survey, small.contact,
+                                                 role, small_tolerance, &made);
+    assert_int_equal(status, off < 0.1e-3 ? CW_OK : CW_ERR_INPUT);
+    int taken = 0;
+    for (int f = 0; status == CW_OK && f < 6; f++) taken += made.patch[made.of_face[f]].rule == 0;
+    if (status == CW_OK) assert_int_equal(taken, 1);
+    cw_face_patches_free(&made);
+  }
+}
+
+// A name with brackets is that name, not a pattern that has none of them; without one of that name it is a pattern.
+static void names_with_brackets_match_themselves(void **) {
+  Blocks blocks;
+  char name[] = "Face[1]", *names[] = {name};
+  blocks.parts.part[0].origin[1].name = "Face[1]";
+  blocks.parts.part[0].origin[2].name = "Face1";
+  CwCadPatch &rule = blocks.rule("lid");
+  rule.faces = {1, names};
+  if (blocks.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(blocks.made.patch[blocks.made.of_face[1]].rule, 0);
+  assert_int_equal(blocks.made.patch[blocks.made.of_face[2]].rule, -1);
+  blocks.parts.part[0].origin[1].name = "";
+  if (blocks.make()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(blocks.made.patch[blocks.made.of_face[2]].rule, 0);
 }
 
 // A point takes one of two faces of which nobody knows what they are pieces of.
@@ -210,6 +272,9 @@ int main() {
                                      cmocka_unit_test(rules_without_a_face_are_told),
                                      cmocka_unit_test(rules_that_come_too_late_are_told),
                                      cmocka_unit_test(colours_and_layers_without_a_face_are_told),
+                                     cmocka_unit_test(edges_of_pieces_are_no_edges),
+                                     cmocka_unit_test(points_choose_narrow_faces),
+                                     cmocka_unit_test(names_with_brackets_match_themselves),
                                      cmocka_unit_test(faces_of_no_known_origin_are_no_pieces)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

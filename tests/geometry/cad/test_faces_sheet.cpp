@@ -32,7 +32,7 @@ static std::vector<std::string> cells_of(const std::string &row) {
 static void a_row_tells_a_face(void **) {
   SmallParts small({{"water", small_box(0, 0, 0, 2, 3, 4)}});
   const CwFaceRole role[6] = {CW_ROLE_INLET, CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL, CW_ROLE_WALL};
-  small.parts.part[0].origin[0] = {"a \"b\"", "wet", 0x00ff00, 0};
+  small.parts.part[0].origin[0] = {"a \"b\"", {"wet", "fine"}, 0x00ff00, 0};
   if (small.look()) fail_msg("%s", cw_fail_message());
   const std::vector<std::string> rows = rows_of(small, role);
   assert_int_equal(rows.size(), 7);
@@ -42,7 +42,7 @@ static void a_row_tells_a_face(void **) {
   assert_string_equal(first[1].c_str(), "water");
   assert_string_equal(first[2].c_str(), "\"a \"\"b\"\"\"");
   assert_string_equal(first[3].c_str(), "#00ff00");
-  assert_string_equal(first[4].c_str(), "\"wet\"");
+  assert_string_equal(first[4].c_str(), "\"wet; fine\"");
   assert_string_equal(first[5].c_str(), "plane");
   assert_string_equal(first[16].c_str(), "inlet");
   double area = 0;

@@ -113,11 +113,18 @@ static void the_nearest_face_is_found(void **) {
   assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_OK);
   const double at[] = {5 * mm, 4 * mm, 10.5 * mm};
   int face;
-  double distance, second;
-  assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 1, &face, &distance, &second), CW_OK);
+  double distance;
+  int number[6] = {0, 1, 2, 3, 4, 5};
+  CwSurveyNext next = {number, -1, 0};
+  assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 1, &face, &distance, &next), CW_OK);
   assert_near(small.survey.face[face].normal[2], 1, 1e-12);
   assert_near(distance, 0.5 * mm, 1e-12);
-  assert_near(second, std::hypot(4, 0.5) * mm, 1e-12);
+  assert_near(next.distance, std::hypot(4, 0.5) * mm, 1e-12);
+  assert_near(small.survey.face[next.face].normal[1], -1, 1e-12);
+  number[next.face] = number[face]; // a piece of the nearest one
+  assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 1, &face, &distance, &next), CW_OK);
+  assert_near(small.survey.face[face].normal[2], 1, 1e-12);
+  assert_near(next.distance, std::hypot(5, 0.5) * mm, 1e-12);
   assert_int_equal(cw_survey_nearest(&small.survey, -1, at, 0.1 * mm, &face, &distance, nullptr), CW_OK);
   assert_int_equal(face, -1);
 }
