@@ -2,20 +2,17 @@
 #include "geometry/cad/cad_file.h"
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <map>
 
 #include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_MakeSolid.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
-#include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
@@ -30,6 +27,7 @@
 #include <gp_Trsf.hxx>
 
 #include "geometry/cad/cad_part.hpp"
+#include "geometry/cad/sewing.hpp"
 #include "geometry/step_document.hpp"
 
 namespace {
@@ -170,37 +168,21 @@ double usual_gap(const std::vector<TopoDS_Shape> &shapes) {
 // All faces of the shapes, sewn, as solids.
 CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double tolerance, CwCadBodies &bodies) {
   const double gap = tolerance > 0 ? tolerance / millimetre : usual_gap(shapes);
-  BRepBuilderAPI_Sewing sewing(gap);
-  int faces = 0;
-  for (const TopoDS_Shape &shape : shapes)
-    for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next(), faces++) sewing.Add(at.Current());
-  if (!faces) return CW_FAIL(CW_ERR_INPUT, "%s: holds no solid and no face; allowed: the water as closed solids", path);
-  sewing.Perform();
-  if (sewing.NbFreeEdges() > 0) {
-    const TopoDS_Edge &edge = sewing.FreeEdge(1);
-    const TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
-    const gp_Pnt at = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
+  const CwSewn sewn = cw_cad_sew(shapes, gap);
+  if (!sewn.faces)
+    return CW_FAIL(CW_ERR_INPUT, "%s: holds no solid and no face; allowed: the water as closed solids", path);
+  if (!sewn.open.empty()) {
+    const CwOpening opening = cw_cad_opening(sewn.open[0], sewn.open);
+    char by[40] = "";
+    if (opening.gap >= 0) snprintf(by, sizeof by, ", by %.3g mm", opening.gap);
     return CW_FAIL(
         CW_ERR_INPUT,
         "%s: holds no solid, and its %d faces do not close within %.3g mm: %d edges stay open, one at (%.3f, "
-        "%.3f, %.3f) mm; allowed: the water as closed solids, or a greater cad.tolerance_mm",
-        path, faces, gap, sewing.NbFreeEdges(), at.X(), at.Y(), at.Z());
+        "%.3f, %.3f) mm%s; allowed: the water as closed solids, or a greater cad.tolerance_mm",
+        path, sewn.faces, gap, (int)sewn.open.size(), opening.at.X(), opening.at.Y(), opening.at.Z(), by);
   }
-  const auto add = [&](const TopoDS_Shell &shell) {
-    TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(shell).Solid();
-    BRepLib::OrientClosedSolid(solid);
+  for (const TopoDS_Shape &solid : sewn.solids)
     bodies.body.push_back({path, "", "", solid, std::vector<CwCadFaceOrigin>(cw_cad_faces(solid).Extent())});
-  };
-  for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_SHELL); at.More(); at.Next()) add(TopoDS::Shell(at.Current()));
-  // A face that is closed by itself, as a sphere is, comes without a shell.
-  for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_FACE, TopAbs_SHELL); at.More(); at.Next()) {
-    BRep_Builder builder;
-    TopoDS_Shell shell;
-    builder.MakeShell(shell);
-    builder.Add(shell, at.Current());
-    shell.Closed(Standard_True);
-    add(shell);
-  }
   return CW_OK;
 }
 

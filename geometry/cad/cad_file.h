@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The solids of CAD files: STEP (AP203, AP214, AP242) through XCAF, with the names of products, instances and faces,
 // colours, layers, the unit of the file and the placement of assemblies; B-rep files of OpenCASCADE, which have none of
-// these. A file with shells alone is sewn into solids.
+// these. A file with shells alone is sewn into solids, and a shell inside of another is a void of it.
 #ifndef CUTWATER_GEOMETRY_CAD_CAD_FILE_H
 #define CUTWATER_GEOMETRY_CAD_CAD_FILE_H
 

@@ -179,6 +179,7 @@ static void shells_are_sewn_or_refused(void **) {
   write_faces(path, 5);
   assert_int_equal(cw_cad_file_read(path.c_str(), 0, 1e-6, &bodies), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "4 edges stay open"));
+  assert_non_null(strstr(cw_fail_message(), "mm, by 0.5 mm; allowed")); // half the side that is missing
   cw_cad_bodies_free(&bodies);
   remove(path.c_str());
 }
@@ -201,6 +202,26 @@ static void closed_faces_make_solids(void **) {
     assert_near(volume, 4 * M_PI / 3 * 125 + (count == 2 ? 2 * M_PI * 9 * M_PI * 4 : 0), 0.01);
     cw_cad_bodies_free(&bodies);
   }
+  remove(path.c_str());
+}
+
+// A ball inside of a box is a void of it.
+static void shells_inside_are_voids(void **) {
+  const std::string path = std::string(test_folder) + "/faces.brep";
+  const TopTools_IndexedMapOfShape box = cw_cad_faces(BRepPrimAPI_MakeBox(10, 10, 10).Shape());
+  std::vector<TopoDS_Shape> faces = {cw_cad_faces(BRepPrimAPI_MakeSphere(gp_Pnt(5, 5, 5), 2).Shape())(1)};
+  for (int i = 1; i <= 6; i++) faces.push_back(box(i));
+  BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape &face : faces) builder.Add(all, face);
+  BRepTools::Write(all, path.c_str());
+  CwCadBodies *bodies = nullptr;
+  if (cw_cad_file_read(path.c_str(), 0, 1e-6, &bodies)) fail_msg("%s", cw_fail_message());
+  assert_int_equal(cw_cad_body_count(bodies), 1);
+  assert_int_equal(bodies->body[0].origin.size(), 7);
+  assert_near(small_volume(bodies->body[0].solid), 1000 - 4 * M_PI / 3 * 8, 0.01);
+  cw_cad_bodies_free(&bodies);
   remove(path.c_str());
 }
 
@@ -260,6 +281,7 @@ int main() {
                                      cmocka_unit_test(solids_inside_out_hold_the_same_points),
                                      cmocka_unit_test(shells_are_sewn_or_refused),
                                      cmocka_unit_test(closed_faces_make_solids),
+                                     cmocka_unit_test(shells_inside_are_voids),
                                      cmocka_unit_test(shells_are_sewn_in_the_unit_that_counts),
                                      cmocka_unit_test(shells_of_any_size_are_sewn_alike)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
