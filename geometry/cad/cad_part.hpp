@@ -47,6 +47,7 @@ struct CwCadPart {
   std::string domain;
   TopoDS_Shape solid;
   std::vector<CwCadFaceOrigin> origin; // in the order of TopExp::MapShapes(solid, TopAbs_FACE)
+  std::string from = {};               // which solids of which files, for messages
 };
 
 struct CwCadParts {

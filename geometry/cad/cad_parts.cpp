@@ -39,9 +39,10 @@ double radius_of(const TopoDS_Shape &shape) {
   return std::max(std::max(std::fabs(x0), std::fabs(x1)), std::max(std::fabs(y0), std::fabs(y1)));
 }
 
-// A body in the pump's coordinates, mm, as a part of its own.
-CwCadPart placed(const CwCadBody &body, const CwCadFrame &frame, const std::string &domain, int &faces) {
-  CwCadPart part = {domain, body.solid, body.origin};
+// A body in the pump's coordinates, mm, as a part of its own. `number`: of the body, from 1.
+CwCadPart placed(const CwCadBody &body, size_t number, const CwCadFrame &frame, const std::string &domain, int &faces) {
+  const std::string name = body.name.empty() ? "" : " '" + body.name + "'";
+  CwCadPart part = {domain, body.solid, body.origin, "solid " + std::to_string(number) + name + " of " + body.file};
   for (CwCadFaceOrigin &origin : part.origin) origin.number = faces++;
   if (!frame.same || !body.solid.Location().IsIdentity()) {
     part.solid = moved(body.solid, frame.same ? gp_Trsf() : to_pump(frame));
@@ -60,7 +61,7 @@ CwStatus fuse(CwCadPart &part, const CwCadPart &other) {
         "cad.domains.%s: its solids do not make one when they are fused, but %d; allowed: solids that touch, "
         "or a domain for each",
         part.domain.c_str(), solids);
-  CwCadPart fused = {part.domain, whole, {}};
+  CwCadPart fused = {part.domain, whole, {}, part.from + " and " + other.from};
   cw_cad_carry({part, other}, fused);
   part = fused;
   return CW_OK;
@@ -93,7 +94,7 @@ CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const 
       std::string its_file;
       for (size_t i = 0; i < bodies->body.size(); i++) {
         if (domain[i] != d) continue;
-        const CwCadPart part = placed(bodies->body[i], *frame, cad->domain[d].name, faces);
+        const CwCadPart part = placed(bodies->body[i], i + 1, *frame, cad->domain[d].name, faces);
         if (begun) {
           status = fuse((*parts)->part.back(), part);
           if (status != CW_OK) return status;

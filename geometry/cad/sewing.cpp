@@ -114,7 +114,11 @@ CwSewn cw_cad_sew(const std::vector<TopoDS_Shape> &shapes, double gap) {
   for (int i = 1; i <= sewing.NbFreeEdges(); i++) sewn.open.push_back(sewing.FreeEdge(i));
   const std::vector<TopoDS_Shell> shells = shells_of(sewing.SewedShape());
   if (!sewn.open.empty()) {
-    for (const TopoDS_Shell &shell : shells) sewn.solids.push_back(BRepBuilderAPI_MakeSolid(shell).Solid());
+    BRep_Builder builder;
+    TopoDS_Solid solid;
+    builder.MakeSolid(solid);
+    for (const TopoDS_Shell &shell : shells) builder.Add(solid, shell);
+    sewn.solids = {solid};
     return sewn;
   }
   std::vector<Body> bodies;

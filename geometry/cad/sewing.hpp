@@ -12,7 +12,7 @@
 
 struct CwSewn {
   int faces = 0;                    // that there were
-  std::vector<TopoDS_Shape> solids; // where edges stay open, a solid for each shell
+  std::vector<TopoDS_Shape> solids; // where edges stay open, one of all shells
   std::vector<TopoDS_Edge> open;    // edges of one face alone
 };
 

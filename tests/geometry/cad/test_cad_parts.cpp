@@ -8,7 +8,7 @@
 
 static CwCadBody body(const TopoDS_Shape &shape, const char *name) {
   CwCadBody made = {"pump.step", name, "", small_solid_of(shape), {}};
-  made.origin.resize(cw_cad_faces(made.solid).Extent(), {name, "", -1, -1});
+  made.origin.resize(cw_cad_faces(made.solid).Extent(), {name, {}, -1, -1});
   return made;
 }
 
@@ -66,6 +66,7 @@ static void several_bodies_are_fused(void **) {
     rights += origin.name == "right";
   }
   assert_true(lefts >= 3 && rights >= 3);
+  assert_string_equal(parts->part[0].from.c_str(), "solid 1 'left' of pump.step and solid 2 'right' of pump.step");
   cw_cad_parts_free(&parts);
 }
 

@@ -62,6 +62,8 @@ static void bodies_in_voids_are_solids(void **) {
 static void open_edges_are_told_with_their_gap(void **) {
   CwSewn sewn = cw_cad_sew(loose(small_box(0, 0, 0, 10, 10, 10), 0.3), 0.01);
   assert_int_equal(sewn.open.size(), 8); // of the lid and of what it was on
+  assert_int_equal(sewn.solids.size(), 1);
+  assert_int_equal(shells_of(sewn.solids[0]), 2);
   assert_near(cw_cad_opening(sewn.open[0], sewn.open).gap, 0.3, 1e-6);
   sewn = cw_cad_sew(loose(small_box(0, 0, 0, 10, 10, 10), 0, 5), 0.01);
   assert_int_equal(sewn.open.size(), 4);
