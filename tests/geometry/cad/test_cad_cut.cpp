@@ -10,7 +10,7 @@ extern "C" {
 // A disc of radius 80 and width 10, or `size` times as large, its faces named.
 static CwCadBodies disc(double size = 1) {
   CwCadBody body = {"pump.step", "water", "", small_solid_of(small_cylinder(-5 * size, 80 * size, 10 * size)), {}};
-  body.origin.resize(3, {"WALL", "", -1, 0});
+  body.origin.resize(3, {"WALL", {}, -1, 0});
   return {{body}};
 }
 
