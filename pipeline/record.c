@@ -20,6 +20,7 @@ struct CwRecord {
   int64_t peak_memory_bytes; // 0: ask the system
   json_t *steps, *results;
   json_t *files;     // digests by name
+  json_t *inputs;    // digests by path
   json_t *made_from; // NULL: from no files
   json_t *origin;    // NULL: of no case
 };
@@ -35,7 +36,8 @@ CwStatus cw_record_start(const char *stage, const CwLog *log, CwRecord **record)
   made->steps = json_array();
   made->results = json_object();
   made->files = json_object();
-  CW_REQUIRE(made->steps && made->results && made->files, CW_ERR_MEMORY, "out of memory: the record");
+  made->inputs = json_object();
+  CW_REQUIRE(made->steps && made->results && made->files && made->inputs, CW_ERR_MEMORY, "out of memory: the record");
   *record = made;
   made = NULL;
 done:
@@ -48,6 +50,7 @@ void cw_record_free(CwRecord *record) {
   json_decref(record->steps);
   json_decref(record->results);
   json_decref(record->files);
+  json_decref(record->inputs);
   json_decref(record->made_from);
   json_decref(record->origin);
   free(record);
@@ -91,6 +94,21 @@ CwStatus cw_record_case(CwRecord *record, const CwCase *table) {
 CwStatus cw_record_made_from(CwRecord *record, const char *run, const char *const *stages) {
   json_decref(record->made_from);
   return cw_stage_files_read(run, stages, &record->made_from);
+}
+
+CwStatus cw_record_input(CwRecord *record, const char *path) {
+  CwStatus status = CW_OK;
+  char digest[CW_HASH_TEXT], *whole = realpath(path, NULL);
+  json_t *name = NULL;
+  CW_REQUIRE(whole, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+  CW_TRY(cw_file_digest(whole, digest));
+  name = json_text(whole);
+  CW_REQUIRE(name && !json_object_set_new(record->inputs, json_string_value(name), json_string(digest)), CW_ERR_MEMORY,
+             "out of memory: the record of %s", path);
+done:
+  json_decref(name);
+  free(whole);
+  return status;
 }
 
 CwStatus cw_record_file(CwRecord *record, const char *folder, const char *name) {
@@ -147,7 +165,8 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
   root = json_pack("{so so sI sO sO sO sO}", "stage", json_text(record->stage), "seconds",
                    cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak, "steps",
                    record->steps, "warnings", warnings, "results", record->results, "files", record->files);
-  CW_REQUIRE(root && (!record->made_from || !json_object_set(root, "made_from", record->made_from)) &&
+  CW_REQUIRE(root && (!json_object_size(record->inputs) || !json_object_set(root, "inputs", record->inputs)) &&
+                 (!record->made_from || !json_object_set(root, "made_from", record->made_from)) &&
                  (!record->origin || !json_object_set(root, "case", record->origin)),
              CW_ERR_MEMORY, "out of memory: the record");
   CW_TRY(cw_sealed_json_write(root, path));

@@ -35,6 +35,10 @@ CwStatus cw_record_case(CwRecord *record, const CwCase *table);
 // Keeps from which files of earlier stages (stage_files.h): called before they are read. `stages` ends with NULL.
 CwStatus cw_record_made_from(CwRecord *record, const char *run, const char *const *stages);
 
+// Keeps the digest of a file of the user's that the stage reads, by its absolute path (stage_files.h): called before it
+// is read. CW_ERR_IO.
+CwStatus cw_record_input(CwRecord *record, const char *path);
+
 // Keeps the digest of FOLDER/NAME, a file that the stage has written for others; or one that is known.
 CwStatus cw_record_file(CwRecord *record, const char *folder, const char *name);
 CwStatus cw_record_file_digest(CwRecord *record, const char *name, const char *digest);

@@ -40,8 +40,10 @@ define cutwater_note
 mkdir -p $(@D) && { echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@; }
 endef
 
-# $(call cutwater_cad,FOLDER): the CAD files in the folder of a case and in the folders in it.
-cutwater_cad = $(wildcard $(foreach kind,step stp brep STEP STP,$(1)*.$(kind) $(1)*/*.$(kind)))
+# $(call cutwater_inputs,RUN FOLDER): the files of the user's that its geometry was made from, by its record: as long as
+# there is none the geometry is made anyway.
+cutwater_inputs = $(wildcard $(shell sed -n '/^  "inputs": {/,/^  }/s/^    "\(.*\)": "[0-9a-f]*".*/\1/p' \
+  $(1)/geometry/record.json 2> /dev/null))
 
 # $(call cutwater_run,TARGET,CASE FILE,RUN FOLDER,CELLS): TARGET makes the whole run and tells what it made,
 # TARGET-solve solves its steady flow too, and TARGET-curve the points of its characteristic curve. What is solved
@@ -65,7 +67,7 @@ $(1): $(3)/report/record.json
 $(3)/log/case: FORCE
 	@$$(call cutwater_note,$(2))
 
-$(3)/geometry/record.json: $(2) $(call cutwater_cad,$(dir $(2))) $(3)/log/case $(BIN)/cutwater-geometry
+$(3)/geometry/record.json: $(2) $(call cutwater_inputs,$(3)) $(3)/log/case $(BIN)/cutwater-geometry
 	@$(BIN)/cutwater-geometry --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 # Changes only when the asked number does.

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "pipeline/file_digest.h"
 #include "pipeline/json_read.h"
@@ -75,12 +76,28 @@ static CwStatus digest_alone(void *given, const char *path, char digest[CW_HASH_
   return cw_file_digest(path, digest);
 }
 
+static CwStatus check_inputs(const char *run, const char *stage, json_t *record) {
+  CwStatus status = CW_OK;
+  char digest[CW_HASH_TEXT];
+  const char *path;
+  json_t *wanted;
+  json_object_foreach(json_object_get(record, "inputs"), path, wanted) {
+    if (access(path, R_OK)) continue;
+    CW_TRY(cw_file_digest(path, digest));
+    CW_REQUIRE(json_is_string(wanted) && !strcmp(digest, json_string_value(wanted)), CW_ERR_INPUT,
+               "%s: has changed since %s/%s was made from it; run cutwater-%s again", path, run, stage, stage);
+  }
+done:
+  return status;
+}
+
 CwStatus cw_stage_files_check(const char *run, const char *stage) {
   CwStatus status = CW_OK;
   json_t *record = NULL, *files;
   CW_TRY(read_record(run, stage, &record, &files));
   CW_TRY(cw_stage_files_check_by(run, stage, record, digest_alone, NULL));
   CW_TRY(cw_stage_files_source_check(run, stage, record));
+  CW_TRY(check_inputs(run, stage, record));
 done:
   json_decref(record);
   return status;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What binds the files of a run together. The record of a stage holds a digest of each file that it wrote for others
-// ("files"), and one of the files of each stage that it read ("made_from"). So a stage sees files that are damaged,
-// replaced by hand, or newer than what was made of them, whatever their time stamps say.
+// ("files"), one of the files of each stage that it read ("made_from"), and those of files of the user's ("inputs"). So
+// a stage sees files that are damaged, replaced by hand, or newer than what was made of them, whatever their time
+// stamps say.
 #ifndef CUTWATER_PIPELINE_STAGE_FILES_H
 #define CUTWATER_PIPELINE_STAGE_FILES_H
 
@@ -11,7 +12,8 @@
 #include "pipeline/status.h"
 
 // Holds the files of RUN/STAGE, and those it was made from, against its record. CW_ERR_IO where one is missing or not
-// as it was written, CW_ERR_INPUT where the stage was made from other files than lie there.
+// as it was written, CW_ERR_INPUT where the stage was made from other files than lie there. Files of the user's may be
+// missing: a run goes on elsewhere without them.
 CwStatus cw_stage_files_check(const char *run, const char *stage);
 
 // The first half, of the files, with a record that has been read, and another way to digest a file, which is called for

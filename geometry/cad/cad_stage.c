@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "geometry/cad/cad_pump.h"
 #include "geometry/cad/faces_picture.h"
@@ -136,6 +137,8 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   const double begin = cw_seconds();
   CW_NEW(work.solid, work.cad->domain_count);
   CW_TRY(remove_old_fault(args));
+  for (int i = 0; i < work.cad->files.count; i++)
+    if (!access(work.cad->files.text[i], R_OK)) CW_TRY(cw_record_input(record, work.cad->files.text[i]));
   status = cw_cad_pump_read(work.cad, args->log, &work.pump);
   if (status != CW_OK && work.pump.fault.found) show_fault(args, &work);
   if (status != CW_OK) goto done;

@@ -72,6 +72,24 @@ static void what_was_made_from_others_is_told(void **state) {
   refuses("export", CW_ERR_INPUT, "/geometry; run cutwater-export again");
 }
 
+// A file of the user's: changed it is told, missing it is not.
+static void a_changed_input_is_told(void **state) {
+  CwRecord *record;
+  write_text(in_test_folder("pump.Step"), "a drawing\n");
+  assert_int_equal(cw_record_start("geometry", NULL, &record), CW_OK);
+  assert_int_equal(cw_record_input(record, in_test_folder("none")), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "/none: cannot be read: No such file"));
+  assert_int_equal(cw_record_input(record, in_test_folder("pump.Step")), CW_OK);
+  assert_int_equal(cw_record_write(record, in_test_folder("geometry/record.json")), CW_OK);
+  cw_record_free(record);
+  assert_int_equal(cw_stage_files_check(test_folder, "geometry"), CW_OK);
+  write_text(in_test_folder("pump.Step"), "a drawinh\n");
+  refuses("geometry", CW_ERR_INPUT, "/pump.Step: has changed since ");
+  refuses("geometry", CW_ERR_INPUT, "/geometry was made from it; run cutwater-geometry again");
+  assert_int_equal(unlink(in_test_folder("pump.Step")), 0);
+  assert_int_equal(cw_stage_files_check(test_folder, "geometry"), CW_OK);
+}
+
 static void no_bit_of_a_record_may_change(void **state) {
   json_t *object;
   size_t size;
@@ -182,6 +200,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(all_as_written_is_taken, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(a_changed_file_is_told_by_its_name, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(what_was_made_from_others_is_told, make_run, clear_test_folder),
+      cmocka_unit_test_setup_teardown(a_changed_input_is_told, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(no_bit_of_a_record_may_change, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(any_object_comes_back, make_run, clear_test_folder),
       cmocka_unit_test_setup_teardown(shared_blocks_give_the_same_digest, make_run, clear_test_folder),

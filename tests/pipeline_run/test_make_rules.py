@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The make rules with stages that only note their call: what runs when, and what a failing stage does."""
 import json
+import os
 import shutil
 import sys
 import tempfile
@@ -116,6 +117,19 @@ class MakeRules(unittest.TestCase):
         self.assertEqual(self.make("CELLS=100k")[1], [])
         self.assertEqual(self.make("CELLS=200k")[1], ["mesh", "export", "report"])
         self.assertEqual(self.make()[1], ["mesh", "export", "report"])
+
+    def test_a_changed_input_of_the_geometry_begins_anew(self):
+        drawing = self.case.with_name("pump.Step")
+        drawing.write_text("a drawing")
+        self.assertEqual(self.make()[1], list(STAGES))
+        record = self.run_folder / "geometry/record.json"
+        times = record.stat()
+        record.write_text(json.dumps({"stage": "geometry", "results": {"predicted_head_m": 12},
+                                      "inputs": {str(drawing): "0f", "/none/other.brep": "1e"}, "files": {}}, indent=2))
+        os.utime(record, ns=(times.st_atime_ns, times.st_mtime_ns))
+        self.assertEqual(self.make()[1], [])
+        drawing.write_text("another drawing")
+        self.assertEqual(self.make()[1], list(STAGES))
 
     def test_another_case_in_the_same_folder_begins_anew(self):
         other = self.case.with_name("other.yaml")

@@ -44,17 +44,19 @@ static bool is_there(const char *name) {
 static const char *const whole =
     "  files: pump.brep\n  domains: {rotor: {solid: 1, rotating: true}, stator: {solid: 2}}\n";
 
+static bool record_says(const char *text) {
+  std::ifstream in(folder + "/geometry/record.json");
+  return std::string(std::istreambuf_iterator<char>(in), {}).find(text) != std::string::npos;
+}
+
 static void all_files_are_written(void **) {
   if (run(whole)) fail_msg("%s", cw_fail_message());
   for (const char *name : {"rotor.brep", "stator.brep", "faces.csv", "faces_sheet.csv", "model.json", "pump.step",
                            "faces_rotor.svg", "faces_stator.svg"})
     if (!is_there(name)) fail_msg("%s is missing", name);
   assert_false(is_there("fault.svg"));
-}
-
-static bool record_says(const char *text) {
-  std::ifstream in(folder + "/geometry/record.json");
-  return std::string(std::istreambuf_iterator<char>(in), {}).find(text) != std::string::npos;
+  assert_true(record_says("\"inputs\": {"));
+  assert_true(record_says("/pump.brep\": \""));
 }
 
 // The small pump's inlet lies at z = -60 mm; about the axis that runs the other way at 60 mm.
