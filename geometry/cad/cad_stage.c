@@ -52,19 +52,27 @@ done:
   return status;
 }
 
-// Where a solid cannot be healed: fault.svg, with the place marked. The message is that of the solid whatever happens
-// here.
+// Where a solid cannot be healed, or one of its faces not be triangulated: fault.svg, with the place marked. The
+// message is that of the solid whatever happens here.
 static void show_fault(const CwStageArgs *args, const Work *work) {
-  CwSurvey survey = {0};
+  CwSurvey unhealed = {0};
+  const CwSurvey *survey = &work->pump.survey;
+  CwCadFault fault = work->pump.fault;
   char *path = NULL, title[CW_NAME_SIZE + 80], message[MESSAGE_SIZE];
   snprintf(message, sizeof message, "%s", cw_fail_message());
-  snprintf(title, sizeof title, "%s: where it cannot be healed", work->cad->domain[work->pump.fault.part].name);
-  if (cw_survey_make(work->pump.parts, &work->pump.frame, &survey) == CW_OK &&
-      cw_geometry_path(args, "fault.svg", &path) == CW_OK &&
-      cw_faces_picture_write(&survey, work->pump.fault.part, title, work->pump.fault.at, path) == CW_OK)
+  if (fault.found) {
+    cw_survey_make(work->pump.parts, &work->pump.frame, &unhealed); // one that fails is good for a picture
+    survey = &unhealed;
+  } else if (survey->segment_count) {
+    const CwSurveyFace *face = &survey->face[survey->segment[0].face];
+    fault = (CwCadFault){1, face->part, {face->at[0], face->at[1], face->at[2]}};
+  }
+  snprintf(title, sizeof title, "%s: the place of the fault", work->cad->domain[fault.part].name);
+  if (fault.found && survey->face_count && cw_geometry_path(args, "fault.svg", &path) == CW_OK &&
+      cw_faces_picture_write(survey, fault.part, title, fault.at, path) == CW_OK)
     cw_log(args->log, "geometry/fault.svg shows the place");
   CW_FAIL(CW_ERR_GEOMETRY, "%s", message);
-  cw_survey_free(&survey);
+  cw_survey_free(&unhealed);
   free(path);
 }
 
@@ -140,7 +148,7 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
   for (int i = 0; i < work.cad->files.count; i++)
     if (!access(work.cad->files.text[i], R_OK)) CW_TRY(cw_record_input(record, work.cad->files.text[i]));
   status = cw_cad_pump_read(work.cad, args->log, &work.pump);
-  if (status != CW_OK && work.pump.fault.found) show_fault(args, &work);
+  if (status == CW_ERR_GEOMETRY) show_fault(args, &work);
   if (status != CW_OK) goto done;
   CW_TRY(write_sheet(args, &work, 0));
   CW_TRY(write_pictures(args, work.cad, &work.pump.survey));

@@ -41,6 +41,11 @@ static void set_camera(const Work *work, int view, CwCamera *camera) {
     for (int t = 0; face->part == work->part && t < 3 * face->triangle_count; t++)
       cw_camera_reach(camera, corner_of(work->survey, face->first_triangle + t / 3, t % 3), &reach);
   }
+  for (int s = 0; s < work->survey->segment_count; s++) {
+    const CwSurveySegment *segment = &work->survey->segment[s];
+    for (int k = 0; work->survey->face[segment->face].part == work->part && k < 2; k++)
+      cw_camera_reach(camera, segment->at[k], &reach);
+  }
   cw_camera_fit(camera, &reach, MARGIN);
 }
 
@@ -102,6 +107,18 @@ static void mark(Work *work, const CwCamera *camera, const double *place, double
   cw_picture_segment(&work->picture, CW_STROKE_FLOW, x + p[0], y + p[1] - 20, x + p[0], y + p[1] + 20);
 }
 
+// The edges of faces that have no triangles.
+static void draw_outlines(Work *work, const CwCamera *camera, double x, double y) {
+  for (int s = 0; s < work->survey->segment_count; s++) {
+    const CwSurveySegment *segment = &work->survey->segment[s];
+    double a[3], b[3];
+    if (work->survey->face[segment->face].part != work->part) continue;
+    cw_camera_project(camera, segment->at[0], a);
+    cw_camera_project(camera, segment->at[1], b);
+    cw_picture_segment(&work->picture, CW_STROKE_BLADE, x + a[0], y + a[1], x + b[0], y + b[1]);
+  }
+}
+
 static CwStatus draw_view(Work *work, int view, const double *place) {
   CwStatus status = CW_OK;
   CwCanvas canvas = {0};
@@ -125,6 +142,7 @@ static CwStatus draw_view(Work *work, int view, const double *place) {
   cw_picture_text(&work->picture, CW_TEXT_LEFT, x + 8, y + 16, "%s, from (%g, %g, %g)",
                   inside ? "near faces taken away" : "from outside", towards[view % COLUMNS][0],
                   towards[view % COLUMNS][1], towards[view % COLUMNS][2]);
+  draw_outlines(work, &camera, x, y);
   if (place) mark(work, &camera, place, x, y);
 done:
   cw_render_free(&canvas);

@@ -11,7 +11,8 @@ extern "C" {
 #endif
 
 // Faces with room for it have their number in each view, all others where most of them is seen; those that no view
-// shows are listed below. `place`, in the pump's coordinates, m, is marked in each view where it is not NULL.
+// shows are listed below. Of a face without triangles its edges are drawn. `place`, in the pump's coordinates, m, is
+// marked in each view where it is not NULL.
 CwStatus cw_faces_picture_write(const CwSurvey *survey, int part, const char *title, const double *place,
                                 const char *path);
 

@@ -32,6 +32,8 @@ struct CwSurveyData {
   std::vector<std::array<int, 3>> triangle;
   std::vector<std::array<double, 3>> point;
   std::vector<CwSurveySample> sample;
+  std::vector<CwSurveySegment> segment;
+  int bare = -1; // the first face without triangles
   std::vector<std::array<double, 6>> box;
 };
 
@@ -164,21 +166,46 @@ void add_face(const TopoDS_Face &face, int part, int index, double unit, CwSurve
   for (double &x : lists.box.back()) x *= unit;
 }
 
-// That all faces of a part have triangles.
-CwStatus check_triangles(const CwCadPart &of, const CwCadFrame &frame, double unit) {
-  const TopTools_IndexedMapOfShape faces = cw_cad_faces(of.solid);
-  for (int i = 1; i <= faces.Extent(); i++) {
-    TopLoc_Location place;
-    if (!BRep_Tool::Triangulation(TopoDS::Face(faces(i)), place).IsNull()) continue;
-    TopExp_Explorer corner(faces(i), TopAbs_VERTEX);
-    const gp_Pnt at = corner.More() ? BRep_Tool::Pnt(TopoDS::Vertex(corner.Current())) : gp_Pnt();
-    return CW_FAIL(
-        CW_ERR_GEOMETRY,
-        "cad.domains.%s: a face with a corner %s cannot be triangulated; allowed: outlines that do not cross "
-        "themselves; draw it anew",
-        of.domain.c_str(), cw_cad_place(at, unit, frame).c_str());
+// A face without triangles: a corner of it, and its edges.
+void add_outline(const TopoDS_Face &face, int part, int index, double unit, CwSurveyData &lists) {
+  constexpr int steps = 16;
+  CwSurveyFace made = {};
+  made.part = part;
+  made.face = index;
+  made.first_triangle = (int)lists.triangle.size();
+  made.first_sample = (int)lists.sample.size();
+  const TopExp_Explorer corner(face, TopAbs_VERTEX);
+  if (corner.More()) put(BRep_Tool::Pnt(TopoDS::Vertex(corner.Current())), unit, made.at);
+  const int number = (int)lists.face.size();
+  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+    if (BRep_Tool::Degenerated(TopoDS::Edge(at.Current()))) continue;
+    const std::vector<gp_Pnt> points = cw_cad_edge_points(TopoDS::Edge(at.Current()), steps);
+    for (int i = 0; i < steps; i++) {
+      CwSurveySegment segment = {number, {}};
+      for (int k = 0; k < 2; k++) put(points[i + k], unit, segment.at[k]);
+      lists.segment.push_back(segment);
+    }
   }
-  return CW_OK;
+  if (lists.bare < 0) lists.bare = number;
+  lists.face.push_back(made);
+  lists.box.push_back(cw_cad_box(face));
+  for (double &x : lists.box.back()) x *= unit;
+}
+
+bool has_triangles(const TopoDS_Face &face) {
+  TopLoc_Location place;
+  return !BRep_Tool::Triangulation(face, place).IsNull();
+}
+
+CwStatus fail_bare(const CwCadParts &parts, const CwCadFrame &frame, const CwSurveyData &lists) {
+  const CwSurveyFace &face = lists.face[lists.bare];
+  const CwCadPart &part = parts.part[face.part];
+  const std::string &name = part.origin[face.face].name;
+  return CW_FAIL(CW_ERR_GEOMETRY,
+                 "cad.domains.%s: a face with a corner %s cannot be triangulated: face %d%s%s%s; allowed: outlines "
+                 "that do not cross themselves; draw it anew",
+                 part.domain.c_str(), cw_cad_place(gp_Pnt(face.at[0], face.at[1], face.at[2]), 1, frame).c_str(),
+                 lists.bare + 1, name.empty() ? "" : " '", name.c_str(), name.empty() ? "" : "'");
 }
 
 void add_edges(const TopoDS_Shape &shape, int first_face, double unit, CwSurveyData &lists) {
@@ -251,12 +278,13 @@ CwStatus cw_survey_make(const CwCadParts *parts, const CwCadFrame *frame, CwSurv
       const int first = (int)lists.face.size();
       BRepTools::Clean(solid);
       BRepMesh_IncrementalMesh mesh(solid, DEFLECTION * size, Standard_False, ANGLE);
-      const CwStatus status = check_triangles(parts->part[p], *frame, parts->unit);
-      if (status != CW_OK) return status;
       const TopTools_IndexedMapOfShape faces = cw_cad_faces(solid);
-      for (int i = 1; i <= faces.Extent(); i++) add_face(TopoDS::Face(faces(i)), (int)p, i - 1, parts->unit, lists);
+      for (int i = 1; i <= faces.Extent(); i++) {
+        const TopoDS_Face &face = TopoDS::Face(faces(i));
+        (has_triangles(face) ? add_face : add_outline)(face, (int)p, i - 1, parts->unit, lists);
+      }
       BRepTools::Clean(solid); // a stored triangulation would go into the files
-      add_edges(solid, first, parts->unit, lists);
+      if (lists.bare < 0) add_edges(solid, first, parts->unit, lists);
     }
     int boxes;
     show(lists.face, survey->face, survey->face_count);
@@ -264,8 +292,10 @@ CwStatus cw_survey_make(const CwCadParts *parts, const CwCadFrame *frame, CwSurv
     show(lists.triangle, survey->triangle, survey->triangle_count);
     show(lists.point, survey->point, survey->point_count);
     show(lists.sample, survey->sample, survey->sample_count);
+    show(lists.segment, survey->segment, survey->segment_count);
     show(lists.box, survey->box, boxes);
     lists.unit = parts->unit;
+    if (lists.bare >= 0) return fail_bare(*parts, *frame, lists);
     for (const CwCadPart &part : parts->part) lists.part.emplace_back(part.solid);
     return CW_OK;
   });

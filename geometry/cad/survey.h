@@ -42,22 +42,30 @@ typedef struct {
   double angle; // through the water, rad: pi where smooth, less where the edge is concave as seen from the water
 } CwSurveyEdge;
 
+// A piece of the outline of a face.
+typedef struct {
+  int face;
+  double at[2][3];
+} CwSurveySegment;
+
 typedef struct CwSurveyData CwSurveyData; // what holds the arrays, and the exact faces, for distances
 
 typedef struct {
-  int face_count, edge_count, triangle_count, point_count, sample_count;
+  int face_count, edge_count, triangle_count, point_count, sample_count, segment_count;
   CwSurveyFace *face;
   CwSurveyEdge *edge;
   int (*triangle)[3];
   double (*point)[3];
-  CwSurveySample *sample; // on the exact faces: about as many on each
-  double (*box)[2][3];    // of each face
-  double size;            // greatest extent of all
+  CwSurveySample *sample;   // on the exact faces: about as many on each
+  CwSurveySegment *segment; // of faces without triangles alone
+  double (*box)[2][3];      // of each face
+  double size;              // greatest extent of all
   CwSurveyData *data;
 } CwSurvey;
 
-// CW_ERR_GEOMETRY, naming domain and place in the file, where a face cannot be triangulated. Free also after a failure;
-// zeroed `survey` on entry.
+// CW_ERR_GEOMETRY, naming domain, face and place in the file, where a face cannot be triangulated; the survey then is
+// good for pictures alone, and has of such a face a corner, `at`, and its outline. Free also after a failure; zeroed
+// `survey` on entry.
 CwStatus cw_survey_make(const CwCadParts *parts, const CwCadFrame *frame, CwSurvey *survey);
 void cw_survey_free(CwSurvey *survey);
 

@@ -4,6 +4,11 @@
 #include <fstream>
 #include <iterator>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <gp_Pln.hxx>
+
 #include "cad/small_parts.hpp"
 #include "tests/test_folder.h"
 
@@ -83,6 +88,36 @@ static void the_place_of_a_fault_is_drawn(void **) {
   assert_false(is_there("fault.svg"));
 }
 
+// Ends whose outlines cross have no triangles: their edges are drawn, and the place of the open side is marked.
+static void the_edges_of_a_bad_face_are_drawn(void **) {
+  assert_int_equal(run("  files: tie.brep\n  domains: {rotor: {solid: 1, rotating: true}}\n"), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "the solid cannot be healed"));
+  assert_non_null(strstr(cw_fail_message(), "mm: solid 1 of "));
+  assert_true(is_there("fault.svg"));
+}
+
+// A prism over a bow tie that lacks a side.
+static TopoDS_Shape open_tie() {
+  BRepBuilderAPI_MakePolygon outline(gp_Pnt(-50, -20, 0), gp_Pnt(50, 20, 0), gp_Pnt(50, -20, 0), gp_Pnt(-50, 20, 0),
+                                     Standard_True);
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), outline.Wire(), Standard_False).Face();
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid solid;
+  builder.MakeShell(shell);
+  bool lacks = false;
+  for (TopExp_Explorer at(BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 10)).Shape(), TopAbs_FACE); at.More(); at.Next()) {
+    const std::array<double, 6> box = cw_cad_box(at.Current());
+    if (lacks || box[5] - box[2] < 5)
+      builder.Add(shell, at.Current());
+    else
+      lacks = true;
+  }
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
+
 // A disc that lacks a lid, as a solid.
 static TopoDS_Shape open_disc() {
   const TopTools_IndexedMapOfShape map = cw_cad_faces(small_cylinder(0, 50, 10));
@@ -102,12 +137,14 @@ static int make_files(void **) {
   folder = test_folder;
   small_write(folder + "/pump.brep", {small_rotor(), small_stator()});
   small_write(folder + "/open.brep", {open_disc()});
+  small_write(folder + "/tie.brep", {open_tie()});
   return 0;
 }
 
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_files_are_written), cmocka_unit_test(the_suction_side_follows_the_axis),
-      cmocka_unit_test(the_sheet_is_there_where_a_rule_fails), cmocka_unit_test(the_place_of_a_fault_is_drawn)};
+      cmocka_unit_test(the_sheet_is_there_where_a_rule_fails), cmocka_unit_test(the_place_of_a_fault_is_drawn),
+      cmocka_unit_test(the_edges_of_a_bad_face_are_drawn)};
   return cmocka_run_group_tests(tests, make_files, clear_test_folder);
 }

@@ -3,6 +3,10 @@
 #include <fstream>
 #include <iterator>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <gp_Pln.hxx>
+
 #include "cad/small_parts.hpp"
 #include "tests/test_folder.h"
 
@@ -48,8 +52,30 @@ static void a_place_is_marked_in_each_view(void **) {
   assert_int_equal(count(marked, "<polyline ") - count(plain, "<polyline "), 16); // a cross in each
 }
 
+// The outline of a bow tie crosses itself: no triangles, but its four edges in each view.
+static void edges_of_faces_without_triangles_are_drawn(void **) {
+  BRepBuilderAPI_MakePolygon outline(gp_Pnt(1, 1, 3), gp_Pnt(2, 2, 3), gp_Pnt(2, 1, 3), gp_Pnt(1, 2, 3), Standard_True);
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid solid;
+  builder.MakeShell(shell);
+  builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 3), gp::DZ()), outline.Wire(), Standard_False).Face());
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  SmallParts small({{"water", solid}});
+  assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_ERR_GEOMETRY);
+  const std::string path = in_test_folder("faces.svg");
+  if (cw_faces_picture_write(&small.survey, 0, "tie", nullptr, path.c_str())) fail_msg("%s", cw_fail_message());
+  std::ifstream in(path);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  assert_true(count(text, "<polyline ") >= 8 * small.survey.segment_count);
+  assert_true(small.survey.segment_count >= 4);
+  remove(path.c_str());
+}
+
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(each_face_has_its_number),
-                                     cmocka_unit_test(a_place_is_marked_in_each_view)};
+                                     cmocka_unit_test(a_place_is_marked_in_each_view),
+                                     cmocka_unit_test(edges_of_faces_without_triangles_are_drawn)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

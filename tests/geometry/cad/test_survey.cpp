@@ -93,10 +93,18 @@ static void faces_without_triangles_are_told_with_their_place(void **) {
   builder.MakeSolid(solid);
   builder.Add(solid, shell);
   SmallParts small({{"water", solid}});
+  small.parts.part[0].origin[0].name = "LID";
   assert_int_equal(cw_survey_make(&small.parts, &frame, &small.survey), CW_ERR_GEOMETRY);
   const char *told = strstr(cw_fail_message(), "cad.domains.water: a face with a corner at (-9");
   assert_non_null(told);
-  assert_non_null(strstr(told, ", 3.000) mm cannot be triangulated"));
+  assert_non_null(strstr(told, ", 3.000) mm cannot be triangulated: face 1 'LID'; allowed"));
+  double length = 0;
+  for (int s = 0; s < small.survey.segment_count; s++) {
+    const CwSurveySegment &segment = small.survey.segment[s];
+    assert_int_equal(segment.face, 0);
+    length += std::hypot(segment.at[1][0] - segment.at[0][0], segment.at[1][1] - segment.at[0][1]);
+  }
+  assert_near(length, (2 + 2 * std::sqrt(2)) * mm, 1e-9);
 }
 
 // Of a pipe beside the axis nothing is revolved; the blade-like wall has a twist where it looks along the rotation.
