@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""A volute swept through circles that grow round the wheel, fused with its neck and with the cone of the outlet, the
-tongue rounded. The neck is wider than the outlet of the wheel, whose six blades are cylindrical."""
+"""A volute swept through circles that grow round the wheel, fused with its neck and with the cone of the outlet; the
+tongue is the sharp edge between them. The neck is wider than the outlet of the wheel, whose six blades are
+cylindrical."""
 import math
 
 import draw
