@@ -211,7 +211,12 @@ static CwStatus read_patch_walls(const char *path, const CwCaseNode *node, CwCad
   const CwUnit *unit;
   const CwCaseNode *item;
   int choice = 0;
-  if ((item = member(node, "kind", &unit))) CW_TRY(read_choice(path, item, kinds, &choice));
+  item = member(node, "kind", &unit);
+  if (item && item->type == CW_NODE_SCALAR && !strcmp(item->text, "periodic"))
+    return FAIL_AT(item, "one passage with periodic sides cannot be meshed by itself; allowed: %s",
+                   "the water of the whole wheel, whose passages are found by themselves "
+                   "(mesh.periodic_impeller), without this patch");
+  if (item) CW_TRY(read_choice(path, item, kinds, &choice));
   patch->kind = (CwCadKind)choice;
   choice = 0;
   if ((item = member(node, "walls", &unit))) CW_TRY(read_choice(path, item, groups, &choice));

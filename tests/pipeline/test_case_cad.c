@@ -130,6 +130,10 @@ static void wrong_values_have_their_place(void **state) {
       {"  files: x.step\n  domains: {a: {solid: 1}}\n  patches: {w: {colour: red}}\n", "it is no colour"},
       {"  files: x.step\n  domains: {a: {solid: 1}}\n  patches: {w: {faces: 1, kind: pipe}}\n",
        "pipe is not one of the choices; allowed: auto, wall, inlet, outlet, symmetry or interface"},
+      {"  files: x.step\n  domains: {a: {solid: 1}}\n  patches: {w: {faces: 1, kind: periodic}}\n",
+       "cad.patches.w.kind: one passage with periodic sides cannot be meshed by itself; allowed: the water of the "
+       "whole "
+       "wheel"},
       {"  files: x.step\n  domains: {a: {solid: 1}}\n  patches: {w: {faces: 1, domain: b}}\n", "no such domain"},
       {"  files: x.step\n  domains: {a: {solid: 1}}\n  patches: {w: {faces: 1, y_plus: 0}}\n", "0 is out of range"},
   };
