@@ -30,21 +30,6 @@ void normal_of(const CwSurvey &survey, int triangle, double n[3]) {
   cw_unit(n);
 }
 
-// Whether a triangle has the other face before it: faces that only share an edge come as near as those that coincide.
-bool faces(const CwSurvey &survey, int triangle, int other, const double at[3]) {
-  const CwSurveyFace &face = survey.face[other];
-  int nearest = face.first_triangle;
-  double best = INFINITY, n[3], m[3];
-  for (int t = face.first_triangle; t < face.first_triangle + face.triangle_count; t++) {
-    double least = INFINITY;
-    for (int k = 0; k < 3; k++) least = std::min(least, squared_distance(survey.point[survey.triangle[t][k]], at));
-    if (least < best) best = least, nearest = t;
-  }
-  normal_of(survey, triangle, n);
-  normal_of(survey, nearest, m);
-  return cw_dot(n, m) < FACING;
-}
-
 struct Seen {
   int touching = 0, near = 0, looked = 0;
   std::map<int, int> others; // touching points by the face that they touch
@@ -61,7 +46,7 @@ CwStatus look_from(const CwSurvey &survey, const CwSurveySample &from, int part,
   const CwStatus status = cw_survey_nearest(&survey, part, at, near, &other, &distance, nullptr);
   if (status != CW_OK) return status;
   seen.looked++;
-  if (other < 0 || !faces(survey, from.triangle, other, at)) return CW_OK;
+  if (other < 0 || !cw_contact_faces(&survey, &from, other)) return CW_OK;
   if (distance <= tolerance) {
     seen.touching++;
     seen.others[other]++;
@@ -86,7 +71,7 @@ void touch_back(const CwSurvey &survey, CwContact *contact) {
   for (int f = 0; f < survey.face_count; f++) {
     if (contact[f].part < 0 || contact[f].share < 1) continue;
     CwContact &other = contact[contact[f].other];
-    if (other.part < 0) other = {survey.face[f].part, 0, f};
+    if (other.part < 0) other = {survey.face[f].part, 0, f, 0, {}};
   }
 }
 
@@ -132,12 +117,28 @@ CwStatus cut_part(const std::vector<TopoDS_Shape> &tools, double tolerance, CwCa
 
 } // namespace
 
+int cw_contact_faces(const CwSurvey *of, const CwSurveySample *sample, int other) {
+  const CwSurvey &survey = *of;
+  const double *at = sample->at;
+  const CwSurveyFace &face = survey.face[other];
+  int nearest = face.first_triangle;
+  double best = INFINITY, n[3], m[3];
+  for (int t = face.first_triangle; t < face.first_triangle + face.triangle_count; t++) {
+    double least = INFINITY;
+    for (int k = 0; k < 3; k++) least = std::min(least, squared_distance(survey.point[survey.triangle[t][k]], at));
+    if (least < best) best = least, nearest = t;
+  }
+  normal_of(survey, sample->triangle, n);
+  normal_of(survey, nearest, m);
+  return cw_dot(n, m) < FACING;
+}
+
 CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
                          double tolerance, CwContact *contact) {
   std::vector<std::map<int, int>> others(survey->face_count);
   const double near = std::max(NEAR * parts->unit, 2 * tolerance);
   for (int f = 0; f < survey->face_count; f++) {
-    contact[f] = {-1, 0, -1};
+    contact[f] = {-1, 0, -1, 0, {}};
     for (int p = 0; p < (int)parts->part.size(); p++) {
       const int own = survey->face[f].part;
       if (p == own) continue;
@@ -160,7 +161,8 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
                        cad->domain[own].name, cad->domain[contact[f].part].name, cad->domain[p].name,
                        place_of(survey->face[f].at, *frame).c_str());
       if (share <= contact[f].share) continue; // points near the outline may touch a part beside
-      contact[f] = {p, share, -1};
+      contact[f] = {p, share, -1, seen.gap, {}};
+      if (seen.at) std::copy_n(seen.at, 3, contact[f].at);
       others[f] = seen.others;
     }
   }

@@ -15,6 +15,8 @@ typedef struct {
   int part;     // that the face touches; -1: none
   double share; // of the face's points that touch it
   int other;    // a face of that part that it touches, into CwSurvey.face
+  double gap;   // of its other points that face that part nearby the greatest distance, m; 0: none does
+  double at[3]; // where that is
 } CwContact;
 
 // One contact for each face of the survey; `contact` holds face_count of them. `tolerance`: greatest distance, m.
@@ -22,6 +24,10 @@ typedef struct {
 // so small that it must be meant to touch: with its size and place in the file.
 CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const CwCadFrame *frame, const CwCaseCad *cad,
                          double tolerance, CwContact *contact);
+
+// Whether a face stands before a sample of another part: faces that only share an edge come as near as those that
+// coincide.
+int cw_contact_faces(const CwSurvey *survey, const CwSurveySample *sample, int other);
 
 // Cuts the faces that touch another part with a share of theirs along the outline of the other's faces, so that each
 // touches wholly or not at all. *cut: how many there were. Faces are counted anew after it.

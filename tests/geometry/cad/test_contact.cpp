@@ -51,6 +51,21 @@ static void gaps_are_told_with_their_size(void **) {
   assert_non_null(strstr(cw_fail_message(), "or metal thicker than 0.2 mm"));
 }
 
+// A face that leans off by 0.05 mm over 100: it touches with a part, and how far off the rest is stays known.
+static void the_gap_beside_a_contact_is_measured(void **) {
+  double share, gap = 0;
+  gp_Trsf lean;
+  lean.SetRotation(gp_Ax1(gp_Pnt(100, 0, 0), gp::DY()), 0.05 / 100);
+  SmallParts small({{"a", small_box(0, 0, 0, 100, 100, 100)},
+                    {"b", BRepBuilderAPI_Transform(small_box(100, 0, 0, 50, 100, 100), lean, Standard_True).Shape()}});
+  if (small.look()) fail_msg("%s", cw_fail_message());
+  assert_int_equal(touching(small, 1, &share), 1);
+  assert_true(share > 0 && share < 1);
+  for (int f = 0; f < small.survey.face_count; f++)
+    if (small.contact[f].part == 0) gap = small.contact[f].gap;
+  assert_true(gap > 0.03e-3 && gap < 0.051e-3);
+}
+
 // A plate of 0.5 mm beside a pipe of 1 m is no gap: the wheel's size counts, not that of all.
 static void thin_metal_is_no_gap(void **) {
   double share;
@@ -100,10 +115,14 @@ static void edges_alone_do_not_touch(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equal_faces_touch_wholly),      cmocka_unit_test(faces_that_touch_in_part_are_cut),
-      cmocka_unit_test(gaps_are_told_with_their_size), cmocka_unit_test(faces_that_touch_two_parts_are_told),
-      cmocka_unit_test(far_parts_do_not_touch),        cmocka_unit_test(edges_alone_do_not_touch),
-      cmocka_unit_test(thin_rings_touch_wholly),       cmocka_unit_test(thin_metal_is_no_gap)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(equal_faces_touch_wholly),
+                                     cmocka_unit_test(faces_that_touch_in_part_are_cut),
+                                     cmocka_unit_test(the_gap_beside_a_contact_is_measured),
+                                     cmocka_unit_test(gaps_are_told_with_their_size),
+                                     cmocka_unit_test(faces_that_touch_two_parts_are_told),
+                                     cmocka_unit_test(far_parts_do_not_touch),
+                                     cmocka_unit_test(edges_alone_do_not_touch),
+                                     cmocka_unit_test(thin_rings_touch_wholly),
+                                     cmocka_unit_test(thin_metal_is_no_gap)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
