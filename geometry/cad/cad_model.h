@@ -5,32 +5,18 @@
 // Speeds: at the wheel the mean of w1 and w2, with u2 at the wheel's radius, Q over the area of its interface, and the
 // swirl that the head needs (Euler, at a hydraulic efficiency of 0.85), and w1 at the mean eye of those through which
 // water enters the wheel; downstream of it the swirl at the interface; in pipes the flow over the area of the opening.
-// Blades, hubs and shrouds of what stands still have the speed of its other walls, of guide wheels as of side chambers.
-// Between two blades the pitch at the outlet counts, with splitters.
+// Each wheel has its own radii and its share of the operating point (cad_wheel.h); what stands still has those of the
+// wheel beside it. Blades, hubs and shrouds of what stands still have the speed of its other walls, of guide wheels as
+// of side chambers. Between two blades the pitch at the outlet counts, with splitters.
 #ifndef CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
 #define CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
 
-#include "geometry/cad/face_patches.h"
+#include "geometry/cad/cad_interface.h"
 #include "pipeline/model.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// One surface between two parts, as a patch of either.
-typedef struct {
-  int patch[2]; // into CwFacePatches.patch
-  CwInterfaceSurface surface;
-  int flat;      // 1: its faces are planes, one or several
-  double radius; // of a cylinder, m
-  double area[2];
-} CwCadInterface;
-
-// Pairs of patches that touch; *interfaces is the caller's to free. CW_ERR_GEOMETRY where a patch touches several,
-// areas differ, or one beside a part that rotates is no surface of revolution about the axis within `tolerance`, m.
-CwStatus cw_cad_interfaces_make(const CwCaseCad *cad, const CwSurvey *survey, const CwContact *contact,
-                                const CwFacePatches *patches, double tolerance, int *count,
-                                CwCadInterface **interfaces);
 
 // The model of unit `unit`, m. Free with cw_model_free(), also after a failure; zeroed `model` on entry. CW_ERR_INPUT
 // where the pump has no inlet, no outlet, no interface of its wheel, or parts that no water leads to.

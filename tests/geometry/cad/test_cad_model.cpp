@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The model of the small pump: speeds from the operating point by hand, groups, what turns, shares of the outlets; and
-// what is refused.
+// The model of the small pump: speeds from the operating point by hand, groups, what turns, shares of the outlets and
+// of several wheels (cad_wheel); and what is refused.
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -308,6 +308,69 @@ static void two_planes_are_no_plane(void **) {
   }
 }
 
+// A wheel as small_rotor(), by `factor` as large, 200 mm above.
+static TopoDS_Shape raised(const TopoDS_Shape &shape, double factor) {
+  gp_Trsf larger, up;
+  larger.SetScale(gp::Origin(), factor);
+  up.SetTranslation(gp_Vec(0, 0, 200));
+  return BRepBuilderAPI_Transform(shape, up * larger, Standard_True).Shape();
+}
+
+// Two stages: what leads from the first wheel's outlet to the eye of the second, 0.8 as large, touches both.
+static void wheels_have_their_own_radii(void **) {
+  const TopoDS_Shape can = BRepAlgoAPI_Cut(small_cylinder(-8, 80, 160), small_cylinder(-8, 50, 108)).Shape(),
+                     crossover = BRepAlgoAPI_Cut(can, small_cylinder(-8, 55, 2)).Shape();
+  Made made({{"first", small_rotor()},
+             {"crossover", crossover},
+             {"second", raised(small_rotor(), 0.8)},
+             {"casing", raised(small_stator(), 0.8)}});
+  made.cad.domain[2].rotating = made.rotating[2] = 1;
+  if (made.make()) fail_msg("%s", cw_fail_message());
+  assert_near(made.patch("blade").flow.length, 1.2 * 50 * mm, 1e-7);
+  assert_near(made.patch("blade_2").flow.length, 1.2 * 40 * mm, 1e-7);
+  assert_near(made.patch("casing_wall").flow.length, 3 * 40 * mm, 1e-7);
+  // Both have all the flow, and of the head 2 m in the ratio of the squares of their radii.
+  const double flow = 4. / 3600, w1 = std::hypot(150 * 20 * mm, flow / (M_PI * 400 * mm * mm));
+  for (const double factor : {1.0, 0.8}) {
+    const double r2 = factor * std::hypot(45, 1.5) * mm, u2 = 150 * r2;
+    const double swirl = 9.80665 * 2 * factor * factor / (1 + 0.64) / (0.85 * u2);
+    const double w2 = std::hypot(u2 - swirl, flow / (2 * M_PI * r2 * factor * 10 * mm));
+    assert_near(made.patch(factor == 1 ? "blade" : "blade_2").flow.speed, (w1 + w2) / 2, 1e-5);
+  }
+}
+
+// A disc of metal in the casing, its shaft's end an inlet: all of its other faces touch the water.
+static void wheels_without_walls_are_told(void **) {
+  const TopoDS_Shape disc = BRepAlgoAPI_Fuse(small_cylinder(-5, 50, 10), small_cylinder(-60, 20, 55)).Shape(),
+                     can = BRepAlgoAPI_Fuse(small_cylinder(-60, 80, 80), small_box(0, 55, -8, 150, 20, 16)).Shape();
+  Made made({{"rotor", disc}, {"stator", BRepAlgoAPI_Cut(can, disc).Shape()}});
+  double point[][3] = {{0, 0, -60 * mm}};
+  CwCadPatch rule = back_as("inlet");
+  rule.near = {1, point};
+  rule.kind = CW_CAD_KIND_INLET;
+  made.cad.patch = &rule;
+  made.cad.patch_count = 1;
+  assert_int_equal(made.make(), CW_ERR_GEOMETRY);
+  if (!strstr(cw_fail_message(), "cad.domains.rotor.inside_mm: its solid has no wall"))
+    fail_msg("%s", cw_fail_message());
+}
+
+// The eye drawn as a wall: the water that is in the wheel cannot come from anywhere.
+static void wheels_with_one_opening_are_told(void **) {
+  double point[][3] = {{0, 10 * mm, -60 * mm}}, side[][3] = {{-65 * mm, 0, 8 * mm}};
+  Made made({{"rotor", small_rotor()}, {"stator", small_stator()}});
+  CwCadPatch rules[] = {back_as("lid"), back_as("feed")};
+  rules[0].near = {1, point};
+  rules[0].kind = CW_CAD_KIND_WALL;
+  rules[1].near = {1, side};
+  rules[1].kind = CW_CAD_KIND_INLET;
+  made.cad.patch = rules;
+  made.cad.patch_count = 2;
+  assert_int_equal(made.make(), CW_ERR_GEOMETRY);
+  if (!strstr(cw_fail_message(), "cad.domains.rotor: the wheel has one opening alone"))
+    fail_msg("%s", cw_fail_message());
+}
+
 static void pumps_that_cannot_be_are_told(void **) {
   Made both({{"rotor", small_rotor()}, {"stator", small_stator()}});
   both.cad.domain[1].rotating = both.rotating[1] = 1;
@@ -342,6 +405,9 @@ int main() {
                                      cmocka_unit_test(outlets_share_the_flow),
                                      cmocka_unit_test(interfaces_may_be_splines),
                                      cmocka_unit_test(two_planes_are_no_plane),
+                                     cmocka_unit_test(wheels_have_their_own_radii),
+                                     cmocka_unit_test(wheels_without_walls_are_told),
+                                     cmocka_unit_test(wheels_with_one_opening_are_told),
                                      cmocka_unit_test(pumps_that_cannot_be_are_told)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
