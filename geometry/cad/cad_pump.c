@@ -2,11 +2,14 @@
 #include "geometry/cad/cad_pump.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "geometry/cad/cad_cut.h"
+#include "geometry/cad/contact_surface.h"
 #include "geometry/cad/divide.h"
+#include "geometry/cad/parts_joined.h"
 #include "geometry/cad/passages.h"
 #include "geometry/cad/solid_choice.h"
 
@@ -92,14 +95,16 @@ static CwStatus cut_contacts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) 
   if (!cut) goto done;
   CW_TRY(look(cad, pump));
   for (int f = 0; f < pump->survey.face_count; f++) {
+    const CwContact *contact = &pump->contact[f];
     double at[3];
-    cw_cad_frame_to_file(&pump->frame, pump->survey.face[f].at, at);
-    CW_REQUIRE(
-        pump->contact[f].part < 0 || pump->contact[f].share >= 1, CW_ERR_GEOMETRY,
-        "cad.domains: a face of %s still touches %s with a part of it, at (%.3f, %.3f, %.3f) mm; allowed: domains "
-        "that touch along whole faces",
-        cad->domain[pump->survey.face[f].part].name, cad->domain[pump->contact[f].part].name, 1e3 * at[0], 1e3 * at[1],
-        1e3 * at[2]);
+    char off[80] = "";
+    cw_cad_frame_to_file(&pump->frame, contact->gap > 0 ? contact->at : pump->survey.face[f].at, at);
+    if (contact->gap > 0) snprintf(off, sizeof off, " and is up to %.4g mm off it elsewhere", 1e3 * contact->gap);
+    CW_REQUIRE(contact->part < 0 || contact->share >= 1, CW_ERR_GEOMETRY,
+               "cad.domains: a face of %s still touches %s with a part of it%s, at (%.3f, %.3f, %.3f) mm; allowed: "
+               "domains that touch along whole faces, at the most cad.tolerance_mm, %.3g, apart",
+               cad->domain[pump->survey.face[f].part].name, cad->domain[contact->part].name, off, 1e3 * at[0],
+               1e3 * at[1], 1e3 * at[2], 1e3 * pump->tolerance);
   }
 done:
   return status;
@@ -136,8 +141,11 @@ CwStatus cw_cad_pump_name(const CwCaseCad *cad, CwCadPump *pump) {
   CwStatus status = CW_OK;
   CW_TRY(cw_face_patches_make(cad, &pump->frame, pump->parts, &pump->survey, pump->contact, pump->role, pump->tolerance,
                               &pump->patches));
+  CW_TRY(cw_contact_patches_part(cad, &pump->survey, pump->contact, pump->tolerance, &pump->patches));
   CW_TRY(cw_cad_interfaces_make(cad, &pump->survey, pump->contact, &pump->patches, pump->tolerance,
                                 &pump->interface_count, &pump->interface));
+  CW_TRY(
+      cw_parts_joined(pump->parts, &pump->survey, pump->contact, &pump->frame, cad, pump->tolerance, &pump->patches));
 done:
   return status;
 }

@@ -103,6 +103,13 @@ static void show(CwLog *log, const Work *work) {
            : patch->source == CW_FROM_FILE ? "  named by the file"
                                            : "  proposed: name it in cad.patches");
   }
+  for (int i = 0; i < pump->interface_count; i++) {
+    const CwCadInterface *between = &pump->interface[i];
+    if (between->off > 0)
+      cw_log(log, "%s and %s: radii or ends differ by up to %.3g mm, so that nearest faces are coupled",
+             pump->patches.patch[between->patch[0]].name, pump->patches.patch[between->patch[1]].name,
+             1e3 * between->off);
+  }
 }
 
 // -1 or 1: the sign of z from the middle of what rotates to that of the inlets; -1 where both lie alike, as of a wheel
