@@ -137,29 +137,28 @@ static void set_wall(const CwCaseCad *cad, const CwFacePatches *patches, const C
 static CwStatus check_wheels(const CwCaseCad *cad, const CwOperatingPoint *point, const CwFacePatches *patches,
                              int interface_count, const CwCadWheels *wheels) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < cad->domain_count; d++) {
-    const CwCadTexts *solids = &cad->domain[d].solids;
-    int walls = !cad->domain[d].rotating;
+  for (int w = 0; w < wheels->count; w++) {
+    const CwCadWheel *wheel = &wheels->wheel[w];
+    const CwCadDomain *domain = &cad->domain[wheel->part];
+    int walls = 0;
     for (int i = 0; i < patches->count; i++)
-      walls |= patches->patch[i].part == d && patches->patch[i].kind == CW_PATCH_WALL;
+      walls |= wheels->of_part[patches->patch[i].part] == w && cad->domain[patches->patch[i].part].rotating &&
+               patches->patch[i].kind == CW_PATCH_WALL;
     CW_REQUIRE(walls, CW_ERR_GEOMETRY,
                "cad.domains.%s.%s: %s has no wall, all its faces touch other domains or are openings; allowed: the "
                "solid of the water in the wheel, between its blades (is it the metal?)",
-               cad->domain[d].name, solids->count ? "solid" : "inside_mm",
-               solids->count ? solids->text[0] : "its solid");
-  }
-  for (int w = 0; w < wheels->count; w++) {
-    const CwCadWheel *wheel = &wheels->wheel[w];
+               domain->name, domain->solids.count ? "solid" : "inside_mm",
+               domain->solids.count ? domain->solids.text[0] : "its solid");
     CW_REQUIRE(
         wheel->reach > 0, CW_ERR_GEOMETRY,
         "cad.domains.%s: what rotates touches nothing that stands still; allowed: domains that share the surface "
         "between wheel and casing%s",
-        cad->domain[wheel->part].name, interface_count ? "" : " (there is no interface at all)");
+        domain->name, interface_count ? "" : " (there is no interface at all)");
     CW_REQUIRE(wheel->openings > 1, CW_ERR_GEOMETRY,
                "cad.domains.%s: the wheel has one opening alone, its interface, so that no water goes through it; "
                "allowed: an eye and an outlet, each an inlet or a surface that it shares with another domain within "
                "cad.tolerance_mm",
-               cad->domain[wheel->part].name);
+               domain->name);
     const double tip = point->speed * wheel->radius, most = tip * tip / (CW_GRAVITY * wheel->head_share);
     CW_REQUIRE(
         point->head < most, CW_ERR_INPUT,

@@ -39,19 +39,24 @@ gp_Pnt in_units(const Work &work, const double at[3]) {
   return gp_Pnt(at[0] / unit, at[1] / unit, at[2] / unit);
 }
 
-CwStatus tell_overlap(const Work &work, int part, int other, const double at[3]) {
-  BRepAlgoAPI_Common common(work.parts.part[part].solid, work.parts.part[other].solid);
+// A face that runs along another part within the tolerance may seem to lie in it: by volume it does not.
+CwStatus tell_overlap(const Work &work, const CwSurveyFace &face, int other) {
+  const double unit = work.parts.unit;
+  BRepAlgoAPI_Common common(work.parts.part[face.part].solid, work.parts.part[other].solid);
   GProp_GProps properties;
-  char volume[40] = "";
-  if (!common.HasErrors()) BRepGProp::VolumeProperties(common.Shape(), properties);
-  const double mm3 = properties.Mass() * std::pow(1e3 * work.parts.unit, 3);
-  if (mm3 > 0) snprintf(volume, sizeof volume, " by %.4g mm3", mm3);
-  const CwCadDomain &own = work.cad.domain[part];
+  char size[40] = "";
+  if (!common.HasErrors()) {
+    BRepGProp::VolumeProperties(common.Shape(), properties);
+    const double volume = properties.Mass() * std::pow(unit, 3);
+    if (volume <= work.tolerance * face.area) return CW_OK;
+    snprintf(size, sizeof size, " by %.4g mm3", 1e9 * volume);
+  }
+  const CwCadDomain &own = work.cad.domain[face.part];
   return CW_FAIL(CW_ERR_GEOMETRY,
                  "cad.domains.%s.%s: %s and %s overlap%s, %s; allowed: domains that share surfaces and no volume; cut "
                  "one by the other",
-                 own.name, key_of(own), own.name, work.cad.domain[other].name, volume,
-                 cw_cad_place(in_units(work, at), work.parts.unit, work.frame).c_str());
+                 own.name, key_of(own), own.name, work.cad.domain[other].name, size,
+                 cw_cad_place(in_units(work, face.at), unit, work.frame).c_str());
 }
 
 bool may_hold(const std::array<double, 6> &box, const gp_Pnt &at) {
@@ -70,7 +75,8 @@ CwStatus check_overlap(const Work &work) {
       if (face.part == p || work.contact[f].part >= 0 || !may_hold(box, at)) continue;
       if (!inside) inside.reset(new BRepClass3d_SolidClassifier(solid));
       inside->Perform(at, work.tolerance / work.parts.unit);
-      if (inside->State() == TopAbs_IN) return tell_overlap(work, face.part, p, face.at);
+      const CwStatus status = inside->State() == TopAbs_IN ? tell_overlap(work, face, p) : CW_OK;
+      if (status != CW_OK) return status;
     }
   }
   return CW_OK;
