@@ -19,7 +19,8 @@ extern "C" {
 #endif
 
 // The model of unit `unit`, m. Free with cw_model_free(), also after a failure; zeroed `model` on entry. CW_ERR_INPUT
-// where the pump has no inlet, no outlet, no interface of its wheel, or parts that no water leads to.
+// where the pump has no inlet or no outlet, a wheel has no wall, no interface or no second opening, or no water
+// leads to a part.
 CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const CwFacePatches *patches,
                            int interface_count, const CwCadInterface *interfaces, int blade_count, double unit,
                            CwModel *model);
