@@ -18,7 +18,8 @@ static CwCadInterface between(const TopoDS_Shape &wheel, const TopoDS_Shape &cas
   CwFaceRole *role = (CwFaceRole *)calloc(small.survey.face_count, sizeof *role);
   for (int f = 0; f < small.survey.face_count; f++)
     role[f] = small.contact[f].part >= 0 ? CW_ROLE_CONTACT : CW_ROLE_WALL;
-  if (cw_face_patches_make(&small.cad, &small_frame, &small.parts, &small.survey, small.contact, role, &patches) ||
+  if (cw_face_patches_make(&small.cad, &small_frame, &small.parts, &small.survey, small.contact, role, small_tolerance,
+                           &patches) ||
       cw_cad_interfaces_make(&small.cad, &small.survey, small.contact, &patches, small_tolerance, &count, &made))
     fail_msg("%s", cw_fail_message());
   assert_int_equal(count, 1);

@@ -40,7 +40,7 @@ struct Both : SmallParts {
     role = (CwFaceRole *)calloc(survey.face_count, sizeof *role);
     for (int f = 0; f < survey.face_count; f++) role[f] = contact[f].part >= 0 ? CW_ROLE_CONTACT : CW_ROLE_WALL;
     CW_TRY(cw_contact_surfaces(&cad, &survey, contact, small_tolerance, number));
-    CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, &patches));
+    CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, small_tolerance, &patches));
     CW_TRY(cw_contact_patches_part(&cad, &survey, contact, small_tolerance, &patches));
     CW_TRY(cw_cad_interfaces_make(&cad, &survey, contact, &patches, small_tolerance, &interface_count, &interfaces));
   done:
