@@ -18,9 +18,16 @@ A pump is good when every stage ends with status 0 and
   tetrahedra too where the mesher has said before that walls.layer_count is too great for mesh.cells.
 
 Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
-command that repeats one; then quantiles of the quality of all pumps that were meshed. DIR keeps cases/ and
-results.jsonl, one line a pump; a second call with the same programs does only what is missing. Meshes are removed once
-judged (--keep: they stay, in DIR/runs). With --strict the status is 1 where a pump fails after the geometry."""
+command that repeats one; then quantiles of the quality of all pumps that were meshed; then how many of them keep the
+volumes of neighbours across the layer top within 4 on 95 % of its faces and within 10 on all, those apart of which the
+mesher has said before that there are too few or too many layers. No pump is bad for that.
+
+DIR keeps cases/ and results.jsonl, one line a pump; a second call with the same programs, limit, ranks and external
+validators does only what is missing. Meshes are removed once judged (--keep: they stay, in DIR/runs).
+
+With --strict the status is 1, and a line names the rule, where a pump is bad or fails after the geometry; where one by
+its duty alone fails at all; where the geometry ends with anything but a refusal that names a key of the case; where
+under 98 % of the pumps with options are good; or where cgnscheck or checkMesh is missing."""
 import hashlib
 import re
 import shutil
@@ -36,7 +43,11 @@ STAGES = ("geometry", "mesh", "export")
 COUNT_OFF = 0.02
 LEAST_DIHEDRAL = 12.0  # degrees
 FIRST_HEIGHT_MET = 0.99
+RATIO_FAIR, RATIO_MOST, RATIO_SHARE = 4, 10, 0.95  # of the volumes across the layer top
+GOOD_SHARE = 0.98  # least, of pumps with options
 LAYERS_CROWD = r"^walls\.layer_count \d+ leaves edges"
+LAYERS_LACK = r"^\w+: \d+ of the \d+ layers that lead "
+REFUSALS = (3, 6, 7)  # statuses of pipeline/status.h: wrong input, no design, no geometry
 TIMED_OUT = "ran past the limit"
 FIGURES = (("sharpest edge of the fluid, degrees", "fluid_edge", "{:.1f}"),
            ("sharpest edge of the walls, degrees", "wall_edge", "{:.1f}"),
@@ -45,7 +56,7 @@ FIGURES = (("sharpest edge of the fluid, degrees", "fluid_edge", "{:.1f}"),
            ("dihedral over its bound", "dihedral_over_bound", "{:.2f}"), ("mean aspect", "aspect", "{:.2f}"),
            ("greatest aspect", "aspect_most", "{:.1f}"), ("first height met", "first_height", "{:.3f}"),
            ("walls whose first height fits, share", "fit", "{:.2f}"),
-           ("layer top with volumes alike, share", "even", "{:.3f}"),
+           (f"layer top with volumes within {RATIO_FAIR}, share", "even", "{:.3f}"),
            ("greatest volume ratio across it", "volume_ratio", "{:.0f}"),
            ("greatest non-orthogonality, degrees", "non_orthogonality", "{:.1f}"), ("passes", "passes", "{:.0f}"),
            ("retries", "retries", "{:.0f}"), ("seconds", "seconds", "{:.1f}"))
@@ -139,6 +150,7 @@ def judge_mesh(run, figures):
     if abs(figures["count"] - 1) > COUNT_OFF:
         bad.append(f"count {100 * (figures['count'] - 1):+.1f} % off")
     figures["crowded"] = crowded
+    figures["layers_told"] = crowded or any(re.search(LAYERS_LACK, text) for text in results["headlines"])
     if margin < 0 and not crowded:
         bad.append(f"least dihedral {worst['least_dihedral_deg']:.2f} degrees "
                    f"(the boundary allows {worst['least_dihedral_allowed_deg']:.1f})")
@@ -163,16 +175,23 @@ def prisms_explain(line, zones, crowded):
     return False
 
 
-def judge_files(run, check_mesh, figures):
-    """What the exporter's record, cgnscheck and checkMesh say against the files."""
+def validators(options, index):
+    """The external validators that judge the files of a pump."""
+    if options.until != "export":
+        return []
+    return ["cgnscheck"] + ["checkMesh"] * bool(options.check_mesh and index % options.check_mesh == 0)
+
+
+def judge_files(run, validators, figures):
+    """What the exporter's record and these external validators say against the files, as far as they are installed."""
     results = record(run, "export")["results"]
     zones = [zone for zone in results.values() if isinstance(zone, dict) and "greatest_non_orthogonality_deg" in zone]
     figures["non_orthogonality"] = max(zone["greatest_non_orthogonality_deg"] for zone in zones)
     bad = []
-    if shutil.which("cgnscheck"):
+    if "cgnscheck" in validators and shutil.which("cgnscheck"):
         errors = re.findall(r"^.*ERROR.*", execute("cgnscheck", run / "export/pump.cgns", check=False).text, re.M)
         bad += [f"cgnscheck: {errors[0].strip()}"] if errors else []
-    if check_mesh and shutil.which("checkMesh"):
+    if "checkMesh" in validators and shutil.which("checkMesh"):
         failed = failed_checks(run)
         figures["check_mesh"] = failed or ["Mesh OK"]
         bad += [f"checkMesh: {line}" for line in failed
@@ -196,7 +215,7 @@ def run_pump(options, index, result, case):
         if stage == "mesh":
             bad += judge_mesh(run, result["figures"])
         if stage == "export":
-            bad += judge_files(run, options.check_mesh and index % options.check_mesh == 0, result["figures"])
+            bad += judge_files(run, validators(options, index), result["figures"])
         if stage == options.until:
             break
     if "verdict" not in result:
@@ -217,15 +236,22 @@ def pump_case(options, index):
     return name, path, text
 
 
+def row_key(options, index, digest, text):
+    """Of all that a pump's verdict follows from."""
+    installed = [name for name in validators(options, index) if shutil.which(name)]
+    said = f"{digest} {options.cells} {options.until} {options.limit} {options.ranks} {installed} {text}"
+    return hashlib.sha256(said.encode()).hexdigest()[:16]
+
+
 def run_all(options):
-    """The results of all asked pumps, those of earlier calls with the same programs and cases among them."""
+    """The results of all asked pumps, those of earlier calls with the same key among them."""
     path, digest = options.work / "results.jsonl", programs_digest(options.bin)
     before = rows_before(path)
     asked = options.only or range(1, options.count + 1)
     results, waiting = {}, []
     for index in asked:
         name, case, text = pump_case(options, index)
-        key = hashlib.sha256(f"{digest} {options.cells} {options.until} {text}".encode()).hexdigest()[:16]
+        key = row_key(options, index, digest, text)
         if key in before and not options.keep:
             results[index] = before[key]
         else:
@@ -271,6 +297,49 @@ def print_quantiles(results):
                                          for share in shares))
 
 
+def print_ratios(results):
+    """How many meshes keep the volumes across the layer top within the limits, and the largest ratio."""
+    meshed = [result["figures"] for result in results if "even" in result["figures"]]
+    heads = "meshes", f"{RATIO_FAIR} on {RATIO_SHARE:.0%}", f"and {RATIO_MOST}", "largest"
+    print(f"\n{'volumes across the layer top':44}{heads[0]:>9}{heads[1]:>11}{heads[2]:>9}{heads[3]:>9}")
+    for text, told in (("too few or too many layers told before", True), ("the others", False)):
+        of = [figures for figures in meshed if figures["layers_told"] == told]
+        fair = [figures for figures in of if figures["even"] >= RATIO_SHARE]
+        within = [figures for figures in fair if figures["volume_ratio"] <= RATIO_MOST]
+        verdict = "" if told or not of else "  held" if len(within) == len(of) else f"  {len(of) - len(within)} miss it"
+        largest = format(max(figures["volume_ratio"] for figures in of), ".1f") if of else "-"
+        print(f"{text:44}{len(of):9}{len(fair):11}{len(within):9}{largest:>9}{verdict}")
+
+
+def is_refusal(result):
+    """Whether a failure of the geometry is a refusal that names a key of the case."""
+    message = result["message"]
+    # A key without its section is no word of another meaning where it has an underscore.
+    named = any(f"{section}.{key}" in message or ("_" in key and re.search(rf"\b{key}\b", message))
+                for section, key in random_pumps.schema())
+    return result["status"] in REFUSALS and named and "a fault of the program" not in message
+
+
+def broken_rules(options, results):
+    """What --strict holds against the results, a line each."""
+    def pumps(found):
+        return "pumps " + " ".join(str(result["index"]) for result in found)
+
+    failed = [result for result in results if result["verdict"] == "failed"]
+    asked = {name for result in results for name in validators(options, result["index"])}
+    good = sum(result["verdict"] == "good" for result in results)
+    rules = [("a pump is bad", [result for result in results if result["verdict"] == "bad"]),
+             ("a pump fails after the geometry", [result for result in failed if result["stage"] != "geometry"]),
+             ("a pump by its duty alone fails", [result for result in failed if not result["options"]]),
+             ("the geometry ends with no refusal that names a key",
+              [result for result in failed if result["stage"] == "geometry" and not is_refusal(result)])]
+    lines = [f"{rule}: {pumps(found)}" for rule, found in rules if found]
+    if options.options and good < GOOD_SHARE * len(results):
+        lines.append(f"{100 * good / len(results):.1f} % of the pumps with options are good; asked: "
+                     f"{100 * GOOD_SHARE:.0f} %")
+    return lines + [f"{name} is not installed" for name in sorted(asked) if not shutil.which(name)]
+
+
 def main():
     options = arguments()
     options.work = options.work.resolve()
@@ -290,8 +359,11 @@ def main():
               f"{'':17}pumps {' '.join(map(str, told))}\n")
     print_failures(options, results)
     print_quantiles(results)
-    failed = any(result["verdict"] == "bad" or result.get("stage") in ("mesh", "export") for result in results)
-    sys.exit(options.strict and failed)
+    print_ratios(results)
+    broken = broken_rules(options, results) if options.strict else []
+    for line in broken:
+        print(f"population: --strict: {line}")
+    sys.exit(bool(broken))
 
 
 if __name__ == "__main__":
