@@ -3,13 +3,17 @@
 """Solids of any CAD files through the mesher: each closed solid as a domain of its own, all its faces walls with five
 layers, beside gmsh's HXT without layers on the same faces.
 
-    tests/bench/cad.py FOLDER... [--cells N] [--limit S] [--only WORD] [--most N] [--jobs 2] [--no-hxt] [--out DIR]
+    tests/bench/cad.py [FOLDER...] [--cells N] [--limit S] [--only WORD] [--most N] [--jobs 2] [--no-hxt] [--brief]
+                       [--out DIR]
 
 FOLDER holds STEP (.step, .stp), IGES (.iges, .igs), B-rep (.brep, .rle) and FreeCAD's files (.FCStd, which hold
 B-reps), also gzipped, at any depth. Debian has them in occt-misc (/usr/share/opencascade/data), gmsh-doc, netgen-doc
 (/usr/share/doc), freecad-common (/usr/share/freecad/examples) and kicad-packages3d (/usr/share/kicad/3dmodels).
 Solids of as many faces and the same volume count once. They are read, healed and divided as those of a case
-(tests/measure/cad_solids.cpp).
+(tests/measure/cad_solids.cpp). Without FOLDER it is that of CUTWATER_CAD.
+
+At the end: solids by what became of them, and what is asked of all beside what they had; --brief leaves out the line of
+each. A file that cannot be read, or whose faces do not close, counts as a solid; one without solid and face does not.
 
 DIR/rows.json holds what is done: a call with the same DIR goes on. Times are those of the processor."""
 import collections
@@ -22,6 +26,7 @@ import re
 import shutil
 import signal
 import statistics
+import sys
 import tempfile
 import zipfile
 
@@ -31,6 +36,9 @@ from runs import record
 BIN = pathlib.Path(os.environ.get("CUTWATER_BIN", SOURCE / "build/bin"))
 LIMIT = 60  # s of the processor
 LEAST_DIHEDRAL, LEAST_SHARE = 10, 0.6  # degrees, or of what the boundary allows
+FAIR_SHARE = 0.95  # of the meshes, that have such angles
+MOST_BARE = 1  # % of the wall, without layers
+NO_SOLID = "no closed solid"
 
 CASE = """name: solid
 operating_point: {flow_rate_m3_per_h: 25, head_m: 10, speed_rpm: 1450}
@@ -98,19 +106,24 @@ def mesh(folder, case, cells, limit):
     layers = domain["layer_coverage"][0]
     row = {"cells": results["cells"], "seconds": round(seconds, 1), "dihedral": domain["least_dihedral_deg"],
            "allowed": domain["least_dihedral_allowed_deg"],
-           "full": 100 * layers["full_thickness_faces"] / max(layers["wall_faces"], 1)}
+           "full": 100 * layers["full_thickness_faces"] / max(layers["wall_faces"], 1),
+           "sound": domain["prism_least_scaled_jacobian"] > 0 and domain["least_cell_volume_m3"] > 0}
     bare = re.search(r"faces, (\S+) % of the wall, carry no layers", said)
     row["bare"] = float(bare[1]) if bare else 0
-    flat = row["dihedral"] < min(LEAST_DIHEDRAL, LEAST_SHARE * row["allowed"])
-    row["cause"] = "meshed" + (", flat tetrahedra" if flat else "") + (", bare walls" if row["bare"] else "")
+    row["cause"] = "meshed" + ("" if is_fair(row) else ", flat tetrahedra") + (", bare walls" if row["bare"] else "")
     return row
+
+
+def is_fair(row):
+    """Whether the least dihedral angle of a mesh is as large as asked."""
+    return row["dihedral"] >= min(LEAST_DIHEDRAL, LEAST_SHARE * row["allowed"])
 
 
 def one(task, options):
     """The row of one solid."""
     folder, case, refused = task
     if refused:
-        return {"cause": "not healed", "shown": refused[:150]}
+        return refused
     row = mesh(folder, case, options.cells, options.limit)
     if options.hxt:
         row["hxt"] = gmsh_row(folder / "geometry/part.brep", options.cells, options.limit)
@@ -146,9 +159,30 @@ def plain_files(path, work):
         yield plain
 
 
+def listed_solids(folder, text):
+    """Folder, number, faces, volume and (where there is one) row of refusal of each solid that cad_solids told of; a
+    file that it did not read to the end is one more."""
+    found = []
+    for line in text.splitlines():
+        made = re.match(r"solid (\d+) faces (\d+) volume (\S+)", line)
+        refused = re.match(r"solid (\d+) refused: (.*)", line)
+        ended = re.match(r"ended (timeout|-?\d+)$", line)
+        if made:
+            found.append((folder, made[1], int(made[2]), made[3], None))
+        elif refused:
+            found.append((folder, refused[1], 0, refused[2], {"cause": "not healed", "shown": refused[2][:150]}))
+        elif ended and ended[1] != "0":
+            error = re.findall(r"^cutwater\S*: error: (?:\S+: )?(.*)", text, re.M)
+            if error and re.match("holds no (solid and no face|shape);", error[-1]):
+                continue
+            cause = "timeout" if ended[1] == "timeout" else "crashed" if ended[1][0] == "-" else "not read or not sewn"
+            shown = error[-1] if error else f"reading ended with {ended[1]}"
+            found.append((folder, "0", 0, str(folder), {"cause": cause, "shown": shown[:150]}))
+    return found
+
+
 def solids_of(path, work, case, limit):
-    """Folder, number, faces, volume and (where there is one) reason of refusal of the solids of a file, made where
-    they are not there."""
+    """The solids of a file, made where they are not there."""
     found = []
     for plain in plain_files(path, work):
         folder = plain.with_name(plain.name + ".d")
@@ -158,17 +192,25 @@ def solids_of(path, work, case, limit):
             code, said, _ = run([BIN / "cad_solids", case, plain, folder], limit)
             listed.write_text(said + f"\nended {code}\n")
         plain.unlink()
-        for line in listed.read_text().splitlines():
-            made = re.match(r"solid (\d+) faces (\d+) volume (\S+)", line)
-            refused = re.match(r"solid (\d+) refused: (.*)", line)
-            ended = re.match(r"ended (timeout|-\d+)", line)
-            if made:
-                found.append((folder, made[1], int(made[2]), made[3], ""))
-            elif refused:
-                found.append((folder, refused[1], 0, refused[2], refused[2]))
-            elif ended:
-                found.append((folder, "0", 0, str(folder), f"reading ended with {ended[1]}"))
+        found += listed_solids(folder, listed.read_text())
     return found
+
+
+def asked_and_had(rows):
+    """What is asked of all solids, and what they had."""
+    solids = [row for row in rows if row["cause"] != NO_SOLID]
+    made = [row for row in solids if "cells" in row]
+    causes = collections.Counter(row["cause"] for row in solids)
+    slow = causes["timeout"] + sum(row["seconds"] > LIMIT for row in made)
+    fair = sum(map(is_fair, made)) / len(made) if made else 0
+    # The record tells no width of the gap at a bare face: all of the wall counts, also gaps with no room for two cells.
+    return (("closed solids meshed without an invalid cell", str(len(solids)), str(sum(row["sound"] for row in made))),
+            ("meshes with layers on 99 % of all wall, narrow gaps too", str(len(made)),
+             str(sum(row["bare"] <= MOST_BARE for row in made))),
+            (f"least dihedral {LEAST_DIHEDRAL} degrees, or {LEAST_SHARE} of its bound", f"{FAIR_SHARE:.0%}",
+             f"{fair:.1%}"),
+            (f"solids that take over {LIMIT} s", "0", str(slow)),
+            ("solids at which a program crashed", "0", str(causes["crashed"])))
 
 
 def summary(rows):
@@ -177,26 +219,29 @@ def summary(rows):
     made = [row for row in rows if "cells" in row]
     others = [row["hxt"][1] for row in rows if isinstance(row.get("hxt"), list)]
     if made:
-        fair = sum(row["dihedral"] >= min(LEAST_DIHEDRAL, LEAST_SHARE * row["allowed"]) for row in made)
         full = sum(row["full"] >= 95 for row in made)
-        layers = sum(row["bare"] <= 1 for row in made)
         middle, slowest = statistics.median(row["dihedral"] for row in made), max(row["seconds"] for row in made)
-        print(f"{len(made)} meshed: median of the least dihedral {middle:.1f}, fair in {fair}; layers on 99 % of the "
-              f"wall in {layers}, of full thickness on 95 % in {full}; slowest {slowest:.0f} s")
+        print(f"{len(made)} meshed: median of the least dihedral {middle:.1f}; layers of full thickness on 95 % in "
+              f"{full}; slowest {slowest:.0f} s")
     if others:
         middle = statistics.median(others)
         print(f"{len(others)} meshed by HXT without layers: median of the least dihedral {middle:.1f}")
+    print(f"\n{'':58}{'asked':>8}{'had':>8}")
+    for text, asked, had in asked_and_had(rows):
+        print(f"{text:58}{asked:>8}{had:>8}")
 
 
 def main():
-    parser = options_of(__doc__, cells=150000, jobs=2)
-    parser.add_argument("folder", nargs="+")
+    parser = options_of(__doc__, cells=150000, jobs=2, brief=False)
+    parser.add_argument("folder", nargs="*", default=list(filter(None, [os.environ.get("CUTWATER_CAD")])))
     parser.add_argument("--only", default="", help="files with this in their name")
     parser.add_argument("--most", type=int, default=8, help="solids of a file")
     parser.add_argument("--limit", type=int, default=LIMIT, help="seconds of the processor for a solid")
     parser.add_argument("--no-hxt", dest="hxt", action="store_false", help="without gmsh beside it")
     parser.add_argument("--out", help="folder that the table stays in, to go on from")
     options = parser.parse_args()
+    if not options.folder:
+        parser.error("no FOLDER; allowed: a folder of CAD files, or CUTWATER_CAD names one")
     work = pathlib.Path(options.out or tempfile.mkdtemp(prefix="cad-"))
     work.mkdir(parents=True, exist_ok=True)
     case = work / "case.yaml"
@@ -209,7 +254,7 @@ def main():
             continue
         solids = solids_of(path, work, case, options.limit)
         if not solids:
-            rows[path.name] = {"cause": "no closed solid"}
+            rows[path.name] = {"cause": NO_SOLID}
         taken = 0
         for folder, number, faces, volume, refused in solids:
             if (faces, volume) in seen or taken == options.most:
@@ -219,17 +264,17 @@ def main():
             name = f"{folder.name[:-2]} {number}"
             if name not in rows:
                 tasks[name] = (faces, (folder / number, case, refused))
-    print(f"{len(seen)} solids, {len(tasks)} to do", flush=True)
+    print(f"{len(seen)} solids, {len(tasks)} to do", file=sys.stderr, flush=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         futures = {pool.submit(one, task, options): (name, faces) for name, (faces, task) in tasks.items()}
         for future in concurrent.futures.as_completed(futures):
             name, faces = futures[future]
             rows[name] = {**future.result(), "faces": faces}
-            print(shown(name, rows[name]), flush=True)
+            print(shown(name, rows[name]), file=sys.stderr, flush=True)
             part = table.with_suffix(".part")
             part.write_text(json.dumps(rows, indent=1))
             part.replace(table)
-    for name in sorted(rows):
+    for name in () if options.brief else sorted(rows):
         print(shown(name, rows[name]))
     summary(list(rows.values()))
     if not options.out:

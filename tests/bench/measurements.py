@@ -44,6 +44,11 @@ SECTIONS = {
     "population_options": Section(
         "500 pumps with options", "tests/bench/population.py 500 --options --check-mesh 1",
         "The same with blade counts, splitters, fillets, shafts, sections, zones and y+ targets drawn too."),
+    "cad": Section(
+        "Solids of CAD files of others", "tests/bench/cad.py --brief",
+        "Each closed solid as a domain of its own, all its faces walls with five layers, beside gmsh's HXT without "
+        "layers (`tests/bench/cad.py --help`). The environment variable CUTWATER_CAD names the folder of the files; "
+        "without it the section is passed over."),
     "ablation": Section(
         "What each number of the policy does", f"{ABLATE} --part together",
         "Effects of the numbers of `mesher/policy_table.h` on failures, quality, layers, count and time, by a "
@@ -83,6 +88,7 @@ SECTIONS = {
 }
 
 ONLY_NAMED = {"ablation", "ablation_off", "region_rule", "scale_1G"}  # what needs another build, and the largest
+FOLDERS = {"cad": "CUTWATER_CAD"}  # of what is not in the repository, by the environment variable that names it
 HEAD = """<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->
 <!-- Made by tests/bench/measurements.py (`make measurements`): change that, not this page. -->
 # Measurements
@@ -99,6 +105,17 @@ def machine():
     cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     return f"{os.cpu_count()} cores ({cpu[1] if cpu else platform.machine()}), {memory:.0f} GiB"
+
+
+def is_there(name):
+    """Whether the folder that a section needs is there; if not, a line says so."""
+    variable = FOLDERS.get(name)
+    folder = os.environ.get(variable) if variable else SOURCE
+    if folder and Path(folder).is_dir():
+        return True
+    print(f"measurements: {name}: passed over: {variable} names no folder; allowed: {variable}=FOLDER, of CAD files",
+          file=sys.stderr, flush=True)
+    return False
 
 
 def measure(name):
@@ -132,7 +149,8 @@ def main():
         PAGE.write({})
         return
     for name in options.sections or (name for name in SECTIONS if name not in ONLY_NAMED):
-        PAGE.write({name: measure(name)})
+        if is_there(name):
+            PAGE.write({name: measure(name)})
 
 
 main()

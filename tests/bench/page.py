@@ -12,7 +12,8 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parents[2]
 PROGRAMS = ["pipeline", "geometry", "mesher", "export", "cases", "CMakeLists.txt"]
 MORE = {"table1": ["tests/measure/chew*"], "verify": ["tests/bench/verify.mk", "tests/cad"],
-        "fill": ["tests/bench/fill.c"], "patch_mesh": ["tests/bench/patch_mesh.c"]}  # by a word of the command
+        "cad.py": ["tests/measure/cad_solids.cpp"], "fill": ["tests/bench/fill.c"],
+        "patch_mesh": ["tests/bench/patch_mesh.c"]}  # by a word of the command
 ROOMS = {"export": "export", "report": "pipeline/report"}  # of stages that a bench without the word does not run
 
 
