@@ -24,6 +24,7 @@ COVERED = {"side_chamber": 0.95}
 # What checkMesh may say of sound cells: thin prisms; layers in wedges; layers in gaps narrower than the cells.
 ALLOWED = "small determinant|Max skewness|small interpolation weight|small volume ratio"
 MOST_SKEW = 10
+MOST_BARE = 1  # % of the wall of a domain, without layers
 
 
 class Drawn(unittest.TestCase):
@@ -71,11 +72,21 @@ class Drawn(unittest.TestCase):
         self.assertEqual(len(error), ITERATIONS)
         self.assertLess(error[-1], error[0])
 
+    def covered(self, run):
+        """All layers stand on each face that the record counts; it warns of faces that carry none."""
+        made = record(run, "mesh")
+        for domain in made["results"]["domains"]:
+            faces = sum(wall["wall_faces"] for wall in domain["layer_coverage"])
+            self.assertEqual(domain["prisms"], domain["layers"] * faces, domain["name"])
+        for bare in re.findall(r"faces, (\S+) % of the wall, carry no layers", "\n".join(made["warnings"])):
+            self.assertLessEqual(float(bare), MOST_BARE)
+
     def test_each_is_meshed_and_its_flow_begins(self):
         for name in DRAWINGS:
             with self.subTest(name):
                 run = self.through(name)
                 self.meshed(name, run)
+                self.covered(run)
                 self.checked(name, run / "export/openfoam")
                 self.solved(run / "export/openfoam")
 
