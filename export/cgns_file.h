@@ -11,6 +11,7 @@
 // The file as the ranks fill it: HDF5 lays its arrays down, each in one piece, and tells where. Zeroed: not open.
 typedef struct {
   int wide; // 64-bit integers
+  CwCgnsProfile profile;
   const CwAssembly *assembly;
   CwPlaceFile file;
   CwFileSum sum;   // of what this rank has written; on rank 0 also of the nodes
@@ -31,7 +32,7 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *assembly, const 
                             const CwCase *table, int wide);
 
 // Opens FOLDER/pump.cgns, laid down, on all ranks, for regions to be written from any rank in any order. Fails on all
-// ranks alike. Zeroed `file` on entry but for `wide`. Collective.
+// ranks alike. Zeroed `file` on entry but for `wide` and `profile`. Collective.
 CwStatus cw_cgns_open(const char *folder, const CwAssembly *assembly, const CwRanks *ranks, CwCgnsFile *file);
 
 // Writes the coordinates of the shared points of all domains. One rank calls it. CW_ERR_IO.

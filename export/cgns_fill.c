@@ -128,19 +128,27 @@ done:
   return status;
 }
 
+// The corner that an element's list begins with; the others follow in turn. The first triangle of VTK's wedge has its
+// normal outwards (vtkWedge), that of CGNS's PENTA_6 inwards: the two triangles change places.
+static int first_corner(const CwCgnsFile *f, const CwSection *section) {
+  return f->profile == CW_CGNS_VENDOR && section->type == CW_CGNS_PENTA_6 ? 3 : 0;
+}
+
 // Writes the elements of a section whose patch is its (patch_of NULL: all), `first` elements into it.
 static CwStatus write_elements(CwCgnsFile *f, int array, int region, const CwRegionData *data, const CwSection *section,
                                int64_t first, const int32_t *elements, int64_t count, const int32_t *patch_of) {
   CwStatus status = CW_OK;
   const CwAssembly *a = f->assembly;
   const int local_patch = section->patch - a->mesh->domains[data->domain].first_patch, nodes = section->nodes;
+  const int corner = first_corner(f, section);
   Stretch s = {.file = f, .size = f->wide ? sizeof *s.values.wide : sizeof *s.values.narrow};
   s.at = f->starts[array] + first * nodes * s.size;
   for (int64_t i = 0; i < count; ++i) {
     if (patch_of && patch_of[i] != local_patch) continue;
     if (!has_space(&s, nodes)) CW_TRY(flush(&s));
     for (int n = 0; n < nodes; ++n) {
-      const int64_t number = cw_point_number(a, region, data, elements[i * nodes + n]) + 1;
+      const int at = corner + n < nodes ? corner + n : corner + n - nodes;
+      const int64_t number = cw_point_number(a, region, data, elements[i * nodes + at]) + 1;
       if (f->wide)
         s.values.wide[s.count++] = number;
       else

@@ -238,6 +238,8 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CW_TRY(cw_cgns_text(base, "SimulationType", "SimulationType_t", "NonTimeAccurate", NULL));
   CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
   CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, units, NULL));
+  if (table->output.cgns_profile == CW_CGNS_VENDOR)
+    CW_TRY(cw_cgns_text(base, "PrismCorners", "Descriptor_t", "PENTA_6 in the order of VTK_WEDGE", NULL));
   CW_TRY(put_equations(base, cw_turbulence_model(a->mesh)));
   CW_TRY(put_reference_state(base, table, a->mesh->flow.reference_length));
   CW_TRY(put_families(base, a->mesh));

@@ -43,6 +43,7 @@ const char *cw_output_known_by(const CwOutput *o) {
 static CwStatus plan_one(CwOutput *o, CwFormat format) {
   switch (format) {
   case CW_FORMAT_CGNS:
+    o->cgns.profile = o->table->output.cgns_profile;
     return cw_cgns_plan(o->assembly, o->table->output.cgns_integers, &o->cgns.wide);
   case CW_FORMAT_OPENFOAM:
     return cw_foam_layout_plan(o->assembly, o->paths[format], &o->table->output, &o->foam);

@@ -46,6 +46,7 @@ typedef enum {
 } CwFormat;
 typedef enum { CW_FOAM_V1912, CW_FOAM_V2406 } CwFoamRelease;
 typedef enum { CW_INTEGERS_AUTO, CW_INTEGERS_32, CW_INTEGERS_64 } CwIntegers;
+typedef enum { CW_CGNS_STRICT, CW_CGNS_VENDOR } CwCgnsProfile;
 
 // A value the case leaves out (an optional key) is NAN: the hydraulic design or, of an automatic key, the mesher then
 // finds it.
@@ -187,6 +188,7 @@ typedef struct {
   int formats;              // 1 << CwFormat of each
   int foam_processors;      // folders that OpenFOAM's mesh is divided into; 1: it is whole
   CwIntegers cgns_integers; // bits of the integers of pump.cgns
+  CwCgnsProfile cgns_profile;
   CwFoamRelease foam_release;
   CwIntegers foam_labels; // bits of OpenFOAM's labels
 } CwExportTable;

@@ -199,6 +199,20 @@ done:
   return status;
 }
 
+// They read pump.cgns by the standard.
+static CwStatus check_profile(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  const CwCasePlace *place = &places[cw_case_key_find("cgns", "profile")];
+  const int formats = table->output.formats, has_cfx = formats >> CW_FORMAT_CFX & 1;
+  CW_REQUIRE(table->output.cgns_profile == CW_CGNS_STRICT || !(has_cfx || formats >> CW_FORMAT_SATURNE & 1),
+             CW_ERR_INPUT,
+             "%s:%d:%d: cgns.profile: vendor contradicts export.formats, whose %s reads pump.cgns in the standard's "
+             "order; allowed: strict, or formats without cfx and code_saturne ([cgns, openfoam])",
+             path, place->line, place->column, has_cfx ? "cfx" : "code_saturne");
+done:
+  return status;
+}
+
 CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places) {
   CwStatus status = CW_OK;
   CW_TRY(check_cad(path, table, places));
@@ -209,6 +223,7 @@ CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace 
   CW_TRY(check_blockage(path, table, places));
   CW_TRY(check_roughness(path, table, places));
   CW_TRY(check_volute(path, table, places));
+  CW_TRY(check_profile(path, table, places));
 done:
   return status;
 }

@@ -23,6 +23,7 @@ static const char *const sweeps[] = {"layers_stay", "similar", NULL};
 static const char *const formats[] = {"cgns", "openfoam", "cfx", "fluent", "code_saturne", NULL};
 static const char *const foam_releases[] = {"v1912", "v2406", NULL};
 static const char *const integers[] = {"auto", "32", "64", NULL};
+static const char *const cgns_profiles[] = {"strict", "vendor", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
 #define AT(field) offsetof(CwCase, field)
@@ -254,6 +255,9 @@ const CwCaseKey cw_case_keys[] = {
             output.formats, "what the mesh is written for; cfx and code_saturne read pump.cgns and bring it with them"),
     CHOICE("cgns", "integers", integers, CW_INTEGERS_AUTO, output.cgns_integers,
            "bits of the integers of pump.cgns; auto: 64 where a zone has 2^31 points or elements or more, else 32"),
+    CHOICE("cgns", "profile", cgns_profiles, CW_CGNS_STRICT, output.cgns_profile,
+           "corners of the prisms; strict: in the standard's order; vendor: in VTK's, whose reader takes them as they "
+           "stand, not with cfx or code_saturne"),
     {"openfoam", "processors", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 100000, 1, NULL, AT(output.foam_processors),
      "above 1: the mesh is written divided into so many folders processorN, for as many ranks, instead of whole"},
     CHOICE("openfoam", "release", foam_releases, CW_FOAM_V1912, output.foam_release,

@@ -11,7 +11,7 @@ build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmoc
   libocct-data-exchange-dev"
 other_mpi="libmpich-dev mpich iproute2"
 browser="chromium"
-judges="cgns-convert code-saturne gmsh python3-gmsh openfoam tetgen valgrind"
+judges="cgns-convert code-saturne gmsh python3-gmsh python3-vtk9 openfoam tetgen valgrind"
 
 case "${1:-}" in
 build) wanted=$build ;;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Reads pump.cgns back with the CGNS library, and checks what cgnscheck and the audit of the mesh itself
 // (tests/measure/cgns_audit.c, test_cgns_faults.c) do not: that the cells fill the solid, that each condition has its
-// family, that the interface is complete and lies where it says, and which equations the file names.
+// family, that the interface is complete and lies where it says, which equations the file names, and that files with
+// 64-bit integers or for VTK hold the same mesh.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -253,6 +254,58 @@ static void the_equations_follow_from_the_walls(void **state) {
   }
 }
 
+// The nodes of all elements of a file, section by section, in *nodes, and how many of the elements are prisms.
+static cgsize_t all_nodes(const char *path, int bits, cgsize_t **nodes, cgsize_t *prisms) {
+  int one, precision, sections, boundary, parents;
+  cgsize_t count = 0, first, last, size;
+  char name[33];
+  ElementType_t type;
+  *nodes = NULL;
+  *prisms = 0;
+  assert_int_equal(cg_open(path, CG_MODE_READ, &one), CG_OK);
+  assert_int_equal(cg_precision(one, &precision), CG_OK);
+  assert_int_equal(precision, bits);
+  for (int number = 1; number <= 2; ++number) {
+    assert_int_equal(cg_nsections(one, 1, number, &sections), CG_OK);
+    for (int s = 1; s <= sections; ++s) {
+      assert_int_equal(cg_section_read(one, 1, number, s, name, &type, &first, &last, &boundary, &parents), CG_OK);
+      assert_int_equal(cg_ElementDataSize(one, 1, number, s, &size), CG_OK);
+      *nodes = realloc(*nodes, (size_t)(count + size) * sizeof **nodes);
+      assert_int_equal(cg_elements_read(one, 1, number, s, *nodes + count, NULL), CG_OK);
+      if (type == PENTA_6) *prisms += last - first + 1;
+      count += size;
+    }
+  }
+  cg_close(one);
+  return count;
+}
+
+// The same nodes in 64 bits; for VTK too, but that the two triangles of each prism have changed places.
+static void other_files_hold_the_same_mesh(void **state) {
+  const char *run = in_test_folder("kinds"), *path = in_test_folder("kinds/export/pump.cgns");
+  cgsize_t *strict, *other, prisms, found, turned = 0;
+  assert_int_equal(stage_shell(output, "cp -r '%s/run' '%s'", test_folder, run), 0);
+  const cgsize_t count = all_nodes(path, 32, &strict, &prisms);
+  assert_int_equal(stage_export_with(run, 2, "cgns: {integers: 64}", output), 0);
+  assert_int_equal(all_nodes(path, 64, &other, &found), count);
+  assert_memory_equal(other, strict, (size_t)count * sizeof *other);
+  free(other);
+  assert_int_equal(stage_export_with(run, 2, "cgns: {profile: vendor}\nexport: {formats: cgns}", output), 0);
+  assert_int_equal(all_nodes(path, 32, &other, &found), count);
+  assert_int_equal(found, prisms);
+  for (cgsize_t i = 0; i < count; ++i) {
+    if (other[i] == strict[i]) continue;
+    assert_memory_equal(other + i, strict + i + 3, 3 * sizeof *other);
+    assert_memory_equal(other + i + 3, strict + i, 3 * sizeof *other);
+    ++turned;
+    i += 5;
+  }
+  assert_true(prisms > 0);
+  assert_int_equal(turned, prisms);
+  free(other);
+  free(strict);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_are_sound_and_fill_the_solid),
@@ -260,6 +313,7 @@ int main(void) {
       cmocka_unit_test(the_interface_is_whole_and_lies_on_its_donors),
       cmocka_unit_test(rotation_and_units_are_there),
       cmocka_unit_test(the_equations_follow_from_the_walls),
+      cmocka_unit_test(other_files_hold_the_same_mesh),
   };
   return cmocka_run_group_tests(tests, open_export, close_export);
 }
