@@ -227,3 +227,17 @@ CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace 
 done:
   return status;
 }
+
+// A mesh has some cells more or fewer than it is asked for.
+CwStatus cw_case_check_parts(const char *path, const CwCase *table) {
+  CwStatus status = CW_OK;
+  const int parts = table->output.foam_processors;
+  const long long cells = table->mesh.cells;
+  CW_REQUIRE(
+      !(table->output.formats >> CW_FORMAT_OPENFOAM & 1) || parts <= cells / 2, CW_ERR_INPUT,
+      "%s: openfoam.processors: %d parts of %lld cells (mesh.cells, or --cells); allowed: 1 to %lld, two cells a "
+      "part",
+      path, parts, cells, cells / 2);
+done:
+  return status;
+}

@@ -14,4 +14,8 @@ typedef struct {
 // Checks the whole table; `places` holds one place a key of the schema, in its order. Fails with CW_ERR_INPUT
 // and "FILE:LINE:COLUMN: KEY: VALUE contradicts ...; allowed: ..." at the first contradiction.
 CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places);
+
+// Checks openfoam.processors against the number of cells, which the command line may change after the case is read.
+// CW_ERR_INPUT, naming `path`, where parts would have fewer than two cells.
+CwStatus cw_case_check_parts(const char *path, const CwCase *table);
 #endif

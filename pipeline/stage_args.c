@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_check.h"
 #include "pipeline/case_origin.h"
 #include "pipeline/case_read.h"
 #include "pipeline/case_schema.h"
@@ -170,6 +171,7 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
   CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose, &args->log));
   CW_TRY(cw_case_read(args->case_path, table));
   if (args->cells) CW_TRY(cw_case_sweep(args->case_path, args->cells, table));
+  CW_TRY(cw_case_check_parts(args->case_path, table));
   for (const char *const *stage = usage->reads; *stage; ++stage) {
     CW_TRY(cw_case_origin_check(table, args->run_path, *stage));
     if (speaks) CW_TRY(cw_stage_files_check(args->run_path, *stage));

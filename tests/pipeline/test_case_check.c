@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "given_case.h"
+#include "pipeline/case_check.h"
 #include "tests/unit_test.h"
 
 static CwStatus read_with(const char *lines, CwCase *table) {
@@ -33,7 +34,20 @@ static void the_profile_goes_with_what_reads_the_file(void **state) {
   }
 }
 
+static void a_part_has_two_cells(void **state) {
+  CwCase table;
+  assert_int_equal(read_with("mesh: {cells: 50000}\nopenfoam: {processors: 25000}", &table), CW_OK);
+  assert_int_equal(cw_case_check_parts("case.yaml", &table), CW_OK);
+  table.output.foam_processors = 100000;
+  assert_int_equal(cw_case_check_parts("case.yaml", &table), CW_ERR_INPUT);
+  assert_string_equal(cw_fail_message(), "case.yaml: openfoam.processors: 100000 parts of 50000 cells (mesh.cells, or "
+                                         "--cells); allowed: 1 to 25000, two cells a part");
+  table.output.formats = 1 << CW_FORMAT_CGNS; // nothing is divided
+  assert_int_equal(cw_case_check_parts("case.yaml", &table), CW_OK);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_profile_goes_with_what_reads_the_file)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_profile_goes_with_what_reads_the_file),
+                                     cmocka_unit_test(a_part_has_two_cells)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -165,6 +165,21 @@ static void stage_begins_with_log_and_case(void **state) {
   assert_string_equal(table.name, "paper");
   assert_int_equal(table.mesh.cells, 300000);
   assert_int_equal(unlink(in_test_folder("log/export.log")), 0);
+  // Parts are held against the command line's number of cells, not the case's million.
+  const char *parts = in_test_folder("parts.yaml");
+  FILE *file = fopen(parts, "w");
+  assert_non_null(file);
+  fprintf(file, "name: a\noperating_point: {flow_rate_m3_per_h: 25, head_m: 10, speed_rpm: 1450}\n"
+                "openfoam: {processors: 99999}\n");
+  assert_int_equal(fclose(file), 0);
+  argv[2] = (char *)parts;
+  for (int few = 0; few < 2; ++few) {
+    argv[6] = few ? "50k" : "300k";
+    assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), few ? CW_ERR_INPUT : CW_OK);
+    cw_log_close(&args.log);
+    cw_run_unlock(&args.lock);
+  }
+  assert_non_null(strstr(cw_fail_message(), "99999 parts of 50000 cells"));
   // A case that is not there ends the stage with the message of the reader.
   argv[2] = "/nowhere.yaml";
   assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_ERR_IO);
