@@ -16,9 +16,9 @@ static const double SURFACE_OPEN = 1e-9; // of its area, what rounding may leave
 // of a triangle; `reversed` if the outward normal runs the other way.
 typedef struct {
   int64_t loop[4];
-  int32_t region; // into CwMesh.regions
-  int32_t slot;   // place among the open faces of its region
-  int32_t cell;   // of the region
+  int32_t domain, region; // into CwMesh.domains and CwMesh.regions
+  int32_t slot;           // place among the open faces of its region
+  int32_t cell;           // of the region
   int32_t reversed;
   CwFaceKind kind; // as the cell makes it
   CwMiddle middle; // of the cell
@@ -156,7 +156,8 @@ done:
 }
 
 static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, int32_t ref) {
-  OpenFace face = {.region = region, .slot = slot, .cell = ref / CW_CELL_FACES, .loop = {-1, -1, -1, -1}};
+  OpenFace face = {
+      .domain = data->domain, .region = region, .slot = slot, .cell = ref / CW_CELL_FACES, .loop = {-1, -1, -1, -1}};
   int32_t nodes[4];
   int64_t wide[4];
   int order[4], count = cw_cell_face(data, face.cell, ref % CW_CELL_FACES, nodes);
@@ -268,10 +269,16 @@ done:
 
 static int compare_open_faces(const void *left, const void *right) {
   const OpenFace *x = left, *y = right;
+  if (x->domain != y->domain) return x->domain < y->domain ? -1 : 1;
   for (int i = 0; i < 4; ++i)
     if (x->loop[i] != y->loop[i]) return x->loop[i] < y->loop[i] ? -1 : 1;
   return x->region != y->region ? (x->region > y->region) - (x->region < y->region)
                                 : (x->slot > y->slot) - (x->slot < y->slot);
+}
+
+// Shared numbers are the domain's own.
+static int same_nodes(const OpenFace *x, const OpenFace *y) {
+  return x->domain == y->domain && memcmp(x->loop, y->loop, sizeof x->loop) == 0;
 }
 
 static CwStatus fail_at_open_face(const CwAssembly *a, const OpenFace *face, const char *what) {
@@ -293,15 +300,14 @@ static void measure_open_face(CwAssembly *a, const OpenFace *x, const OpenFace *
   cw_face_quality_face(count, points, &x->middle, &y->middle, kind, &a->totals[domain].faces);
 }
 
-// Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.
+// Pairs the open faces of all regions. On rank 0.
 static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
   CwStatus status = CW_OK;
   qsort(open, (size_t)count, sizeof *open, compare_open_faces);
   for (int64_t i = 0; i < count; i += 2) {
     const OpenFace *x = &open[i], *y = &open[i + 1];
-    if (i + 1 == count || memcmp(x->loop, y->loop, sizeof x->loop) != 0)
-      CW_TRY(fail_at_open_face(a, x, "has no partner in another region"));
-    if (i + 2 < count && memcmp(x->loop, open[i + 2].loop, sizeof x->loop) == 0)
+    if (i + 1 == count || !same_nodes(x, y)) CW_TRY(fail_at_open_face(a, x, "has no partner in another region"));
+    if (i + 2 < count && same_nodes(x, &open[i + 2]))
       CW_TRY(fail_at_open_face(a, x, "is shared by more than two cells"));
     if (x->reversed == y->reversed) CW_TRY(fail_at_open_face(a, x, "has both of its cells on the same side"));
     measure_open_face(a, x->reversed ? y : x, x->reversed ? x : y);
@@ -324,18 +330,7 @@ static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected
   OpenFace *all = NULL;
   int64_t total = 0;
   CW_TRY(cw_ranks_gather(ranks, c->open, c->open_count, sizeof *all, (void **)&all, &total));
-  // A stable split by domain, as each numbers its shared points from 0.
-  if (ranks->rank == 0) {
-    OpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
-    if (!split) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on partition planes", (long long)total);
-    for (int d = 0; d < a->mesh->domain_count && status == CW_OK; ++d) {
-      int64_t count = 0;
-      for (int64_t i = 0; i < total; ++i)
-        if (a->mesh->regions[all[i].region].domain == d) split[count++] = all[i];
-      status = pair_open_faces(a, split, count);
-    }
-    free(split);
-  }
+  if (ranks->rank == 0) status = pair_open_faces(a, all, total);
   CW_TRY(cw_ranks_agree(ranks, status));
   cw_ranks_broadcast(ranks, a->across, a->open_count, sizeof *a->across);
   cw_ranks_broadcast(ranks, a->partner, a->open_count, sizeof *a->partner);
