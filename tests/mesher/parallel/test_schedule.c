@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <dirent.h>
 #include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 #include <mpi.h>
 
@@ -16,7 +16,7 @@
 
 static CwLog *test_log;
 
-enum { TASKS = 40, RANKS_MOST = 8 };
+enum { TASKS = 40 };
 
 typedef struct {
   const char *mode;
@@ -24,35 +24,54 @@ typedef struct {
   int ran[TASKS], order[TASKS], count;
 } Work;
 
-// How often each other rank of this run has gone to sleep; returns how many these are.
-static int sleeps_of_others(long sleeps[RANKS_MOST]) {
-  DIR *folder = opendir("/proc");
-  int count = 0;
-  for (struct dirent *entry; folder && (entry = readdir(folder));) {
-    char path[300], line[300];
-    int parent = 0, pid = atoi(entry->d_name);
-    snprintf(path, sizeof path, "/proc/%s/status", entry->d_name);
-    FILE *file = pid > 0 && pid != getpid() && count < RANKS_MOST ? fopen(path, "r") : NULL;
-    while (file && fgets(line, sizeof line, file)) {
-      sscanf(line, "PPid: %d", &parent);
-      if (parent == getppid() && sscanf(line, "voluntary_ctxt_switches: %ld", &sleeps[count]) == 1) count++;
-    }
-    if (file) fclose(file);
-  }
-  if (folder) closedir(folder);
-  return count;
+// Words by file, in the folder of the launch: that the task has begun for which all other ranks wait, and that a rank
+// has slept meanwhile.
+enum { SLEEPS = 5 };
+static const char *const BEGUN = "begun";
+static int slept = SLEEPS; // of this rank, since the task has begun; SLEEPS: it has said so, or need not
+
+static void path_of_word(const char *word, char path[4300]) {
+  snprintf(path, 4300, "%s/%s", getenv("CUTWATER_LAUNCHED"), word);
 }
 
-// Two looks, after the others have done their tasks: how many of them went to sleep at least five times between.
-static int sleepers(void) {
-  long before[RANKS_MOST] = {0}, after[RANKS_MOST] = {0};
-  int count, asleep = 0;
-  sleep(2);
-  count = sleeps_of_others(before);
-  sleep(2);
-  if (sleeps_of_others(after) != count) return -1;
-  for (int i = 0; i < count; i++) asleep += after[i] >= before[i] + 5;
-  return asleep;
+static void say(const char *word) {
+  char path[4300];
+  path_of_word(word, path);
+  FILE *file = fopen(path, "w");
+  if (file) fclose(file);
+}
+
+static int is_said(const char *word) {
+  char path[4300];
+  path_of_word(word, path);
+  return access(path, F_OK) == 0;
+}
+
+// In the place of the system's, by which the ranks that wait fall asleep between two looks.
+int nanosleep(const struct timespec *pause, struct timespec *left) {
+  if (slept < SLEEPS && is_said(BEGUN) && ++slept == SLEEPS) {
+    char word[30];
+    int rank;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    snprintf(word, sizeof word, "slept-%d", rank);
+    say(word);
+  }
+  return clock_nanosleep(CLOCK_MONOTONIC, 0, pause, left);
+}
+
+// Ends once all other ranks have slept; with ranks that look on without a sleep the test does not end.
+static void wait_for_sleepers(void) {
+  int rank, ranks;
+  char word[30];
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  slept = SLEEPS;
+  say(BEGUN);
+  for (int other = 0; other < ranks; other++) {
+    snprintf(word, sizeof word, "slept-%d", other);
+    while (other != rank && !is_said(word)) usleep(1000);
+  }
+  printf("ASLEEP %d\n", ranks - 1);
 }
 
 static int64_t result_size(const Work *work, int32_t task) {
@@ -78,7 +97,7 @@ static CwStatus run(void *context, int32_t task, void **bytes, int64_t *size) {
   else if (!strcmp(work->mode, "slow-fails") && work->slow && sleep(120) == 0)
     printf("SLEPT\n");
   else if (!strcmp(work->mode, "idle") && task == 0)
-    printf("ASLEEP %d\n", sleepers());
+    wait_for_sleepers();
   else if (strcmp(work->mode, "alone") && strcmp(work->mode, "idle"))
     usleep(2000);
   *size = result_size(work, task);
@@ -215,6 +234,7 @@ static int be_a_rank(int argc, char **argv) {
   int rank = cw_team_rank(all), ranks = cw_team_ranks(all);
   cw_log_open("test", NULL, rank == 0, 0, &test_log);
   context.log = test_log;
+  if (!strcmp(argv[1], "idle")) slept = 0;
   if (!strcmp(argv[1], "server-fails")) return fail_behind_another(&context) == CW_OK; // ends inside
   if (strstr(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
     printf("RANK %d EARLY %d\n", rank, began_too_early(&context, argv[1]));
@@ -365,7 +385,7 @@ static void killed_rank_ends_the_run(void **state) {
   assert_null(strstr(output, " RAN "));
 }
 
-// Four ranks wait for the task of the fifth, which looks at them: one that polls without end never goes to sleep.
+// Four ranks wait for the task of the fifth, which waits until each of them has slept several times.
 static void waiting_ranks_sleep(void **state) {
   int looks;
   launch_well(5, "idle");
