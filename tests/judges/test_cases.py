@@ -3,7 +3,7 @@
 flat, and the first height holds. In every case the rule of region numbers gives both sides of an interface one mesh."""
 import unittest
 
-from cutwater import SOURCE, digests, done, execute, fresh, interfaces_agree, record
+from cutwater import SOURCE, digests, done, execute, fresh, interfaces_agree, record, rule_on_all_regions
 from judges import CHECK_MESH, failed_checks
 
 # Cells; None: the case's own.
@@ -38,6 +38,7 @@ class Cases(unittest.TestCase):
                 for domain in domains:
                     self.assertGreaterEqual(domain["least_dihedral_deg"], LEAST_DIHEDRAL, domain["name"])
                 interfaces_agree(self, run)
+                print("\n".join(f"{case.parent.name}: {line}" for line in rule_on_all_regions(self, run)), flush=True)
                 # Regions that are made again have no neighbour at work that could send them anything.
                 made = digests(run / "mesh")
                 for domain in domains:

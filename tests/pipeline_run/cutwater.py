@@ -160,6 +160,29 @@ def interfaces_agree(test, run):
     test.assertEqual(step["task_after"] or [-1] * len(after), after)
 
 
+def rule_on_all_regions(test, run):
+    """Each region that is the lower number beside an interface has applied the rule of region numbers, in all domains;
+    where it found triangles to divide, it divided them or left them to both sides. A line of its counts by domain."""
+    results, owners, lines = record(run, "mesh")["results"], set(), []
+    for domain in results["domains"]:
+        name, rule = domain["name"], domain["region_rule"]
+        first = {region["region"]: region["copy_of"] for region in domain["region_list"]}
+        number = {region["region"]: region["number"] for region in domain["region_list"]}
+        owners |= {(name, min((first[a], first[b]), key=number.get)) for a, b in domain["adjacent_regions"]}
+        planned, encroached, inserted, left, final = (rule[f"{key}_{what}"] for key, what in (
+            ("planned", "triangles"), ("encroached", "triangles"), ("inserted", "centres"), ("left", "triangles"),
+            ("final", "triangles")))
+        test.assertEqual(planned > 0, domain["regions"] > 1, name)
+        test.assertLessEqual(encroached, planned, name)
+        test.assertLessEqual(left, final, name)
+        test.assertEqual(inserted + left > 0, encroached > 0, name)
+        lines.append(f"{name}: {domain['regions']} regions, {planned} interface triangles, {encroached} with new points "
+                     f"in their spheres, {inserted} centres inserted, {left} triangles left to both sides")
+    step = [tasks for tasks in results["together"]["tasks"] if tasks["step"] == "region rule"][-1]
+    test.assertEqual(len(step["task_seconds"]), len(owners))
+    return lines
+
+
 def digests(folder, pattern="*", leave_out=("record.json",)):
     """SHA-256 of every file of a folder, by its path in it."""
     folder = Path(folder)
