@@ -5,8 +5,9 @@
   tests/bench/table1.py [--cells 2M] [--build build] [--case cases/paper/case.yaml] [--domains rotor] [--ranks 2]
     [--radius R] [--ratio B] [--algorithms del3d hxt] [--limit 3600]
 
-All rows of a domain have the same walls and layers; those of several regions have the same partition planes too. The
-impeller is meshed whole, since the other rows have no periodic images.
+The rows of several regions have the same walls, layers and partition planes. Those of one region have walls and layers
+of their own, for as many cells: no curve of a partition plane cuts their walls. The impeller is meshed whole, since the
+other rows have no periodic images.
 
   serial       one region, one rank, by the mesher
   proposed     the mesher's regions, by the rule of region numbers
