@@ -7,8 +7,8 @@ interfaces of each domain, and the tetrahedra beside them with it and without. B
 -DCUTWATER_EXPERIMENT=ON.
 
 rule       the mesher as it is
-without    planned interfaces without new points, and no candidate dropped in their spheres. They keep the planned points
-           but are triangulated anew, as constrained Delaunay triangulations: what the rule starts from
+without    planned interfaces without new points, and no candidate dropped in their spheres. They keep the planned
+           points but are triangulated anew, as constrained Delaunay triangulations: what the rule starts from
 triangles  of the planned interfaces, periodic images included
 spheres    those of them with candidates of the owner in their spheres
 centres    inserted into the interfaces

@@ -176,8 +176,8 @@ def rule_on_all_regions(test, run):
         test.assertLessEqual(encroached, planned, name)
         test.assertLessEqual(left, final, name)
         test.assertEqual(inserted + left > 0, encroached > 0, name)
-        lines.append(f"{name}: {domain['regions']} regions, {planned} interface triangles, {encroached} with new points "
-                     f"in their spheres, {inserted} centres inserted, {left} triangles left to both sides")
+        lines.append(f"{name}: {domain['regions']} regions, {planned} interface triangles, {encroached} with new "
+                     f"points in their spheres, {inserted} centres inserted, {left} triangles left to both sides")
     step = [tasks for tasks in results["together"]["tasks"] if tasks["step"] == "region rule"][-1]
     test.assertEqual(len(step["task_seconds"]), len(owners))
     return lines
