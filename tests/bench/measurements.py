@@ -62,6 +62,10 @@ SECTIONS = {
         "What the rule does to the interfaces of each case, and the tetrahedra beside them "
         "(`tests/bench/region_rule.py --help`). Needs the experimental build of `tests/bench/ablate.py`; measured only "
         "where it is named."),
+    "rule_picture": Section(
+        "The rule of region numbers at one place", "tests/bench/rule_picture.py",
+        "Makes the picture of the rule in [mesher.md](mesher.md#region-rule). Needs the same build; "
+        "measured only where it is named."),
     "table1": Section(
         "Table 1 of the paper: shapes of the tetrahedra, time and messages", "tests/bench/table1.py --cells 21M",
         "The rotor, meshed whole, in six ways (`tests/bench/table1.py --help` says what rows and columns mean). "
@@ -87,7 +91,8 @@ SECTIONS = {
                         "Processor seconds on one rank."),
 }
 
-ONLY_NAMED = {"ablation", "ablation_off", "region_rule", "scale_1G"}  # what needs another build, and the largest
+# What needs another build, and the largest.
+ONLY_NAMED = {"ablation", "ablation_off", "region_rule", "rule_picture", "scale_1G"}
 FOLDERS = {"cad": "CUTWATER_CAD"}  # of what is not in the repository, by the environment variable that names it
 HEAD = """<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->
 <!-- Made by tests/bench/measurements.py (`make measurements`): change that, not this page. -->
@@ -153,4 +158,5 @@ def main():
             PAGE.write({name: measure(name)})
 
 
-main()
+if __name__ == "__main__":
+    main()

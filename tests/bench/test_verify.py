@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The cases of verify.py and how their runs are made, and the page that it and measurements.py write."""
+"""The cases of verify.py and how their runs are made."""
 import argparse
 import time
 import unittest
 from unittest import mock
 
-import page
 import programs
 import verify
 from cutwater import fresh
@@ -46,42 +45,6 @@ class Runs(unittest.TestCase):
         self.assertEqual(case.stat().st_mtime_ns, written)
         self.bench.case("tried", "name: two\n")
         self.assertGreater(case.stat().st_mtime_ns, written)
-
-
-class Written(unittest.TestCase):
-    def setUp(self):
-        self.path = fresh("page") / "page.md"
-        self.page = page.Page(self.path, "# Page\n", {"a": "bench a", "b": "bench b", "c": "bench c"}, "make page")
-
-    def write(self, digest, *names):
-        with mock.patch.object(page, "sources_digest", lambda command: f"{digest}{command[-1]}"):
-            self.page.write({name: self.page.section(name, f"Section {name}", "", f"Of {digest}.", "```\nx\n\ny\n```")
-                             for name in names})
-        return self.path.read_text()
-
-    def test_sections_stay_while_their_sources_do(self):
-        text = self.write("1", "c", "a")
-        self.assertEqual(text, "# Page\n\n<!-- section a 1a -->\n## Section a\n\nOf 1.\n\n```\nx\n\ny\n```\n\n"
-                               "<!-- section c 1c -->\n## Section c\n\nOf 1.\n\n```\nx\n\ny\n```\n\n"
-                               "<!-- missing -->\nNot made on these sources: b (`make page`).\n")
-        self.assertEqual(self.write("1"), text)
-        self.assertEqual(self.write("1", "b").count("<!-- missing -->"), 0)
-        text = self.write("2", "b")
-        self.assertEqual(text.count("## Section"), 1)
-        self.assertIn("Of 2.", text)
-        self.assertIn("Not made on these sources: a, c (`make page`).", text)
-
-    def test_the_sources_of_a_section(self):
-        read = []
-        with mock.patch.object(page, "run_text", lambda *line: read.append(line) or ""):
-            for command in ("tests/bench/verify.py heads", "tests/bench/table1.py --cells 21M", "build/bin/x 500"):
-                page.sources_digest(command)
-        verify, table1, tests = read
-        self.assertLessEqual({"tests/bench/foam_read.py", "tests/bench/verify.mk", "tests/cad"}, set(verify))
-        self.assertNotIn(":(exclude)export", verify)
-        self.assertLessEqual({"tests/bench/fill.py", "tests/measure/chew*", ":(exclude)export"}, set(table1))
-        self.assertNotIn("tests/bench/foam_read.py", table1)
-        self.assertLessEqual({"tests/mesher", ":(exclude)export", ":(exclude)pipeline/report"}, set(tests))
 
 
 if __name__ == "__main__":
