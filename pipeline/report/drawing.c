@@ -72,7 +72,7 @@ void cw_drawing_aim(CwDrawing *drawing, const CwSurvey *survey) {
     memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
     break;
   }
-  if (spec->plane == CW_PLANE_MID_SPAN && !cw_survey_has_mid_span(survey))
+  if (isfinite(cw_plane_span(spec->plane)) && !cw_survey_has_span(survey))
     drawing->lacking = "the mesh has no hub, or no shroud";
   if (spec->plane == CW_PLANE_NONE) {
     turn_with(middle, (double[3]){spec->towards[0], spec->towards[1], -suction * spec->towards[2]}, towards);
@@ -205,10 +205,11 @@ done:
 CwStatus cw_drawing_cut(const CwDrawing *drawing, const CwSurvey *survey, const CwRegionData *cells, CwRegionCut *cut) {
   CwStatus status = CW_OK;
   double *distance = NULL;
+  const double share = cw_plane_span(drawing->spec->plane);
   CW_NEW_UNSET(distance, cells->point_count);
   for (int32_t i = 0; i < cells->point_count; i++)
-    distance[i] = drawing->spec->plane == CW_PLANE_MID_SPAN ? cw_survey_mid_span(survey, cells->points[i])
-                                                            : cw_cut_distance(&drawing->plane, cells->points[i]);
+    distance[i] = isfinite(share) ? cw_survey_span(survey, share, cells->points[i])
+                                  : cw_cut_distance(&drawing->plane, cells->points[i]);
   CW_TRY(cw_cut_region(&drawing->plane, cells, distance, cut));
 done:
   free(distance);

@@ -236,8 +236,35 @@ const CwPictureSpec cw_picture_list[] = {
      .height = 900,
      .sees = CW_SEES_ROTOR,
      .plane = CW_PLANE_MID_SPAN},
+    {.section = CW_SECTION_FLOW,
+     .title = "Relative velocity near the hub",
+     .caption = "The same at 0.1 of the way from hub to shroud.",
+     .colour = CW_COLOUR_SPEED,
+     OF_TWO,
+     .sees = CW_SEES_ROTOR,
+     .plane = CW_PLANE_NEAR_HUB},
+    {.section = CW_SECTION_FLOW,
+     .title = "Relative velocity near the shroud",
+     .caption = "The same at 0.9 of the way from hub to shroud.",
+     .colour = CW_COLOUR_SPEED,
+     OF_TWO,
+     .sees = CW_SEES_ROTOR,
+     .plane = CW_PLANE_NEAR_SHROUD},
 };
 const int cw_picture_list_count = sizeof cw_picture_list / sizeof *cw_picture_list;
+
+double cw_plane_span(CwPicturePlane plane) {
+  switch (plane) {
+  case CW_PLANE_NEAR_HUB:
+    return 0.1;
+  case CW_PLANE_MID_SPAN:
+    return 0.5;
+  case CW_PLANE_NEAR_SHROUD:
+    return 0.9;
+  default:
+    return NAN;
+  }
+}
 
 int cw_picture_hides(const CwPictureSpec *spec, const char *patch) {
   char name[CW_NAME_SIZE + 2];

@@ -27,8 +27,16 @@ typedef enum {
   CW_COLOUR_Y_PLUS,
   CW_COLOUR_SPEED,
 } CwPictureColour;
-// MID_SPAN: the surface of revolution midway between hub and shroud, in plan.
-typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0, CW_PLANE_MID_SPAN } CwPicturePlane;
+// NEAR_HUB and those behind it: surfaces of revolution between hub and shroud, in plan.
+typedef enum {
+  CW_PLANE_NONE,
+  CW_PLANE_MERIDIONAL,
+  CW_PLANE_Z0,
+  CW_PLANE_NEAR_HUB,
+  CW_PLANE_MID_SPAN,
+  CW_PLANE_NEAR_SHROUD,
+  CW_PLANE_COUNT,
+} CwPicturePlane;
 
 typedef enum {
   CW_TARGET_ALL,    // all that is seen
@@ -60,6 +68,9 @@ typedef struct {
   const char *inset_name; // NULL: in no other picture
   int inset_of;           // index of the picture in which this one is framed
 } CwPictureSpec;
+
+// Share of the way from hub to shroud at which the surface lies; NAN for a true plane.
+double cw_plane_span(CwPicturePlane plane);
 
 static inline int cw_picture_is_of_flow(const CwPictureSpec *spec) {
   return spec->colour >= CW_COLOUR_PRESSURE;

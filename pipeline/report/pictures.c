@@ -11,7 +11,7 @@
 #include "pipeline/report/surface.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-enum { FIT_MARGIN = 28, PLANES = CW_PLANE_MID_SPAN + 1 };
+enum { FIT_MARGIN = 28 };
 static const double STREAMLINES = 14; // px apart
 static const double NUMBER_ROOM = 7;  // px from the middle of a region's number to the region's edge
 
@@ -250,8 +250,8 @@ done:
 static CwStatus draw_region(const Board *board, int region, const CwRegionData *cells, const CwRegionData *surface,
                             double *const share[2]) {
   CwStatus status = CW_OK;
-  CwRegionCut cut[PLANES] = {{0}};
-  int is_cut[PLANES] = {0};
+  CwRegionCut cut[CW_PLANE_COUNT] = {{0}};
+  int is_cut[CW_PLANE_COUNT] = {0};
   for (int k = 0; k < cw_picture_list_count; k++) {
     CwDrawing *drawing = &board->drawing[k];
     const CwPicturePlane plane = drawing->spec->plane;
@@ -265,7 +265,7 @@ static CwStatus draw_region(const Board *board, int region, const CwRegionData *
     cw_drawing_add_cells(drawing, board->mesh, region, board->flow, cells, &cut[plane]);
   }
 done:
-  for (int plane = 0; plane < PLANES; plane++) cw_region_cut_free(&cut[plane]);
+  for (int plane = 0; plane < CW_PLANE_COUNT; plane++) cw_region_cut_free(&cut[plane]);
   return status;
 }
 

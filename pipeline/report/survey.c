@@ -156,19 +156,19 @@ int cw_survey_wall(const CwSurvey *survey, CwSurveyWall wall, double radius, dou
   return area > 0;
 }
 
-double cw_survey_mid_span(const CwSurvey *survey, const double x[3]) {
-  double radius = hypot(x[0], x[1]), z[CW_WALL_COUNT][2], middle[2];
+double cw_survey_span(const CwSurvey *survey, double share, const double x[3]) {
+  double radius = hypot(x[0], x[1]), z[CW_WALL_COUNT][2], surface[2];
   // Linear between the middles of two bins.
   double width = survey->sizes.outlet_radius / CW_SURVEY_RADII, at = radius / width - 0.5, below = floor(at);
   for (int end = 0; end < 2; end++) {
     for (int k = 0; k < CW_WALL_COUNT; k++)
       if (!cw_survey_wall(survey, (CwSurveyWall)k, fmax(below + end + 0.5, 0) * width, &z[k][end])) return NAN;
-    middle[end] = 0.5 * (z[CW_WALL_HUB][end] + z[CW_WALL_SHROUD][end]);
+    surface[end] = (1 - share) * z[CW_WALL_HUB][end] + share * z[CW_WALL_SHROUD][end];
   }
-  return x[2] - middle[0] - (at - below) * (middle[1] - middle[0]);
+  return x[2] - surface[0] - (at - below) * (surface[1] - surface[0]);
 }
 
-int cw_survey_has_mid_span(const CwSurvey *survey) {
+int cw_survey_has_span(const CwSurvey *survey) {
   for (int k = 0; k < CW_SURVEY_RADII; k++)
     if (survey->wall_sum[CW_WALL_HUB][k][0] > 0 && survey->wall_sum[CW_WALL_SHROUD][k][0] > 0) return 1;
   return 0;

@@ -54,9 +54,9 @@ int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *r
 // z of a wall at `radius`. Returns 0 where there is none.
 int cw_survey_wall(const CwSurvey *survey, CwSurveyWall wall, double radius, double *z);
 
-// How far x lies above the surface of revolution midway along the axis between hub and shroud, m; NAN where one of them
-// is missing at its radius.
-double cw_survey_mid_span(const CwSurvey *survey, const double x[3]);
-int cw_survey_has_mid_span(const CwSurvey *survey); // whether both walls are there somewhere
+// How far x lies above the surface of revolution that has this share of the way along the axis from hub (0) to shroud
+// (1) behind it, m; NAN where one of them is missing at its radius.
+double cw_survey_span(const CwSurvey *survey, double share, const double x[3]);
+int cw_survey_has_span(const CwSurvey *survey); // whether both walls are there somewhere
 
 #endif

@@ -291,15 +291,19 @@ static void survey_finds_places(void **state) {
   assert_near(z_most, 0.02, 1e-12);
   assert_int_equal(cw_survey_wall(survey, CW_WALL_SHROUD, 0.05 / 3, &z), 1);
   assert_near(z, -0.01, 1e-12);
-  assert_false(cw_survey_has_mid_span(survey));
+  assert_false(cw_survey_has_span(survey));
   // Midway between walls: a hub at z = 0.02 of the same radius, over a shroud at -0.01.
-  assert_true(isnan(cw_survey_mid_span(survey, (double[]){0.01, 0.01, 0}))); // no hub yet
+  assert_true(isnan(cw_survey_span(survey, 0.5, (double[]){0.01, 0.01, 0}))); // no hub yet
   for (int k = 9; k < 12; k++) x[k][2] = 0.02;
   snprintf(names[2].name, sizeof names[2].name, "hub");
   assert_int_equal(cw_survey_add(survey, &mesh, &cells), CW_OK);
-  assert_true(cw_survey_has_mid_span(survey));
-  assert_near(cw_survey_mid_span(survey, (double[]){0, 0.05 / 3, 0.03}), 0.025, 1e-12);
-  assert_true(isnan(cw_survey_mid_span(survey, (double[]){0.09, 0, 0})));
+  assert_true(cw_survey_has_span(survey));
+  assert_near(cw_survey_span(survey, 0.5, (double[]){0, 0.05 / 3, 0.03}), 0.025, 1e-12);
+  // Hub at 0.02, shroud at -0.01: the surfaces near them, where the list of pictures has them.
+  assert_near(cw_survey_span(survey, cw_plane_span(CW_PLANE_NEAR_HUB), (double[]){0, 0.05 / 3, 0.03}), 0.013, 1e-12);
+  assert_near(cw_survey_span(survey, cw_plane_span(CW_PLANE_NEAR_SHROUD), (double[]){0, 0.05 / 3, 0.03}), 0.037, 1e-12);
+  assert_true(isnan(cw_plane_span(CW_PLANE_Z0)));
+  assert_true(isnan(cw_survey_span(survey, 0.5, (double[]){0.09, 0, 0})));
   // Of leading edges those of whole blades count: the larger face, further out, is a splitter's.
   names[0] = (CwModelPatch){.name = "blade_leading_edge", .kind = CW_PATCH_WALL};
   x[0][0] = 0.04;
