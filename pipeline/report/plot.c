@@ -183,11 +183,12 @@ static Scale scale_of(const CwLinePlot *plot) {
   return scale;
 }
 
-static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, const double *value, uint32_t colour,
+static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, const CwPlotSeries *series,
                     const double frame[4]) {
+  const double *value = series->value;
   int drawing = 0;
   double from = plot->x[0], span = fmax(plot->x[plot->count - 1] - from, 1e-300);
-  fprintf(page, "<path fill=\"none\" stroke=\"#%06x\" stroke-width=\"1.6\" d=\"", (unsigned)colour);
+  fprintf(page, "<path fill=\"none\" stroke=\"#%06x\" stroke-width=\"1.6\" d=\"", (unsigned)series->colour);
   for (int k = 0; k < plot->count; k++) {
     double up = on_scale(scale, value[k]);
     if (!isfinite(up)) {
@@ -199,6 +200,13 @@ static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, cons
     drawing = 1;
   }
   fputs("\"/>\n", page);
+  for (int k = 0; plot->dots && k < plot->count; k++) {
+    double up = on_scale(scale, value[k]);
+    if (isfinite(up))
+      fprintf(page, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\" fill=\"#%06x\"/>\n",
+              frame[0] + frame[2] * (plot->x[k] - from) / span, frame[1] + frame[3] * (1 - up),
+              (unsigned)series->colour);
+  }
 }
 
 void cw_plot_lines(FILE *page, const CwLinePlot *plot) {
@@ -225,8 +233,7 @@ void cw_plot_lines(FILE *page, const CwLinePlot *plot) {
     }
     double mark = on_scale(&scale, plot->mark);
     if (isfinite(mark)) line(page, left, top + body * (1 - mark), left + width, top + body * (1 - mark), "m");
-    for (int s = 0; s < plot->series_count; s++)
-      path_of(page, plot, &scale, plot->series[s].value, plot->series[s].colour, frame);
+    for (int s = 0; s < plot->series_count; s++) path_of(page, plot, &scale, &plot->series[s], frame);
   }
   text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->x_axis);
   upright(page, top + 0.5 * body, plot->axis);

@@ -24,11 +24,11 @@ typedef struct {
   int count; // categories
   const CwPlotSeries *series;
   int series_count;
-  int decimals;            // of columns: digits after the point of the values over them; below 0: no values
-  double limit;            // end of the axis; 0: from the values
-  double mark;             // a line across at this value, in the unit of the axis; 0: none
-  int width;               // px
-  const char *caption;     // HTML
+  int decimals;        // of columns: digits after the point of the values over them; below 0: no values
+  double limit;        // end of the axis; 0: from the values
+  double mark;         // a line across at this value, in the unit of the axis; 0: none
+  int width;           // px
+  const char *caption; // HTML
 } CwPlot;
 
 typedef struct {
@@ -37,9 +37,10 @@ typedef struct {
   int count;                  // places
   const CwPlotSeries *series; // each of `count` values; NAN: a gap
   int series_count;
-  int logarithmic; // values as powers of ten; those not above 0 are gaps
-  double mark;     // a line across at this value; NAN: none
-  int width;       // px
+  int logarithmic;     // values as powers of ten; those not above 0 are gaps
+  int dots;            // each value is marked, also one between gaps
+  double mark;         // a line across at this value; NAN: none
+  int width;           // px
   const char *caption; // HTML
 } CwLinePlot;
 

@@ -202,6 +202,35 @@ static void logarithmic_lines_have_a_gap_at_zero(void **state) {
   assert_int_equal(command[1], 'M'); // begins anew behind the gap
   assert_int_equal(command[2], 'L');
   assert_near((p[1][1] - p[0][1]) / (p[2][1] - p[0][1]), 0.5, 0.01); // two of four decades
+  assert_null(strstr(text, "<circle"));
+  free(text);
+}
+
+// Also of a series of one value, which is no line.
+static void values_that_are_marked_have_a_dot_each(void **state) {
+  const double x[] = {10, 20, 40}, value[] = {11, 12, 14}, alone[] = {NAN, 14, NAN};
+  const CwPlotSeries series[] = {{"solved", 0x112233, value}, {"design", 0x445566, alone}};
+  CwLinePlot plot = {.axis = "m",
+                     .x_axis = "flow",
+                     .x = x,
+                     .count = 3,
+                     .series = series,
+                     .series_count = 2,
+                     .dots = 1,
+                     .mark = NAN,
+                     .width = 400,
+                     .caption = "a <b>caption</b>"};
+  char *text = drawn_lines(&plot), command[8], *at = text;
+  double p[8][2], dot[4][2];
+  assert_int_equal(path_places(text, command, p), 3);
+  for (int k = 0; k < 4; k++) {
+    assert_non_null(at = strstr(at, "<circle "));
+    assert_int_equal(sscanf(at++, "<circle cx=\"%lf\" cy=\"%lf\"", &dot[k][0], &dot[k][1]), 2);
+  }
+  assert_null(strstr(at, "<circle "));
+  assert_memory_equal(dot, p, 3 * sizeof *p);
+  assert_near(dot[3][0], p[1][0], 0);
+  assert_near(dot[3][1], p[2][1], 0);
   free(text);
 }
 
@@ -213,6 +242,7 @@ int main(void) {
       cmocka_unit_test(an_empty_plot_is_a_plot),
       cmocka_unit_test(lines_stand_where_their_values_are),
       cmocka_unit_test(logarithmic_lines_have_a_gap_at_zero),
+      cmocka_unit_test(values_that_are_marked_have_a_dot_each),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

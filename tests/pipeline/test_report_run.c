@@ -319,14 +319,23 @@ static void export_figures_are_shown(void **state) {
   free(page);
 }
 
-// Only a designed pump has a predicted head away from its point.
+static int times(const char *text, const char *words) {
+  int count = 0;
+  for (; (text = strstr(text, words)); text++) count++;
+  return count;
+}
+
+// Only a designed pump has a predicted head away from its point, and one point of the rest.
 static void the_curve_has_the_heads_that_there_are(void **state) {
   CwCase table = {.operating_point.head = 10};
-  json_t *points = json_loads("[{\"flow_m3_per_h\":20,\"flow_share\":0.8,\"head_m\":12},"
-                              "{\"flow_m3_per_h\":25,\"flow_share\":1,\"head_m\":11}]",
+  json_t *points = json_loads("[{\"flow_m3_per_h\":20,\"flow_share\":0.8,\"head_m\":12,\"shaft_power_w\":900,"
+                              "\"hydraulic_efficiency\":0.7,\"npsh_inception_m\":2},"
+                              "{\"flow_m3_per_h\":25,\"flow_share\":1,\"head_m\":11,\"shaft_power_w\":1000,"
+                              "\"hydraulic_efficiency\":0.75,\"npsh_inception_m\":3}]",
                               0, NULL);
   json_t *design = json_loads("{\"impeller_tip_speed_m_per_s\":15,\"slip_factor\":0.8,\"hydraulic_efficiency\":0.9,"
-                              "\"outlet_swirl_speed_m_per_s\":9}",
+                              "\"outlet_swirl_speed_m_per_s\":9,\"predicted_head_m\":10,\"shaft_power_w\":1100,"
+                              "\"npsh_required_m\":1,\"npsh_available_m\":10}",
                               0, NULL);
   for (int designed = 0; designed < 2; designed++) {
     const CwReportData data = {.table = &table, .design = designed ? design : NULL};
@@ -337,7 +346,14 @@ static void the_curve_has_the_heads_that_there_are(void **state) {
     fclose(stream);
     holds(page, ">solved</text>");
     assert_int_equal(strstr(page, ">design</text>") != NULL, designed);
-    assert_int_equal(strstr(page, "the design's is Euler's") != NULL, designed);
+    assert_int_equal(strstr(page, "The design's is Euler's") != NULL, designed);
+    // The charts of head, power, efficiency and NPSH, the last three with one point of the design.
+    assert_int_equal(times(page, "<svg class=\"plot\""), 4);
+    assert_int_equal(times(page, "<circle"), designed ? 13 : 8);
+    assert_int_equal(times(page, "The design predicts one point"), designed ? 3 : 0);
+    assert_int_equal(times(page, "makes available"), designed);
+    assert_int_equal(times(page, "class=\"m\""), 1 + designed); // asked head, and available NPSH
+    if (designed) holds(page, "<td class=\"n\">10</td>");       // the design's head at its point
     free(page);
   }
   json_decref(points);
