@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """compare.py FOLDER: one page, FOLDER/index.html, that sets the finished runs in a folder side by side: what was asked
-differently, mesh, times, and the solved flow, each with a link to the report of the run. Charts show head, torque and
-efficiency over the cells where at least two runs were solved."""
+differently, mesh, times, and the solved flow, each with a link to the report of the run.
+
+Where at least two runs were solved, head, torque and efficiency are drawn over the cells, a line for each pump, with
+the measured head. Runs of one pump are a sweep: a table tells their refinement and, of three, what sweep.py does of the
+three finest: order, extrapolated value, grid convergence index. Characteristic curves are drawn over each other."""
 import html
+import json
 import os
 import sys
 
@@ -18,7 +22,10 @@ p{color:#5f6c7b;margin:4px 0 14px}a{color:#0b5c8a}.wide{overflow-x:auto}
 table{border-collapse:collapse;font-size:14px}th,td{padding:4px 22px 4px 0;border-bottom:1px solid #dde3e9;
 text-align:left;white-space:nowrap;vertical-align:bottom}td,thead th+th{text-align:right}thead th{border-color:#1f2933}
 tbody th{font-weight:400;color:#5f6c7b}tr.part th{font-weight:600;color:#1f2933;padding-top:18px}
-svg{max-width:100%;height:auto}@media(max-width:600px){body{padding:14px}h1{font-size:24px}}
+.charts{display:flex;flex-wrap:wrap;gap:10px 30px}svg{max-width:100%;height:auto}
+.key{display:flex;flex-wrap:wrap;gap:2px 18px;margin:6px 0}
+.key i{display:inline-block;width:11px;height:11px;margin-right:6px}
+tr.last th,tr.last td{border-color:#1f2933}@media(max-width:600px){body{padding:14px}h1{font-size:24px}}
 """
 
 
@@ -71,6 +78,11 @@ def warning_count(run):
     return sum(len(record.get("warnings", [])) for record in run["records"].values() if record)
 
 
+CURVE = {"head_m": ("Head, m", 1), "shaft_power_w": ("Shaft power, kW", 1e-3),
+         "hydraulic_efficiency": ("Hydraulic efficiency, %", 100),
+         "npsh_inception_m": ("NPSH at inception, m", 1)}  # of the points of a curve; with the unit of the chart
+LEAST_RATIO = 1.1  # of mesh sizes, below which an order says nothing; Celik et al. ask for 1.3
+
 PARTS = {
     "Mesh": [("cells", of_row("cells"), ",d"), ("tetrahedra", of_row("tetrahedra"), ",d"),
              ("prisms", of_row("prisms"), ",d"), ("regions", of_row("regions"), "d"),
@@ -108,26 +120,115 @@ def table(runs):
     yield "</tbody></table></div>"
 
 
-def charts(runs):
+def sweeps(runs):
+    """The solved runs of each pump (all keys of the case alike), coarse to fine, with its name."""
+    found = {}
+    for run in sorted((run for run in runs if "head_m" in run["row"]), key=lambda run: run["row"]["cells"]):
+        found.setdefault(json.dumps(run["case"], sort_keys=True), []).append(run)
+    for family in found.values():
+        common = os.path.commonprefix([run["name"] for run in family]).rstrip("-_.")
+        yield common or family[0]["name"], family
+
+
+def measured_head(family):
+    return next((head for run in family if (head := of_record("export", "test_head_m")(run))), None)
+
+
+def converged(family, key):
+    """What sweep.py finds of the three finest runs that have the quantity; None where there are no three of them, or
+    where they are too alike."""
+    last = [run["row"] for run in family if key in run["row"]][-3:]
+    sizes = [row["cells"]**(-1 / 3) for row in last]
+    if len(last) < 3 or any(coarse < LEAST_RATIO * fine for coarse, fine in zip(sizes, sizes[1:])):
+        return None
+    return sweep.convergence(sizes, [row[key] for row in last])
+
+
+def sweep_rows(family):
+    """The rows of the table of a sweep: (words at the head, values)."""
+    keys = [*sweep.NAMES, "y_plus_most"]
+    for coarse, run in zip([None, *family], family):
+        row = run["row"]
+        ratio = (row["cells"] / coarse["row"]["cells"])**(1 / 3) if coarse else None
+        yield run["name"], [shown(row["cells"], ",d"), shown(ratio, ".3f"),
+                            *(shown(row.get(key), ".4g" if key != "y_plus_most" else ".1f") for key in keys)]
+    found = [converged(family, key) for key in sweep.NAMES]
+    if len(family) > 2:
+        for k, (name, form) in enumerate((("observed order", ".2f"), ("extrapolated", ".4g"),
+                                          ("grid convergence index of the finest", ".2%"))):
+            yield name, ["", "", *(shown(one and one[k], form) for one in found), ""]
+    if measured_head(family):
+        yield "measured", ["", "", *(shown(measured_head(family), ".4g") if key == "head_m" else "" for key in keys)]
+
+
+def sweep_table(name, family):
+    heads = ["cells", "ratio", *sweep.NAMES.values(), "greatest y+"]
+    yield f"<h3>{html.escape(name)}</h3><div class=\"wide\"><table><thead><tr><th></th>"
+    yield "".join(f"<th>{head}</th>" for head in heads) + "</tr></thead><tbody>"
+    for k, (words, values) in enumerate(sweep_rows(family)):
+        kind = " class=\"last\"" if k + 1 == len(family) else ""  # of the runs
+        cells = "".join(f"<td>{value}</td>" for value in values)
+        yield f"<tr{kind}><th>{html.escape(words)}</th>{cells}</tr>"
+    yield "</tbody></table></div>"
+
+
+def drawn(heading, names, charts):
+    """Charts beside each other below a heading, with one key for all where there are several lines."""
+    yield f"<h2>{heading}</h2>"
+    if len(names) > 1:
+        yield "<div class=\"key\">" + "".join(f"<span><i style=\"background:{sweep_plot.colour(k)}\"></i>"
+                                             f"{html.escape(name)}</span>" for k, name in enumerate(names)) + "</div>"
+    yield "<div class=\"charts\">" + "".join(sweep_plot.svg(sweep_plot.lines(*chart, 0)) for chart in charts) + "</div>"
+
+
+def sweep_part(runs):
     """Solved quantities over the cells, where there are two of them at different numbers of cells."""
+    found, charts = list(sweeps(runs)), []
+    heads = {head for _, family in found if (head := measured_head(family))}
     for key, name in sweep.NAMES.items():
-        points = sorted((run["row"]["cells"], run["row"][key]) for run in runs if key in run["row"])
-        if len({cells for cells, _ in points}) > 1:
-            yield (name, *map(list, zip(*points)), [])
+        series = [list(zip(*((run["row"]["cells"], run["row"][key]) for run in family if key in run["row"])))
+                  or [(), ()] for _, family in found]
+        if len({cells for line, _ in series for cells in line}) < 2:
+            continue
+        marks = [(head, f"measured {head:g}") for head in sorted(heads)] if key == "head_m" else []
+        one = converged(found[0][1], key) if len(found) == 1 else None
+        charts.append((name, "cells", series, marks + ([(one[1], f"extrapolated {one[1]:.5g}")] if one else [])))
+    if charts:
+        yield from drawn("Solved flow over the cells", [name for name, _ in found], charts)
+        yield ("<p>Ratio: of the mesh sizes of a run and the one before it. Order, extrapolated value and grid "
+               "convergence index are of the three finest runs of a pump, after Celik et al. (2008); "
+               f"&ndash;: not monotonous, or ratios below {LEAST_RATIO}.</p>")
+        for name, family in found:
+            if len(family) > 1:
+                yield from sweep_table(name, family)
+
+
+def curve_of(run):
+    curve = run["records"]["solve"]["results"].get("curve", []) if run["records"]["solve"] else []
+    return curve if len(curve) > 1 else []
+
+
+def curve_part(runs):
+    """Characteristic curves over each other, each point that has a value."""
+    with_curve, charts = [run for run in runs if curve_of(run)], []
+    for key, (name, unit) in CURVE.items():
+        series = [list(zip(*((point["flow_m3_per_h"], unit * point[key]) for point in curve_of(run)
+                             if point.get(key) is not None))) or [(), ()] for run in with_curve]
+        if any(flows for flows, _ in series):
+            charts.append((name, "flow rate, m3/h", series, []))
+    if charts:
+        yield from drawn("Characteristic curves", [run["name"] for run in with_curve], charts)
 
 
 def page(folder, runs):
     name = html.escape(os.path.basename(os.path.abspath(folder)))
-    drawn = list(charts(runs))
     lines = ["<!DOCTYPE html>", "<html lang=\"en\"><head><meta charset=\"utf-8\">",
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",
              f"<title>Cutwater: runs of {name}</title><style>\n{STYLE}</style></head><body>",
              f"<h1>{len(runs)} runs of {name}</h1>",
              "<p>Of the case the keys that shape the pump, where they are not alike in all runs. The names lead to the "
              "reports of the runs.</p>",
-             *table(runs)]
-    if drawn:
-        lines += ["<h2>Solved flow over the cells</h2>", sweep_plot.picture(drawn)]
+             *table(runs), *sweep_part(runs), *curve_part(runs)]
     return "\n".join(lines + ["</body></html>", ""])
 
 

@@ -1,9 +1,16 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Values over the number of cells as an SVG picture: one chart for each quantity, cells by powers of ten."""
+"""Lines as SVG pictures: values over the number of cells, by powers of ten, or over the flow rate."""
 import math
 
 WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 560, 300, 70, 50, 30, 24  # px of one chart, and its margins
-LINE, MARK, WORDS = "#0b5c8a", "#b3402e", 'font-family="sans-serif" font-size="12" fill="#334"'
+COLOURS, MARK = ("#0b5c8a", "#d9822b", "#4f8f68", "#a8577a", "#6d63a8", "#7a6a55"), "#b3402e"
+WORDS = 'font-family="sans-serif" font-size="12" fill="#334"'
+LABEL = 48  # px between two numbers below the axis
+
+
+def colour(k):
+    """That of line k of a chart."""
+    return COLOURS[k % len(COLOURS)]
 
 
 def steps(least, most):
@@ -22,16 +29,29 @@ def count_text(cells):
     return f"{cells:.0f}"
 
 
-def chart(name, cells, values, marks, top):
-    """One chart: a point for each of `cells`; marks: [(value, words)], broken lines across."""
-    found = [value for value in values] + [value for value, _ in marks]
+def numbers_below(places, bottom):
+    """(px, words) below the axis; those that would lie on others are left out."""
+    taken = -math.inf
+    for x, words in sorted(set(places)):
+        if x - taken >= LABEL:
+            yield f'<text x="{x:.1f}" y="{bottom}" text-anchor="middle" {WORDS}>{words}</text>'
+            taken = x
+
+
+def lines(name, axis, series, marks, top):
+    """One chart: a line with a point for each value of each of `series` [(x, values)]; marks: [(value, words)], broken
+    lines across. `axis` is "cells", which are drawn by powers of ten, or what else x is."""
+    scale, words_of = (math.log10, count_text) if axis == "cells" else (float, "{:.4g}".format)
+    found = [value for _, values in series for value in values] + [value for value, _ in marks]
     least, most = min(found), max(found)
     margin = 0.1 * (most - least) or 0.01 * abs(most) or 1
     ticks = steps(least - margin, most + margin)
-    first, last = math.log10(min(cells)) - 0.1, math.log10(max(cells)) + 0.1
+    places = [scale(x) for xs, _ in series for x in xs]
+    margin = 0.1 if axis == "cells" else 0.05 * (max(places) - min(places)) or 1
+    first, last = min(places) - margin, max(places) + margin
 
-    def across(count):
-        return LEFT + (WIDTH - LEFT - RIGHT) * (math.log10(count) - first) / (last - first)
+    def across(x):
+        return LEFT + (WIDTH - LEFT - RIGHT) * (scale(x) - first) / (last - first)
 
     def up(value):
         return top + TOP + (HEIGHT - TOP - BOTTOM) * (ticks[-1] - value) / (ticks[-1] - ticks[0])
@@ -44,18 +64,27 @@ def chart(name, cells, values, marks, top):
         place = f'x="{WIDTH - RIGHT}" text-anchor="end"' if k else f'x="{LEFT + 6}"'
         yield (f'<path d="M{LEFT} {up(value):.1f}H{WIDTH - RIGHT}" stroke="{MARK}" stroke-dasharray="5 4"/>'
                f'<text {place} y="{up(value) - 5:.1f}" {WORDS}>{words}</text>')
-    points = [(across(count), up(value)) for count, value in zip(cells, values)]
-    line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-    yield f'<polyline fill="none" stroke="{LINE}" stroke-width="1.5" points="{line}"/>'
-    below = top + HEIGHT - BOTTOM + 18
-    for (x, y), count in zip(points, cells):
-        yield (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{LINE}"/>'
-               f'<text x="{x:.1f}" y="{below}" text-anchor="middle" {WORDS}>{count_text(count)}</text>')
-    yield f'<text x="{WIDTH / 2}" y="{top + HEIGHT - 12}" text-anchor="middle" {WORDS}>cells</text>'
+    for k, (xs, values) in enumerate(series):
+        points = [(across(x), up(value)) for x, value in zip(xs, values)]
+        line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        yield f'<polyline fill="none" stroke="{colour(k)}" stroke-width="1.5" points="{line}"/>'
+        yield from (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{colour(k)}"/>' for x, y in points)
+    yield from numbers_below([(across(x), words_of(x)) for xs, _ in series for x in xs], top + HEIGHT - BOTTOM + 18)
+    yield f'<text x="{WIDTH / 2}" y="{top + HEIGHT - 12}" text-anchor="middle" {WORDS}>{axis}</text>'
+
+
+def chart(name, cells, values, marks, top):
+    """One chart of a single line over the cells."""
+    return lines(name, "cells", [(cells, values)], marks, top)
+
+
+def svg(body, count=1):
+    """A picture of so many charts, one below another."""
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT * count}" width="{WIDTH}" '
+            f'height="{HEIGHT * count}">\n<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(body) +
+            "\n</svg>\n")
 
 
 def picture(charts):
     """The picture of charts [(name, cells, values, marks)], one below another."""
-    body = [line for k, one in enumerate(charts) for line in chart(*one, k * HEIGHT)]
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT * len(charts)}">\n'
-            '<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(body) + "\n</svg>\n")
+    return svg([line for k, one in enumerate(charts) for line in chart(*one, k * HEIGHT)], len(charts))
