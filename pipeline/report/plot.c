@@ -80,11 +80,17 @@ static double largest(const CwPlot *plot, int stacked) {
   return most;
 }
 
+// End of the axis of the values, from 0, and the step of its ticks.
+static double limit_of(const CwPlot *plot, int stacked, double *step) {
+  const double most = plot->limit > 0 ? plot->limit : largest(plot, stacked);
+  *step = cw_plot_step(most);
+  return plot->limit > 0 ? plot->limit : fmax(ceil(most / *step - 1e-9), 1) * *step;
+}
+
 void cw_plot_columns(FILE *page, const CwPlot *plot) {
   const double left = 52, right = 8, above = 18, below = plot->category_axis ? 44 : 26, body = 200;
   double top = begin(page, plot, above + body + below) + above, width = plot->width - left - right;
-  double most = plot->limit > 0 ? plot->limit : largest(plot, 0), step = cw_plot_step(most);
-  double limit = plot->limit > 0 ? plot->limit : fmax(ceil(most / step - 1e-9), 1) * step;
+  double step, limit = limit_of(plot, 0, &step);
   char words[40];
   for (int k = 0; k * step <= limit * (1 + 1e-9); k++) {
     double y = top + body * (1 - k * step / limit);
@@ -122,8 +128,7 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
     right = fmax(right, 6.8 * letters(plot->category[c].note) + 14);
   }
   double body = row * plot->count, top = begin(page, plot, body + below), width = plot->width - left - right;
-  double most = plot->limit > 0 ? plot->limit : largest(plot, 1), step = cw_plot_step(most);
-  double limit = plot->limit > 0 ? plot->limit : fmax(ceil(most / step - 1e-9), 1) * step;
+  double step, limit = limit_of(plot, 1, &step);
   char words[40];
   for (int k = 0; k * step <= limit * (1 + 1e-9); k++) {
     double x = left + width * k * step / limit;
