@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The stage `solve`: when a made-up history counts as settled, what is read of the solver's reports, how the solver is
 asked to end, and a real flow on a small mesh: killed, gone on with, its result beside the energy balance, its curve,
-and what is told where it cannot be solved."""
+its page in a browser, and what is told where it cannot be solved."""
 import csv
 import math
 import re
@@ -14,6 +14,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import browser
 from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, left_behind, record, said
 
 sys.path.insert(0, str(SOURCE / "pipeline/solve"))
@@ -434,6 +435,25 @@ class Flow(unittest.TestCase):
             self.assertEqual(len(shares), 5, row)
             self.assertAlmostEqual(sum(map(float, shares)), 100, delta=0.3, msg=row)
         self.assertTrue(pages[0] == pages[1], "1 rank and 3")
+        self.shows_the_flow(pages[0])
+
+    def shows_the_flow(self, text):
+        """History, curve and fields are in the page, and the picture that turns has their colours."""
+        for title in ("Residuals", "Pressure on the walls", "y+ on the walls", "Relative velocity on the middle plane",
+                      "Relative velocity at mid-span", "Relative velocity near the hub",
+                      "Relative velocity near the shroud"):
+            self.assertRegex(text, rf"<figcaption><b>{re.escape(title)}\.</b>")
+        self.assertEqual(text.count("The design predicts one point"), 3)  # in the charts of the curve
+        self.assertNotIn("Not drawn", text.split("<h3>Fields</h3>")[1])
+        if not browser.THERE:
+            return print(f"the page is not opened: {browser.MISSING}")
+        narrow = browser.fits_a_phone(self, self.pump / "report/index.html", self.pump.parent / "page.html",
+                                      browser.COLOURS)
+        told = narrow["told"]
+        self.assertEqual(list(told), ["patches", "pressure", "y+"])
+        self.assertEqual(len({seen["sum"] for seen in told.values()}), 3)
+        self.assertEqual([seen["bars"] for seen in told.values()], [0, 1, 1])
+        self.assertEqual(len({seen["ink"] for seen in told.values()}), 1)
 
     def test_few_iterations_leave_whole_fields(self):
         few = fresh("solve_few") / "run"
