@@ -76,22 +76,35 @@ def row_of(run):
             "mesh_s": record["seconds"], "mesh_memory_mb": record["peak_memory_bytes"] / 1e6, **solved(run)}
 
 
+def order_of(ratio, coarse, fine):
+    """The order at which three meshes have changes in the `ratio` of the coarse pair's to the fine pair's, from the
+    logarithms of their refinement ratios; None where none above 0 has. It is the root of equations 5a and 5b of the
+    source, whose iteration to a fixed point diverges where coarse > 2 fine; their difference rises with the order, from
+    ln(coarse / fine) - ln(ratio) at 0."""
+    wanted = math.log(ratio)
+    if wanted <= math.log(coarse / fine):
+        return None
+    low, high = 0.0, (wanted + max(math.log(fine / coarse), 0)) / coarse
+    while low < (order := (low + high) / 2) < high:
+        if order * coarse + math.log(math.expm1(-order * coarse) / math.expm1(-order * fine)) < wanted:
+            low = order
+        else:
+            high = order
+    return high
+
+
 def convergence(sizes, values):
     """Order, extrapolated value and relative index of the finest of three meshes, coarse to fine; None where the values
-    do not converge monotonously. `sizes` are mesh sizes in any unit."""
-    r32, r21 = sizes[0] / sizes[1], sizes[1] / sizes[2]
+    do not converge monotonously. `sizes` are mesh sizes in any unit, each below the one before."""
     e32, e21 = values[0] - values[1], values[1] - values[2]
     if e21 == 0 or e32 / e21 <= 0:
         return None
-    order = math.log(e32 / e21) / math.log(r21)
-    for _ in range(100):  # the fixed point of equations 5a and 5b of the source
-        if order <= 0:
-            return None
-        order = abs(math.log(e32 / e21) + math.log((r21**order - 1) / (r32**order - 1))) / math.log(r21)
-    if order <= 0:
+    fine = math.log(sizes[1] / sizes[2])
+    order = order_of(e32 / e21, math.log(sizes[0] / sizes[1]), fine)
+    if order is None:
         return None
-    fine = r21**order - 1
-    return order, values[2] - e21 / fine, SAFETY * abs(e21 / values[2]) / fine
+    left = math.expm1(order * fine)
+    return order, values[2] - e21 / left, SAFETY * abs(e21 / values[2]) / left
 
 
 def test_head(runs):

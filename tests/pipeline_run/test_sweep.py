@@ -2,6 +2,8 @@
 """The table of a sweep: order and index of made-up results whose order is known, and the table of a real run."""
 import csv
 import json
+import math
+import random
 import re
 import subprocess
 import sys
@@ -27,6 +29,25 @@ class Sweep(unittest.TestCase):
             # 1.25 times what the extrapolation changes, over the finest value.
             finest = 10 + 0.3 * sizes[2]**true
             self.assertAlmostEqual(index, 1.25 * (finest - 10) / finest, places=8)
+
+    def test_any_sizes_have_their_order(self):
+        some = random.Random(1)
+        cases = [[2e5, 1e6, 2e6], [5e5, 2e6, 3e6], [1e5, 1e6, 2e6]]
+        cases += [sorted(10**some.uniform(4, 9) for _ in range(3)) for _ in range(500)]
+        for cells in cases:
+            if min(cells[1] / cells[0], cells[2] / cells[1]) < 1.1:
+                continue
+            for true in (0.7, 1, 2, 3):
+                sizes = [(count / cells[0])**(-1 / 3) for count in cells]
+                order, limit, _ = sweep.convergence(sizes, [10 + 3 * h**true for h in sizes])
+                self.assertAlmostEqual(order, true, delta=1e-6, msg=cells)
+                self.assertAlmostEqual(limit, 10, delta=1e-6, msg=cells)
+
+    def test_changes_that_do_not_fall_with_the_size_have_no_order(self):
+        # Linear in the logarithm of the size: order 0.
+        self.assertIsNone(sweep.convergence([4, 2, 1], [3.0, 2.0, 1.0]))
+        self.assertIsNone(sweep.convergence([4, 2, 1], [2.5, 2.0, 1.0]))
+        self.assertAlmostEqual(sweep.convergence([4, 2, 1], [3.5, 2.0, 1.0])[0], math.log2(1.5))
 
     def test_the_worked_example_of_the_source(self):
         # Celik et al., table 1, second column: 18000, 8000, 4500 cells in two dimensions; 6.063, 5.972, 5.863.
