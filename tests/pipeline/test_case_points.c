@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The operating points of the characteristic curve: lists in the case file, and the flows, shares and names that
 // follow.
+#include <stdlib.h>
 #include <string.h>
 
 #include "given_case.h"
@@ -35,6 +36,27 @@ static void shares_and_flow_rates_give_flows(void **state) {
   // In any unit of the quantity: 5 and 7.5 l/s are 18 and 27 m3/h.
   expect_flows("operating_points:\n  flow_rates_l_per_s: [5, 7.5]", 2, (double[]){18, 27},
                (const char *[]){"q0720", "q1080"});
+}
+
+// Wherever a thousandth begins and whatever rounding does to it, and the operating point keeps its name.
+static void points_a_thousandth_apart_have_names_of_their_own(void **state) {
+  CwCase table;
+  CwCasePoint points[CW_LIST_MOST];
+  expect_flows("operating_points:\n  flow_shares: [0.7935, 0.7945]", 2, (double[]){19.8375, 19.8625},
+               (const char *[]){"q0794", "q0795"});
+  expect_flows("operating_points:\n  flow_shares: [0.9989, 0.9999, 1.001]", 3, (double[]){24.9725, 24.9975, 25.025},
+               (const char *[]){"q0999", "q1000", "q1001"});
+  assert_int_equal(read_with("", &table), CW_OK);
+  for (int i = 10; i < 2900; ++i) {
+    table.operating_points.flow_shares.count = CW_LIST_MOST;
+    for (int k = 0; k < CW_LIST_MOST; ++k)
+      table.operating_points.flow_shares.value[k] = (i + k + 0.5 + 1e-13 * ((i * 7 + k * 5) % 3 - 1)) / 1000;
+    assert_int_equal(cw_case_points(&table, points), CW_LIST_MOST);
+    for (int k = 1; k < CW_LIST_MOST; ++k) {
+      assert_true(strcmp(points[k - 1].name, points[k].name) < 0);
+      assert_true(fabs(atof(points[k].name + 1) - 1000 * points[k].share) < 0.5 + 1e-9);
+    }
+  }
 }
 
 static void bad_points_are_refused_with_their_place(void **state) {
@@ -77,6 +99,7 @@ static void bad_points_are_refused_with_their_place(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(shares_and_flow_rates_give_flows),
+                                     cmocka_unit_test(points_a_thousandth_apart_have_names_of_their_own),
                                      cmocka_unit_test(bad_points_are_refused_with_their_place)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
