@@ -117,8 +117,9 @@ static CwStatus check_operating_points(const char *path, const CwCase *table, co
   CwCasePoint points[CW_LIST_MOST];
   const int count = cw_case_points(table, points);
   const CwCasePlace *place = &places[places[rates].given ? rates : shares];
+  const double apart = 0.001 * (1 - 1e-9); // of the operating point's flow rate, but for rounding
   for (int k = 1; k < count; ++k)
-    CW_REQUIRE(points[k].flow >= points[k - 1].flow + 0.001 * table->operating_point.flow_rate, CW_ERR_INPUT,
+    CW_REQUIRE(points[k].share >= points[k - 1].share + apart, CW_ERR_INPUT,
                "%s:%d:%d: operating_points.%s: value %d is not above the one before it by a thousandth of the "
                "operating point's flow rate; allowed: ascending values",
                path, place->line, place->column, places[rates].given ? "flow_rates_m3_per_h" : "flow_shares", k + 1);
