@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/remedy.h"
-#include "geometry/design_value.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "geometry/design_value.h"
 #include "pipeline/case_check.h"
 #include "pipeline/case_schema.h"
 
 enum { KEYS_MOST = 100, TRIALS_MOST = 60, PATH_SIZE = CW_KEY_PATH_SIZE };
-
 enum { OPEN_MOST = 6 }; // with both directions of each step and the speed's they stay within the trials
 
 static const double SAME = 1e-3;       // a value of the case and the design's, which went through other units

@@ -9,6 +9,10 @@
 #include <string>
 #include <utility>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <gp_Pln.hxx>
+
 #include "cad/small_pump.hpp"
 #include "geometry/cad/cad_part.hpp"
 #include "geometry/cad/contact.h"
@@ -48,7 +52,32 @@ struct SmallParts {
     if (status == CW_OK) status = cw_contact_find(&parts, &survey, &small_frame, &cad, small_tolerance, contact);
     return status;
   }
+  // With faces cut where others end on them, as the stage looks.
+  CwStatus look_imprinted() {
+    CwStatus status = CW_OK;
+    int cut;
+    CW_TRY(look());
+    CW_TRY(cw_contact_imprint(&survey, contact, small_tolerance, NULL, &parts, &cut));
+    cw_survey_free(&survey);
+    free(contact);
+    CW_TRY(look());
+  done:
+    return status;
+  }
 };
+
+// A face whose outline crosses itself, a bow tie in the plane z = 3 mm: it has no triangles.
+inline TopoDS_Shape small_bow_tie() {
+  BRepBuilderAPI_MakePolygon outline(gp_Pnt(1, 1, 3), gp_Pnt(2, 2, 3), gp_Pnt(2, 1, 3), gp_Pnt(1, 2, 3), Standard_True);
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid solid;
+  builder.MakeShell(shell);
+  builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 3), gp::DZ()), outline.Wire(), Standard_False).Face());
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
 
 inline TopoDS_Shape small_box(double x, double y, double z, double dx, double dy, double dz) {
   return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();

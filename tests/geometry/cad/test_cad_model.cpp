@@ -40,12 +40,7 @@ struct Made : SmallParts {
   }
   CwStatus make() {
     CwStatus status = CW_OK;
-    int cut;
-    CW_TRY(look());
-    CW_TRY(cw_contact_imprint(&survey, contact, small_tolerance, NULL, &parts, &cut));
-    cw_survey_free(&survey);
-    free(contact);
-    CW_TRY(look());
+    CW_TRY(look_imprinted());
     role = (CwFaceRole *)calloc(survey.face_count, sizeof *role);
     CW_TRY(cw_proposal_make(&survey, contact, rotating, role, &blades));
     CW_TRY(cw_face_patches_make(&cad, &small_frame, &parts, &survey, contact, role, small_tolerance, &patches));

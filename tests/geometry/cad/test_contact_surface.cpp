@@ -30,12 +30,7 @@ struct Both : SmallParts {
   }
   CwStatus make() {
     CwStatus status = CW_OK;
-    int cut;
-    CW_TRY(look());
-    CW_TRY(cw_contact_imprint(&survey, contact, small_tolerance, NULL, &parts, &cut));
-    cw_survey_free(&survey);
-    free(contact);
-    CW_TRY(look());
+    CW_TRY(look_imprinted());
     number = (int *)calloc(survey.face_count, sizeof *number);
     role = (CwFaceRole *)calloc(survey.face_count, sizeof *role);
     for (int f = 0; f < survey.face_count; f++) role[f] = contact[f].part >= 0 ? CW_ROLE_CONTACT : CW_ROLE_WALL;

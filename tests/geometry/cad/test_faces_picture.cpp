@@ -3,10 +3,6 @@
 #include <fstream>
 #include <iterator>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <gp_Pln.hxx>
-
 #include "cad/small_parts.hpp"
 #include "tests/test_folder.h"
 
@@ -54,15 +50,7 @@ static void a_place_is_marked_in_each_view(void **) {
 
 // The outline of a bow tie crosses itself: no triangles, but its four edges in each view.
 static void edges_of_faces_without_triangles_are_drawn(void **) {
-  BRepBuilderAPI_MakePolygon outline(gp_Pnt(1, 1, 3), gp_Pnt(2, 2, 3), gp_Pnt(2, 1, 3), gp_Pnt(1, 2, 3), Standard_True);
-  BRep_Builder builder;
-  TopoDS_Shell shell;
-  TopoDS_Solid solid;
-  builder.MakeShell(shell);
-  builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 3), gp::DZ()), outline.Wire(), Standard_False).Face());
-  builder.MakeSolid(solid);
-  builder.Add(solid, shell);
-  SmallParts small({{"water", solid}});
+  SmallParts small({{"water", small_bow_tie()}});
   assert_int_equal(cw_survey_make(&small.parts, &small_frame, &small.survey), CW_ERR_GEOMETRY);
   const std::string path = in_test_folder("faces.svg");
   if (cw_faces_picture_write(&small.survey, 0, "tie", nullptr, path.c_str())) fail_msg("%s", cw_fail_message());

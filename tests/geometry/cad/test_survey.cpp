@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Areas, forms and edges of a box, a pipe and a step, by hand.
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <gp_Pln.hxx>
 
 #include "cad/small_parts.hpp"
 
@@ -84,15 +81,7 @@ static void narrow_rings_have_a_point(void **) {
 // The outline of a bow tie crosses itself: no triangles. The file's origin is at x = 100 mm of the pump.
 static void faces_without_triangles_are_told_with_their_place(void **) {
   const CwCadFrame frame = {{-100 * mm, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0};
-  BRepBuilderAPI_MakePolygon outline(gp_Pnt(1, 1, 3), gp_Pnt(2, 2, 3), gp_Pnt(2, 1, 3), gp_Pnt(1, 2, 3), Standard_True);
-  BRep_Builder builder;
-  TopoDS_Shell shell;
-  TopoDS_Solid solid;
-  builder.MakeShell(shell);
-  builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 3), gp::DZ()), outline.Wire(), Standard_False).Face());
-  builder.MakeSolid(solid);
-  builder.Add(solid, shell);
-  SmallParts small({{"water", solid}});
+  SmallParts small({{"water", small_bow_tie()}});
   small.parts.part[0].origin[0].name = "LID";
   assert_int_equal(cw_survey_make(&small.parts, &frame, &small.survey), CW_ERR_GEOMETRY);
   const char *told = strstr(cw_fail_message(), "cad.domains.water: a face with a corner at (-9");
