@@ -26,16 +26,19 @@ int cw_cad_is_before(const CwFacePatches *patches, int part) {
   return before;
 }
 
+// Gives what both stand for the lesser of their numbers, where both have one. Returns 1 where they had two.
+static int join(int *a, int *b) {
+  if (*a < 0 || *b < 0 || *a == *b) return 0;
+  *a = *b = *a < *b ? *a : *b;
+  return 1;
+}
+
 int cw_cad_join_faces(const CwSurvey *survey, int *first) {
   int sets = 0;
   for (int changed = 1; changed;) {
     changed = 0;
-    for (int e = 0; e < survey->edge_count; e++) {
-      int *a = &first[survey->edge[e].face[0]], *b = &first[survey->edge[e].face[1]];
-      if (*a < 0 || *b < 0 || *a == *b) continue;
-      *a = *b = *a < *b ? *a : *b;
-      changed = 1;
-    }
+    for (int e = 0; e < survey->edge_count; e++)
+      changed |= join(&first[survey->edge[e].face[0]], &first[survey->edge[e].face[1]]);
   }
   for (int f = 0; f < survey->face_count; f++) sets += first[f] == f;
   return sets;
@@ -118,10 +121,7 @@ static void join_parts(const Work *work, int *set) {
     for (int i = 0; i < work->interface_count; i++) {
       int part[2];
       parts_of(work, i, part);
-      int *a = &set[part[0]], *b = &set[part[1]];
-      if (*a < 0 || *b < 0 || *a == *b) continue;
-      *a = *b = *a < *b ? *a : *b;
-      changed = 1;
+      changed |= join(&set[part[0]], &set[part[1]]);
     }
   }
 }
