@@ -2,8 +2,7 @@
 // The mesh as a whole without holding it: a first look at the region files finds the numbers every region starts at,
 // the shared points, and which cells meet across partition planes. Regions are then checked and written one at a time,
 // in any order and from any rank (region_check.h).
-#ifndef CUTWATER_EXPORT_ASSEMBLY_H
-#define CUTWATER_EXPORT_ASSEMBLY_H
+#pragma once
 
 #include "export/face_quality.h"
 #include "export/region_share.h"
@@ -107,5 +106,3 @@ static inline int64_t cw_point_number(const CwAssembly *assembly, int region, co
   if (point < data->shared_count) return data->shared_id[point];
   return assembly->places[region].own_point + point - data->shared_count;
 }
-
-#endif

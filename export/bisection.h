@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Recursive coordinate bisection: points into groups of given sizes, by planes across the longest extent.
-#ifndef CUTWATER_EXPORT_BISECTION_H
-#define CUTWATER_EXPORT_BISECTION_H
+#pragma once
 
 #include <stdint.h>
 
@@ -10,5 +9,3 @@
 // room for `count` numbers.
 void cw_bisection(const double (*points)[3], int32_t count, const int64_t *sizes, int groups, int32_t *order,
                   int32_t *group);
-
-#endif

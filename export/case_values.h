@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the files of several solvers say of a case.
-#ifndef CUTWATER_EXPORT_CASE_VALUES_H
-#define CUTWATER_EXPORT_CASE_VALUES_H
+#pragma once
 
 #include "export/template.h"
 #include "pipeline/case.h"
@@ -22,5 +21,3 @@ typedef struct {
 // From the mean speed (m/s) in a passage of that width (m), with an intensity I of 5 % and a mixing length l of 7 % of
 // the width: k = 3/2 (I U)^2, epsilon = Cmu^(3/4) k^(3/2) / l, omega = epsilon / (Cmu k), with Cmu = 0.09.
 CwTurbulence cw_turbulence(double speed, double width);
-
-#endif

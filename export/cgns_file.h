@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // pump.cgns: the whole mesh with families, boundary conditions and the GGI connections of the domains.
-#ifndef CUTWATER_EXPORT_CGNS_FILE_H
-#define CUTWATER_EXPORT_CGNS_FILE_H
+#pragma once
 
 #include "export/cgns_sections.h"
 #include "export/interface.h"
@@ -47,5 +46,3 @@ CwStatus cw_cgns_close(CwCgnsFile *file);
 // Whether HDF5 could not close a file. It then ends in a segmentation fault within MPI_Finalize: the process has to end
 // without it. Kept once a process, as the state of HDF5 that it tells of.
 int cw_cgns_stuck(void);
-
-#endif

@@ -2,8 +2,7 @@
 // Nodes of a CGNS file (the HDF5 mapping of the CGNS standard), laid down through HDF5 itself: the CGNS
 // library stamps the time on every node and cannot write in parallel. The library reads these files as its
 // own.
-#ifndef CUTWATER_EXPORT_CGNS_NODE_H
-#define CUTWATER_EXPORT_CGNS_NODE_H
+#pragma once
 
 #include <hdf5.h>
 
@@ -33,5 +32,3 @@ CwStatus cw_cgns_integers(hid_t parent, const char *name, const char *label, int
 // A DataArray_t of `count` values with the exponents of mass, length, time, temperature and angle in its unit.
 CwStatus cw_cgns_quantity(hid_t parent, const char *name, const char *type, hsize_t count, const void *data,
                           const float exponents[5]);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The element numbering of a zone of pump.cgns.
-#ifndef CUTWATER_EXPORT_CGNS_SECTIONS_H
-#define CUTWATER_EXPORT_CGNS_SECTIONS_H
+#pragma once
 
 #include "export/assembly.h"
 
@@ -20,5 +19,3 @@ CwStatus cw_cgns_sections(const CwAssembly *assembly, int domain, CwSection **se
 
 // 1-based number of the first boundary element of a patch in its zone.
 int64_t cw_cgns_patch_first(const CwAssembly *assembly, int patch);
-
-#endif

@@ -3,8 +3,7 @@
 // their order, region by region; where a part ends within a region, the region is cut by planes across its longest
 // extent (recursive coordinate bisection: M. J. Berger and S. H. Bokhari, IEEE Trans. Computers C-36, 1987). The parts
 // follow from the mesh alone. Within a part cells, points and faces keep the order of the whole mesh.
-#ifndef CUTWATER_EXPORT_DIVISION_H
-#define CUTWATER_EXPORT_DIVISION_H
+#pragma once
 
 #include "export/face_stretch.h"
 
@@ -62,5 +61,3 @@ void cw_division_points(const CwDivision *division, int region, int piece, const
 
 // The number in a part of a shared point of a domain that its cells have.
 int64_t cw_division_shared(const CwDivision *division, int part, int domain, int64_t shared_id);
-
-#endif

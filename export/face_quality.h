@@ -2,8 +2,7 @@
 // What OpenFOAM's checkMesh says of faces: how far the line from cell to cell leans to the face between them, how far
 // from its centre it meets it (skewness), and how unevenly the face parts it (interpolation weight); and of prisms that
 // are long for their height. As in primitiveMeshTools and polyMeshTools of OpenFOAM v1912.
-#ifndef CUTWATER_EXPORT_FACE_QUALITY_H
-#define CUTWATER_EXPORT_FACE_QUALITY_H
+#pragma once
 
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
@@ -66,5 +65,3 @@ void cw_flat_prisms_free(CwFlatPrisms *flat);
 // In degrees; 0 without faces. The mean is the angle of the mean cosine.
 double cw_non_orthogonality_greatest(const CwFaceQuality *q);
 double cw_non_orthogonality_mean(const CwFaceQuality *q);
-
-#endif

@@ -2,8 +2,7 @@
 // The faces of the mesh in upper-triangular order, for formats that are written by faces: those between two cells
 // region by region, by the cell of the lower number and then the other, then those of each patch. A face between
 // regions belongs to the region of its lower cell.
-#ifndef CUTWATER_EXPORT_FACE_STRETCH_H
-#define CUTWATER_EXPORT_FACE_STRETCH_H
+#pragma once
 
 #include "export/assembly.h"
 
@@ -50,5 +49,3 @@ int cw_face_stretch_patch(const CwAssembly *assembly, int patch, const CwRegionD
 static inline void cw_face_stretch_start(CwFaceStretch *stretch) {
   stretch->next = stretch->next_open = 0;
 }
-
-#endif

@@ -2,8 +2,7 @@
 // pump.msh of ANSYS Fluent: sections of text, the numbers in hexadecimal. Cells, points and faces are numbered from 1
 // in the order of the OpenFOAM mesh. All numbers have a fixed width, so that each rank writes its regions at their
 // places.
-#ifndef CUTWATER_EXPORT_FLUENT_MESH_H
-#define CUTWATER_EXPORT_FLUENT_MESH_H
+#pragma once
 
 #include "export/face_stretch.h"
 #include "export/place_file.h"
@@ -34,5 +33,3 @@ CwStatus cw_fluent_mesh_write_region(const CwFluentMesh *mesh, int region, const
 
 // Closes the file and frees, on failure too. CW_ERR_IO where the disk is full.
 CwStatus cw_fluent_mesh_close(CwFluentMesh *mesh);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The OpenFOAM case around the mesh: dictionaries, fields at the start, scripts.
-#ifndef CUTWATER_EXPORT_FOAM_CASE_H
-#define CUTWATER_EXPORT_FOAM_CASE_H
+#pragma once
 
 #include "export/assembly.h"
 #include "export/patch_role.h"
@@ -13,5 +12,3 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwAss
 // How many ranks the case's scripts take of themselves for a whole mesh of so many cells, in words of a shell: one, or
 // on large meshes as many as the machine has cores.
 const char *cw_foam_usual_ranks(int64_t cells);
-
-#endif

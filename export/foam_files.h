@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The binary files of one polyMesh while they are written.
-#ifndef CUTWATER_EXPORT_FOAM_FILES_H
-#define CUTWATER_EXPORT_FOAM_FILES_H
+#pragma once
 
 #include "export/foam_layout.h"
 #include "export/place_file.h"
@@ -27,5 +26,3 @@ CwStatus cw_foam_put_labels(const CwFoamFiles *files, CwFoamFile f, const int64_
                             int64_t before);
 CwStatus cw_foam_put_points(const CwFoamFiles *files, const double (*points)[3], const int64_t *numbers, int64_t count,
                             int64_t before);
-
-#endif

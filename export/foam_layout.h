@@ -3,8 +3,7 @@
 // owner and then neighbour, then the faces of each patch. Whole in constant/, or divided into processorN/constant/ as
 // decomposePar would: each with its patches to other parts behind the others, and with the numbers that its points,
 // faces and cells have in the whole mesh.
-#ifndef CUTWATER_EXPORT_FOAM_LAYOUT_H
-#define CUTWATER_EXPORT_FOAM_LAYOUT_H
+#pragma once
 
 #include "export/division.h"
 #include "pipeline/case.h"
@@ -66,5 +65,3 @@ int cw_foam_header(const CwFoamMesh *mesh, int part, CwFoamFile file, char text[
 int64_t cw_foam_value_count(const CwFoamMesh *mesh, int part, CwFoamFile file);
 
 extern const char *const cw_foam_file_names[CW_FOAM_FILES];
-
-#endif

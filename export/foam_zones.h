@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What an OpenFOAM case says of the zones of the mesh: which turn, and what is reported of the flow through their ends
 // and interfaces.
-#ifndef CUTWATER_EXPORT_FOAM_ZONES_H
-#define CUTWATER_EXPORT_FOAM_ZONES_H
+#pragma once
 
 #include "export/patch_role.h"
 
@@ -13,5 +12,3 @@ CwStatus cw_foam_zones_set(const CwAssembly *assembly, CwValues *values);
 
 // The zone of faces that several inlets or outlets are together.
 const char *cw_foam_end_zone(CwPatchKind kind);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Folders that appear whole or not at all, and paths.
-#ifndef CUTWATER_EXPORT_FOLDER_H
-#define CUTWATER_EXPORT_FOLDER_H
+#pragma once
 
 #include "pipeline/status.h"
 
@@ -22,5 +21,3 @@ void cw_folder_sync_begin(const char *path);
 
 // Puts the folder or file `from` in the place of `to`, whatever was there before, and that to the disk. CW_ERR_IO.
 CwStatus cw_folder_replace(const char *from, const char *to);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The surfaces where two domains meet: whether both sides are the same surface, and which face of the other side lies
 // over the centre of each face.
-#ifndef CUTWATER_EXPORT_INTERFACE_H
-#define CUTWATER_EXPORT_INTERFACE_H
+#pragma once
 
 #include "export/assembly.h"
 
@@ -34,5 +33,3 @@ void cw_interface_free(CwInterface *interface);
 // Interfaces before interface `number` from the domain of its side to the other one: two domains may meet in several
 // surfaces.
 int cw_interfaces_before(const CwMesh *mesh, int number, int side);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Donors on an interface of any shape: for each face of one side the nearest face of the other.
-#ifndef CUTWATER_EXPORT_INTERFACE_NEAR_H
-#define CUTWATER_EXPORT_INTERFACE_NEAR_H
+#pragma once
 
 #include "export/assembly.h"
 
@@ -10,5 +9,3 @@
 // centre, over the longest edge of the face and its donor; *worst: the face that has it. CW_ERR_MEMORY.
 CwStatus cw_interface_near(const CwInterfaceFace *faces, int64_t count, const CwInterfaceFace *others,
                            int64_t other_count, int64_t *donor, double (*place)[2], double *gap, int64_t *worst);
-
-#endif

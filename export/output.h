@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What an export writes, by the formats of the case. A format whose numbers cannot hold the mesh is left out, and the
 // others are written.
-#ifndef CUTWATER_EXPORT_OUTPUT_H
-#define CUTWATER_EXPORT_OUTPUT_H
+#pragma once
 
 #include "export/cgns_file.h"
 #include "export/fluent_mesh.h"
@@ -51,5 +50,3 @@ CwStatus cw_output_digest(const CwOutput *output, const CwRanks *ranks, char dig
 
 // Frees, also what cw_output_plan() left behind as it failed.
 void cw_output_free(CwOutput *output);
-
-#endif

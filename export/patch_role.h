@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a patch is for a solver, beyond its kind: whether it turns, and how its wall is treated; and which model of
 // turbulence follows from the walls.
-#ifndef CUTWATER_EXPORT_PATCH_ROLE_H
-#define CUTWATER_EXPORT_PATCH_ROLE_H
+#pragma once
 
 #include "export/assembly.h"
 #include "export/template.h"
@@ -39,5 +38,3 @@ typedef int (*CwPatchChoice)(const CwMesh *mesh, const CwModelPatch *patch);
 int cw_patch_count(const CwAssembly *assembly, int domain, CwPatchChoice wanted);
 CwStatus cw_patch_names_set(const CwAssembly *assembly, int domain, CwPatchChoice wanted, const char *between,
                             const char *key, CwValues *values);
-
-#endif

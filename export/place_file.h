@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Files that several ranks write, each at places of its own.
-#ifndef CUTWATER_EXPORT_PLACE_FILE_H
-#define CUTWATER_EXPORT_PLACE_FILE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -23,5 +22,3 @@ CwStatus cw_place_file_put_labels(const CwPlaceFile *file, const int64_t *values
 
 // Closes it; fine where it is not open. CW_ERR_IO where the disk is full.
 CwStatus cw_place_file_close(CwPlaceFile *file);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is checked of a whole region before it is written.
-#ifndef CUTWATER_EXPORT_REGION_CHECK_H
-#define CUTWATER_EXPORT_REGION_CHECK_H
+#pragma once
 
 #include "export/assembly.h"
 
@@ -34,5 +33,3 @@ void cw_region_model_free(CwRegionModel *model);
 // Gives all ranks the figures of all regions, each set on the rank that owns it, and sums them into the totals of the
 // domains. Collective.
 void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figures, CwAssembly *assembly);
-
-#endif

@@ -2,8 +2,7 @@
 // Which rank has which regions. Regions of one domain with the same counts may be copies of one another, turned about
 // the axis, as the passages of a wheel are: one rank has all of them, so that what is known of one need not be found
 // again for the others (region_check.h).
-#ifndef CUTWATER_EXPORT_REGION_SHARE_H
-#define CUTWATER_EXPORT_REGION_SHARE_H
+#pragma once
 
 #include "pipeline/mesh/manifest.h"
 #include "pipeline/parallel/ranks.h"
@@ -19,5 +18,3 @@ typedef struct {
 // least. CW_ERR_MEMORY; the caller frees the share then too.
 CwStatus cw_region_share(const CwMesh *mesh, const CwRanks *ranks, CwRegionShare *share);
 void cw_region_share_free(CwRegionShare *share);
-
-#endif

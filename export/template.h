@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Text files with @key@ in place of the values of a case. The files of export/templates are built into the
 // program.
-#ifndef CUTWATER_EXPORT_TEMPLATE_H
-#define CUTWATER_EXPORT_TEMPLATE_H
+#pragma once
 
 #include "pipeline/status.h"
 
@@ -57,5 +56,3 @@ CwStatus cw_templates_write(const char *prefix, const char *to, CwValuesOfFile o
 
 // Writes a text to a new file. CW_ERR_IO.
 CwStatus cw_text_write(const char *path, const char *text, int executable);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Work in a process of its own, beside what the caller does meanwhile: files that a library writes on one core.
-#ifndef CUTWATER_GEOMETRY_BESIDE_H
-#define CUTWATER_GEOMETRY_BESIDE_H
+#pragma once
 
 #include "pipeline/status.h"
 
@@ -24,5 +23,4 @@ void cw_beside_drop(CwBeside **beside);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
 // ellipse at the leading edge, thickness, and a trailing edge that is cut on the D2 cylinder, with its acute
 // corner bevelled, or rounded, or sharp. The blade sweeps backward: the wheel turns about +z by the right
 // hand, theta falls from the leading to the trailing edge, and the pressure side is the one of greater theta.
-#ifndef CUTWATER_GEOMETRY_BLADE_H
-#define CUTWATER_GEOMETRY_BLADE_H
+#pragma once
 
 #include "geometry/design.h"
 #include "geometry/meridian.h"
@@ -107,5 +106,4 @@ double cw_blade_usual_bevel(CwTrailingEdge edge, double trailing_edge_thickness,
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -4,8 +4,7 @@
 // rows of points, so that their common edges are exact on both.
 //
 // With root fillets each of them is cut into three bands from hub to shroud: fillet, blade, fillet.
-#ifndef CUTWATER_GEOMETRY_BLADE_PATCHES_HPP
-#define CUTWATER_GEOMETRY_BLADE_PATCHES_HPP
+#pragma once
 
 #include "geometry/blade_shape.hpp"
 #include "geometry/design.h"
@@ -20,5 +19,3 @@ void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double
 // Makes the guide lines of a seam whose sections are set, those of the blade shifted into the passage. On its way it
 // turns into the meridian within a fifth of the angle `room` at either end.
 void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double unit, double room, CwBladeShape *shape);
-
-#endif

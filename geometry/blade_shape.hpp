@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the surfaces of one blade or splitter are made of, and the surfaces: see blade_patches.hpp.
-#ifndef CUTWATER_GEOMETRY_BLADE_SHAPE_HPP
-#define CUTWATER_GEOMETRY_BLADE_SHAPE_HPP
+#pragma once
 
 #include <vector>
 
@@ -68,5 +67,3 @@ inline CwBladeOnWall cw_blade_on_wall(const CwMeridian *meridian, int wall) {
   if (wall == CW_HUB) return {&meridian->hub, meridian->hub_leading, meridian->hub_trailing - meridian->hub_leading};
   return {&meridian->shroud, meridian->shroud_leading, meridian->shroud_trailing - meridian->shroud_leading};
 }
-
-#endif

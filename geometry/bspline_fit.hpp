@@ -2,8 +2,7 @@
 // Cubic B-splines through points at prescribed parameters, or through functions at even ones. Two faces that
 // interpolate the same row of points at the same parameters get the same boundary poles, so that their common edge is
 // exact on both.
-#ifndef CUTWATER_GEOMETRY_BSPLINE_FIT_HPP
-#define CUTWATER_GEOMETRY_BSPLINE_FIT_HPP
+#pragma once
 
 #include <functional>
 #include <vector>
@@ -37,5 +36,3 @@ Handle(Geom2d_BSplineCurve) cw_bspline_line_2d(double a, double b, const gp_Pnt2
 using CwPointOfTwo = std::function<gp_Pnt(double, double)>;
 Handle(Geom_BSplineSurface) cw_bspline_surface(int u_count, int v_count, const CwPointOfTwo &f);
 Handle(Geom_BSplineSurface) cw_bspline_surface(int u_count, const std::vector<double> &v, const CwPointOfTwo &f);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The correlations from which the hydraulic design works out what a table leaves open, in two families: those
 // of Guelich's and of Guan's books. Formulas and sources are on the page docs/geometry.md.
-#ifndef CUTWATER_GEOMETRY_CORRELATIONS_H
-#define CUTWATER_GEOMETRY_CORRELATIONS_H
+#pragma once
 
 #include "geometry/design.h"
 
@@ -35,4 +34,3 @@ double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesi
 
 // The quantity of a design that is correlated, or -1 for the blade number.
 int cw_correlated_quantity(CwCorrelated quantity);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A finished hydraulic design: every dimension of the pump and what follows from them. SI units: m, rad, s, kg. It is
 // made by hydraulic_design.h.
-#ifndef CUTWATER_GEOMETRY_DESIGN_H
-#define CUTWATER_GEOMETRY_DESIGN_H
+#pragma once
 
 #include "geometry/volute.h"
 #include "pipeline/case.h"
@@ -151,4 +150,3 @@ typedef struct {
   double asked[CW_DESIGN_COUNT];       // SI: the case's value where it gave way, for the reason in `source`; else NAN
 } CwDesign;
 #undef CW_DESIGN_MEMBER
-#endif

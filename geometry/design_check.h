@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Compares a design with both families of correlations and with usual limits, and says where they disagree. Nothing
 // here is an error: the case's table is the law.
-#ifndef CUTWATER_GEOMETRY_DESIGN_CHECK_H
-#define CUTWATER_GEOMETRY_DESIGN_CHECK_H
+#pragma once
 
 #include "geometry/design.h"
 
@@ -14,4 +13,3 @@ typedef struct {
 } CwDesignRemarks;
 
 void cw_design_check(const CwDesign *design, CwDesignRemarks *remarks);
-#endif

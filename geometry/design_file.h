@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // design.json: every derived dimension with its unit in its key, where it comes from, and what was measured.
-#ifndef CUTWATER_GEOMETRY_DESIGN_FILE_H
-#define CUTWATER_GEOMETRY_DESIGN_FILE_H
+#pragma once
 
 #include <jansson.h>
 
@@ -14,4 +13,3 @@ json_t *cw_measured_json(const CwMeasuredPump *measured);
 
 // Writes the design and the measured values, whole or not at all.
 CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How the files of the hydraulic design set a quantity of `design` together with where it comes from.
-#ifndef CUTWATER_GEOMETRY_DESIGN_SOURCE_H
-#define CUTWATER_GEOMETRY_DESIGN_SOURCE_H
+#pragma once
 
 #include <math.h>
 
@@ -32,5 +31,3 @@
     const double take_given = (given);                                                                                 \
     SET(member, cw_case_given(take_given) ? take_given : (computed), cw_case_given(take_given) ? "case" : (text));     \
   } while (0)
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Quantities of a design as people read them and as files store them.
-#ifndef CUTWATER_GEOMETRY_DESIGN_VALUE_H
-#define CUTWATER_GEOMETRY_DESIGN_VALUE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -20,4 +19,3 @@ CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity
 
 // One line for a person: what the quantity is, its value with a unit, and where it comes from.
 void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Angles of a solid as built: between faces along the edges, and between the edges of a face at its corners.
-#ifndef CUTWATER_GEOMETRY_EDGE_ANGLE_HPP
-#define CUTWATER_GEOMETRY_EDGE_ANGLE_HPP
+#pragma once
 
 #include <functional>
 
@@ -36,5 +35,3 @@ double cw_edge_angle(const TopoDS_Edge &edge, const TopoDS_Face &a, const TopoDS
 
 // Calls `use` for each corner of each face.
 void cw_corner_angles(const CwSolid &solid, const std::function<void(const CwCornerAngle &)> &use);
-
-#endif

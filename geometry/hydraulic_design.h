@@ -5,8 +5,7 @@
 // A table may be over-determined: wrap angle, outlet blade angle and head need not fit one another. The
 // case's priority says which is the law; the others are predicted, and their residuals reported. Where D2 is
 // open it is solved so that the predicted head is the one asked.
-#ifndef CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
-#define CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
+#pragma once
 
 #include "geometry/design.h"
 #include "pipeline/case.h"
@@ -25,5 +24,4 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

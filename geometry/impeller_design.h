@@ -6,8 +6,7 @@
 //                        greater one
 //   D2 given, b2 open    beta2 meets the head; where 12 to 60 deg do not, b2 does
 //   cylindrical blades   begin as far out as they stand on hub and shroud, where the leading edge is open
-#ifndef CUTWATER_GEOMETRY_IMPELLER_DESIGN_H
-#define CUTWATER_GEOMETRY_IMPELLER_DESIGN_H
+#pragma once
 
 #include "geometry/design.h"
 #include "geometry/meridian.h"
@@ -20,4 +19,3 @@ int cw_design_meets_head(const CwDesign *design);
 // design: [in] duty, specific speeds, efficiencies and the kinds that the case chooses; [out] the wheel and its
 // predicted head. Fails with CW_ERR_DESIGN and one line that names the keys to change.
 CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Measures the solids as built: what the design asked for is read back from the B-rep itself.
-#ifndef CUTWATER_GEOMETRY_MEASURE_H
-#define CUTWATER_GEOMETRY_MEASURE_H
+#pragma once
 
 #include "geometry/solid.h"
 #include "pipeline/status.h"
@@ -62,5 +61,4 @@ CwStatus cw_measure_stator(const CwSolid *stator, CwMeasuredStator *measured);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -10,8 +10,7 @@
 //     r = D1/2         /
 //               nut __/
 //        -------|----------------- axis, +z to the right, suction at the left
-#ifndef CUTWATER_GEOMETRY_MERIDIAN_H
-#define CUTWATER_GEOMETRY_MERIDIAN_H
+#pragma once
 
 #include "geometry/design.h"
 #include "pipeline/status.h"
@@ -79,5 +78,4 @@ double cw_meridian_volume(const CwMeridian *meridian);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The passage between hub and shroud in the meridian, cut by lines square to the flow: each line meets hub and shroud
 // at the same angle, as the chord between the points where a circle touches both.
-#ifndef CUTWATER_GEOMETRY_MERIDIAN_PASSAGE_H
-#define CUTWATER_GEOMETRY_MERIDIAN_PASSAGE_H
+#pragma once
 
 #include "geometry/meridian.h"
 
@@ -23,4 +22,3 @@ CwPassageStation cw_meridian_passage_at(const CwMeridianCurve *hub, const CwMeri
 // The largest step back of the area against its trend from the first to the last station, over the largest (where it
 // should grow) or least (where it should fall) area before it; 0: monotone.
 double cw_passage_reversal(const CwPassageStation *station, int count);
-#endif

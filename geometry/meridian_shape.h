@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where the inner poles of hub and shroud lie: the walls with the least bending among those between which the passage's
 // area is monotone from the eye to D2.
-#ifndef CUTWATER_GEOMETRY_MERIDIAN_SHAPE_H
-#define CUTWATER_GEOMETRY_MERIDIAN_SHAPE_H
+#pragma once
 
 #include "geometry/design.h"
 
@@ -10,4 +9,3 @@
 // the shroud are known: those given (not NAN) as they are, the others solved for to 0.001. Same dimensions, same
 // shares.
 void cw_meridian_shape(const CwImpellerTable *given, CwDesign *design);
-#endif

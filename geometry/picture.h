@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Line drawings as SVG, written straight to a file. Coordinates are pixels, y down.
-#ifndef CUTWATER_GEOMETRY_PICTURE_H
-#define CUTWATER_GEOMETRY_PICTURE_H
+#pragma once
 
 #include "geometry/design.h"
 #include "pipeline/atomic_file.h"
@@ -38,4 +37,3 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
 CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path);        // beta and area along the blade
 CwStatus cw_picture_volute_sections(const CwDesign *design, const char *path);    // areas and outlines
 CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path);        // walls at z = 0
-#endif

@@ -2,8 +2,7 @@
 // A straight pipe, round or round a shaft, as a domain of its own: a prism over the flat end of another domain, with
 // which it shares that end's outline exactly, so that both sides of the disc between them can be meshed to the same
 // border.
-#ifndef CUTWATER_GEOMETRY_PIPE_ZONE_H
-#define CUTWATER_GEOMETRY_PIPE_ZONE_H
+#pragma once
 
 #include "geometry/solid.h"
 #include "pipeline/status.h"
@@ -30,5 +29,4 @@ CwStatus cw_pipe_zone_make(CwSolid *neighbour, const char *end, double length, c
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // The pump's domains as solids: built, measured, and held against what makes a sound one; and the interfaces
 // between them. Rotor and stator always; the suction pipe and the discharge pipe where the case asks for them as
 // zones of their own.
-#ifndef CUTWATER_GEOMETRY_PUMP_H
-#define CUTWATER_GEOMETRY_PUMP_H
+#pragma once
 
 #include "geometry/design.h"
 #include "geometry/measure.h"
@@ -76,5 +75,4 @@ const char *cw_pump_blunter_edge(const CwDesign *design);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

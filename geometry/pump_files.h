@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // RUN/geometry: the files that a pump has wherever its solids come from, and others beside them. Each appears whole;
 // record.json, written last by the program, says that all are there.
-#ifndef CUTWATER_GEOMETRY_PUMP_FILES_H
-#define CUTWATER_GEOMETRY_PUMP_FILES_H
+#pragma once
 
 #include "geometry/solid.h"
 #include "pipeline/model.h"
@@ -30,4 +29,3 @@ CwStatus cw_faces_table_write(const CwSolid *const *solids, int count, const cha
 // Writes DOMAIN.brep of each solid, faces.csv, model.json, pump.step, the others, and pump_faces.step, which is made
 // beside them (beside.h). The record gets their digests and the step "files".
 CwStatus cw_pump_files_write(const CwStageArgs *args, const CwPumpFiles *files, CwRecord *record);
-#endif

@@ -8,8 +8,7 @@
 // are put back. Where that does not help either, one key that the case leaves open is given, 5 to 50 % beside the value
 // that the design has chosen, the least change first: those that the refusal names, D2, b3, z and D1; after all of them
 // the speed.
-#ifndef CUTWATER_GEOMETRY_REMEDY_H
-#define CUTWATER_GEOMETRY_REMEDY_H
+#pragma once
 
 #include <stddef.h>
 
@@ -24,4 +23,3 @@ typedef CwStatus (*CwRemedyTrial)(const CwCase *table, CwDesign *design);
 // 120 works" or "it works without impeller.wrap_angle_deg". Returns whether one was found within 60 trials; failures of
 // trials are cleared.
 int cw_remedy_find(const CwCase *table, const char *message, CwRemedyTrial trial, char *text, size_t size);
-#endif

@@ -9,8 +9,7 @@
 //                   W
 //
 // At corners of the blade's outline (bevel, cut) the feet of both sides meet in a mitre.
-#ifndef CUTWATER_GEOMETRY_ROOT_FILLET_HPP
-#define CUTWATER_GEOMETRY_ROOT_FILLET_HPP
+#pragma once
 
 #include "geometry/blade_shape.hpp"
 #include "geometry/design.h"
@@ -19,5 +18,3 @@
 // the fillets of hub and shroud leave too little of the blade between them, or have no room before its leading
 // edge.
 void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape);
-
-#endif

@@ -2,8 +2,7 @@
 // How large a root fillet is at a place of the blade. A ball of radius R that rolls along the crease between
 // blade and wall touches both at the tangent length L = R / tan(alpha/2), with the angle alpha between them
 // through the fluid. Towards the trailing edge L falls to what has room between D2 and the interface.
-#ifndef CUTWATER_GEOMETRY_ROOT_FILLET_SIZE_H
-#define CUTWATER_GEOMETRY_ROOT_FILLET_SIZE_H
+#pragma once
 
 #include "geometry/blade.h"
 #include "geometry/design.h"
@@ -33,5 +32,4 @@ double cw_root_fillet_length(const CwDesign *design, const CwBladeSection *on, d
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // The rotor's fluid as one closed solid: suction pipe, hub with nut, shroud, blades, interface. Built
 // directly from shared edges, without booleans; all faces of revolution are split into one sector a blade, so
 // that no face has a seam or a degenerate edge.
-#ifndef CUTWATER_GEOMETRY_ROTOR_H
-#define CUTWATER_GEOMETRY_ROTOR_H
+#pragma once
 
 #include "geometry/design.h"
 #include "geometry/solid.h"
@@ -19,5 +18,4 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

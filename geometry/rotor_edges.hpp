@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The vertices and edges of the rotor's shell: along the blades at hub, shroud and the ends of root fillets, across the
 // span, along the flow on the walls, and arcs from each blade to the next.
-#ifndef CUTWATER_GEOMETRY_ROTOR_EDGES_HPP
-#define CUTWATER_GEOMETRY_ROTOR_EDGES_HPP
+#pragma once
 
 #include <cmath>
 #include <vector>
@@ -85,5 +84,3 @@ private:
   void wall_edges(RotorBlade &b);
   void arcs(int i);
 };
-
-#endif

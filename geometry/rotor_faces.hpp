@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The faces of the rotor's shell between its edges, one of each kind a passage, and the patches of the blades.
-#ifndef CUTWATER_GEOMETRY_ROTOR_FACES_HPP
-#define CUTWATER_GEOMETRY_ROTOR_FACES_HPP
+#pragma once
 
 #include <Geom_Surface.hxx>
 
@@ -23,5 +22,3 @@ private:
   void blade_faces(int i);
   void disk_face(double height, double r, int w, bool outward, const char *patch, CwPatchKind kind, const char *name);
 };
-
-#endif

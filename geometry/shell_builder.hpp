@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Builds a closed solid from explicit vertices, shared edges and faces with their parameter curves: no
 // booleans, no sewing. Tolerances are measured, not asked for.
-#ifndef CUTWATER_GEOMETRY_SHELL_BUILDER_HPP
-#define CUTWATER_GEOMETRY_SHELL_BUILDER_HPP
+#pragma once
 
 #include <string>
 #include <vector>
@@ -58,5 +57,3 @@ private:
   std::vector<Edge> edges;
   std::vector<CwSolidFace> faces;
 };
-
-#endif

@@ -5,8 +5,7 @@
 // The unit is 2^k mm, with the k for which D2 is 128 to 256 of them. OpenCASCADE's absolute tolerances (1e-7) then mean
 // the same share of every pump, and similar pumps whose sizes are powers of two apart have the same solids, bit by bit:
 // a product with a power of two is exact.
-#ifndef CUTWATER_GEOMETRY_SOLID_H
-#define CUTWATER_GEOMETRY_SOLID_H
+#pragma once
 
 #include "pipeline/model.h"
 #include "pipeline/status.h"
@@ -38,5 +37,4 @@ CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

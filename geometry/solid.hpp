@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is behind CwSolid, and how OpenCASCADE fails, for the C++ files of this room only.
-#ifndef CUTWATER_GEOMETRY_SOLID_HPP
-#define CUTWATER_GEOMETRY_SOLID_HPP
+#pragma once
 
 #include <functional>
 #include <string>
@@ -40,5 +39,3 @@ std::string cw_solid_failure_text(const Standard_Failure &failure);
 // stands `library` too.
 CwStatus cw_solid_guard(CwStatus code, const std::string &what, const char *library,
                         const std::function<CwStatus()> &run);
-
-#endif

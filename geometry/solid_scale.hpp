@@ -2,8 +2,7 @@
 // A solid in another unit, for files that have one of their own. OpenCASCADE's own transformation turns the curves in
 // the parameter planes of a scaled solid into splines and rounds them; here points, radii and lengths are multiplied
 // and all else stays as it is, so that a factor that is a power of two costs no bit.
-#ifndef CUTWATER_GEOMETRY_SOLID_SCALE_HPP
-#define CUTWATER_GEOMETRY_SOLID_SCALE_HPP
+#pragma once
 
 #include "geometry/solid.hpp"
 
@@ -11,5 +10,3 @@
 // be made of planes, cylinders, cones, surfaces of revolution and B-splines, with a curve on each side of every edge.
 // Throws Standard_Failure.
 CwSolid cw_solid_scaled(const CwSolid &solid, double factor);
-
-#endif

@@ -2,8 +2,7 @@
 // The stator's B-rep: interface cylinder, neck, step to b3, volute, tongue, diffuser and discharge pipe as
 // one closed solid, built directly from analytic and B-spline surfaces with shared edges; no booleans, no
 // seams.
-#ifndef CUTWATER_GEOMETRY_STATOR_H
-#define CUTWATER_GEOMETRY_STATOR_H
+#pragma once
 
 #include "geometry/solid.h"
 #include "geometry/volute.h"
@@ -20,5 +19,4 @@ CwStatus cw_stator_build(const CwVolute *volute, double unit, CwSolid **stator);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A short hand over CwShellBuilder: faces are loops of edges in any order of run; their senses, curves in the
 // parameter plane and names are worked out here.
-#ifndef CUTWATER_GEOMETRY_STATOR_BUILDER_HPP
-#define CUTWATER_GEOMETRY_STATOR_BUILDER_HPP
+#pragma once
 
 #include <optional>
 #include <string>
@@ -75,5 +74,3 @@ private:
   std::vector<Edge> edges_;
   std::vector<Face> faces_;
 };
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a finished stator must hold: validity, tolerances, and the angles between its faces.
-#ifndef CUTWATER_GEOMETRY_STATOR_CHECK_HPP
-#define CUTWATER_GEOMETRY_STATOR_CHECK_HPP
+#pragma once
 
 #include "geometry/solid.hpp"
 
@@ -9,5 +8,3 @@
 // of 1e-3 model units or more, a face or solid that BRepCheck rejects, two faces that meet through the fluid at less
 // than 66 degrees or through the solid at less than 75. Prism layers in sharper places are too skewed.
 void cw_stator_check(const CwSolid &stator);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What STEP files are written from and read into: a document of XCAF, closed when it goes.
-#ifndef CUTWATER_GEOMETRY_STEP_DOCUMENT_HPP
-#define CUTWATER_GEOMETRY_STEP_DOCUMENT_HPP
+#pragma once
 
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -27,5 +26,3 @@ struct CwStepDocument {
     }
   }
 };
-
-#endif

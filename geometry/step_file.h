@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // STEP AP214 in mm: one product a solid, named by its domain; each face named by its patch.
-#ifndef CUTWATER_GEOMETRY_STEP_FILE_H
-#define CUTWATER_GEOMETRY_STEP_FILE_H
+#pragma once
 
 #include "geometry/beside.h"
 #include "geometry/solid.h"
@@ -21,5 +20,4 @@ CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const
 
 #ifdef __cplusplus
 }
-#endif
 #endif

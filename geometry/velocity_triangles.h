@@ -2,8 +2,7 @@
 // Velocity triangles, slip, and what follows from them: head, incidence, throats, NPSH. One-dimensional
 // theory at hub, mid-span and shroud with an even meridional speed across the span and no swirl before the
 // impeller.
-#ifndef CUTWATER_GEOMETRY_VELOCITY_TRIANGLES_H
-#define CUTWATER_GEOMETRY_VELOCITY_TRIANGLES_H
+#pragma once
 
 #include "geometry/design.h"
 #include "geometry/meridian.h"
@@ -45,4 +44,3 @@ double cw_outlet_angle_for_head(const CwMeridian *meridian, const double range[2
 // Sets both triangles at hub, mid-span and shroud, the throats and the estimate of NPSH. The design's blades
 // are known.
 CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure, CwDesign *design);
-#endif

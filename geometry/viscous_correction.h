@@ -7,8 +7,7 @@
 //
 // The standard's factors refer to water. With small pumps B is more than 1 for water too; the factors here are those of
 // the fluid over those of water at 20 degrees Celsius in the same pump. A thinner fluid has no factors.
-#ifndef CUTWATER_GEOMETRY_VISCOUS_CORRECTION_H
-#define CUTWATER_GEOMETRY_VISCOUS_CORRECTION_H
+#pragma once
 
 #define CW_VISCOUS_LARGEST_B 40.0  // beyond it the standard has no factors; those of it are taken
 #define CW_VISCOUS_WATER 1.004e-6  // m2/s
@@ -27,4 +26,3 @@ CwViscousCorrection cw_viscous_correction(double viscosity, double flow_rate, do
 
 // The same of the pump whose best point with the fluid is given: with water it has flow_rate / C_Q and head / C_H.
 CwViscousCorrection cw_viscous_selection(double viscosity, double flow_rate, double head, double speed);
-#endif

@@ -35,8 +35,7 @@
 // nose; from it the diffuser leads to the outlet circle: tangentially, or bent away from the spiral until its
 // pipe points away from the axis (radial discharge). All of this is in the tongue's own frame; the solid
 // is turned about z by minus the discharge's lean, so that its pipe runs in +y.
-#ifndef CUTWATER_GEOMETRY_VOLUTE_H
-#define CUTWATER_GEOMETRY_VOLUTE_H
+#pragma once
 
 #include "pipeline/case.h"
 
@@ -111,4 +110,3 @@ typedef struct {
   double discharge_lean;      // rad: the pipe runs along (-sin, cos) of it; tangential: as the throat
   double outlet_x, outlet_y;  // m: centre of the diffuser's end; its z is 0
 } CwVolute;
-#endif

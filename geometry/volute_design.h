@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The design of the volute; see volute.h for its shape and names.
-#ifndef CUTWATER_GEOMETRY_VOLUTE_DESIGN_H
-#define CUTWATER_GEOMETRY_VOLUTE_DESIGN_H
+#pragma once
 
 #include "geometry/volute.h"
 #include "pipeline/status.h"
@@ -15,5 +14,4 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

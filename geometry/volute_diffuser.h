@@ -5,8 +5,7 @@
 // a given length recover the most pressure on the line Cp* of Sovran and Klomp's chart (1967); with an area ratio of 2
 // it lies at a full angle of 10 to 11 degrees. 8 to 10 degrees and area ratios of 1.5 to 3 are usual behind a volute,
 // whose flow is uneven (Guelich, Centrifugal Pumps, section 7.8).
-#ifndef CUTWATER_GEOMETRY_VOLUTE_DIFFUSER_H
-#define CUTWATER_GEOMETRY_VOLUTE_DIFFUSER_H
+#pragma once
 
 #include "geometry/volute.h"
 #include "pipeline/status.h"
@@ -55,5 +54,4 @@ CwStatus cw_volute_diffuser(CwVolute *volute);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

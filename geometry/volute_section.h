@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sections of the volute and its outer wall as functions of position; see volute.h for the shape, the
 // names and the families. They need of the volute only its input, its law and the angles of its arcs.
-#ifndef CUTWATER_GEOMETRY_VOLUTE_SECTION_H
-#define CUTWATER_GEOMETRY_VOLUTE_SECTION_H
+#pragma once
 
 #include "geometry/volute.h"
 
@@ -57,5 +56,4 @@ double cw_volute_trapezoid_height(double r3, double b3, double side_wall_angle, 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

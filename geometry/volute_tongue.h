@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The tongue's nose and the throat as functions of position; see volute.h for the shape and the names. They need of the
 // volute what its tongue is placed by.
-#ifndef CUTWATER_GEOMETRY_VOLUTE_TONGUE_H
-#define CUTWATER_GEOMETRY_VOLUTE_TONGUE_H
+#pragma once
 
 #include "geometry/volute.h"
 
@@ -30,5 +29,4 @@ double cw_volute_throat_angle(const CwVolute *volute, double psi);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The flow along each kind of wall, from the sections that the water runs through: for a designed pump and for one of
 // CAD.
-#ifndef CUTWATER_GEOMETRY_WALL_FLOW_H
-#define CUTWATER_GEOMETRY_WALL_FLOW_H
+#pragma once
 
 #include "geometry/wall_name.h"
 #include "pipeline/model.h"
@@ -19,4 +18,3 @@ typedef struct {
 } CwWaterWay;
 
 void cw_wall_flows(const CwWaterWay *way, CwWallFlow flow[CW_ALONG_COUNT]);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the names that this program gives walls mean. They mean the same where a CAD file or a case gives them.
-#ifndef CUTWATER_GEOMETRY_WALL_NAME_H
-#define CUTWATER_GEOMETRY_WALL_NAME_H
+#pragma once
 
 #include "pipeline/model.h"
 
@@ -27,4 +26,3 @@ typedef struct {
 
 // NULL: no name of these. Only whole names count: hub_seal_pipe is none of them.
 const CwWallName *cw_wall_name(const char *name);
-#endif

@@ -2,8 +2,7 @@
 // The tuned numbers of the mesher, which policy_table.h lists. In normal builds they are constants that the compiler
 // folds. With -DCUTWATER_EXPERIMENT=ON they are variables, and a file named by $CUTWATER_POLICY changes some: lines
 // `name value`, # begins a comment.
-#ifndef CUTWATER_MESHER_POLICY_H
-#define CUTWATER_MESHER_POLICY_H
+#pragma once
 
 #include <stdint.h>
 #include <stdio.h>
@@ -44,5 +43,4 @@ void cw_policy_hash(CwHash *hash);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

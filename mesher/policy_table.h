@@ -3,7 +3,7 @@
 //
 //   NUMBER(type, name, value, off, unit, meaning and evidence)
 //
-// A file that needs them defines NUMBER and includes this one, as policy.h does; hence no guard. `off`: the value that
+// A file that needs them defines NUMBER and includes this one, as policy.h does, more than once. `off`: the value that
 // switches off what the number rules; `none` where no value does. Units: `1` of ratios and counts, `h` the wanted edge
 // length at the place, `edge` that of the triangle or tetrahedron, `quality` that of cw_tet_quality, mostly the sine of
 // the least dihedral angle. What is not here is mathematics, a constant of physics or of a format, a bound of rounding,

@@ -11,8 +11,7 @@
 //
 // The temporary name is ".part-PROCESS-COUNT-NAME", made so that no two processes share one, on whatever host. Its
 // ending is that of the final name, which some libraries look at.
-#ifndef CUTWATER_PIPELINE_ATOMIC_FILE_H
-#define CUTWATER_PIPELINE_ATOMIC_FILE_H
+#pragma once
 
 #include <stdio.h>
 
@@ -61,5 +60,4 @@ CwStatus cw_make_directory(const char *path);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One pump, its operating point, its walls and its mesh, as the case file gives them (case_read.h). All is SI (m, kg,
 // s, rad, Pa) whatever the unit in the key.
-#ifndef CUTWATER_PIPELINE_CASE_H
-#define CUTWATER_PIPELINE_CASE_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -212,5 +211,4 @@ typedef struct {
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The section `cad` of the case file: a pump whose solids come from CAD files in place of the hydraulic design. Points
 // are those of the files. docs/own-cad.md is the guide.
-#ifndef CUTWATER_PIPELINE_CASE_CAD_H
-#define CUTWATER_PIPELINE_CASE_CAD_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/case_tree.h"
@@ -93,5 +92,4 @@ void cw_case_cad_free(CwCaseCad *cad);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What no key can tell alone: values of a whole case that contradict each other.
-#ifndef CUTWATER_PIPELINE_CASE_CHECK_H
-#define CUTWATER_PIPELINE_CASE_CHECK_H
+#pragma once
 
 #include "pipeline/case_schema.h"
 
@@ -18,4 +17,3 @@ CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace 
 // Checks openfoam.processors against the number of cells, which the command line may change after the case is read.
 // CW_ERR_INPUT, naming `path`, where parts would have fewer than two cells.
 CwStatus cw_case_check_parts(const char *path, const CwCase *table);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The case file as a stream of YAML events, each with its place. Events and not a document, since only events show a
 // key that is given twice.
-#ifndef CUTWATER_PIPELINE_CASE_EVENT_H
-#define CUTWATER_PIPELINE_CASE_EVENT_H
+#pragma once
 
 #include <libfyaml.h>
 
@@ -49,5 +48,4 @@ const char *cw_event_words(enum fy_event_type type);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Density, viscosity and vapour pressure of the fluid where the case gives its temperature instead: those of water.
-#ifndef CUTWATER_PIPELINE_CASE_FLUID_H
-#define CUTWATER_PIPELINE_CASE_FLUID_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/case_check.h"
@@ -10,4 +9,3 @@
 // the vapour pressure, of water at the temperature or at 20 degrees Celsius. `places`: one a key of the schema. Fails
 // with CW_ERR_INPUT and one line where a given density or viscosity is not that of water at the given temperature.
 CwStatus cw_case_fluid(const char *path, const CwCasePlace *places, CwCase *table);
-#endif

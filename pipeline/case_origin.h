@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Of which case the files of a stage were made. Every stage keeps in its record the keys that the pump follows from;
 // the next ones refuse a folder of another pump. Keys that only mesh and solver follow from may change in between.
-#ifndef CUTWATER_PIPELINE_CASE_ORIGIN_H
-#define CUTWATER_PIPELINE_CASE_ORIGIN_H
+#pragma once
 
 #include <jansson.h>
 
@@ -16,4 +15,3 @@ json_t *cw_case_origin(const CwCase *table);
 // Holds RUN/STAGE/record.json against the case. CW_ERR_IO where the record is not there (the stage has not run, or did
 // not end well), CW_ERR_INPUT with the first key that differs where the stage ran for another case.
 CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *stage);
-#endif

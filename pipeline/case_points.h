@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The points of the characteristic curve: flow rates at which the solvers' files have a set-up each.
-#ifndef CUTWATER_PIPELINE_CASE_POINTS_H
-#define CUTWATER_PIPELINE_CASE_POINTS_H
+#pragma once
 
 #include "pipeline/case.h"
 
@@ -16,4 +15,3 @@ typedef struct {
 // The points of the case [out], by ascending flow where the case is valid; their number. 0.6, 0.8, 1 and 1.2 times the
 // flow of the operating point where the case names none.
 int cw_case_points(const CwCase *table, CwCasePoint points[CW_LIST_MOST]);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Reads the case file. Every stage reads and validates it once, against the one schema in case_schema.c.
-#ifndef CUTWATER_PIPELINE_CASE_READ_H
-#define CUTWATER_PIPELINE_CASE_READ_H
+#pragma once
 
 #include "pipeline/case.h"
 
@@ -18,5 +17,4 @@ void cw_case_free(CwCase *table);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The one table of every key of the case file. Reading, validation, defaults and the page
 // docs/case-reference.md all follow from it: a new key is one new row here and one field in case.h.
-#ifndef CUTWATER_PIPELINE_CASE_SCHEMA_H
-#define CUTWATER_PIPELINE_CASE_SCHEMA_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -100,5 +99,4 @@ void cw_case_schema_markdown(FILE *stream);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

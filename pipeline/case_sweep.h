@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How a case follows another number of cells than its own, for sweeps over the mesh size.
-#ifndef CUTWATER_PIPELINE_CASE_SWEEP_H
-#define CUTWATER_PIPELINE_CASE_SWEEP_H
+#pragma once
 
 #include "pipeline/case.h"
 
@@ -10,4 +9,3 @@
 // own)^(1/3) of them, rounded, so that T'(i) = T(i n / n'): the growth becomes g^(n / n'), the first height T(n / n'),
 // and the whole thickness stays. CW_ERR_INPUT, naming `path`, where the case leaves layers open or n' is not allowed.
 CwStatus cw_case_sweep(const char *path, int64_t cells, CwCase *table);
-#endif

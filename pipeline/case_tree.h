@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A section of the case file whose keys are free names: scalars, lists and mappings as a tree, each with its place.
-#ifndef CUTWATER_PIPELINE_CASE_TREE_H
-#define CUTWATER_PIPELINE_CASE_TREE_H
+#pragma once
 
 #include "pipeline/case_event.h"
 
@@ -32,5 +31,4 @@ const CwCaseNode *cw_case_tree_find(const CwCaseNode *map, const char *key);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The units that keys of the case file may end in.
-#ifndef CUTWATER_PIPELINE_CASE_UNIT_H
-#define CUTWATER_PIPELINE_CASE_UNIT_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -30,5 +29,4 @@ void cw_units_markdown(FILE *stream);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One value of the case file: from its text to a number in the unit of its key, and the words for what is
 // wrong.
-#ifndef CUTWATER_PIPELINE_CASE_VALUE_H
-#define CUTWATER_PIPELINE_CASE_VALUE_H
+#pragma once
 
 #include "pipeline/case_schema.h"
 
@@ -30,4 +29,3 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
 // key with another unit, a key of another section, or the nearest key. `text` is its value, or NULL when it
 // is no scalar.
 void cw_case_key_unknown(const char *section, const char *name, const char *text, char wrong[CW_WRONG_SIZE]);
-#endif

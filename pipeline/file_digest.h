@@ -3,8 +3,7 @@
 // hashing; Carter, Wegman 1979), of 128 bits. The parts of a file can be summed by several ranks in any order, by
 // whoever writes them; zeros, so the holes of a sparse file too, add nothing. Against chance, not against malice:
 // damage within one word always shows, any other goes unseen once in 2^64.
-#ifndef CUTWATER_PIPELINE_FILE_DIGEST_H
-#define CUTWATER_PIPELINE_FILE_DIGEST_H
+#pragma once
 
 #include "pipeline/hash.h"
 #include "pipeline/status.h"
@@ -34,4 +33,3 @@ CwStatus cw_file_text(const char *path, char **text, size_t *size);
 
 // Digests a whole file. CW_ERR_IO where it cannot be read.
 CwStatus cw_file_digest(const char *path, char digest[CW_HASH_TEXT]);
-#endif

@@ -2,8 +2,7 @@
 // Digests of what is in memory: against chance, not against malice. Two 64-bit sums as in FNV-1a (Fowler, Noll, Vo
 // 1991), but of words of eight bytes in turn, each mixed. A step can be undone, so damage within one word always shows;
 // any other goes unseen once in 2^64.
-#ifndef CUTWATER_PIPELINE_HASH_H
-#define CUTWATER_PIPELINE_HASH_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -25,5 +24,4 @@ void cw_hash_hex(const CwHash *hash, char text[CW_HASH_TEXT]);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Reading the stages' JSON files with one clear line for what is not there.
-#ifndef CUTWATER_PIPELINE_JSON_READ_H
-#define CUTWATER_PIPELINE_JSON_READ_H
+#pragma once
 
 #include <jansson.h>
 
@@ -22,5 +21,3 @@ CwStatus cw_json_positive(json_t *object, const char *where, const char *key, do
 
 // A number, or NAN where there is none (null, missing, another type).
 double cw_json_real(const json_t *object, const char *key);
-
-#endif

@@ -4,8 +4,7 @@
 // cw_log_open() was told to speak prints lines and progress; errors print from any rank. All goes to standard
 // error. A stage opens one log and hands it on; NULL as a log is one that says nothing. One thread of a process uses
 // it.
-#ifndef CUTWATER_PIPELINE_LOG_H
-#define CUTWATER_PIPELINE_LOG_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -62,5 +61,4 @@ int64_t cw_peak_memory_bytes(void);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

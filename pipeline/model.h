@@ -2,8 +2,7 @@
 // The model that geometry hands on beside the solids: domains, patches and interfaces, whatever made them. Written as
 // RUN/geometry/model.json; RUN/mesh/manifest.json holds the same members for the stages after the mesher
 // (docs/file-formats.md).
-#ifndef CUTWATER_PIPELINE_MODEL_H
-#define CUTWATER_PIPELINE_MODEL_H
+#pragma once
 
 #include <jansson.h>
 
@@ -133,5 +132,4 @@ CwStatus cw_model_unpack(json_t *root, const char *where, CwModel *model);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How Open MPI is to start, where the user has not chosen. Before MPI_Init.
-#ifndef CUTWATER_PIPELINE_MPI_SETTINGS_H
-#define CUTWATER_PIPELINE_MPI_SETTINGS_H
+#pragma once
 
 // Where all ranks are on one machine, Open MPI's way over shared memory needs none of the libraries of fast networks,
 // and to load and ask them is more than half of what a rank needs to start. A rank started without mpirun needs no
@@ -16,5 +15,3 @@
 // (sharedfp/lockedfile, to 5.0.9) ends the process where the path has more than some 240 characters (open-mpi/ompi
 // issue 13565). It is left out.
 void cw_mpi_settings(void);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Orders for qsort: ascending numbers, or items that begin with one; the search in ascending numbers.
-#ifndef CUTWATER_PIPELINE_ORDER_H
-#define CUTWATER_PIPELINE_ORDER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,5 +24,3 @@ static inline int cw_interval_of(int count, const double *bound, double place) {
   }
   return low;
 }
-
-#endif

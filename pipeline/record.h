@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // record.json of a stage: what it did, how long it took, what it warned of, and its results for the report.
 // The format is in docs/file-formats.md.
-#ifndef CUTWATER_PIPELINE_RECORD_H
-#define CUTWATER_PIPELINE_RECORD_H
+#pragma once
 
 #include <jansson.h>
 #include <stdint.h>
@@ -63,5 +62,4 @@ CwStatus cw_json_write(const json_t *value, const char *path);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
 // process, however that ends; the file stays and names the last one that held it. Of the kinds of locks it is that of
 // POSIX (fcntl): a process that the holder starts does not inherit it, and NFS keeps it on the server, where other
 // hosts see it. Where a file system has no locks the stage goes on with a warning.
-#ifndef CUTWATER_PIPELINE_RUN_LOCK_H
-#define CUTWATER_PIPELINE_RUN_LOCK_H
+#pragma once
 
 #include "pipeline/log.h"
 #include "pipeline/status.h"
@@ -26,6 +25,4 @@ void cw_run_unlock(CwRunLock *lock);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

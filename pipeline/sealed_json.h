@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // JSON files that carry their own digest: the last member, "digest", is of all bytes before it.
-#ifndef CUTWATER_PIPELINE_SEALED_JSON_H
-#define CUTWATER_PIPELINE_SEALED_JSON_H
+#pragma once
 
 #include <jansson.h>
 
@@ -16,4 +15,3 @@ CwStatus cw_sealed_json_write(const json_t *object, const char *path);
 // Reads it. CW_ERR_IO where it cannot be read or is not as it was written; CW_ERR_INPUT where it is no such file. Free
 // with json_decref.
 CwStatus cw_sealed_json_read(const char *path, json_t **object);
-#endif

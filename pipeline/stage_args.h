@@ -12,8 +12,7 @@
 //     cw_log_close(&args.log);
 //     return code;
 //   }
-#ifndef CUTWATER_PIPELINE_STAGE_ARGS_H
-#define CUTWATER_PIPELINE_STAGE_ARGS_H
+#pragma once
 
 #include <stdint.h>
 #include <stdio.h>
@@ -80,5 +79,4 @@ CwStatus cw_stage_path(const CwStageArgs *args, const char *name, char **path);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
 // ("files"), one of the files of each stage that it read ("made_from"), and those of files of the user's ("inputs"). So
 // a stage sees files that are damaged, replaced by hand, or newer than what was made of them, whatever their time
 // stamps say.
-#ifndef CUTWATER_PIPELINE_STAGE_FILES_H
-#define CUTWATER_PIPELINE_STAGE_FILES_H
+#pragma once
 
 #include <jansson.h>
 
@@ -27,4 +26,3 @@ CwStatus cw_stage_files_source_check(const char *run, const char *stage, json_t 
 // For the record: by name the digest of the files of each stage, as its record tells of them. `stages` ends with NULL.
 // CW_ERR_IO, CW_ERR_INPUT, CW_ERR_MEMORY.
 CwStatus cw_stage_files_read(const char *run, const char *const *stages, json_t **made_from);
-#endif

@@ -15,8 +15,7 @@
 //
 // The message is one line for a person: what, where (file, line, key, or region, patch, coordinates in mm),
 // and what is allowed. Only main() prints it, through cw_log_error() of log.h.
-#ifndef CUTWATER_PIPELINE_STATUS_H
-#define CUTWATER_PIPELINE_STATUS_H
+#pragma once
 
 #include <stddef.h>
 
@@ -129,5 +128,4 @@ void cw_fail_clear(void);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // One line where a run under mpirun is stopped: when a rank is killed, or mpirun itself is told to stop, all ranks get
 // SIGTERM and would end without a word. A signal belongs to the process and hands its handler nothing: what is watched
 // is kept once a process, unlike the rest of a stage's state.
-#ifndef CUTWATER_PIPELINE_STOP_LINE_H
-#define CUTWATER_PIPELINE_STOP_LINE_H
+#pragma once
 
 #include "pipeline/status.h"
 
@@ -25,6 +24,4 @@ void cw_stop_end(void);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Vectors of three doubles, and degrees.
-#ifndef CUTWATER_PIPELINE_VEC_H
-#define CUTWATER_PIPELINE_VEC_H
+#pragma once
 
 #include <math.h>
 
@@ -50,5 +49,3 @@ static inline double cw_unit(double a[3]) {
   }
   return length;
 }
-
-#endif

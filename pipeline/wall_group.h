@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which group of the case's walls a patch belongs to: the mesher sets its layers by it, the exporter its wall
 // functions.
-#ifndef CUTWATER_PIPELINE_WALL_GROUP_H
-#define CUTWATER_PIPELINE_WALL_GROUP_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/model.h"
@@ -15,4 +14,3 @@ CwWallGroup cw_patch_walls(const CwWalls *walls, const CwModelPatch *patch);
 
 // Whether a first height is left open: neither given nor by a y+.
 int cw_walls_auto(const CwWalls *walls);
-#endif

@@ -5,8 +5,7 @@
 // Vapour pressure and density: IAPWS SR1-86(1992), Saturation properties of ordinary water substance (Wagner and
 // Pruss). Viscosity: IAPWS R12-08, Viscosity of ordinary water substance, without the enhancement next to the critical
 // point.
-#ifndef CUTWATER_PIPELINE_WATER_H
-#define CUTWATER_PIPELINE_WATER_H
+#pragma once
 
 #define CW_WATER_COLDEST 0.01 // degrees Celsius, the triple point
 #define CW_WATER_HOTTEST 370.0
@@ -16,4 +15,3 @@ double cw_water_vapour_pressure(double celsius);           // Pa
 double cw_water_density(double celsius);                   // kg/m3
 double cw_water_viscosity(double celsius, double density); // dynamic, Pa s, at a density in kg/m3
 double cw_water_kinematic_viscosity(double celsius);       // m2/s
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Random numbers of a fixed start, the same on every machine (Knuth's linear congruential generator).
-#ifndef CUTWATER_TESTS_DRAW_H
-#define CUTWATER_TESTS_DRAW_H
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ static inline double draw(uint64_t *state) {
 static inline int draw_below(uint64_t *state, int below) {
   return (int)(draw(state) * below);
 }
-
-#endif

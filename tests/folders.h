@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Folders that a test makes.
-#ifndef CUTWATER_TESTS_FOLDERS_H
-#define CUTWATER_TESTS_FOLDERS_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,5 +18,3 @@ static inline int remove_folder(const char *folder) {
   snprintf(command, sizeof command, "rm -r '%s'", folder);
   return system(command);
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // HDF5's own writes come here in a program that includes this: one of them may find the disk full for a moment.
-#ifndef CUTWATER_TESTS_REFUSED_WRITE_H
-#define CUTWATER_TESTS_REFUSED_WRITE_H
+#pragma once
 
 #include <errno.h>
 #include <sys/syscall.h>
@@ -17,5 +16,3 @@ ssize_t pwrite(int file, const void *bytes, size_t size, off_t place) {
   }
   return syscall(SYS_pwrite64, file, bytes, size, place);
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // In a program that includes this, fsync and rename come here first: it is known whether a file, or each file of a
 // folder, was on the disk as it is when it took its name, and the folder with the name after that.
-#ifndef CUTWATER_TESTS_SYNC_ORDER_H
-#define CUTWATER_TESTS_SYNC_ORDER_H
+#pragma once
 
 #include <errno.h>
 #include <fcntl.h>
@@ -52,5 +51,3 @@ int rename(const char *from, const char *to) {
   errno = cause;
   return result;
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The folder of a test program, under TMPDIR or /tmp, made before its tests and removed after them, by
 // cmocka_run_group_tests; or one for each of its tests, by cmocka_unit_test_setup_teardown.
-#ifndef CUTWATER_TESTS_TEST_FOLDER_H
-#define CUTWATER_TESTS_TEST_FOLDER_H
+#pragma once
 
 #include <unistd.h>
 
@@ -31,5 +30,3 @@ static inline int remove_test_folder(void **state) {
 static inline int clear_test_folder(void **state) {
   return remove_folder(test_folder);
 }
-
-#endif

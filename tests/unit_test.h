@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cmocka with the headers that it needs before it, for C and C++. In C++ it comes last: its macros have names of the
 // C++ library.
-#ifndef CUTWATER_TESTS_UNIT_TEST_H
-#define CUTWATER_TESTS_UNIT_TEST_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,4 +23,3 @@ extern "C" {
     const double value_ = (value), wanted_ = (wanted);                                                                 \
     if (!(fabs(value_ - wanted_) <= (tolerance))) fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);           \
   } while (0)
-#endif

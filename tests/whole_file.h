@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Whole files of a test, which fails where one cannot be read or written.
-#ifndef CUTWATER_TESTS_WHOLE_FILE_H
-#define CUTWATER_TESTS_WHOLE_FILE_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,5 +37,3 @@ static inline void write_whole(const char *path, const char *bytes, size_t size)
 static inline void write_text(const char *path, const char *text) {
   write_whole(path, text, strlen(text));
 }
-
-#endif

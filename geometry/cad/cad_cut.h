@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Parts solids along a surface of revolution about the axis (cad.cut), so that a pump whose water is one solid gets a
 // domain that rotates and one that does not. Both have the surface then, and so are an interface.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_CUT_H
-#define CUTWATER_GEOMETRY_CAD_CAD_CUT_H
+#pragma once
 
 #include "geometry/cad/cad_file.h"
 #include "geometry/cad/cad_frame.h"
@@ -18,5 +17,4 @@ CwStatus cw_cad_cut(const CwCaseCad *cad, const CwCadFrame *frame, CwCadBodies *
 
 #ifdef __cplusplus
 }
-#endif
 #endif

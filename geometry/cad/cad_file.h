@@ -2,8 +2,7 @@
 // The solids of CAD files: STEP (AP203, AP214, AP242) through XCAF, with the names of products, instances and faces,
 // colours, layers, the unit of the file and the placement of assemblies; B-rep files of OpenCASCADE, which have none of
 // these. A file with shells alone is sewn into solids, and a shell inside of another is a void of it.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_FILE_H
-#define CUTWATER_GEOMETRY_CAD_CAD_FILE_H
+#pragma once
 
 #include "pipeline/status.h"
 
@@ -28,5 +27,4 @@ CwStatus cw_cad_body_holds(const CwCadBodies *bodies, int body, const double poi
 
 #ifdef __cplusplus
 }
-#endif
 #endif

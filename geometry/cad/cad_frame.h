@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Between the coordinates of CAD files and those of the pump, whose axis is +z through the origin.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_FRAME_H
-#define CUTWATER_GEOMETRY_CAD_CAD_FRAME_H
+#pragma once
 
 #include "pipeline/case_cad.h"
 
@@ -22,5 +21,4 @@ void cw_cad_frame_to_file(const CwCadFrame *frame, const double pump[3], double 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -4,8 +4,7 @@
 // A cylinder and a plane are told only where both sides are the same surface with the same ends, as the exporter needs
 // them for exact coordinates on it. Sides that differ by less than the tolerance are an interface of any other surface,
 // over which the nearest faces are coupled; `off` tells by how much.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_INTERFACE_H
-#define CUTWATER_GEOMETRY_CAD_CAD_INTERFACE_H
+#pragma once
 
 #include "geometry/cad/face_patches.h"
 
@@ -36,5 +35,4 @@ int cw_cad_interface_beyond(const CwCadInterface *between, int patch);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

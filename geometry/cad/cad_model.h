@@ -8,8 +8,7 @@
 // Each wheel has its own radii and its share of the operating point (cad_wheel.h); what stands still has those of the
 // wheel beside it. Blades, hubs and shrouds of what stands still have the speed of its other walls, of guide wheels as
 // of side chambers. Between two blades the pitch at the outlet counts, with splitters.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
-#define CUTWATER_GEOMETRY_CAD_CAD_MODEL_H
+#pragma once
 
 #include "geometry/cad/cad_interface.h"
 #include "pipeline/model.h"
@@ -27,5 +26,4 @@ CwStatus cw_cad_model_make(const CwCase *table, const CwSurvey *survey, const Cw
 
 #ifdef __cplusplus
 }
-#endif
 #endif

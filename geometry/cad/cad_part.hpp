@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is behind CwCadBodies and CwCadParts, and what all steps do with their solids: for the C++ files of this room
 // only. Lengths in here are millimetres in bodies and model units in parts.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
-#define CUTWATER_GEOMETRY_CAD_CAD_PART_HPP
+#pragma once
 
 #include <array>
 #include <functional>
@@ -90,5 +89,3 @@ inline TopTools_IndexedMapOfShape cw_cad_faces(const TopoDS_Shape &shape) {
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   return faces;
 }
-
-#endif

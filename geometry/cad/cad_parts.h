@@ -2,8 +2,7 @@
 // The domains of a pump from CAD files, one closed solid each: the bodies that the case chooses, brought to the axis +z
 // and to the model unit. What the file says of a face goes with it: a face that is cut or mended later has the name,
 // colour and layer of the one that it lies on.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_PARTS_H
-#define CUTWATER_GEOMETRY_CAD_CAD_PARTS_H
+#pragma once
 
 #include "geometry/cad/cad_file.h"
 #include "geometry/cad/cad_frame.h"
@@ -45,5 +44,4 @@ CwStatus cw_cad_part_solid(const CwCadParts *parts, int part, const char *const 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A pump from CAD files: read, healed, divided, its faces surveyed and given patches, its interfaces found.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_PUMP_H
-#define CUTWATER_GEOMETRY_CAD_CAD_PUMP_H
+#pragma once
 
 #include "geometry/cad/cad_model.h"
 #include "geometry/cad/heal.h"
@@ -39,5 +38,4 @@ void cw_cad_pump_free(CwCadPump *pump);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

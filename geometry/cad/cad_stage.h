@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The geometry stage of a pump from CAD files: from the case to RUN/geometry, with the same files as a designed pump
 // but for design.json and its pictures; and faces_sheet.csv.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_STAGE_H
-#define CUTWATER_GEOMETRY_CAD_CAD_STAGE_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/record.h"
@@ -17,5 +16,4 @@ CwStatus cw_cad_stage(const CwStageArgs *args, const CwCase *table, CwRecord *re
 
 #ifdef __cplusplus
 }
-#endif
 #endif

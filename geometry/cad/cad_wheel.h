@@ -3,8 +3,7 @@
 // Several on one axis share the operating point. A wheel from which water comes to an inlet and to an outlet by no
 // other wheel works in parallel with others of its kind: all the head, an equal part of the flow. Others are stages in
 // series: all the flow, the head in the ratio of their u2 squared.
-#ifndef CUTWATER_GEOMETRY_CAD_CAD_WHEEL_H
-#define CUTWATER_GEOMETRY_CAD_CAD_WHEEL_H
+#pragma once
 
 #include "geometry/cad/cad_interface.h"
 
@@ -43,5 +42,4 @@ int cw_cad_is_before(const CwFacePatches *patches, int part);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where parts touch: faces that coincide with faces of another part, wholly or in part, however they are cut there.
 // Found by points inside the faces, so that it needs no boolean operation.
-#ifndef CUTWATER_GEOMETRY_CAD_CONTACT_H
-#define CUTWATER_GEOMETRY_CAD_CONTACT_H
+#pragma once
 
 #include "geometry/cad/survey.h"
 #include "pipeline/log.h"
@@ -36,5 +35,4 @@ CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, do
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -7,8 +7,7 @@
 //     |  __/      |
 //     | 1|________|           then by z, from the lowest
 //     +------------- z
-#ifndef CUTWATER_GEOMETRY_CAD_CONTACT_SURFACE_H
-#define CUTWATER_GEOMETRY_CAD_CONTACT_SURFACE_H
+#pragma once
 
 #include "geometry/cad/face_patches.h"
 
@@ -29,5 +28,4 @@ CwStatus cw_contact_patches_part(const CwCaseCad *cad, const CwSurvey *survey, c
 
 #ifdef __cplusplus
 }
-#endif
 #endif

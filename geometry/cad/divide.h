@@ -2,8 +2,7 @@
 // Cuts faces where the mesher needs edges: closed faces, so that no edge is a seam; faces with several points where a
 // side of their parameters ends (poles), so that each has one at the most; faces with kinks in them. Method:
 // OpenCASCADE's ShapeUpgrade.
-#ifndef CUTWATER_GEOMETRY_CAD_DIVIDE_H
-#define CUTWATER_GEOMETRY_CAD_DIVIDE_H
+#pragma once
 
 #include "geometry/cad/cad_parts.h"
 #include "pipeline/log.h"
@@ -18,5 +17,4 @@ CwStatus cw_cad_divide(const int *pieces, const CwCadFrame *frame, CwLog *log, C
 
 #ifdef __cplusplus
 }
-#endif
 #endif

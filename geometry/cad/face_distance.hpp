@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Distances of many points from the exact faces of a part. What OpenCASCADE's BRepExtrema_DistShapeShape prepares for
 // each point anew, a lattice of the surface and the outline in its parameters, is prepared once a face.
-#ifndef CUTWATER_GEOMETRY_CAD_FACE_DISTANCE_HPP
-#define CUTWATER_GEOMETRY_CAD_FACE_DISTANCE_HPP
+#pragma once
 
 #include <memory>
 #include <set>
@@ -43,5 +42,3 @@ private:
   std::vector<Edge> edge;
   std::vector<std::set<int>> edges_of, vertices_of; // of a face
 };
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The patch of each face: that of the first rule of cad.patches that takes it; else the name that the file gives the
 // face; else what its form and place propose.
-#ifndef CUTWATER_GEOMETRY_CAD_FACE_PATCHES_H
-#define CUTWATER_GEOMETRY_CAD_FACE_PATCHES_H
+#pragma once
 
 #include "geometry/cad/proposal.h"
 #include "pipeline/model.h"
@@ -42,5 +41,4 @@ const char *cw_patch_source_name(CwPatchSource source);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

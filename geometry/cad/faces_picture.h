@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A picture of the faces of one part, each with its number as faces_sheet.csv has it: seen from four sides from
 // outside, and from the same sides with the near faces taken away. SVG with shaded views in it.
-#ifndef CUTWATER_GEOMETRY_CAD_FACES_PICTURE_H
-#define CUTWATER_GEOMETRY_CAD_FACES_PICTURE_H
+#pragma once
 
 #include "geometry/cad/survey.h"
 
@@ -18,5 +17,4 @@ CwStatus cw_faces_picture_write(const CwSurvey *survey, int part, const char *ti
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // faces_sheet.csv: all faces of a pump from CAD files for people who name them. The columns are in docs/own-cad.md.
-#ifndef CUTWATER_GEOMETRY_CAD_FACES_SHEET_H
-#define CUTWATER_GEOMETRY_CAD_FACES_SHEET_H
+#pragma once
 
 #include "geometry/cad/face_patches.h"
 
@@ -17,5 +16,4 @@ CwStatus cw_faces_sheet_write(const CwCaseCad *cad, const CwCadFrame *frame, con
 
 #ifdef __cplusplus
 }
-#endif
 #endif

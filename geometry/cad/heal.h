@@ -3,8 +3,7 @@
 // that is sound already stays as it is, bit by bit. Method: tolerances that are greater than edges and faces need are
 // taken back, then OpenCASCADE's ShapeFix and sewing. Nothing is lost: what makes several solids, or faces of another
 // area, is no mended part.
-#ifndef CUTWATER_GEOMETRY_CAD_HEAL_H
-#define CUTWATER_GEOMETRY_CAD_HEAL_H
+#pragma once
 
 #include "geometry/cad/cad_parts.h"
 #include "pipeline/log.h"
@@ -28,5 +27,4 @@ CwStatus cw_cad_heal(double tolerance, const CwCadFrame *frame, CwLog *log, CwCa
 
 #ifdef __cplusplus
 }
-#endif
 #endif

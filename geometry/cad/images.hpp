@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Periodic images in a solid: what a z-th of a turn about +z takes its faces, edges and vertices to.
-#ifndef CUTWATER_GEOMETRY_CAD_IMAGES_HPP
-#define CUTWATER_GEOMETRY_CAD_IMAGES_HPP
+#pragma once
 
 #include <string>
 #include <vector>
@@ -32,5 +31,3 @@ struct CwImagesOfSolid {
   }
   gp_Trsf turn(int turns) const;
 };
-
-#endif

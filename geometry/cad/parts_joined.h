@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Whether water can go from each part to all others, through faces that touch, and no part reaches into another.
-#ifndef CUTWATER_GEOMETRY_CAD_PARTS_JOINED_H
-#define CUTWATER_GEOMETRY_CAD_PARTS_JOINED_H
+#pragma once
 
 #include "geometry/cad/face_patches.h"
 
@@ -17,5 +16,4 @@ CwStatus cw_parts_joined(const CwCadParts *parts, const CwSurvey *survey, const 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // Makes a wheel of z equal passages exactly z-fold symmetric, so that the mesher meshes one and turns it: CAD draws a
 // hub in one piece, and its blades are alike within its tolerance alone. Faces of revolution are cut along z meridians;
 // then all faces, edges and vertices are made anew as turned copies of those of one passage.
-#ifndef CUTWATER_GEOMETRY_CAD_PASSAGES_H
-#define CUTWATER_GEOMETRY_CAD_PASSAGES_H
+#pragma once
 
 #include "geometry/cad/cad_parts.h"
 #include "pipeline/log.h"
@@ -18,5 +17,4 @@ CwStatus cw_cad_passages(int part, int count, double tolerance, CwLog *log, CwCa
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -9,8 +9,7 @@
 //
 // Hub and shroud are told apart by the side that the water comes from; with two eyes each half of the wheel has its
 // own. All others are walls, and so are rings of a casing that go round the wheel. A proposal is told as one.
-#ifndef CUTWATER_GEOMETRY_CAD_PROPOSAL_H
-#define CUTWATER_GEOMETRY_CAD_PROPOSAL_H
+#pragma once
 
 #include "geometry/cad/contact.h"
 
@@ -36,5 +35,4 @@ CwStatus cw_proposal_make(const CwSurvey *survey, const CwContact *contact, cons
 
 #ifdef __cplusplus
 }
-#endif
 #endif

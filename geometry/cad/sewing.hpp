@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Solids of faces that stand edge to edge. OpenCASCADE's sewing makes closed shells; one that lies inside of another
 // bounds a void of it, whichever way its faces look, and one inside of that a solid again.
-#ifndef CUTWATER_GEOMETRY_CAD_SEWING_HPP
-#define CUTWATER_GEOMETRY_CAD_SEWING_HPP
+#pragma once
 
 #include <vector>
 
@@ -25,5 +24,3 @@ struct CwOpening {
   gp_Pnt at;
 };
 CwOpening cw_cad_opening(const TopoDS_Edge &edge, const std::vector<TopoDS_Edge> &open);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which solids of the files each domain of the case is made of.
-#ifndef CUTWATER_GEOMETRY_CAD_SOLID_CHOICE_H
-#define CUTWATER_GEOMETRY_CAD_SOLID_CHOICE_H
+#pragma once
 
 #include "geometry/cad/cad_file.h"
 #include "pipeline/case_cad.h"
@@ -16,5 +15,4 @@ CwStatus cw_cad_solid_choice(const CwCaseCad *cad, const CwCadBodies *bodies, in
 
 #ifdef __cplusplus
 }
-#endif
 #endif

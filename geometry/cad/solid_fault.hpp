@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is unsound in a solid, and where: open edges, what OpenCASCADE's BRepCheck finds, tolerances.
-#ifndef CUTWATER_GEOMETRY_CAD_SOLID_FAULT_HPP
-#define CUTWATER_GEOMETRY_CAD_SOLID_FAULT_HPP
+#pragma once
 
 #include <optional>
 #include <string>
@@ -23,5 +22,3 @@ struct CwSolidFault {
 // The first fault. `tolerance`: largest gap that is closed, in the unit of the solid. A shape of no or several solids
 // is unsound.
 CwSolidFault cw_cad_solid_fault(const TopoDS_Shape &shape, double tolerance);
-
-#endif

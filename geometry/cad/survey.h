@@ -2,8 +2,7 @@
 // What the faces of all parts look like: form, area, place, edges between them, and a coarse triangulation. Plain data
 // in metres and in the pump's coordinates, from which patches are proposed, chosen and drawn; and distances from the
 // exact faces.
-#ifndef CUTWATER_GEOMETRY_CAD_SURVEY_H
-#define CUTWATER_GEOMETRY_CAD_SURVEY_H
+#pragma once
 
 #include "geometry/cad/cad_parts.h"
 
@@ -83,5 +82,4 @@ CwStatus cw_survey_nearest(const CwSurvey *survey, int part, const double point[
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -8,8 +8,7 @@
 //
 // Each kind is a product of its own: WallCurves (wall_curves.h), SurfaceMesh (surface_mesh.h),
 // Layers (layers.h), FreeCurves (free_curves.h), Interfaces (interfaces.h).
-#ifndef CUTWATER_MESHER_BOUNDARY_BOUNDARY_H
-#define CUTWATER_MESHER_BOUNDARY_BOUNDARY_H
+#pragma once
 
 #include "mesher/boundary/free_curves.h"
 #include "mesher/boundary/interfaces.h"
@@ -93,5 +92,3 @@ void cw_boundary_hold(const CwBoundaryInput *in, CwConstraint constraint, const 
 // Pairs of the domain's `regions` regions that share an interface, each once, smaller index first; caller frees.
 CwStatus cw_interfaces_adjacency(const CwInterfaces *interfaces, int32_t regions, int32_t *pair_count,
                                  int32_t (**pair)[2]);
-
-#endif

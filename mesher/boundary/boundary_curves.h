@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the files of the boundary share: division of curves into mesh edges, outlines of open patches and
 // interfaces, new nodes.
-#ifndef CUTWATER_MESHER_BOUNDARY_BOUNDARY_CURVES_H
-#define CUTWATER_MESHER_BOUNDARY_BOUNDARY_CURVES_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 #include "mesher/network/plane_map.h"
@@ -28,5 +27,3 @@ CwStatus cw_boundary_open_patch_outline(const CwBoundaryInput *in, const CwWallC
 // Links the nodes inside curve `first` and inside its periodic images, which are divided alike.
 CwStatus cw_image_link_curves(const CwPeriodicImages *images, int32_t first, const CwCurveNodes *curve,
                               CwNodeImages *nodes);
-
-#endif

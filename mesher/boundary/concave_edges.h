@@ -2,8 +2,7 @@
 // Opens narrow concave edges of the layer top: places where two triangles of it stand so narrow over their edge that
 // only flat tetrahedra fit between, though all prisms are sound and no triangle is a needle. They come from the repair,
 // from the choice of columns on the seams of periodic images, or from a flip.
-#ifndef CUTWATER_MESHER_BOUNDARY_CONCAVE_EDGES_H
-#define CUTWATER_MESHER_BOUNDARY_CONCAVE_EDGES_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 #include "mesher/layers/layers.h"
@@ -15,5 +14,3 @@
 // Collective.
 CwStatus cw_open_concave_edges(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *wall,
                                CwLayers *layers, int32_t *opened);
-
-#endif

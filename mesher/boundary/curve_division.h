@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The points that divide the wall curves into mesh edges: so many that on each face the edges lie to one another as
 // their curves do (chords.h).
-#ifndef CUTWATER_MESHER_BOUNDARY_CURVE_DIVISION_H
-#define CUTWATER_MESHER_BOUNDARY_CURVE_DIVISION_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 #include "mesher/parallel/context.h"
@@ -22,5 +21,3 @@ typedef struct {
 // Halves edges of the divisions (of each curve of the network; count 0: none) until on every wall face the edges lie as
 // the curves do. Collective.
 CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInput *in, CwCurveDivision *division);
-
-#endif

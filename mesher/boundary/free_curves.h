@@ -2,8 +2,7 @@
 // The free curves of a domain divided into mesh edges between the ends of the layers, and the outlines that they and
 // the layer top leave on the partition planes (paper, section 2.2): what open patches and interfaces are meshed inside
 // of.
-#ifndef CUTWATER_MESHER_BOUNDARY_FREE_CURVES_H
-#define CUTWATER_MESHER_BOUNDARY_FREE_CURVES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -67,5 +66,4 @@ void cw_free_curves_free(CwFreeCurves *free_curves);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // The surfaces of a domain that bear no layers: interfaces on the partition planes (paper, section 2.2), with the rule
 // of region numbers (2.3), and open patches: inlet, outlet and rotor/stator interface, inside the marched open edges.
 // Of it a rank needs what bounds its regions.
-#ifndef CUTWATER_MESHER_BOUNDARY_INTERFACES_H
-#define CUTWATER_MESHER_BOUNDARY_INTERFACES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -57,5 +56,4 @@ void cw_interfaces_free(CwInterfaces *interfaces);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Steps of the boundary that know its image sets (periodic_images.h).
-#ifndef CUTWATER_MESHER_BOUNDARY_PERIODIC_BOUNDARY_H
-#define CUTWATER_MESHER_BOUNDARY_PERIODIC_BOUNDARY_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 #include "mesher/layers/layers.h"
@@ -20,5 +19,3 @@ int32_t cw_image_first_member(const CwNodeImages *images, const uint8_t *is_firs
 
 // Makes those of the wall triangles that are copies anew, from those that they are copies of.
 void cw_image_copy_triangles(const CwPeriodicImages *images, const CwSurfaceMesh *surface, int32_t (*triangle)[3]);
-
-#endif

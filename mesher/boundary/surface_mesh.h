@@ -2,8 +2,7 @@
 // The surface mesh of a domain: triangles on its CAD walls, cut at the partition planes, and what holds the columns of
 // the layers on open boundary edges and planes. Of it a rank needs what bounds its regions, and what the layers there
 // feel through gaps.
-#ifndef CUTWATER_MESHER_BOUNDARY_SURFACE_MESH_H
-#define CUTWATER_MESHER_BOUNDARY_SURFACE_MESH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -43,5 +42,4 @@ void cw_surface_mesh_free(CwSurfaceMesh *surface);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // The wall curves of a domain divided into mesh edges: the first vertices of its surface mesh, and what holds the
 // columns of the layers on open edges and partition planes. Every rank needs them all: each face is meshed inside of
 // them.
-#ifndef CUTWATER_MESHER_BOUNDARY_WALL_CURVES_H
-#define CUTWATER_MESHER_BOUNDARY_WALL_CURVES_H
+#pragma once
 
 #include "mesher/network/network.h"
 #include "mesher/network/periodic_images.h"
@@ -35,5 +34,3 @@ CwStatus cw_wall_curves_audit(const CwWallCurves *curves, const CwNetwork *netwo
 CwStatus cw_wall_curves_add(CwWallCurves *curves, const double x[3], CwConstraint constraint, int32_t *vertex);
 
 void cw_wall_curves_free(CwWallCurves *curves);
-
-#endif

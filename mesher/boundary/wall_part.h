@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A part of a wall as a wall of its own, for the layers.
-#ifndef CUTWATER_MESHER_BOUNDARY_WALL_PART_H
-#define CUTWATER_MESHER_BOUNDARY_WALL_PART_H
+#pragma once
 
 #include "mesher/layers/layers.h"
 
@@ -18,5 +17,3 @@ typedef struct {
 // arrays, must outlive the part, and the part stays where it is.
 CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWallPart *part);
 void cw_wall_part_free(CwWallPart *part);
-
-#endif

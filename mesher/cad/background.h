@@ -2,8 +2,7 @@
 // The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with
 // (u,v) kept for every corner. What the size field samples and the planner clips; no node of it goes into the
 // mesh. Made by background_make.h.
-#ifndef CUTWATER_MESHER_CAD_BACKGROUND_H
-#define CUTWATER_MESHER_CAD_BACKGROUND_H
+#pragma once
 
 #include <stdint.h>
 
@@ -40,5 +39,4 @@ double cw_background_volume(const CwBackground *background);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Makes the background triangulation of a solid: its faces, welded, closed and with their normals out of the domain.
-#ifndef CUTWATER_MESHER_CAD_BACKGROUND_MAKE_H
-#define CUTWATER_MESHER_CAD_BACKGROUND_MAKE_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -22,5 +21,4 @@ CwStatus cw_background_join(const CwContext *context, CwCad *cad, void *const *f
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The OpenCASCADE half of the background triangulation, face by face: every rank divides the edges, any rank makes a
 // face, and all ranks weld the same faces.
-#ifndef CUTWATER_MESHER_CAD_BACKGROUND_TESSELLATE_H
-#define CUTWATER_MESHER_CAD_BACKGROUND_TESSELLATE_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -32,5 +31,4 @@ CwStatus cw_tessellation_weld(const CwCad *cad, void *const *bytes, CwBackground
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // The exact geometry of one domain, read from the geometry stage. The one bridge of the mesher to OpenCASCADE. The
 // B-rep has a unit of its own; lengths here are metres until cw_cad_rescale brings them to the unit of the model
 // (common/model_unit). Indices are 0-based.
-#ifndef CUTWATER_MESHER_CAD_CAD_H
-#define CUTWATER_MESHER_CAD_CAD_H
+#pragma once
 
 #include "mesher/common/box.h"
 #include "pipeline/model.h"
@@ -88,5 +87,4 @@ void cw_cad_vertex_point(const CwCad *cad, int vertex, double x[3]);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -10,8 +10,7 @@
 //      P       P     |              P     P   |
 //
 // The row that stays is the longer one. On Q, the edge A has the (u,v) of B; edges that ended at B end at A.
-#ifndef CUTWATER_MESHER_CAD_CAD_LEAVE_OUT_H
-#define CUTWATER_MESHER_CAD_CAD_LEAVE_OUT_H
+#pragma once
 
 #include "mesher/cad/cad.h"
 
@@ -56,5 +55,4 @@ double cw_cad_edge_end_gap(const CwCad *cad, int edge, int end);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

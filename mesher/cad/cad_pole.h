@@ -12,8 +12,7 @@
 //
 // s + i t = |b - pole| exp(i rate (a - middle)), with the rate at which the directions out of the pole turn on the
 // surface, so that the map is regular at the point and nearly isotropic beside it. In C++ for the bridge only.
-#ifndef CUTWATER_MESHER_CAD_CAD_POLE_H
-#define CUTWATER_MESHER_CAD_CAD_POLE_H
+#pragma once
 
 #include <GeomAdaptor_Surface.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -47,5 +46,3 @@ struct CwCadPole {
 // one of the others, or one that runs along neither parameter.
 bool cw_cad_pole_find(const TopoDS_Face &face, const GeomAdaptor_Surface &surface,
                       const TopTools_IndexedMapOfShape &vertices, CwCadPole &pole);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Inside of CwCad, for the C++ files of the bridge only: its faces and edges, and how they are evaluated. Lengths in
 // here are in the unit of the B-rep; only the C functions speak metres, or the unit of the model.
-#ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
-#define CUTWATER_MESHER_CAD_CAD_SHAPE_H
+#pragma once
 
 #include <memory>
 #include <string>
@@ -97,5 +96,3 @@ TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power);
 CwStatus cw_cad_read_parts(CwCad *cad);
 // CW_ERR_GEOMETRY, with name and place of a face at which OpenCASCADE has failed.
 CwStatus cw_cad_face_failure(const CwCad *cad, int face, const Standard_Failure &failure);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Chains of narrow faces: what cad_leave_out.h can leave out. In C++ for the bridge only.
-#ifndef CUTWATER_MESHER_CAD_CAD_STRIPS_H
-#define CUTWATER_MESHER_CAD_CAD_STRIPS_H
+#pragma once
 
 #include <vector>
 
@@ -40,5 +39,3 @@ int cw_cad_use_vertex(const CwCad *cad, const CwCadUse &use, int end);
 bool cw_cad_side_ends_at(const CwCad *cad, const std::vector<CwCadUse> &side, int vertex);
 
 std::vector<CwCadChain> cw_cad_chains(const CwCad *cad);
-
-#endif

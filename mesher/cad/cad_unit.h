@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The unit of the B-rep files of a folder.
-#ifndef CUTWATER_MESHER_CAD_CAD_UNIT_H
-#define CUTWATER_MESHER_CAD_CAD_UNIT_H
+#pragma once
 
 #include "pipeline/status.h"
 
@@ -15,5 +14,4 @@ CwStatus cw_cad_unit_read(const char *geometry_dir, double *unit);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

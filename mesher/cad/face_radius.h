@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How sharply the walls are rounded: towards the fluid, as noses of blades and of the tongue are, and away from it, as
 // the fillets at their roots are.
-#ifndef CUTWATER_MESHER_CAD_FACE_RADIUS_H
-#define CUTWATER_MESHER_CAD_FACE_RADIUS_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -20,5 +19,4 @@ CwStatus cw_face_radii(const CwCad *cad, const CwBackground *background, double 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The rows of faces.csv that belong to one domain: patch, kind and name of each CAD face.
-#ifndef CUTWATER_MESHER_CAD_FACE_TABLE_H
-#define CUTWATER_MESHER_CAD_FACE_TABLE_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/model.h"
@@ -35,5 +34,4 @@ void cw_face_table_free(CwFaceTable *table);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

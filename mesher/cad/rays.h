@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Rays through the fluid: where a ray leaves the domain, by a tree of boxes over the background triangles.
-#ifndef CUTWATER_MESHER_CAD_RAYS_H
-#define CUTWATER_MESHER_CAD_RAYS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -38,5 +37,4 @@ int32_t cw_rays_hits(const CwRays *rays, const double x[3], const double directi
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
 // cut by the background triangulation. Each line has its own place in its square, from a low-discrepancy
 // sequence: a lattice of lines would count a thin passage by whole lines, up to a third off; these average
 // out.
-#ifndef CUTWATER_MESHER_CAD_SCANLINES_H
-#define CUTWATER_MESHER_CAD_SCANLINES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,4 +25,3 @@ CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], 
 // y, z of line (j, k).
 void cw_scanlines_place(const CwScanlines *lines, int32_t j, int32_t k, double place[2]);
 void cw_scanlines_free(CwScanlines *lines);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The sharpest convex edge of the walls, such as a trailing edge that ends in a knife.
-#ifndef CUTWATER_MESHER_CAD_SHARP_EDGE_H
-#define CUTWATER_MESHER_CAD_SHARP_EDGE_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -21,5 +20,4 @@ CwSharpEdge cw_sharpest_edge(const CwCad *cad, const CwBackground *background);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // Rotational symmetry of a domain about the z axis: an impeller of z equal passages comes to itself when it is turned
 // by a z-th of a revolution. Items (faces, curves, nodes, regions) then form image sets: the first of each is made, the
 // others are its copies, turned.
-#ifndef CUTWATER_MESHER_CAD_SYMMETRY_H
-#define CUTWATER_MESHER_CAD_SYMMETRY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -50,5 +49,4 @@ int32_t cw_images_size(const CwImages *images, int32_t count, int32_t item);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Boxes along the axes: of points, of triangles, of other boxes.
-#ifndef CUTWATER_MESHER_COMMON_BOX_H
-#define CUTWATER_MESHER_COMMON_BOX_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -66,5 +65,4 @@ double cw_box_longest(const CwBox *box);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A tree of axis-aligned boxes. The items are ordered along Hilbert's curve and cut into leaves, so that the tree needs
 // no choice of planes, is made in one sort, and follows items that move without being made anew.
-#ifndef CUTWATER_MESHER_COMMON_BOX_TREE_H
-#define CUTWATER_MESHER_COMMON_BOX_TREE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -63,5 +62,4 @@ void cw_box_tree_ray(const CwBoxTree *tree, const CwBoxTree *normals, const doub
 
 #ifdef __cplusplus
 }
-#endif
 #endif

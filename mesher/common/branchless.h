@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // For inner loops over conditions that are as good as random: as branches they would be foretold wrongly.
-#ifndef CUTWATER_MESHER_COMMON_BRANCHLESS_H
-#define CUTWATER_MESHER_COMMON_BRANCHLESS_H
+#pragma once
 
 // 1 where the condition holds, else 0: a number of which the compiler makes no branch.
 static inline unsigned cw_branchless(int condition) {
@@ -9,5 +8,3 @@ static inline unsigned cw_branchless(int condition) {
   __asm__("" : "+r"(n));
   return n;
 }
-
-#endif

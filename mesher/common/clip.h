@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sutherland-Hodgman clipping of polygons by planes (paper, section 2.1), exact in the sense that the two sides of a
 // plane get the same points, bit for bit.
-#ifndef CUTWATER_MESHER_COMMON_CLIP_H
-#define CUTWATER_MESHER_COMMON_CLIP_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,5 +29,4 @@ CwPlane cw_plane_flipped(const CwPlane *plane);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

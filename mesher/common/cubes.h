@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Points sorted into equal cubes, to find those near a place.
-#ifndef CUTWATER_MESHER_COMMON_CUBES_H
-#define CUTWATER_MESHER_COMMON_CUBES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,3 @@ void cw_cubes_near(const CwCubes *cubes, const double x[3], double radius, int32
 static inline size_t cw_cube(const CwCubes *cubes, int32_t a, int32_t b, int32_t c) {
   return ((size_t)c * (size_t)cubes->count[1] + (size_t)b) * (size_t)cubes->count[0] + (size_t)a;
 }
-
-#endif

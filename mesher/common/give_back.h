@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef CUTWATER_MESHER_COMMON_GIVE_BACK_H
-#define CUTWATER_MESHER_COMMON_GIVE_BACK_H
+#pragma once
 
 #include <stdlib.h> // says whether this is glibc
 
@@ -14,5 +13,3 @@ static inline void cw_give_back(void) {
   malloc_trim(0);
 #endif
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Orders of points in which neighbours in memory are neighbours in space: along Hilbert's curve.
-#ifndef CUTWATER_MESHER_COMMON_HILBERT_H
-#define CUTWATER_MESHER_COMMON_HILBERT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -17,4 +16,3 @@ CwStatus cw_hilbert_rounds(int32_t count, const double (*x)[3], int32_t *order);
 // Place of cell (i, j, k) of a cube with 2^bits cells along each axis on Hilbert's curve; cells next to each
 // other on the curve share a face. bits <= 21.
 uint64_t cw_hilbert_place(const uint32_t cell[3], int bits);
-#endif

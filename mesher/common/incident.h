@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Items listed by the group that each belongs to, as the triangles around each vertex of a surface.
-#ifndef CUTWATER_MESHER_COMMON_INCIDENT_H
-#define CUTWATER_MESHER_COMMON_INCIDENT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -17,5 +16,3 @@ typedef struct {
 
 CwStatus cw_incident_make(int32_t point_count, int32_t triangle_count, const int32_t (*triangle)[3], CwIncident *made);
 void cw_incident_free(CwIncident *incident);
-
-#endif

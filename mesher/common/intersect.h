@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Self-intersection of a triangulated surface, exact, through CGAL.
-#ifndef CUTWATER_MESHER_COMMON_INTERSECT_H
-#define CUTWATER_MESHER_COMMON_INTERSECT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -23,5 +22,4 @@ int cw_triangles_cross(const double (*x)[3], const int32_t a[3], const int32_t b
 
 #ifdef __cplusplus
 }
-#endif
 #endif

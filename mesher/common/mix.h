@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Scatters numbers over 64 bits: hashes, and random numbers that follow from a place or a count alone.
-#ifndef CUTWATER_MESHER_COMMON_MIX_H
-#define CUTWATER_MESHER_COMMON_MIX_H
+#pragma once
 
 #include <stdint.h>
 
@@ -13,5 +12,3 @@ static inline uint64_t cw_mix(uint64_t z) {
   z = (z ^ z >> 27) * 0x94d049bb133111ebull;
   return z ^ z >> 31;
 }
-
-#endif

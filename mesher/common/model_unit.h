@@ -4,8 +4,7 @@
 // OpenCASCADE included, and models that are 2^k times one another have the same bits. What is read is brought to the
 // unit (the solids by cw_cad_rescale, the case's heights in cw_wall_targets), what is written goes back to metres:
 // both lose no bit. Only region files, manifest, record, VTK and messages know of it.
-#ifndef CUTWATER_MESHER_COMMON_MODEL_UNIT_H
-#define CUTWATER_MESHER_COMMON_MODEL_UNIT_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -28,5 +27,3 @@ double cw_mm3(double volume);
 
 // A place as three arguments of a message, mm.
 #define CW_MM(x) cw_mm((x)[0]), cw_mm((x)[1]), cw_mm((x)[2])
-
-#endif

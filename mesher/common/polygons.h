@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Interface polygons (paper, section 2.2): from the marked edges on a partition plane to all simple loops, the minimal
 // polygon set, and the holes of each polygon.
-#ifndef CUTWATER_MESHER_COMMON_POLYGONS_H
-#define CUTWATER_MESHER_COMMON_POLYGONS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -37,5 +36,4 @@ CwStatus cw_polygons_crossings(int32_t point_count, const double (*point)[2], in
 
 #ifdef __cplusplus
 }
-#endif
 #endif

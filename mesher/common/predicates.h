@@ -3,8 +3,7 @@
 // arithmetic where the bound leaves the sign open (J. R. Shewchuk, Discrete & Computational Geometry 18,
 // 1997; the code that TetGen has of it). Right for coordinates whose fifth powers neither overflow nor underflow, and
 // only without contraction of a * b + c.
-#ifndef CUTWATER_MESHER_COMMON_PREDICATES_H
-#define CUTWATER_MESHER_COMMON_PREDICATES_H
+#pragma once
 
 #include <math.h>
 
@@ -66,5 +65,4 @@ static inline int cw_insphere(const double a[3], const double b[3], const double
 
 #ifdef __cplusplus
 }
-#endif
 #endif

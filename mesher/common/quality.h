@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Shape of single cells: volumes, angles, edge ratios. Shared by the audit and by the optimisation of the
 // tetrahedra.
-#ifndef CUTWATER_MESHER_COMMON_QUALITY_H
-#define CUTWATER_MESHER_COMMON_QUALITY_H
+#pragma once
 
 #include "pipeline/vec.h"
 
@@ -34,5 +33,4 @@ double cw_prism_scaled_jacobian(const double *const x[6]);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sorting by whole numbers, digit by digit from the lowest: in a time that grows as the count, and stable.
-#ifndef CUTWATER_MESHER_COMMON_RADIX_H
-#define CUTWATER_MESHER_COMMON_RADIX_H
+#pragma once
 
 #include <stdint.h>
 #include <string.h>
@@ -23,4 +22,3 @@ static inline uint64_t cw_radix_key(double number) {
   memcpy(&bits, &number, sizeof bits);
   return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
 }
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Four numbers side by side, which processors add and multiply at once. Compilers know such vectors; here is what they
 // have no sign for.
-#ifndef CUTWATER_MESHER_COMMON_SIMD_4F_H
-#define CUTWATER_MESHER_COMMON_SIMD_4F_H
+#pragma once
 
 #include <stdint.h>
 
@@ -30,5 +29,3 @@ static inline void cw_4f_transpose(Cw4f v[4]) {
   v[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
   v[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
-
-#endif

@@ -2,8 +2,7 @@
 // Eight numbers side by side, of which processors with wide registers (AVX2 on x86) add and multiply all at once, and
 // others four: loops over them are compiled for both, and give the same to the bit. Compilers know such vectors; here
 // is what they have no sign for. All is always inline, so that it is compiled for the processor of its caller.
-#ifndef CUTWATER_MESHER_COMMON_SIMD_8F_H
-#define CUTWATER_MESHER_COMMON_SIMD_8F_H
+#pragma once
 
 #include <stdint.h>
 
@@ -77,5 +76,3 @@ CW_INLINE void cw_8f_cross(const Cw8f u[3], const Cw8f v[3], Cw8f n[3]) {
   n[1] = u[2] * v[0] - u[0] * v[2];
   n[2] = u[0] * v[1] - u[1] * v[0];
 }
-
-#endif

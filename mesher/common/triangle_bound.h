@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a triangle of a closed boundary and its neighbours allow the tetrahedron that stands on it.
-#ifndef CUTWATER_MESHER_COMMON_TRIANGLE_BOUND_H
-#define CUTWATER_MESHER_COMMON_TRIANGLE_BOUND_H
+#pragma once
 
 #include <stdint.h>
 
@@ -37,4 +36,3 @@ typedef struct {
 int32_t cw_bound_neighbour(const CwBoundSurface *surface, int32_t t, int32_t a, int32_t b, int32_t *apex);
 // The bound of triangle t by its neighbours.
 double cw_bound_on(const CwBoundSurface *surface, int32_t t, double least);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Beside the operations of pipeline/vec.h those that only the mesher needs.
-#ifndef CUTWATER_MESHER_COMMON_VEC_H
-#define CUTWATER_MESHER_COMMON_VEC_H
+#pragma once
 
 #include "pipeline/vec.h"
 
@@ -38,5 +37,3 @@ static inline void cw_flatten(double a[3], const double n[3]) {
   double along = cw_dot(a, n);
   for (int k = 0; k < 3; k++) a[k] -= along * n[k];
 }
-
-#endif

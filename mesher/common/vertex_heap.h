@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Vertices by key, smallest first, ties by number.
-#ifndef CUTWATER_MESHER_COMMON_VERTEX_HEAP_H
-#define CUTWATER_MESHER_COMMON_VERTEX_HEAP_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -21,5 +20,3 @@ typedef struct {
 CwStatus cw_heap_push(CwHeap *heap, double key, int32_t v);
 CwHeapItem cw_heap_pop(CwHeap *heap); // of one that is not empty
 void cw_heap_free(CwHeap *heap);
-
-#endif

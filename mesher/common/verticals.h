@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Vertical lines through a closed triangulated surface: where they cross it, and so whether a point lies inside.
-#ifndef CUTWATER_MESHER_COMMON_VERTICALS_H
-#define CUTWATER_MESHER_COMMON_VERTICALS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -28,5 +27,4 @@ int cw_verticals_inside(const CwVerticals *verticals, const double p[3]);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

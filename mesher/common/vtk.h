@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Triangles or lines as a VTK PolyData file, for a look at what a stage made.
-#ifndef CUTWATER_MESHER_COMMON_VTK_H
-#define CUTWATER_MESHER_COMMON_VTK_H
+#pragma once
 
 #include <stdint.h>
 
@@ -37,5 +36,3 @@ typedef struct {
 } CwVtkLines;
 
 CwStatus cw_vtk_write_lines(const char *path, const CwVtkLines *lines);
-
-#endif

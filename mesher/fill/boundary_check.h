@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a boundary must be before it can be filled, each failure with its place.
-#ifndef CUTWATER_MESHER_FILL_BOUNDARY_CHECK_H
-#define CUTWATER_MESHER_FILL_BOUNDARY_CHECK_H
+#pragma once
 
 #include "mesher/fill/fill.h"
 
@@ -20,5 +19,4 @@ CwStatus cw_boundary_check_crossing(const CwFillInput *input);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

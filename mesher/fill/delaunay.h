@@ -2,8 +2,7 @@
 // Delaunay tetrahedra of points: incremental insertion (A. Bowyer, D. Watson, Comput. J. 24, 1981) in a biased
 // randomised order along Hilbert's curve, with exact signs. The points lie inside one large tetrahedron, whose corners
 // are points 0 to 3 of the mesh.
-#ifndef CUTWATER_MESHER_FILL_DELAUNAY_H
-#define CUTWATER_MESHER_FILL_DELAUNAY_H
+#pragma once
 
 #include "mesher/fill/tet_mesh.h"
 
@@ -30,5 +29,4 @@ void cw_delaunay_close(CwDelaunayInsertion **insertion);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

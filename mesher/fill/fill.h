@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A closed triangulated boundary that is to be filled with tetrahedra, and its filling: what fill_with_fallback,
 // kernel and tetgen_fill take and give.
-#ifndef CUTWATER_MESHER_FILL_FILL_H
-#define CUTWATER_MESHER_FILL_FILL_H
+#pragma once
 
 #include <stdint.h>
 
@@ -73,5 +72,4 @@ void cw_fill_free(CwFill *fill);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Fills and meshes that can be changed in place: from one to the other.
-#ifndef CUTWATER_MESHER_FILL_FILL_MESH_H
-#define CUTWATER_MESHER_FILL_FILL_MESH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -17,4 +16,3 @@ CwStatus cw_fill_to_mesh(const CwFill *fill, CwTetMesh *mesh);
 // the inner points that are used, in the order of their sources, of which there are `source_count`. Uses the
 // mesh up; *fill must be empty.
 CwStatus cw_fill_from_mesh(CwTetMesh *mesh, int32_t fixed_count, int32_t source_count, CwFill *fill);
-#endif

@@ -3,8 +3,7 @@
 // size field. Its tetrahedra have edges in the ratio 1.155 and dihedral angles of 60 and 90 degrees; only the
 // shell between it and the boundary is left to optimise. The boundary is looked at cell by coarse cell, and a
 // whole line of the lattice is cut by it at once.
-#ifndef CUTWATER_MESHER_FILL_FILL_POINTS_H
-#define CUTWATER_MESHER_FILL_FILL_POINTS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -28,5 +27,4 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // Which places a triangle of the boundary forbids to the inner points of a fill: those nearer than half of the
 // wanted length h, or of the triangle's edges where these are shorter, and those in the smallest sphere through its
 // corners, so that a Delaunay mesh of all points holds it. All distances can be multiplied by a clearance.
-#ifndef CUTWATER_MESHER_FILL_FILL_REACH_H
-#define CUTWATER_MESHER_FILL_FILL_REACH_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,5 +39,4 @@ static inline int cw_reach_in_ball(const CwReachBall *ball, const double x[3]) {
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a fill must hold at its boundary: that each of its triangles is a face, and which of the tetrahedra lie inside.
-#ifndef CUTWATER_MESHER_FILL_FILL_SHAPE_H
-#define CUTWATER_MESHER_FILL_FILL_SHAPE_H
+#pragma once
 
 #include "mesher/fill/fill.h"
 
@@ -20,5 +19,4 @@ CwStatus cw_tet_neighbours(int32_t tetrahedron_count, const int32_t (*tetrahedro
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The one call that fills a boundary: by the kernel, and by TetGen where the kernel does not recover all
 // triangles or leave a cell that is flat.
-#ifndef CUTWATER_MESHER_FILL_FILL_WITH_FALLBACK_H
-#define CUTWATER_MESHER_FILL_FILL_WITH_FALLBACK_H
+#pragma once
 
 #include "mesher/fill/fill.h"
 #include "pipeline/case.h"
@@ -13,4 +12,3 @@ CwStatus cw_fill_with_fallback(const CwFillInput *input, CwFillMethod method, Cw
 
 // Least over the tetrahedra of six times the volume over the cube of the longest edge.
 double cw_fill_flatness(const CwFill *fill);
-#endif

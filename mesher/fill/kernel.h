@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Fills a closed triangulated boundary with tetrahedra by our own Delaunay kernel: boundary and inner points
 // at once, then the few boundary triangles that are missing are recovered, the inside is kept and improved.
-#ifndef CUTWATER_MESHER_FILL_KERNEL_H
-#define CUTWATER_MESHER_FILL_KERNEL_H
+#pragma once
 
 #include "mesher/fill/fill.h"
 #include "mesher/fill/tet_mesh.h"
@@ -21,4 +20,3 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome 
 // read.
 CwStatus cw_kernel_finish(const CwFillInput *input, CwTetMesh *mesh, int32_t source_count, CwFill *fill,
                           CwKernelOutcome *outcome);
-#endif

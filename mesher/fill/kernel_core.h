@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The core of the lattice in a fill: its deep points stay out of the Delaunay mesh, what the mesh has in their
 // place is taken away, and the core's own tetrahedra come to the finished fill.
-#ifndef CUTWATER_MESHER_FILL_KERNEL_CORE_H
-#define CUTWATER_MESHER_FILL_KERNEL_CORE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,4 +26,3 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwTetMesh *mesh);
 // Adds the core to the fill that the mesh has become, whose first points are the fixed ones.
 CwStatus cw_kernel_core_append(const CwKernelCore *core, CwFill *fill);
 void cw_kernel_core_free(CwKernelCore *core);
-#endif

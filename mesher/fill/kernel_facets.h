@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The boundary triangles (facets) in a Delaunay mesh: which of its faces they are, and what to leave alone.
-#ifndef CUTWATER_MESHER_FILL_KERNEL_FACETS_H
-#define CUTWATER_MESHER_FILL_KERNEL_FACETS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -31,4 +30,3 @@ int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b);
 
 // Looks all faces of the mesh up: fills inner and missing_count.
 CwStatus cw_facets_locate(const CwTetMesh *mesh, int32_t boundary_points, CwFacets *facets);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Flips of a finished Delaunay mesh with exact validity: 2-3 and the removal of an edge with any ring (3-2,
 // 4-4, ...). A flip is done where it lowers a count of crossings that the caller gives.
-#ifndef CUTWATER_MESHER_FILL_KERNEL_FLIPS_H
-#define CUTWATER_MESHER_FILL_KERNEL_FLIPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -43,4 +42,3 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
 // where rounding or too many tetrahedra forbid it.
 CwStatus cw_flips_split(CwFlips *flips, int32_t t, int32_t a, int32_t b, double part, int32_t *source_count,
                         int *split);
-#endif

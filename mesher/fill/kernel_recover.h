@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Brings boundary triangles that the Delaunay mesh does not have into it, by flips and a few new points.
-#ifndef CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
-#define CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
+#pragma once
 
 #include "mesher/fill/kernel_facets.h"
 #include "pipeline/log.h"
@@ -12,4 +11,3 @@
 // and on. Adds what was flipped to *flips. Deterministic.
 CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, CwLog *log, int32_t *source_count,
                            int64_t *flips);
-#endif

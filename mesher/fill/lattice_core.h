@@ -2,8 +2,7 @@
 // The part of a body-centred lattice on an octree whose tetrahedra are known without being searched for: where
 // cells of one size lie together, clear of the boundary. Each cell has a point at its corners and its centre,
 // and the Delaunay tetrahedra are those of two centres beside a face and an edge of that face, 12 a cell.
-#ifndef CUTWATER_MESHER_FILL_LATTICE_CORE_H
-#define CUTWATER_MESHER_FILL_LATTICE_CORE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -56,5 +55,4 @@ void cw_lattice_core_free(CwLatticeCore *core);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

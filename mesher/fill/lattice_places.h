@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The places of a body-centred cubic lattice on an octree that follows a size field: corners and centres of its cells.
 // Its tetrahedra have edges in the ratio 1.155 and dihedral angles of 60 and 90 degrees.
-#ifndef CUTWATER_MESHER_FILL_LATTICE_PLACES_H
-#define CUTWATER_MESHER_FILL_LATTICE_PLACES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -39,4 +38,3 @@ void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]);
 // Where its point is: beside it by up to a thousandth of the cell, by its key alone, since points of
 // a lattice lie on common spheres.
 void cw_lattice_point(const CwLatticeFrame *frame, const CwRadix *place, double x[3]);
-#endif

@@ -4,8 +4,7 @@
 // Lattice points that are merely kept at a distance stand at any height between half a length and more than one over
 // them; offset points stand where well shaped tetrahedra on the triangles have their fourth corners, one for about two
 // triangles, as each plane of a close packing does over the one below.
-#ifndef CUTWATER_MESHER_FILL_OFFSET_POINTS_H
-#define CUTWATER_MESHER_FILL_OFFSET_POINTS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,4 +26,3 @@ CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t);
 // is taken so is as regular as the triangles are; in any other order, gaps are left between beginnings. Caller frees
 // *places.
 CwStatus cw_offset_points(const CwFillInput *input, CwOffsetPoint **places);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Circumscribed spheres of tetrahedra while points are connected: in single precision, with a bound of their error.
-#ifndef CUTWATER_MESHER_FILL_SPHERE_H
-#define CUTWATER_MESHER_FILL_SPHERE_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -102,4 +101,3 @@ static inline void cw_sphere_set(CwTet *const tet[2], const double place[3], con
     tet[k]->radius_square = good ? (float)square[k] : NAN;
   }
 }
-#endif

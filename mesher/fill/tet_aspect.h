@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Longest over shortest edge of tetrahedra: which are slender, and what changes for the aspect go by.
-#ifndef CUTWATER_MESHER_FILL_TET_ASPECT_H
-#define CUTWATER_MESHER_FILL_TET_ASPECT_H
+#pragma once
 
 #include <math.h>
 
@@ -41,4 +40,3 @@ static inline double cw_tet_excess(const CwTetWork *w, const int32_t corner[4]) 
   }
   return sqrt(longest / shortest) - cw_policy.usual_aspect;
 }
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a boundary allows the tetrahedra that fill it, whoever fills it and with whatever points inside.
-#ifndef CUTWATER_MESHER_FILL_TET_BOUND_H
-#define CUTWATER_MESHER_FILL_TET_BOUND_H
+#pragma once
 
 #include <stdint.h>
 
@@ -14,4 +13,3 @@
 // of the worst triangle (triangle_bound.h), *worst, -1 where it is CW_TET_BOUND_MOST. Edges with more than two
 // triangles bound nothing. Normals point outward, as in a fill.
 CwStatus cw_tet_bound(const CwFillInput *boundary, double *degrees, int32_t *worst);
-#endif

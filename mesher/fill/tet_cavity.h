@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The one cavity operator: a cavity given by the faces round it, seen from a point inside, and the place in it from
 // which the worst of the tetrahedra to all faces is best.
-#ifndef CUTWATER_MESHER_FILL_TET_CAVITY_H
-#define CUTWATER_MESHER_FILL_TET_CAVITY_H
+#pragma once
 
 #include "mesher/common/tet.h"
 #include "mesher/fill/tet_work.h"
@@ -26,4 +25,3 @@ double cw_cavity_quality(CwCavity *cavity, const double p[3], double enough);
 // Pattern search (R. Hooke and T. Jeeves, J. ACM 8, 1961) for the place of best least quality from p, which it moves
 // and which has the quality `start`; returns the quality found.
 double cw_cavity_best(CwCavity *cavity, double p[3], double start);
-#endif

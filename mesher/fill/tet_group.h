@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Inner to the improvement of tetrahedra: eight of them side by side in single precision, which is enough for where
 // points should go and for what is well shaped.
-#ifndef CUTWATER_MESHER_FILL_TET_GROUP_H
-#define CUTWATER_MESHER_FILL_TET_GROUP_H
+#pragma once
 
 #include <stdint.h>
 
@@ -29,4 +28,3 @@ void cw_tet_add_pulls(const CwTetMesh *mesh, const int32_t *list, int32_t count,
 // longest edge is above slender_square times that of the shortest one, else 0.
 void cw_tet_group_qualities(const CwTetMesh *mesh, const int32_t list[CW_TET_GROUP], const Cw4f *place, float too_short,
                             float slender_square, float quality[CW_TET_GROUP], int32_t slender[CW_TET_GROUP]);
-#endif

@@ -2,8 +2,7 @@
 // Improves tetrahedra with the boundary fixed. In this order: single changes (tet_loop.h); for the aspect, moves of all
 // points at once (tet_relax.h) and removal of long edges (tet_shorten.h); single changes again, and the same for
 // the aspect; for the last ones, the search of patches (tet_search.h). What is well shaped stays as it is.
-#ifndef CUTWATER_MESHER_FILL_TET_IMPROVE_H
-#define CUTWATER_MESHER_FILL_TET_IMPROVE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,5 +26,4 @@ CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetChanges *changes
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Judges tetrahedra, all or some: their qualities, which are slender, and round which points all is regular. Eight at
 // once in single precision (tet_group.h), and in double precision what is near the limit.
-#ifndef CUTWATER_MESHER_FILL_TET_JUDGE_H
-#define CUTWATER_MESHER_FILL_TET_JUDGE_H
+#pragma once
 
 #include "mesher/common/simd_4f.h"
 #include "mesher/fill/tet_work.h"
@@ -42,4 +41,3 @@ int cw_tet_is_spoilt(const CwTetWork *w, const CwTetShapes *shapes, int32_t t);
 
 // Sets all qualities, finds the slender tetrahedra, and puts those below the limit into the list.
 CwStatus cw_tet_judge_all(CwTetWork *w, CwTetShapes *shapes);
-#endif

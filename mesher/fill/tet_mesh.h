@@ -4,8 +4,7 @@
 //
 //   corner[i] is opposite face i; face i has the corners cw_tet_face[i], counter-clockwise from outside;
 //   neighbour[i] = 4 * other + its face, so that mesh->tet[other].neighbour[face] = 4 * tet + i.
-#ifndef CUTWATER_MESHER_FILL_TET_MESH_H
-#define CUTWATER_MESHER_FILL_TET_MESH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -98,5 +97,4 @@ CwStatus cw_tet_mesh_add_point(CwTetMesh *mesh, const double x[3], int32_t sourc
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A few hundred tetrahedra of a mesh by themselves, to be changed at leisure and put back.
-#ifndef CUTWATER_MESHER_FILL_TET_PATCH_H
-#define CUTWATER_MESHER_FILL_TET_PATCH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,4 +26,3 @@ void cw_tet_patch_free(CwTetPatch *patch);
 
 // Overwrites *to, whose memory is used again.
 CwStatus cw_tet_patch_copy_mesh(const CwTetMesh *from, CwTetMesh *to);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The quality that the improvement of tetrahedra raises; for inner loops: inline, without calls of the
 // library.
-#ifndef CUTWATER_MESHER_FILL_TET_QUALITY_H
-#define CUTWATER_MESHER_FILL_TET_QUALITY_H
+#pragma once
 
 #include <math.h>
 
@@ -100,5 +99,3 @@ static inline double cw_tet_quality(const double a[3], const double b[3], const 
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
   return cw_tet_quality_by(&s);
 }
-
-#endif

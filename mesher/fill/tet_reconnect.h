@@ -2,8 +2,7 @@
 // Removal of an edge or a face of tetrahedra where that raises the least quality round it: of an edge with up to eight
 // tetrahedra by the best triangulation of its ring (G. Klincsek, 1980; J. Shewchuk, Two discrete optimization
 // algorithms for the topological improvement of tetrahedral meshes, 2002), of a face by a new edge (2-3).
-#ifndef CUTWATER_MESHER_FILL_TET_RECONNECT_H
-#define CUTWATER_MESHER_FILL_TET_RECONNECT_H
+#pragma once
 
 #include "mesher/fill/tet_work.h"
 
@@ -11,4 +10,3 @@
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it);
 // Two tetrahedra at face i of t become three round a new edge.
 CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it);
-#endif

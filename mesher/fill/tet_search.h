@@ -2,8 +2,7 @@
 // The search for what single changes cannot mend: patches of a few hundred tetrahedra round the worst are disturbed and
 // improved again, hundreds of times; what is better in all is kept (iterated local search; H. Lourenco, O. Martin and
 // T. Stuetzle, in: Handbook of Metaheuristics, 2003).
-#ifndef CUTWATER_MESHER_FILL_TET_SEARCH_H
-#define CUTWATER_MESHER_FILL_TET_SEARCH_H
+#pragma once
 
 #include "mesher/fill/tet_work.h"
 
@@ -12,4 +11,3 @@
 // below search_wanted becomes less. Below flat_angle a place is begun with again while the boundary allows more than is
 // reached. The same every time; policy_table.h has the angles and the numbers of tries.
 CwStatus cw_tet_search(CwTetWork *w);
-#endif

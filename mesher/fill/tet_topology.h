@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Adjacency in a mesh of tetrahedra: stars of points, rings of edges, and the exchange of what fills a cavity.
-#ifndef CUTWATER_MESHER_FILL_TET_TOPOLOGY_H
-#define CUTWATER_MESHER_FILL_TET_TOPOLOGY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -46,4 +45,3 @@ int cw_tet_sides_compare(const void *left, const void *right);
 // now. Fails (CW_ERR_MESH) where they do not have the same hull.
 CwStatus cw_tet_exchange(CwTetMesh *mesh, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                          int32_t *slot);
-#endif

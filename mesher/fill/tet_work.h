@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The improvement of tetrahedra: its state and the list of what is to be improved. Operators (tet_reconnect, tet_move,
 // tet_insert, tet_shorten, tet_relax) change the mesh through it, so that qualities and list stay true.
-#ifndef CUTWATER_MESHER_FILL_TET_WORK_H
-#define CUTWATER_MESHER_FILL_TET_WORK_H
+#pragma once
 
 #include <stdint.h>
 
@@ -82,4 +81,3 @@ CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int cou
 // The same where all that comes is positive and of this quality at least; then *replaced goes up by one.
 CwStatus cw_tet_replace_sound(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                               double least, int32_t *replaced);
-#endif

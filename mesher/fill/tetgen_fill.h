@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The one bridge to TetGen (H. Si, TetGen, a Delaunay-based quality tetrahedral mesh generator, ACM Trans. Math. Softw.
 // 41, 2015), which runs in a process of its own: on some boundaries it frees memory twice, or aborts.
-#ifndef CUTWATER_MESHER_FILL_TETGEN_FILL_H
-#define CUTWATER_MESHER_FILL_TETGEN_FILL_H
+#pragma once
 
 #include "mesher/fill/fill.h"
 
@@ -17,5 +16,4 @@ CwStatus cw_tetgen_fill(const CwFillInput *input, CwFill *fill);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // Walls that cannot carry layers: where no direction sees all faces about an edge or a corner of the solid, or none
 // does that also lies in the open face beside them. Such are cusps, corners of opposite planes, and walls that go on
 // smoothly as an inlet or interface.
-#ifndef CUTWATER_MESHER_LAYERS_BARE_FACES_H
-#define CUTWATER_MESHER_LAYERS_BARE_FACES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -19,5 +18,3 @@ typedef struct {
 // the least area that frees one, or if none does, the face of the least area. Beside a bare face columns lie in it.
 // `area`: of each face, > 0. Whether faces point out of the solid must be settled (cw_background_join).
 CwStatus cw_bare_faces_find(CwCad *cad, const double *area, CwBareFaces *bare);
-
-#endif

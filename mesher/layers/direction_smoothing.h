@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Smoothing of the extrusion directions beside concave creases and tilted constraints.
-#ifndef CUTWATER_MESHER_LAYERS_DIRECTION_SMOOTHING_H
-#define CUTWATER_MESHER_LAYERS_DIRECTION_SMOOTHING_H
+#pragma once
 
 #include "mesher/layers/layer_columns.h"
 #include "pipeline/status.h"
@@ -10,5 +9,3 @@
 // column, later those that the change of thicknesses concerns. Collective.
 CwStatus cw_smooth_directions(CwLayerWork *work);
 void cw_smoothing_free(struct CwSmoothing **smoothing);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the parts of the smoothing share: direction_smoothing finds its sources, direction_smoothing_reach what they
 // reach, direction_smoothing_block solves it.
-#ifndef CUTWATER_MESHER_LAYERS_DIRECTION_SMOOTHING_WORK_H
-#define CUTWATER_MESHER_LAYERS_DIRECTION_SMOOTHING_WORK_H
+#pragma once
 
 #include "mesher/layers/layer_columns.h"
 #include "mesher/parallel/schedule.h"
@@ -52,5 +51,3 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing);
 
 // Solves one block: a task (CwTask) over CwSmoothing; gives the CwLean of its members.
 CwStatus cw_smoothing_solve_block(void *smoothing, int32_t block, void **bytes, int64_t *size);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The columns of a wall while they are made. For the steps of the layer envelope, and for what changes columns once it
 // stands (periodic_layers.c and concave_edges.c of the boundary).
-#ifndef CUTWATER_MESHER_LAYERS_LAYER_COLUMNS_H
-#define CUTWATER_MESHER_LAYERS_LAYER_COLUMNS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -31,5 +30,3 @@ typedef struct {
   struct CwSmoothing *smoothing;    // direction_smoothing.h, whose free it is; NULL before the first
   uint8_t *reason;                  // CwLayerReason
 } CwLayerWork;
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the layer envelope is made from: the wall, the asked thicknesses, what holds columns, and what they must not
 // reach.
-#ifndef CUTWATER_MESHER_LAYERS_LAYER_INPUT_H
-#define CUTWATER_MESHER_LAYERS_LAYER_INPUT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -56,5 +55,3 @@ static inline int cw_layer_stays(const CwLayerInput *in, int32_t v) {
 static inline double cw_layer_least(const CwLayerInput *in, int32_t v) {
   return in->least ? in->least[v] : 0;
 }
-
-#endif

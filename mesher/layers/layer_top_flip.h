@@ -3,8 +3,7 @@
 // (beside creases, round noses) they come out stretched: four layer top vertices that lie almost in a plane with the
 // wrong diagonal between them force a flat tetrahedron on any filler. Turning the diagonal of both triangulations mends
 // it.
-#ifndef CUTWATER_MESHER_LAYERS_LAYER_TOP_FLIP_H
-#define CUTWATER_MESHER_LAYERS_LAYER_TOP_FLIP_H
+#pragma once
 
 #include <stdint.h>
 
@@ -17,5 +16,3 @@
 // prisms valid. Changes `mesh` in place; *flips counts. Deterministic. Collective.
 CwStatus cw_layer_top_flip(const CwContext *context, const double (*wall)[3], const double (*top)[3],
                            int32_t triangle_count, CwFlipMesh *mesh, const int64_t *group, int32_t *flips);
-
-#endif

@@ -15,8 +15,7 @@
 //
 // Best where the surface is not much finer than t beside concave edges. Along straight edges the full thickness is kept
 // up to t/h = 3 at 60 degrees and 4.8 at 90; around a bevelled blade in a wedge of 45 degrees at t/h = 4 on 60 %.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -65,5 +64,4 @@ CwStatus cw_layers_vtk(const CwLayers *layers, const int32_t *region, const char
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where the layer top of the layers crosses itself, the wall or an open patch, and the wall itself: kept up to date as
 // columns move.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_CROSSING_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_CROSSING_H
+#pragma once
 
 #include "mesher/common/box_tree.h"
 #include "mesher/layers/layer_columns.h"
@@ -33,5 +32,3 @@ void cw_layers_crossing_free(CwLayerCrossing *crossing);
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[3], const uint8_t *moved);
 // Whether thinner columns can get clear of what they cross; outcome: that of cw_layers_kind_at where not.
 void cw_layers_crossing_judge(const CwLayerCrossing *crossing, CwOutcome *outcome);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How thick columns may be: room before other walls and obstacles, concave places, gradation between neighbours.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_GAP_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_GAP_H
+#pragma once
 
 #include "mesher/common/box_tree.h"
 #include "mesher/layers/layer_columns.h"
@@ -24,5 +23,3 @@ CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 // Where the slope begins that limits the column of v: from each vertex that is limited by its neighbours to that of
 // them which limits it, and on. v itself where none does.
 int32_t cw_layers_slope_foot(const CwLayerWork *work, int32_t v);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which prisms are to be repaired, and which of their columns are to give way.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_JUDGE_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_JUDGE_H
+#pragma once
 
 #include "mesher/layers/layer_columns.h"
 
@@ -18,5 +17,3 @@ int cw_layers_is_sound(const CwLayerWork *work, int32_t f, const double (*top)[3
 // The columns of prism f of which less would make it better, alone: 1 in helps[k]. All, where none does that can still
 // give way. sound: what cw_layers_is_sound tells; its layer top counts then, and columns keep their least thickness.
 void cw_layers_helped_by(const CwLayerWork *work, int32_t f, const double (*top)[3], int sound, int helps[3]);
-
-#endif

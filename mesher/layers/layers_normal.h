@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Directions most normal to the faces about a vertex, and the columns that follow.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_NORMAL_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_NORMAL_H
+#pragma once
 
 #include "mesher/layers/layer_columns.h"
 #include "mesher/parallel/outcome.h"
@@ -42,5 +41,3 @@ void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);
 double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]);
 // Outer end of the column of v at thickness t[v], put back on its constraints.
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
-
-#endif

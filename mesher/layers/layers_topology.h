@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which triangles and vertices stand about each vertex of a wall.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_TOPOLOGY_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_TOPOLOGY_H
+#pragma once
 
 #include "mesher/layers/layer_columns.h"
 #include "pipeline/status.h"
@@ -13,5 +12,3 @@ void cw_layers_work_free(CwLayerWork *work);
 // Cotangent weights of v's entries of `near`, clamped; *area: a third of the triangles around, m2.
 void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, double *area);
 double cw_layers_shortest_edge(const CwLayerWork *work, int32_t v); // m
-
-#endif

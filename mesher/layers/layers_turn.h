@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How good the prisms about a column are, and the search for a better direction of it.
-#ifndef CUTWATER_MESHER_LAYERS_LAYERS_TURN_H
-#define CUTWATER_MESHER_LAYERS_LAYERS_TURN_H
+#pragma once
 
 #include "mesher/layers/layer_columns.h"
 
@@ -23,5 +22,3 @@ double cw_layers_top_quality(const CwLayerWork *work, int32_t f, const double (*
 // What it costs that the columns of triangle f lean: prism_good where no determinant of a prism is small and there is
 // room for three good cells between the layer top and what holds its edge.
 double cw_layers_lean_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]);
-
-#endif

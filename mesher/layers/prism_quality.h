@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How sound the thick prism between a wall triangle and the ends of its columns is, and how well shaped its layer top
 // is. Corners are those of the wall triangle, normal out of the domain, and the ends of their columns, in its order.
-#ifndef CUTWATER_MESHER_LAYERS_PRISM_QUALITY_H
-#define CUTWATER_MESHER_LAYERS_PRISM_QUALITY_H
+#pragma once
 
 // The least corner Jacobian at any layer between wall and layer top, scaled to 1 for a right prism over the same wall
 // triangle.
@@ -21,5 +20,3 @@ double cw_prism_top_quality(const double *const wall[3], const double *const top
 // tenth of the mean at least. Solvers that divide cells so have to find one for both cells beside a side.
 double cw_prism_shear_quality(const double *const wall[3], const double *const top[3], int layers,
                               const double last[3]);
-
-#endif

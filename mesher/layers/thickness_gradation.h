@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Gradation: the greatest thicknesses at the vertices of a surface that are nowhere above given ones and rise from
 // vertex to vertex by no more than is allowed. Vertices are settled from the lowest on (E. W. Dijkstra, 1959).
-#ifndef CUTWATER_MESHER_LAYERS_THICKNESS_GRADATION_H
-#define CUTWATER_MESHER_LAYERS_THICKNESS_GRADATION_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,5 +26,3 @@ typedef struct {
 // `lowered`: marks the vertices lowered since the thicknesses were graded last; NULL: any may be. Equal bits for any
 // number of ranks. Collective where `lowered` is NULL.
 CwStatus cw_grade_thickness(const CwGradation *gradation, const uint8_t *lowered);
-
-#endif

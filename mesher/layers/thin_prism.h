@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Prisms so long for their height that checkMesh calls their determinant small (pipeline/mesh/cell.h): that of a right
 // prism falls with the fourth power of height over length. They are sound, but the user should know whence they come.
-#ifndef CUTWATER_MESHER_LAYERS_THIN_PRISM_H
-#define CUTWATER_MESHER_LAYERS_THIN_PRISM_H
+#pragma once
 
 #include "pipeline/mesh/cell.h"
 
@@ -12,5 +11,3 @@ double cw_prism_determinant(const double base[3][3], const double top[3][3], int
 
 // How many times as tall a prism of that determinant would have to be; above 1 where it is small.
 double cw_thin_prism_wanted(double determinant);
-
-#endif

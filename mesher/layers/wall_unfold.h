@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Mends walls that are folded at a vertex: where triangles are as wide as the nose that they follow, one of them may
 // stand against its neighbours, and no column sees all faces. Turning edges there opens the fold.
-#ifndef CUTWATER_MESHER_LAYERS_WALL_UNFOLD_H
-#define CUTWATER_MESHER_LAYERS_WALL_UNFOLD_H
+#pragma once
 
 #include <stdint.h>
 
@@ -16,5 +15,3 @@
 // still below. Deterministic. Collective.
 CwStatus cw_wall_unfold(const CwContext *context, int32_t point_count, const double (*x)[3], int32_t triangle_count,
                         CwFlipMesh *mesh, const int64_t *group, int32_t *flips, int32_t *folded);
-
-#endif

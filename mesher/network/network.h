@@ -9,8 +9,7 @@
 //
 // A curve is a wall curve when at least one surface along it is a wall: layers start there. The others (open patch with
 // open patch, open patch with plane, plane with plane) are free curves: they begin where the layers end.
-#ifndef CUTWATER_MESHER_NETWORK_NETWORK_H
-#define CUTWATER_MESHER_NETWORK_NETWORK_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -105,5 +104,3 @@ CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve);
 CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node, CwOutcome *outcome);
 CwStatus cw_network_trace_all(const CwContext *context, CwNetwork *network, const CwBackground *background,
                               CwOutcome *outcome);
-
-#endif

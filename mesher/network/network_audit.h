@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A look at a curve network: what every network holds, and its picture.
-#ifndef CUTWATER_MESHER_NETWORK_NETWORK_AUDIT_H
-#define CUTWATER_MESHER_NETWORK_NETWORK_AUDIT_H
+#pragma once
 
 #include "mesher/network/network.h"
 
@@ -12,4 +11,3 @@ CwStatus cw_network_audit(const CwNetwork *network);
 
 // Writes the curves as VTK PolyData (cell data kind: CwCurveKind; wall).
 CwStatus cw_network_vtk(const CwNetwork *network, const char *path);
-#endif

@@ -2,8 +2,7 @@
 // The image sets of a domain whose solid and plan have a symmetry: of the corners and curves of its network, and of
 // mesh nodes. Items that turns take to one another form an image set: its first is made, the others are copies of it,
 // turned, with the same numbers on both sides of every seam.
-#ifndef CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
-#define CUTWATER_MESHER_NETWORK_PERIODIC_IMAGES_H
+#pragma once
 
 #include "mesher/cad/symmetry.h"
 #include "mesher/network/network.h"
@@ -59,5 +58,3 @@ int32_t cw_image_face(const CwPeriodicImages *images, int32_t face, int32_t turn
 void cw_image_point(const CwPeriodicImages *images, int32_t turns, const double x[3], double turned[3]);
 int32_t cw_image_region(const CwPeriodicImages *images, const CwPlan *plan, int32_t region, int32_t turns);
 int32_t cw_image_region_first(const CwPeriodicImages *images, const CwPlan *plan, int32_t region);
-
-#endif

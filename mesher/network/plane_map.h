@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Plane coordinates of a partition plane: an isometry, so that meshes in (u,v) are meshes in space.
-#ifndef CUTWATER_MESHER_NETWORK_PLANE_MAP_H
-#define CUTWATER_MESHER_NETWORK_PLANE_MAP_H
+#pragma once
 
 #include "mesher/common/clip.h"
 
@@ -14,5 +13,3 @@ CwPlaneMap cw_plane_map_of(const CwPlane *plane);
 // A CwSurfaceAt over a CwPlaneMap.
 void cw_plane_map(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]);
 void cw_plane_uv(const CwPlaneMap *map, const double x[3], double uv[2]);
-
-#endif

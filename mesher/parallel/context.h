@@ -2,8 +2,7 @@
 // What a stage is handed beside its products: the ranks that it runs on, and where it says what it does. A function
 // that takes a context is collective: all ranks of its team call it, in the same order. It keeps none of it; who made
 // team, profiler and log frees them.
-#ifndef CUTWATER_MESHER_PARALLEL_CONTEXT_H
-#define CUTWATER_MESHER_PARALLEL_CONTEXT_H
+#pragma once
 
 #include <stddef.h>
 
@@ -22,5 +21,3 @@ typedef struct {
 static inline CwLog *cw_log_of(const CwContext *context) {
   return context ? context->log : NULL;
 }
-
-#endif

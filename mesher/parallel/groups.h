@@ -3,8 +3,7 @@
 // the items (domains) while the others are on others, and hand what they have made to all. Few ranks stay together, on
 // one item after the other. Where a step's data is large, one rank of a group on each host does the work, with a thread
 // for each of them, and the results lie once on each host.
-#ifndef CUTWATER_MESHER_PARALLEL_GROUPS_H
-#define CUTWATER_MESHER_PARALLEL_GROUPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -54,4 +53,3 @@ CwStatus cw_group_hold(const CwGroupHand *hand, void *product, int64_t size, CwA
 // Groups for so many ranks: group_of[item]; ranks_of[group]. An item takes cost * (own + (1 - own) / ranks), a group
 // the sum of its items; so many groups are made, of at least `least` ranks each, that the longest takes the least time.
 int cw_groups_divide(int32_t count, const double *cost, double own, int ranks, int least, int *group_of, int *ranks_of);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Memory that the ranks of a host share: what each of them needs whole and none changes lies there once (System V
 // shared memory, which goes with its last user, however that ends).
-#ifndef CUTWATER_MESHER_PARALLEL_HOST_MEMORY_H
-#define CUTWATER_MESHER_PARALLEL_HOST_MEMORY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -45,5 +44,3 @@ int64_t cw_host_memory_peak(const CwTeam *all);
 void cw_arrays_free(void *product, CwArrays arrays, CwHostMemory **memory);
 // Makes shared arrays this rank's own, to change them. CW_ERR_MEMORY.
 CwStatus cw_arrays_own(void *product, CwArrays arrays, CwHostMemory **memory);
-
-#endif

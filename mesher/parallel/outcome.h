@@ -2,8 +2,7 @@
 // How a stage of the mesher ends where no error stops it: done, or with what has to change before it is tried again.
 // A function with an outcome returns CW_OK whatever the outcome is; its products are whole only where that is
 // CW_OUTCOME_DONE, which it is handed as. What cannot be meshed at all is an error proper (CwStatus).
-#ifndef CUTWATER_MESHER_PARALLEL_OUTCOME_H
-#define CUTWATER_MESHER_PARALLEL_OUTCOME_H
+#pragma once
 
 #include <stdint.h>
 
@@ -65,5 +64,4 @@ CwOutcome cw_outcomes_first(int32_t count, const CwOutcome *outcome);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Work on many small items (vertices, triangles) in blocks over the ranks. The blocks follow from the count alone and
 // each item from itself alone, so that the bits are the same for any number of ranks.
-#ifndef CUTWATER_MESHER_PARALLEL_PARALLEL_FOR_H
-#define CUTWATER_MESHER_PARALLEL_PARALLEL_FOR_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -20,4 +19,3 @@ CwStatus cw_parallel_for(const CwContext *context, const char *step, int32_t cou
 // The same where item i has a list: entries start[i] .. start[i + 1] - 1 of `out`, of `width` bytes each.
 CwStatus cw_parallel_for_lists(const CwContext *context, const char *step, int32_t count, const int32_t *start,
                                size_t width, CwParallelBody body, void *given, void *out);
-#endif

@@ -3,8 +3,7 @@
 // itself, part by part; what ranks do on one item while others are on another (groups.h) is kept apart, side by side. A
 // model of more ranks follows from it (tests/bench/speedup.py). A rank has one, and the context hands it on; without
 // one nothing is kept.
-#ifndef CUTWATER_MESHER_PARALLEL_PROFILER_H
-#define CUTWATER_MESHER_PARALLEL_PROFILER_H
+#pragma once
 
 #include <jansson.h>
 #include <stdint.h>
@@ -41,4 +40,3 @@ CwStatus cw_profiler_json(const CwContext *context, json_t **account, json_t **g
 
 // NULL is fine.
 void cw_profiler_free(CwProfiler **profiler);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The ranks of MPI: start, end, failure, and what those of a team do together. MPI itself is one a process, and a
 // failure ends all of it: cw_mpi_fail and cw_mpi_ranks ask MPI. All else is handed its team.
-#ifndef CUTWATER_MESHER_PARALLEL_RANKS_H
-#define CUTWATER_MESHER_PARALLEL_RANKS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -63,5 +62,4 @@ void cw_team_most(const CwTeam *team, int64_t count, double *value);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
 // Dynamic distribution of tasks over MPI ranks: largest first, each rank takes the next when it is free; results go to
 // all ranks. With one rank the same code runs the tasks in the same order. A failing task ends the run within seconds
 // with one message.
-#ifndef CUTWATER_MESHER_PARALLEL_SCHEDULE_H
-#define CUTWATER_MESHER_PARALLEL_SCHEDULE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -58,4 +57,3 @@ CwStatus cw_schedule_gather(const CwContext *context, const CwSchedule *schedule
 void cw_task_results_free(CwTaskResults *results);
 // Copies all of them, one behind the other, to `to`, unless that is NULL; returns their bytes.
 int64_t cw_task_results_join(const CwTaskResults *results, void *to);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Large arrays that a task needs for a while: as many are made as tasks run at a time.
-#ifndef CUTWATER_MESHER_PARALLEL_SCRATCH_H
-#define CUTWATER_MESHER_PARALLEL_SCRATCH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -16,5 +15,3 @@ CwStatus cw_scratch_make(int64_t size, CwScratch **scratch);
 CwStatus cw_scratch_take(CwScratch *scratch, void **array);
 void cw_scratch_give(CwScratch *scratch, void *array); // NULL is fine
 void cw_scratch_free(CwScratch **scratch);             // NULL is fine
-
-#endif

@@ -2,8 +2,7 @@
 // Gives tasks to the ranks of a team, each to the rank that asks next. A thread of the team's first rank answers, so
 // that no rank waits for a task of another to end; it sleeps between its looks for messages. Two-sided messages alone.
 // For the files of this room, and for threads of a rank that may send at a time (team.h).
-#ifndef CUTWATER_MESHER_PARALLEL_TASK_SERVER_H
-#define CUTWATER_MESHER_PARALLEL_TASK_SERVER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -43,5 +42,3 @@ void cw_task_server_look(CwTaskServer *server, const CwPlaces *places, int32_t a
 
 // After count 0 on all ranks. NULL is fine.
 void cw_task_server_stop(CwTaskServer *server);
-
-#endif

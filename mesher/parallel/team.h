@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a team of ranks is made of, and how its ranks wait. For the files of this room.
-#ifndef CUTWATER_MESHER_PARALLEL_TEAM_H
-#define CUTWATER_MESHER_PARALLEL_TEAM_H
+#pragma once
 
 #include <mpi.h>
 
@@ -41,5 +40,3 @@ typedef struct {
 } CwTeamWait;
 CwTeamWait cw_team_wait_begin(void);
 void cw_team_wait_on(CwTeamWait *wait);
-
-#endif

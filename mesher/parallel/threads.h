@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Threads of a rank, which work in the place of ranks of its host that wait meanwhile: they have one copy of the data.
 // For the files of this room.
-#ifndef CUTWATER_MESHER_PARALLEL_THREADS_H
-#define CUTWATER_MESHER_PARALLEL_THREADS_H
+#pragma once
 
 #include <sched.h>
 #include <stdint.h>
@@ -19,5 +18,3 @@ CwStatus cw_threads_make(int count, const cpu_set_t *cores, CwThreads **threads)
 CwStatus cw_threads_run(CwThreads *threads, int32_t count, CwStatus (*body)(void *given, int32_t item), void *given);
 int cw_threads_count(const CwThreads *threads); // that were made, and the caller
 void cw_threads_free(CwThreads **threads);      // NULL is fine
-
-#endif

@@ -11,8 +11,7 @@
 //                             next: child[1] of half-plane j (child[0] is that of the one before)
 //   the rest                  planes within wedges, pitch by pitch
 //   regions                   slices, then from sector_region those of the wedges, pitch by pitch
-#ifndef CUTWATER_MESHER_PLAN_PLAN_H
-#define CUTWATER_MESHER_PLAN_PLAN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -91,5 +90,4 @@ int32_t cw_sector_first_region(const CwPlan *plan, int32_t count, int32_t region
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A look at a decomposition: what every plan holds, and its picture.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_AUDIT_H
-#define CUTWATER_MESHER_PLAN_PLAN_AUDIT_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/plan/plan.h"
@@ -13,4 +12,3 @@ CwStatus cw_plan_audit(const CwPlan *plan);
 
 // Writes the background triangles by the region of their centres as VTK PolyData (cell data region).
 CwStatus cw_plan_vtk(const CwPlan *plan, const CwBackground *background, const char *path);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which end of a domain about the z axis leads to the impeller: a sector decomposition has its planes across the axis
 // there.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_AXIS_H
-#define CUTWATER_MESHER_PLAN_PLAN_AXIS_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/common/verticals.h"
@@ -15,5 +14,3 @@ typedef struct {
 // That end is the one with fluid on the axis, or the narrower one where a shaft goes through. 0 where both ends have
 // fluid there: no sector decomposition can be.
 int cw_plan_axis_find(const CwBackground *background, const CwVerticals *inside, CwPlanAxis *axis);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How the planner weighs one partition plane against another.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_COST_H
-#define CUTWATER_MESHER_PLAN_PLAN_COST_H
+#pragma once
 
 #include "mesher/plan/plan_profile.h"
 
@@ -22,5 +21,3 @@ double cw_plan_unevenness(double work, double wanted, int32_t regions);
 // What a slice across the axis costs that is larger than wanted. One too small keeps nobody waiting: what it lacks the
 // others have too much, and they are judged themselves.
 double cw_plan_slice_cost(double work, double wanted);
-
-#endif

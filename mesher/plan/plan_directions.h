@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The directions along which the planner looks for planes: a grid of turns about the axis and of tilts, and the axis.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_DIRECTIONS_H
-#define CUTWATER_MESHER_PLAN_PLAN_DIRECTIONS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,5 +24,3 @@ int32_t cw_direction_tilt(int32_t d);
 static inline int cw_direction_is_upright(int32_t d) {
   return d != CW_ALONG_AXIS && cw_direction_tilt(d) == 0;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Divides a part of the domain into regions by the planes that cost least.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_DIVIDE_H
-#define CUTWATER_MESHER_PLAN_PLAN_DIVIDE_H
+#pragma once
 
 #include "mesher/plan/plan_model.h"
 
@@ -9,5 +8,3 @@
 // what no plane will do for stays whole. Nodes and regions are appended to the plan, which has room for them.
 CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
                         int side);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How the lines in which a new plane meets the planes above it fare: whether they have room outside the layers, keep
 // away from CAD edges and from the lines of other planes, and whether the planes meet at a fair angle.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_LINES_H
-#define CUTWATER_MESHER_PLAN_PLAN_LINES_H
+#pragma once
 
 #include "mesher/plan/plan_model.h"
 
@@ -22,5 +21,3 @@ typedef struct {
 // room: there the planes cut the boundary side by side. May stop at any sum of `most` or more.
 CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                        const CwPlane *plane, double most, CwPlanLines *found);
-
-#endif

@@ -2,8 +2,7 @@
 // The planner (paper, section 2.1): recursive bisection of a domain by planes, on its background triangulation.
 // Balances predicted cells, keeps interfaces small, keeps plane-to-wall angles away from sharp, keeps planes away from
 // edges of the model and from one another's crossings with them.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_MAKE_H
-#define CUTWATER_MESHER_PLAN_PLAN_MAKE_H
+#pragma once
 
 #include "mesher/parallel/context.h"
 #include "mesher/plan/plan_model.h"
@@ -11,4 +10,3 @@
 // Collective: the ranks look along some of the directions each, and have the same plan. Caller frees it.
 CwStatus cw_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
                       const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options, CwPlan *plan);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the planner weighs planes on: the work in the volume as samples, the work on the walls as pieces of background
 // triangles, and points along the CAD edges; of the whole domain, and of the part in one cell of the tree.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_MODEL_H
-#define CUTWATER_MESHER_PLAN_PLAN_MODEL_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -116,5 +115,3 @@ typedef struct {
 
 // The wall nearest to x; none, infinitely far and with no layers, where none is within `reach` m or a little more.
 CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach);
-
-#endif

@@ -2,8 +2,7 @@
 // One part of the domain seen along one direction: for every place along it the work below, the area of the section,
 // the sharpest wall and the CAD edges that a plane there would graze. One pass over the part serves all offsets. Of one
 // plane alone the same is had for less.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_PROFILE_H
-#define CUTWATER_MESHER_PLAN_PLAN_PROFILE_H
+#pragma once
 
 #include "mesher/plan/plan_model.h"
 
@@ -46,5 +45,3 @@ double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwP
 void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const double n[3], double low, double step,
                      int32_t count, double *touch);
 CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin);
-
-#endif

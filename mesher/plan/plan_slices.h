@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where the planes between slices across the axis of a domain stand.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_SLICES_H
-#define CUTWATER_MESHER_PLAN_PLAN_SLICES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,4 @@ CwStatus cw_slices_place(int32_t slices, const double *slice_cost, const double 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
 // fluid lies on the axis (pipe and nose of the nut), planes parallel to it divide that side into slices, and a sector
 // decomposition with the symmetry of the domain divides the other. The wedges of one pitch are divided by any planes,
 // and those of the other pitches by the same planes, turned.
-#ifndef CUTWATER_MESHER_PLAN_SECTOR_PLAN_H
-#define CUTWATER_MESHER_PLAN_SECTOR_PLAN_H
+#pragma once
 
 #include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan_model.h"
@@ -14,5 +13,3 @@
 CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
                              const CwVerticals *inside, const CwSize *size, const CwPlanOptions *options, int32_t count,
                              CwPlan *plan, CwOutcome *outcome);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Audit of a region mesh and its quality figures: what no later tool would tell. See also tests/judges.
-#ifndef CUTWATER_MESHER_REGION_AUDIT_H
-#define CUTWATER_MESHER_REGION_AUDIT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -67,5 +66,4 @@ void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where the nodes of a column lie: on the line from the wall to the layer top, and on an open patch (a non-wall patch)
 // on its exact surface. On a curved open patch the line is a chord: between wall and top it would leave the surface.
-#ifndef CUTWATER_MESHER_REGION_COLUMN_PLACE_H
-#define CUTWATER_MESHER_REGION_COLUMN_PLACE_H
+#pragma once
 
 #include "mesher/region/region_input.h"
 
@@ -33,5 +32,3 @@ int32_t cw_open_edge_face(const CwOpenEdgePlaces *places, int32_t a, int32_t b);
 // The node at `share` (0..1) of the thickness of the column of a wall vertex.
 void cw_column_place(const CwRegionInput *from, const CwOpenEdgePlaces *places, int32_t vertex, double share,
                      double x[3]);
-
-#endif

@@ -3,8 +3,7 @@
 // interface triangle, and the interface with the centres of such triangles' circles inserted. The sphere of a triangle
 // is the smallest one through its corners; its centre lies in the plane. Plane coordinates: u, v and the height over
 // the plane.
-#ifndef CUTWATER_MESHER_REGION_ENCROACH_H
-#define CUTWATER_MESHER_REGION_ENCROACH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -48,4 +47,3 @@ typedef struct {
 // Deterministic.
 CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, CwEncroachRefined *refined);
 void cw_encroach_refined_free(CwEncroachRefined *refined);
-#endif

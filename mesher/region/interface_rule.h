@@ -7,8 +7,7 @@
 // them before any region is filled (cw_interface_rule), the refined interfaces go to all ranks, and each fill takes up
 // the same candidates, less those in a sphere of the final interfaces (cw_interface_rule_points). No fill waits for
 // another.
-#ifndef CUTWATER_MESHER_REGION_INTERFACE_RULE_H
-#define CUTWATER_MESHER_REGION_INTERFACE_RULE_H
+#pragma once
 
 #include "mesher/region/region_input.h"
 #include "mesher/fill/lattice_core.h"
@@ -43,5 +42,3 @@ CwStatus cw_interface_rule_merge(const CwPeriodicImages *images, CwInterfaces *i
 // lattice. Caller frees *x and *site.
 CwStatus cw_interface_rule_points(const CwRegionInput *from, int32_t region, const char *name, int32_t *count,
                                   double (**x)[3], CwLatticeSite **site);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How the layers meet the tetrahedra: across each face of the layer top, the ratio of the volumes of the two cells, the
 // greater over the less, and OpenFOAM's weight of the face.
-#ifndef CUTWATER_MESHER_REGION_LAYER_RATIO_H
-#define CUTWATER_MESHER_REGION_LAYER_RATIO_H
+#pragma once
 
 #include <stdint.h>
 
@@ -42,5 +41,4 @@ double cw_layer_ratio_quantile(const CwLayerRatio *ratio, double share);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The closed inner boundary of a region: layer top, open patches, interfaces, in this order, with nodes of its own
 // numbering.
-#ifndef CUTWATER_MESHER_REGION_REGION_BOUNDARY_H
-#define CUTWATER_MESHER_REGION_REGION_BOUNDARY_H
+#pragma once
 
 #include "mesher/region/region_input.h"
 #include "mesher/fill/fill.h"
@@ -27,5 +26,3 @@ CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *cr
 
 // Views the boundary and the size field as an input of the fill, which checks that it is closed (boundary_check.h).
 CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBoundary *inner, const char *name);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One region of the mesh from the boundary: tetrahedra inside its layer top, prisms in its columns, boundary faces.
-#ifndef CUTWATER_MESHER_REGION_REGION_BUILD_H
-#define CUTWATER_MESHER_REGION_REGION_BUILD_H
+#pragma once
 
 #include "mesher/region/column_place.h"
 #include "mesher/region/region_file.h"
@@ -39,5 +38,3 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 
 // Makes the region. Fails with CW_ERR_MESH naming domain, region and place.
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The periodic image of a region: the same cells over turned points. Shared points get the numbers and the very bits
 // that the boundary has there, so that the copy fits its neighbours.
-#ifndef CUTWATER_MESHER_REGION_REGION_COPY_H
-#define CUTWATER_MESHER_REGION_REGION_COPY_H
+#pragma once
 
 #include "mesher/region/region_build.h"
 
@@ -15,5 +14,3 @@ void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMe
 // shared point of the boundary does not lie where the turn takes it; then the mesh is neither.
 CwStatus cw_region_turn(const CwRegionContext *context, int32_t turns, int32_t number, const char *fingerprint,
                         CwRegionMesh *mesh);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is done about a region that cannot be filled: its boundary is kept for a look, the place is found, and the
 // columns of the layers there are thinned, so that layer top, planes and open patches get more room between them.
-#ifndef CUTWATER_MESHER_REGION_REGION_FAILURE_H
-#define CUTWATER_MESHER_REGION_REGION_FAILURE_H
+#pragma once
 
 #include "mesher/region/region_boundary.h"
 
@@ -23,5 +22,3 @@ CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, co
 // are now: those whose layer top is nearer to it than `reach` wanted lengths, or all of the region.
 void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwRegionFailure *failure, double reach,
                             double *most);
-
-#endif

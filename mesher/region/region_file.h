@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One region of the finished mesh and its file (docs/file-formats.md). The file is also the checkpoint of a
 // run.
-#ifndef CUTWATER_MESHER_REGION_REGION_FILE_H
-#define CUTWATER_MESHER_REGION_REGION_FILE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -51,5 +50,4 @@ void cw_region_free(CwRegionMesh *region);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

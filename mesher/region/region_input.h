@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What regions are made from: the finished surfaces of a domain and what these follow from. Of the surfaces a region
 // needs what bounds it, and the layers that reach into it.
-#ifndef CUTWATER_MESHER_REGION_REGION_INPUT_H
-#define CUTWATER_MESHER_REGION_REGION_INPUT_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 #include "pipeline/log.h"
@@ -15,5 +14,3 @@ typedef struct {
   const CwLayers *layers;
   const CwInterfaces *interfaces;
 } CwRegionInput;
-
-#endif

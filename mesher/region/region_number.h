@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Region numbers (paper, section 2.3): a colouring of the adjacency graph of the regions, so that the longest chain
 // "small number first" is as long as the number of colours.
-#ifndef CUTWATER_MESHER_REGION_REGION_NUMBER_H
-#define CUTWATER_MESHER_REGION_REGION_NUMBER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -20,5 +19,4 @@ CwStatus cw_region_numbers(int32_t region_count, int32_t pair_count, const int32
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Tetrahedra that stand on given triangles.
-#ifndef CUTWATER_MESHER_REGION_TETS_ON_H
-#define CUTWATER_MESHER_REGION_TETS_ON_H
+#pragma once
 
 #include <stdint.h>
 
@@ -11,4 +10,3 @@
 // stand once. CW_ERR_MEMORY.
 CwStatus cw_tets_on(int32_t point_count, int32_t triangle_count, const int32_t (*triangle)[3], int32_t tet_count,
                     const int32_t (*tet)[4], int32_t *on);
-#endif

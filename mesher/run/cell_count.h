@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How many cells a scale of the size fields gives, as integrals of the fields and factors learned predict it.
-#ifndef CUTWATER_MESHER_RUN_CELL_COUNT_H
-#define CUTWATER_MESHER_RUN_CELL_COUNT_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -35,5 +34,3 @@ double cw_predicted_off(const CwMeshRun *run);
 // Set a factor to what was made: the triangles on the walls, or the tetrahedra of the last pass.
 void cw_learn_prisms(CwMeshRun *run);
 void cw_learn_tets(CwMeshRun *run);
-
-#endif

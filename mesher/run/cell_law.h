@@ -3,8 +3,7 @@
 // times a factor that follows a power of s. The factor is constant in fine meshes. In coarse ones the curves of the
 // model, each with a whole number of edges, hold up the count, and the exponent is what two counts tell (secants in
 // the logarithms).
-#ifndef CUTWATER_MESHER_RUN_CELL_LAW_H
-#define CUTWATER_MESHER_RUN_CELL_LAW_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -25,5 +24,4 @@ void cw_cell_law_learn(CwCellLaw *law, double factor, double scale, int power, i
 
 #ifdef __cplusplus
 }
-#endif
 #endif

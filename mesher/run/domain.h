@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One domain on its way from exact geometry to regions: everything a rank holds of it.
-#ifndef CUTWATER_MESHER_RUN_DOMAIN_H
-#define CUTWATER_MESHER_RUN_DOMAIN_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/face_radius.h"
@@ -124,5 +123,3 @@ CwRegionInput cw_domain_region_input(const CwDomain *domain, CwLog *log);
 
 void cw_domain_clear(CwDomain *domain); // the curve network and what follows from it
 void cw_domain_close(CwDomain *domain);
-
-#endif

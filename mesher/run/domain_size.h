@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The size field of a domain, made by many ranks, and the integrals over it that predict cells.
-#ifndef CUTWATER_MESHER_RUN_DOMAIN_SIZE_H
-#define CUTWATER_MESHER_RUN_DOMAIN_SIZE_H
+#pragma once
 
 #include "mesher/parallel/context.h"
 #include "mesher/run/domain.h"
@@ -31,5 +30,3 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale);
 // Adds the wall faces at a scale of the size field to needing[n] by the number of layers that they need, from 1 to
 // CW_LAYERS_MOST, to lead to the tetrahedra, but no more than fit the passage.
 void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needing);
-
-#endif

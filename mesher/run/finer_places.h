@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Places where edges have to be shorter than the case asks: where no layers stand on a wall, or tetrahedra are flat.
 // They are points of the size fields (CwSizePoint), from which all is made anew.
-#ifndef CUTWATER_MESHER_RUN_FINER_PLACES_H
-#define CUTWATER_MESHER_RUN_FINER_PLACES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,3 @@ CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const doubl
 // The points of one domain; *point is allocated, caller frees.
 CwStatus cw_finer_places_of(const CwFinerPlaces *places, int32_t domain, int32_t *count, CwSizePoint **point);
 void cw_finer_places_free(CwFinerPlaces *places);
-
-#endif

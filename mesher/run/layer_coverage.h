@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the layers over a patch came to, against what was asked of them.
-#ifndef CUTWATER_MESHER_RUN_LAYER_COVERAGE_H
-#define CUTWATER_MESHER_RUN_LAYER_COVERAGE_H
+#pragma once
 
 #include "mesher/run/domain.h"
 
@@ -25,5 +24,3 @@ int cw_domain_is_sharp(const CwDomain *domain);
 
 // Of all patches, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage *coverage);
-
-#endif

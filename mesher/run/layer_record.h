@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the mesher's record tells of the layers, and its warnings of them. These stand among the headlines of the record
 // too, which the report and the summary of a run begin with: `headlines` is an array of texts to which each is added.
-#ifndef CUTWATER_MESHER_RUN_LAYER_RECORD_H
-#define CUTWATER_MESHER_RUN_LAYER_RECORD_H
+#pragma once
 
 #include <jansson.h>
 
@@ -47,5 +46,3 @@ void cw_warn_of_missed(CwLog *log, const char *domain, const json_t *coverage, j
 // case leaves it open. A headline where more than 5 % of all its faces exceed CW_RATIO_FAIR.
 void cw_warn_of_layers(CwLog *log, const char *domain, int layers, int automatic, const json_t *coverage,
                        json_t *headlines);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What export reads of the mesh as a whole, and what the record tells of it.
-#ifndef CUTWATER_MESHER_RUN_MANIFEST_H
-#define CUTWATER_MESHER_RUN_MANIFEST_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -12,5 +11,3 @@ CwStatus cw_mesh_manifest(CwMeshRun *run);
 // Removes from the folder the region files that the manifest does not name, and the boundaries of regions that have
 // failed. What cannot be removed stays.
 void cw_mesh_remove_others(const json_t *manifest, const char *folder);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is done once before the passes: geometry, size fields, regions.
-#ifndef CUTWATER_MESHER_RUN_MESH_PLAN_H
-#define CUTWATER_MESHER_RUN_MESH_PLAN_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -28,5 +27,3 @@ CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason);
 CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why);
 // Whether that would be a divided one with the symmetry that the domain has.
 int cw_mesh_has_other_plan(const CwMeshRun *run, int d);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The whole work of the mesher on a case: all domains, in step, over all ranks.
-#ifndef CUTWATER_MESHER_RUN_MESH_RUN_H
-#define CUTWATER_MESHER_RUN_MESH_RUN_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -9,5 +8,3 @@
 // ranks.
 CwStatus cw_mesh_run(CwMeshRun *run);
 void cw_mesh_run_free(CwMeshRun *run);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The steps that run as tasks, each of one domain.
-#ifndef CUTWATER_MESHER_RUN_MESH_STEPS_H
-#define CUTWATER_MESHER_RUN_MESH_STEPS_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -26,5 +25,3 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
 
 // How many regions a region stands for: itself and its periodic images.
 int32_t cw_region_copies(const CwDomain *domain, int32_t region);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Narrow faces that a mesh of the asked size cannot show are left out of the solids.
-#ifndef CUTWATER_MESHER_RUN_NARROW_FACES_H
-#define CUTWATER_MESHER_RUN_NARROW_FACES_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -10,5 +9,3 @@
 // Those that a turn of the domain's symmetry takes to one another have one mean. Warns of them. *left [out]: number of
 // faces left out in all domains; where it is not 0, symmetries and sizes have to be found anew.
 CwStatus cw_leave_out_narrow(CwMeshRun *run, int *left);
-
-#endif

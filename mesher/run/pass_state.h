@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the mesher knows when it begins a pass, or anew with shorter edges: kept in RUN/mesh/pass.json, so that a killed
 // run goes on with the same pass, finds its region files current, and ends in the same bytes.
-#ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
-#define CUTWATER_MESHER_RUN_PASS_STATE_H
+#pragma once
 
 #include "mesher/parallel/context.h"
 #include "mesher/run/cell_law.h"
@@ -46,5 +45,3 @@ CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *finger
 CwStatus cw_pass_state_share(const CwTeam *team, CwPassState *state);
 
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state);
-
-#endif

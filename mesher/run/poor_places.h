@@ -2,8 +2,7 @@
 // Where a finished mesh falls short of what counts as good: regions whose flattest tetrahedron is below flat_angle and
 // below what the region's boundary would allow, and domains where more than missed_share of the wall faces have not the
 // first height that the passage has room for.
-#ifndef CUTWATER_MESHER_RUN_POOR_PLACES_H
-#define CUTWATER_MESHER_RUN_POOR_PLACES_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -16,5 +15,3 @@ int cw_poor_in_passages(const CwMeshRun *run);
 
 // Asks for shorter edges there (run->finer).
 CwStatus cw_finer_at_poor(CwMeshRun *run);
-
-#endif

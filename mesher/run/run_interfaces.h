@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The stages of the surfaces that bear no layers: interfaces and open patches, and the rule of region numbers.
-#ifndef CUTWATER_MESHER_RUN_RUN_INTERFACES_H
-#define CUTWATER_MESHER_RUN_RUN_INTERFACES_H
+#pragma once
 
 #include "mesher/run/run_thinning.h"
 
@@ -14,5 +13,3 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
 // The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where
 // passages are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
 CwStatus cw_run_region_rule(CwMeshRun *run);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is done about the walls and layers of all domains, side by side: the walls joined with the thicknesses that
 // their columns are asked to have, and the layers. The products lie once on each host.
-#ifndef CUTWATER_MESHER_RUN_RUN_LAYERS_H
-#define CUTWATER_MESHER_RUN_RUN_LAYERS_H
+#pragma once
 
 #include "mesher/run/run_step.h"
 
@@ -15,5 +14,3 @@ CwStatus cw_run_merge_walls(CwMeshRun *run, const CwResults *results, CwOutcome 
 // Layers of those thicknesses and the room of their columns. Outcome: that of cw_boundary_grow for the first domain
 // whose layers do not fit its symmetry or plan.
 CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome);
-
-#endif

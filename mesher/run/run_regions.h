@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The stage of the regions: what the regions share, and the mesh of each in its file.
-#ifndef CUTWATER_MESHER_RUN_RUN_REGIONS_H
-#define CUTWATER_MESHER_RUN_RUN_REGIONS_H
+#pragma once
 
 #include "mesher/run/run_thinning.h"
 
@@ -9,5 +8,3 @@
 // where regions could not be made; they have no copies.
 // Collective.
 CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the stages of the mesher hand on: the domains, the factors that predict cells, and what was made of each region.
-#ifndef CUTWATER_MESHER_RUN_RUN_STATE_H
-#define CUTWATER_MESHER_RUN_RUN_STATE_H
+#pragma once
 
 #include <jansson.h>
 
@@ -81,5 +80,3 @@ typedef struct {
   int passes, retries; // retries: of all passes
   int64_t cells;       // made
 } CwMeshRun;
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One step of the mesher over all ranks: its tasks, their results, and what the record keeps of them.
-#ifndef CUTWATER_MESHER_RUN_RUN_STEP_H
-#define CUTWATER_MESHER_RUN_RUN_STEP_H
+#pragma once
 
 #include "mesher/parallel/groups.h"
 #include "mesher/run/mesh_steps.h"
@@ -57,5 +56,3 @@ void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]);
 // One task for each wall face of all domains, or for each of the others; of periodic images the first alone. Their
 // costs: predicted triangles. Caller frees.
 CwStatus cw_face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTask **tasks);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Thinner layers about the places where a pass has failed, for the next attempt. Each of three attempts on a plan
 // reaches twice as far as the one before.
-#ifndef CUTWATER_MESHER_RUN_RUN_THINNING_H
-#define CUTWATER_MESHER_RUN_RUN_THINNING_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -29,5 +28,3 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
 
 // Forgets what columns were thinned to.
 void cw_end_thinning(CwMeshRun *run);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The stage of the walls: the curves on them, and their triangles.
-#ifndef CUTWATER_MESHER_RUN_RUN_WALLS_H
-#define CUTWATER_MESHER_RUN_RUN_WALLS_H
+#pragma once
 
 #include "mesher/run/run_state.h"
 
@@ -9,5 +8,3 @@
 // is asked.
 // Outcome: that of cw_domain_start. Collective.
 CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome);
-
-#endif

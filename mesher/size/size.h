@@ -3,8 +3,7 @@
 // (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps; near open edges of walls no
 // more than these allow. Kept on a Cartesian grid that also knows which of its nodes lie inside the domain, so that
 // cell counts can be predicted by integration.
-#ifndef CUTWATER_MESHER_SIZE_SIZE_H
-#define CUTWATER_MESHER_SIZE_SIZE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -82,5 +81,4 @@ CwStatus cw_size_samples(const CwSize *size, int32_t *count, double (**x)[3], do
 
 #ifdef __cplusplus
 }
-#endif
 #endif

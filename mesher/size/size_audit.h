@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A look at a size field on the surface that it belongs to: what it holds there, and its picture.
-#ifndef CUTWATER_MESHER_SIZE_SIZE_AUDIT_H
-#define CUTWATER_MESHER_SIZE_SIZE_AUDIT_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/size/size.h"
@@ -19,5 +18,4 @@ CwStatus cw_size_vtk(const CwSize *size, const CwBackground *background, const c
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A scalar field on a Cartesian grid that spreads from seeds with a limited slope: f(x) = min (f_p + slope |x
 // - p|).
-#ifndef CUTWATER_MESHER_SIZE_SIZE_GRID_H
-#define CUTWATER_MESHER_SIZE_SIZE_GRID_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -48,4 +47,3 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
 
 // Trilinear; outside of the grid the value of its nearest point.
 double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]);
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What asks for a size, and where: patch sizes and curvature all over the surface, gaps, narrow faces, short
 // edges.
-#ifndef CUTWATER_MESHER_SIZE_SIZE_SOURCES_H
-#define CUTWATER_MESHER_SIZE_SIZE_SOURCES_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -55,4 +54,3 @@ CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines)
 void cw_size_seed_open_edges(const CwSizeInput *input, CwSizeGrid *grid);
 // The mean along the open edges of what they allow over the sizes of `wanted`; 0 without open edges.
 double cw_size_open_edges_ask(const CwSizeInput *input, const CwSizeGrid *wanted);
-#endif

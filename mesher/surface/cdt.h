@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The constrained Delaunay triangulation of the given points and edges of a patch: where its mesh starts. The
 // one bridge of the surface mesher to CGAL (exact predicates). No point is added.
-#ifndef CUTWATER_MESHER_SURFACE_CDT_H
-#define CUTWATER_MESHER_SURFACE_CDT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -33,5 +32,4 @@ void cw_cdt_free(CwCdt *cdt);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
 // do. Curves that meet at their ends only are replaced by chords that may cross, coincide, or pass on the wrong side of
 // a point, where a chord is longer than the gap beside it. Halving the chord whose curve bends away from it restores
 // the order: chords converge to curves that do not cross.
-#ifndef CUTWATER_MESHER_SURFACE_CHORDS_H
-#define CUTWATER_MESHER_SURFACE_CHORDS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,4 +24,3 @@ typedef struct {
 // - of two chords that cross, or that have both ends in common, the one with the greater deviation.
 // Where none is set the chords lie as their curves do. Deterministic.
 CwStatus cw_chords_to_halve(int32_t count, const CwChord *chord, uint8_t *halve);
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Triangles that know their neighbours while edges are flipped.
-#ifndef CUTWATER_MESHER_SURFACE_FLIP_MESH_H
-#define CUTWATER_MESHER_SURFACE_FLIP_MESH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,5 +24,3 @@ int cw_flip_joined(const CwFlipMesh *mesh, int32_t t, int32_t c, int32_t d);
 // Turns side k of t, between t and u: with corners c of t and d of u across from it, t becomes c, d and the end of the
 // side, u becomes d, c and its start.
 void cw_flip(CwFlipMesh *mesh, int32_t t, int k, int32_t u);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which given points of a patch lie on one cut: the inner given edges, followed from one of their ends to the other. A
 // triangle with all corners on a cut lies in the partition plane, and no column on this plane leaves it.
-#ifndef CUTWATER_MESHER_SURFACE_PATCH_CUTS_H
-#define CUTWATER_MESHER_SURFACE_PATCH_CUTS_H
+#pragma once
 
 #include "mesher/surface/patch_input.h"
 #include "pipeline/status.h"
@@ -18,5 +17,3 @@ void cw_patch_cuts_free(CwPatchCuts *cuts);
 
 // Whether one cut has all three points, which need not be given ones.
 int cw_patch_cuts_hold(const CwPatchCuts *cuts, const int32_t point[3]);
-
-#endif

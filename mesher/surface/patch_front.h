@@ -3,11 +3,8 @@
 // makes an equilateral triangle on an edge of the front (S. Rebay, "Efficient unstructured mesh generation by
 // means of Delaunay triangulation and Bowyer-Watson algorithm", J. Comput. Phys. 106, 1993), lengths being
 // those on the surface.
-#ifndef CUTWATER_MESHER_SURFACE_PATCH_FRONT_H
-#define CUTWATER_MESHER_SURFACE_PATCH_FRONT_H
+#pragma once
 
 #include "mesher/surface/patch_work.h"
 
 CwStatus cw_patch_front(CwPatchWork *work);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A surface patch that is to be meshed: its map, the size field, and the points and edges it is given.
-#ifndef CUTWATER_MESHER_SURFACE_PATCH_INPUT_H
-#define CUTWATER_MESHER_SURFACE_PATCH_INPUT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,3 @@ typedef struct {
   double largest;          // m: triangles larger than the equilateral one with such edges are halved where shorter
                            // ones are wanted; 0: none
 } CwPatchInput;
-
-#endif

@@ -7,8 +7,7 @@
 //     ->  flip, split, remove, smooth (patch_improve.h)  ->  triangles
 //
 // Boundary points and edges are kept exactly: they are shared with other patches.
-#ifndef CUTWATER_MESHER_SURFACE_PATCH_MESH_H
-#define CUTWATER_MESHER_SURFACE_PATCH_MESH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -36,5 +35,4 @@ void cw_patch_mesh_free(CwPatchMesh *mesh);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One surface patch as a task: gathers the points and edges that bound it, meshes it, and packs the result so that
 // it can travel between ranks.
-#ifndef CUTWATER_MESHER_SURFACE_PATCH_TASK_H
-#define CUTWATER_MESHER_SURFACE_PATCH_TASK_H
+#pragma once
 
 #include "mesher/surface/patch_mesh.h"
 
@@ -49,5 +48,3 @@ CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const
                        const char *name, void **bytes, int64_t *size_of_bytes);
 // Views a packed mesh; the block points into `bytes`.
 void cw_patch_block(const void *bytes, CwPatchBlock *block);
-
-#endif

@@ -7,8 +7,7 @@
 //   remove   a free point is drawn into one of its neighbours
 //
 // Every change keeps all triangles counter-clockwise in (u,v), all given edges, and all given points.
-#ifndef CUTWATER_MESHER_SURFACE_PATCH_WORK_H
-#define CUTWATER_MESHER_SURFACE_PATCH_WORK_H
+#pragma once
 
 #include <stdint.h>
 
@@ -111,5 +110,3 @@ static inline int cw_patch_edge_from(const CwPatchWork *work, int32_t t, int32_t
 static inline int cw_patch_is_free(const CwPatchWork *work, int32_t p) {
   return p >= work->given_count;
 }
-
-#endif

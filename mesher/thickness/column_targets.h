@@ -5,8 +5,7 @@
 //   meeting patches  the finer first height, the lesser thickness and the larger growth hold
 //   first height     grows away from there no faster than columns whose layers grow by a tenth can follow
 //   fair thickness   the last layer no taller than its share of the tetrahedron above (layer_count.h)
-#ifndef CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
-#define CUTWATER_MESHER_THICKNESS_COLUMN_TARGETS_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 #include "mesher/common/incident.h"
@@ -43,5 +42,3 @@ CwStatus cw_column_targets_share(const CwContext *context, const CwColumnTargets
 // Shows its arrays (CwArrays).
 void cw_column_targets_arrays(void *targets, CwArrayVisit visit, void *given);
 void cw_column_targets_free(CwColumnTargets *targets);
-
-#endif

@@ -2,8 +2,7 @@
 // The open edges of flat interfaces between domains. Two polygons inscribed in one circle with other corners differ by
 // more than the first layer is high, and the coupling's weights there are off. So CAD edges that two domains have in
 // common along an interface are divided once, with the finer of both size fields, at the planes of either domain.
-#ifndef CUTWATER_MESHER_THICKNESS_COUPLED_EDGES_H
-#define CUTWATER_MESHER_THICKNESS_COUPLED_EDGES_H
+#pragma once
 
 #include "mesher/boundary/boundary.h"
 
@@ -12,5 +11,3 @@
 // that no division moves.
 CwStatus cw_couple_open_edges(const CwBoundaryInput *a, const char *patch_a, CwOpenEdges *edges_a,
                               const CwBoundaryInput *b, const char *patch_b, CwOpenEdges *edges_b);
-
-#endif

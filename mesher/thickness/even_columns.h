@@ -3,8 +3,7 @@
 // long edges, and where columns lean. In short columns the outer layers, which give way for the first height, may be as
 // thin as a quarter of it; in those that grow the second is the thinnest for its kind, and the first may be a little
 // greater than asked.
-#ifndef CUTWATER_MESHER_THICKNESS_EVEN_COLUMNS_H
-#define CUTWATER_MESHER_THICKNESS_EVEN_COLUMNS_H
+#pragma once
 
 #include "mesher/parallel/context.h"
 #include "mesher/thickness/column_targets.h"
@@ -19,5 +18,3 @@ void cw_column_determinants(const CwColumnTargets *targets, const CwSurfaceMesh 
 // do. Periodic images get that of their first. Collective.
 CwStatus cw_columns_divide(const CwContext *context, const CwColumnTargets *targets, const CwSurfaceMesh *surface,
                            CwLayers *layers);
-
-#endif

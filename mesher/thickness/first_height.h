@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The first height of the layers on a patch: what the case asks, where the passage has room for it and the flow is
 // turbulent.
-#ifndef CUTWATER_MESHER_THICKNESS_FIRST_HEIGHT_H
-#define CUTWATER_MESHER_THICKNESS_FIRST_HEIGHT_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/model.h"
@@ -50,5 +49,4 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -4,8 +4,7 @@
 //   A prism a third as tall as the regular tetrahedron on it has its volume. Where the growth is left open, columns
 //   grow until the last prism has half of that: volumes may change by 4, and the factors of 2 on both sides are left to
 //   tetrahedra that are not regular. Layers are enough where the last prism can have a third of it.
-#ifndef CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
-#define CUTWATER_MESHER_THICKNESS_LAYER_COUNT_H
+#pragma once
 
 #include "pipeline/case.h"
 
@@ -25,4 +24,3 @@ int cw_layer_count_fitting(double first, double growth, double thickness);
 
 // The least number of layers that is enough for layer_count_share of the faces; needing[n]: faces that need n.
 int cw_layer_count_for(const double needing[CW_LAYERS_MOST + 1]);
-#endif

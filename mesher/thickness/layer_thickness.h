@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sub-division of a column of the layer envelope into layers: fractions of its thickness from first height, count and
 // growth.
-#ifndef CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
-#define CUTWATER_MESHER_THICKNESS_LAYER_THICKNESS_H
+#pragma once
 
 #include "pipeline/case.h"
 
@@ -32,5 +31,3 @@ double cw_layer_fractions(double thickness, double first, int count, double grow
 
 // The share of the column that the last of these layers takes.
 double cw_layer_last(double thickness, double first, int count, double growth_max);
-
-#endif

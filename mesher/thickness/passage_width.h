@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How far the opposite wall is from each patch, measured by rays through the exact solid: what the layers of both have
 // room in.
-#ifndef CUTWATER_MESHER_THICKNESS_PASSAGE_WIDTH_H
-#define CUTWATER_MESHER_THICKNESS_PASSAGE_WIDTH_H
+#pragma once
 
 #include "mesher/cad/background.h"
 #include "mesher/cad/cad.h"
@@ -13,5 +12,3 @@
 // least; it stays where so much of the wall sees none within it. Other patches keep what they have. Collective; the
 // same bits for any number of ranks.
 CwStatus cw_passage_widths(const CwContext *context, const CwCad *cad, const CwBackground *background, double *width);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the case asks of each patch: relative size and, on walls, the first height of the layers.
-#ifndef CUTWATER_MESHER_THICKNESS_WALL_TARGETS_H
-#define CUTWATER_MESHER_THICKNESS_WALL_TARGETS_H
+#pragma once
 
 #include "mesher/thickness/first_height.h"
 #include "pipeline/case.h"
@@ -28,5 +27,3 @@ CwPatchTarget cw_patch_target(const CwCase *table, const CwModelPatch *patch);
 
 // The layers, m, that `group` asks for from a first height on, `layer_count` of them.
 CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, double first_height, int layer_count);
-
-#endif

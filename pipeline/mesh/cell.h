@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The cells of a region seen alike: nodes, faces and volume of the cell with a given number.
-#ifndef CUTWATER_PIPELINE_MESH_CELL_H
-#define CUTWATER_PIPELINE_MESH_CELL_H
+#pragma once
 
 #include "pipeline/mesh/region_items.h"
 #include "pipeline/vec.h"
@@ -85,5 +84,3 @@ static inline int cw_cell_points(const CwRegionData *region, int32_t cell, const
 
 // Mean of the nodes, m.
 void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Why layers are thinner than asked, or miss their first height: the mesher's record counts the wall faces of a patch
 // by it.
-#ifndef CUTWATER_PIPELINE_MESH_LAYER_REASON_H
-#define CUTWATER_PIPELINE_MESH_LAYER_REASON_H
+#pragma once
 
 #include <stdio.h>
 
@@ -28,5 +27,3 @@ static inline const char *cw_layer_reason_key(const char *what, int reason, char
   snprintf(key, CW_LAYER_KEY_SIZE, "%s_by_%s_faces", what, cw_layer_reason_name(reason));
   return key;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The manifest of a mesh: its domains, patches and regions (docs/file-formats.md).
-#ifndef CUTWATER_PIPELINE_MESH_MANIFEST_H
-#define CUTWATER_PIPELINE_MESH_MANIFEST_H
+#pragma once
 
 #include <stdint.h>
 
@@ -51,5 +50,3 @@ void cw_mesh_free(CwMesh *mesh);
 
 // The patch called `name`, or -1.
 int cw_mesh_patch_find(const CwMesh *mesh, const char *name);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The faces of one region: which two cells share each, which lie on a patch, which wait for a neighbour region. For the
 // mesher, which audits what it has made, and for the exporter.
-#ifndef CUTWATER_PIPELINE_MESH_REGION_FACES_H
-#define CUTWATER_PIPELINE_MESH_REGION_FACES_H
+#pragma once
 
 #include "pipeline/mesh/region_items.h"
 
@@ -35,5 +34,3 @@ CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionDa
 // The nodes of a face in a form that does not depend on who names it: the smallest first and then towards the smaller
 // of its two neighbours; `order` are their places in `nodes`. True where that runs against the order of `nodes`.
 int cw_face_loop(const int64_t *nodes, int count, int order[4]);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The items of a region file (docs/file-formats.md): one definition for the mesher, which writes them, and for all who
 // read them. Each array has a digest, and one digest covers these and all attributes: what is read is what was written.
-#ifndef CUTWATER_PIPELINE_MESH_REGION_ITEMS_H
-#define CUTWATER_PIPELINE_MESH_REGION_ITEMS_H
+#pragma once
 
 #include <hdf5.h>
 #include <stdint.h>
@@ -75,5 +74,4 @@ static inline int32_t cw_region_cell_count(const CwRegionData *data) {
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One region file of a mesh in memory.
-#ifndef CUTWATER_PIPELINE_MESH_REGION_READ_H
-#define CUTWATER_PIPELINE_MESH_REGION_READ_H
+#pragma once
 
 #include "pipeline/mesh/manifest.h"
 #include "pipeline/mesh/region_items.h"
@@ -13,5 +12,3 @@ CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, 
 
 // Has the system read the file of a region that is wanted soon, while this one is worked on.
 void cw_mesh_region_ahead(const CwMesh *mesh, int region);
-
-#endif

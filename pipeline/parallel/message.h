@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How much goes in one message of MPI. Its counts are int, and some ways of sending fail from two gigabytes on: what is
 // longer goes in several.
-#ifndef CUTWATER_PIPELINE_PARALLEL_MESSAGE_H
-#define CUTWATER_PIPELINE_PARALLEL_MESSAGE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -15,4 +14,3 @@
 //     MPI_Bcast(items + at, part * (int)sizeof *items, MPI_BYTE, 0, comm);
 //   }
 int cw_message_items(int64_t left, size_t size);
-#endif

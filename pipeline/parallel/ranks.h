@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What all MPI ranks of exporter and report do together.
-#ifndef CUTWATER_PIPELINE_PARALLEL_RANKS_H
-#define CUTWATER_PIPELINE_PARALLEL_RANKS_H
+#pragma once
 
 #include <mpi.h>
 #include <stdint.h>
@@ -47,5 +46,3 @@ void cw_ranks_before(const CwRanks *ranks, int64_t *values, int64_t count);
 CwStatus cw_ranks_file_digest(const CwRanks *ranks, const char *path, char digest[CW_HASH_TEXT]);
 // The same of a file of `size` bytes, of which each rank has summed a share. Collective.
 void cw_ranks_sum_digest(const CwRanks *ranks, CwFileSum sum, int64_t size, char digest[CW_HASH_TEXT]);
-
-#endif

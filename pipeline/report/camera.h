@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // An orthographic view: from lengths in m to pixels, y down, with the depth in m towards the viewer.
-#ifndef CUTWATER_PIPELINE_REPORT_CAMERA_H
-#define CUTWATER_PIPELINE_REPORT_CAMERA_H
+#pragma once
 
 #include "pipeline/vec.h"
 
@@ -46,5 +45,3 @@ static inline void cw_camera_reach(const CwCamera *camera, const double x[3], Cw
 
 // Sets centre and scale so that all of `reach` is seen, with `margin` px around it.
 void cw_camera_fit(CwCamera *camera, const CwCameraReach *reach, double margin);
-
-#endif

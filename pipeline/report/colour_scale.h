@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Colours for the values of a field, even to the eye from least to greatest: viridis (van der Walt and Smith, 2015).
-#ifndef CUTWATER_PIPELINE_REPORT_COLOUR_SCALE_H
-#define CUTWATER_PIPELINE_REPORT_COLOUR_SCALE_H
+#pragma once
 
 #include <stdint.h>
 #include <stdio.h>
@@ -19,5 +18,3 @@ double cw_colour_share(const CwColourSpan *span, double value);
 
 // The scale with round numbers below it, in SVG. `label`: quantity and unit, HTML.
 void cw_colour_bar(FILE *page, const CwColourSpan *span, const char *label);
-
-#endif

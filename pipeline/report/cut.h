@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where a plane, or another surface, goes through the cells of a mesh.
-#ifndef CUTWATER_PIPELINE_REPORT_CUT_H
-#define CUTWATER_PIPELINE_REPORT_CUT_H
+#pragma once
 
 #include "pipeline/mesh/region_items.h"
 
@@ -38,5 +37,3 @@ typedef struct {
 // cw_region_cut_free, also after a failure. CW_ERR_MEMORY.
 CwStatus cw_cut_region(const CwCutPlane *plane, const CwRegionData *cells, const double *distance, CwRegionCut *cut);
 void cw_region_cut_free(CwRegionCut *cut);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A picture of geometry and mesh while it is drawn, region by region.
-#ifndef CUTWATER_PIPELINE_REPORT_DRAWING_H
-#define CUTWATER_PIPELINE_REPORT_DRAWING_H
+#pragma once
 
 #include "pipeline/mesh/region_read.h"
 #include "pipeline/report/camera.h"
@@ -48,5 +47,3 @@ void cw_drawing_add_cells(CwDrawing *drawing, const CwMesh *mesh, int region, co
                           const CwRegionData *cells, const CwRegionCut *cut);
 // Marks which patches are to be seen on the whole canvas.
 void cw_drawing_mark_seen(CwDrawing *drawing);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Sums that are the same in any order: their terms are rounded to multiples of one power of two, the unit, so that no
 // addition rounds (J. Demmel and H. D. Nguyen, Fast reproducible floating-point summation, 2013).
-#ifndef CUTWATER_PIPELINE_REPORT_EXACT_SUM_H
-#define CUTWATER_PIPELINE_REPORT_EXACT_SUM_H
+#pragma once
 
 #include <math.h>
 
@@ -16,5 +15,3 @@ static inline double cw_exact_term(double x, double unit) {
   const double shift = 0x1.8p52 * unit; // a double of this size has no digits below the unit
   return (x + shift) - shift;
 }
-
-#endif

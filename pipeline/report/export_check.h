@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Whether the files of an export are as it has written them, so that what the page tells of them holds. They may be as
 // large as the mesh itself: all ranks read their share of them while pictures are drawn.
-#ifndef CUTWATER_PIPELINE_REPORT_EXPORT_CHECK_H
-#define CUTWATER_PIPELINE_REPORT_EXPORT_CHECK_H
+#pragma once
 
 #include <jansson.h>
 
@@ -19,5 +18,3 @@ CwStatus cw_export_check_begin(const char *run, json_t *record, const CwRanks *r
 CwStatus cw_export_check_end(CwExportCheck *check);
 // Without an end too; NULL is fine.
 void cw_export_check_free(CwExportCheck **check);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The solved flow on the mesh of a run: fields of the OpenFOAM case in RUN/solve/steady by region, cell and face, for
 // pictures. Cells and faces of a patch stand there region by region, in the order of the region files.
-#ifndef CUTWATER_PIPELINE_REPORT_FLOW_H
-#define CUTWATER_PIPELINE_REPORT_FLOW_H
+#pragma once
 
 #include "pipeline/case.h"
 #include "pipeline/mesh/region_read.h"
@@ -41,5 +40,3 @@ void cw_flow_cell_velocity(const CwFlow *flow, const CwMesh *mesh, int region, c
                            double velocity[3]);
 // The share of the colour scale of a velocity.
 double cw_flow_speed_share(const CwFlow *flow, const double velocity[3]);
-
-#endif

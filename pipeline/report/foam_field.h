@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A field of a solved OpenFOAM case: its values by cell and by boundary face, as the solver wrote them (binary).
-#ifndef CUTWATER_PIPELINE_REPORT_FOAM_FIELD_H
-#define CUTWATER_PIPELINE_REPORT_FOAM_FIELD_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -37,5 +36,3 @@ const CwFoamValues *cw_foam_field_patch(const CwFoamField *field, const char *pa
 
 // Value `index`, below the count unless uniform, with as many components as the field has.
 void cw_foam_field_value(const CwFoamField *field, const CwFoamValues *values, int64_t index, double *value);
-
-#endif

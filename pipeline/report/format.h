@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Numbers as people read them: grouped digits, sensible precision, SI prefixes. UTF-8; groups are parted by
 // narrow no-break spaces. A value that is not finite reads as a dash.
-#ifndef CUTWATER_PIPELINE_REPORT_FORMAT_H
-#define CUTWATER_PIPELINE_REPORT_FORMAT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -18,5 +17,3 @@ char *cw_format_seconds(double seconds, char text[CW_FORMAT_SIZE]); // "12.3 s",
 char *cw_format_bytes(double bytes, char text[CW_FORMAT_SIZE]);     // "1.24 GB"
 char *cw_format_percent(double share,
                         char text[CW_FORMAT_SIZE]); // of a share 0 to 1; 100 % only where it is all
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Small pieces of an HTML page. Errors of the stream are found when the file is committed.
-#ifndef CUTWATER_PIPELINE_REPORT_HTML_H
-#define CUTWATER_PIPELINE_REPORT_HTML_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -20,5 +19,3 @@ void cw_html_number_cell(FILE *page, const char *number);
 // Writes the <svg> element of a file, without what stands before it. CW_ERR_INPUT where there is none, or it
 // is not whole, or holds scripts or references.
 CwStatus cw_html_svg_file(FILE *page, const char *path);
-
-#endif

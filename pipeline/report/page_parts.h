@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The parts of the page: each writes what stands under its heading.
-#ifndef CUTWATER_PIPELINE_REPORT_PAGE_PARTS_H
-#define CUTWATER_PIPELINE_REPORT_PAGE_PARTS_H
+#pragma once
 
 #include <stdio.h>
 
@@ -34,5 +33,3 @@ CwStatus cw_page_curve(FILE *page, const CwReportData *data, const char *where, 
 
 // Of any part: the pictures of a section that the pump has, two in a row, with captions and legends.
 void cw_page_picture_list(FILE *page, const CwReportData *data, CwPictureSection section);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Which pictures there are: what each shows, from where, how large.
-#ifndef CUTWATER_PIPELINE_REPORT_PICTURE_LIST_H
-#define CUTWATER_PIPELINE_REPORT_PICTURE_LIST_H
+#pragma once
 
 #include <stdint.h>
 
@@ -88,5 +87,3 @@ uint32_t cw_region_colour(int index);
 
 // Colour of a domain in charts and cuts: 0 full, 1 for its prisms, 2 for its tetrahedra.
 uint32_t cw_domain_colour(int domain, int shade);
-
-#endif

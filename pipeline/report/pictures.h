@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The pictures of geometry and mesh, drawn from the region files, one region in memory of a rank at a time.
-#ifndef CUTWATER_PIPELINE_REPORT_PICTURES_H
-#define CUTWATER_PIPELINE_REPORT_PICTURES_H
+#pragma once
 
 #include "pipeline/mesh/region_read.h"
 #include "pipeline/parallel/ranks.h"
@@ -38,5 +37,3 @@ typedef struct {
 CwStatus cw_report_pictures_draw(const CwRanks *ranks, const CwMesh *mesh, const CwPumpSizes *sizes, CwFlow *flow,
                                  CwReportPictures *pictures, CwView *view);
 void cw_report_pictures_free(CwReportPictures *pictures);
-
-#endif

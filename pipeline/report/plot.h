@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Charts as figures of HTML, drawn in SVG: columns side by side, stacked bars, and lines.
-#ifndef CUTWATER_PIPELINE_REPORT_PLOT_H
-#define CUTWATER_PIPELINE_REPORT_PLOT_H
+#pragma once
 
 #include <stdint.h>
 #include <stdio.h>
@@ -54,5 +53,3 @@ void cw_plot_columns(FILE *page, const CwPlot *plot);
 void cw_plot_bars(FILE *page, const CwPlot *plot);
 // Lines over x. The axis holds all values and the mark, but not always 0.
 void cw_plot_lines(FILE *page, const CwLinePlot *plot);
-
-#endif

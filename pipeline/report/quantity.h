@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Quantities of the JSON files: a key such as `throat_area_m2` has a name, perhaps a symbol, and a unit to
 // show it in.
-#ifndef CUTWATER_PIPELINE_REPORT_QUANTITY_H
-#define CUTWATER_PIPELINE_REPORT_QUANTITY_H
+#pragma once
 
 #include <stdio.h>
 
@@ -22,5 +21,3 @@ void cw_quantity_stem(const char *key, char stem[CW_STEM_SIZE]);
 
 // Starts a table row with the cells of name and symbol. Where `name` is NULL the stem stands for it.
 void cw_quantity_start(FILE *page, const char *stem, const char *name);
-
-#endif

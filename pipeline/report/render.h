@@ -2,8 +2,7 @@
 // A small software rasteriser: flat triangles with a depth buffer and with edge lines, orthographic views, 2
 // x 2 samples a pixel, out as PNG. Lengths on the canvas are pixels of the finished picture, x to the right,
 // y down; depth grows towards the viewer.
-#ifndef CUTWATER_PIPELINE_REPORT_RENDER_H
-#define CUTWATER_PIPELINE_REPORT_RENDER_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -112,5 +111,3 @@ void cw_png_free(CwPng *png);
 
 // The length of 1, 2 or 5 times a power of ten that is at most `limit`.
 double cw_render_round_length(double limit);
-
-#endif

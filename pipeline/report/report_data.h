@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // All that is known of a run: what its stages wrote, and the pictures.
-#ifndef CUTWATER_PIPELINE_REPORT_REPORT_DATA_H
-#define CUTWATER_PIPELINE_REPORT_REPORT_DATA_H
+#pragma once
 
 #include <jansson.h>
 
@@ -40,5 +39,3 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);
 
 // What the results of the mesh record have of each domain of the mesh [out]. CW_ERR_INPUT where they are of others.
 CwStatus cw_report_mesh_domains(const CwReportData *data, json_t *domain[CW_DOMAINS_MOST]);
-
-#endif

@@ -4,8 +4,7 @@
 // point, where the squared distances from the planes of their triangles are least. The lattice coarsens as the
 // triangles come, so that neither their number nor their size need be known. The result does not depend on their order:
 // eight cubes become one, and sums are exact (exact_sum.h).
-#ifndef CUTWATER_PIPELINE_REPORT_SIMPLIFY_H
-#define CUTWATER_PIPELINE_REPORT_SIMPLIFY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -43,5 +42,3 @@ typedef struct {
 // cw_simple_surface_free, also after a failure. CW_ERR_MEMORY.
 CwStatus cw_simplify_finish(CwSimplifier *simplifier, CwSimpleSurface *surface);
 void cw_simple_surface_free(CwSimpleSurface *surface);
-
-#endif

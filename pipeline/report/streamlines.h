@@ -2,8 +2,7 @@
 // Evenly spaced streamlines of a flow that is known by pixel. Method: B. Jobard and W. Lefer, "Creating evenly-spaced
 // streamlines of arbitrary density", Visualization in Scientific Computing '97, Springer, 1997: each line begins beside
 // another, and ends where it comes too near to one.
-#ifndef CUTWATER_PIPELINE_REPORT_STREAMLINES_H
-#define CUTWATER_PIPELINE_REPORT_STREAMLINES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -29,5 +28,3 @@ typedef struct {
 // entry; free it with cw_streamlines_free, also after a failure. CW_ERR_MEMORY.
 CwStatus cw_streamlines_make(const CwPixelFlow *flow, double apart, CwStreamlines *lines);
 void cw_streamlines_free(CwStreamlines *lines);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The boundary of a region by itself, and its faces of both kinds seen alike.
-#ifndef CUTWATER_PIPELINE_REPORT_SURFACE_H
-#define CUTWATER_PIPELINE_REPORT_SURFACE_H
+#pragma once
 
 #include "pipeline/mesh/region_items.h"
 
@@ -29,5 +28,3 @@ static inline CwSurfaceFace cw_surface_face(const CwRegionData *surface, int32_t
   for (int k = 0; k < face.count; k++) face.x[k] = surface->points[face.corner[k]];
   return face;
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A first look at the boundary of the mesh, region by region: where the places are that the pictures show,
 // and how far each view reaches.
-#ifndef CUTWATER_PIPELINE_REPORT_SURVEY_H
-#define CUTWATER_PIPELINE_REPORT_SURVEY_H
+#pragma once
 
 #include "pipeline/mesh/region_read.h"
 #include "pipeline/parallel/ranks.h"
@@ -58,5 +57,3 @@ int cw_survey_wall(const CwSurvey *survey, CwSurveyWall wall, double radius, dou
 // (1) behind it, m; NAN where one of them is missing at its radius.
 double cw_survey_span(const CwSurvey *survey, double share, const double x[3]);
 int cw_survey_has_span(const CwSurvey *survey); // whether both walls are there somewhere
-
-#endif

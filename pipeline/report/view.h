@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The picture that turns in the browser (viewer.js): the boundary of the mesh but its interfaces, by patch, decimated
 // to a size that does not depend on that of the mesh.
-#ifndef CUTWATER_PIPELINE_REPORT_VIEW_H
-#define CUTWATER_PIPELINE_REPORT_VIEW_H
+#pragma once
 
 #include "pipeline/mesh/region_read.h"
 #include "pipeline/parallel/ranks.h"
@@ -49,5 +48,3 @@ void cw_view_free(CwView *view);
 
 // Whether a part is to be seen at first: of the rotor what the page's first picture shows, and no inlets and outlets.
 int cw_view_shown(const CwMesh *mesh, const CwViewPart *part);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Runs the exporter, and the programs that judge its files, in folders of their own.
-#ifndef CUTWATER_TESTS_EXPORT_STAGE_RUN_H
-#define CUTWATER_TESTS_EXPORT_STAGE_RUN_H
+#pragma once
 
 #include "tests/export/synthetic_run.h"
 
@@ -29,5 +28,3 @@ int stage_walls_set(const char *run, const char *wall, const char *y_plus, char 
 
 // Fails the test where a program cannot be called: what it would have judged has not been judged.
 void stage_need_program(const char *name);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A meshed run of a toy pump: an annulus with straight blades as rotor, a wider annulus as stator, in several
 // regions, with every patch of a real run. Prisms lie on the two flat walls, tetrahedra between them.
-#ifndef CUTWATER_TESTS_EXPORT_SYNTHETIC_RUN_H
-#define CUTWATER_TESTS_EXPORT_SYNTHETIC_RUN_H
+#pragma once
 
 // One annulus: cells along the radius, around and along the axis (at least 3; the outermost are prisms), and
 // the number of regions, divided by planes through the axis.
@@ -24,5 +23,3 @@ SyntheticPump synthetic_pump(void);
 // Writes mesh/ into the folder `run`, which it makes. Returns 0, or -1 with a
 // message on standard error.
 int synthetic_run_write(const char *run, const SyntheticPump *pump);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Cases of the library and cases of a duty alone, and designs, pumps and rotors made of them, for tests in C and C++;
 // each fails the test where the program would.
-#ifndef CUTWATER_TESTS_GEOMETRY_PAPER_ROTOR_H
-#define CUTWATER_TESTS_GEOMETRY_PAPER_ROTOR_H
+#pragma once
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
@@ -30,6 +29,4 @@ void volumes_agree(const CwDesign *design, const CwMeasuredSolid *solid, double 
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Table 3 of the paper with the swirl that its wrap gives, for tests in C and C++.
-#ifndef CUTWATER_TESTS_GEOMETRY_PAPER_VOLUTE_H
-#define CUTWATER_TESTS_GEOMETRY_PAPER_VOLUTE_H
+#pragma once
 
 #include <math.h>
 #include <string.h>
@@ -32,5 +31,3 @@ static inline CwVoluteInput volute_of_paper(void) {
   input.discharge_pipe_length = 0.1;
   return input;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The faces that wait for their other side, in a hash table that grows and shrinks with them.
-#ifndef CUTWATER_TESTS_MEASURE_CGNS_AUDIT_FACES_H
-#define CUTWATER_TESTS_MEASURE_CGNS_AUDIT_FACES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -29,5 +28,3 @@ void faces_prefetch(const Faces *faces, const FaceKey *key);
 
 // Takes the face out where its other side waits (FACE_MATCHED); else it waits itself.
 FaceResult faces_meet(Faces *faces, const FaceKey *key);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a CGNS file holds, by HDF5 alone. Whatever is wrong ends the program with one line.
-#ifndef CUTWATER_TESTS_MEASURE_CGNS_AUDIT_FILE_H
-#define CUTWATER_TESTS_MEASURE_CGNS_AUDIT_FILE_H
+#pragma once
 
 #include <hdf5.h>
 #include <stdint.h>
@@ -71,5 +70,3 @@ void points_free(Points *points);
 // a condition, and lie where they say: returns the largest distance between a face's centre and its place in the face
 // that it names, over the longest edge of the two; above 1 is a fault.
 double audit_connections(const AuditFile *file, int zone, Points *points);
-
-#endif

@@ -2,8 +2,7 @@
 // A domain's regions filled by Chew's algorithm and by the rule of region numbers, from the same surfaces, by the same
 // ranks: what each takes and sends. Regions are owned as chew_exchange.h says; seconds are of the processor, so that
 // waits and what else runs on the machine do not count, and of the clock.
-#ifndef CUTWATER_TESTS_MEASURE_CHEW_DOMAIN_H
-#define CUTWATER_TESTS_MEASURE_CHEW_DOMAIN_H
+#pragma once
 
 #include "chew_exchange.h"
 
@@ -29,5 +28,3 @@ CwStatus cw_rule_domain(const CwRegionInput *from, const CwChewOwners *owners, c
 
 // Adds up the figures of all ranks; wall_seconds, rounds and splits are the greatest. Collective.
 void cw_chew_sum(const CwChewOwners *owners, CwChewFigures *figures);
-
-#endif

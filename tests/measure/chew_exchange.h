@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What regions tell one another in a round of Chew's algorithm: which points encroach upon the interfaces that they
 // share. One message goes each way between two adjacent regions, an empty one too, since the other waits for it.
-#ifndef CUTWATER_TESTS_MEASURE_CHEW_EXCHANGE_H
-#define CUTWATER_TESTS_MEASURE_CHEW_EXCHANGE_H
+#pragma once
 
 #include <mpi.h>
 
@@ -31,5 +30,3 @@ void cw_chew_owners_free(CwChewOwners *owners);
 // the traffic. [out] asked: caller frees. Collective.
 CwStatus cw_chew_exchange(const CwChewOwners *owners, const CwChewInterface *interface, const CwChewRegion *region,
                           CwChewTraffic *traffic, int32_t *count, CwChewAsked **asked);
-
-#endif

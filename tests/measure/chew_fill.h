@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the refinement of a region comes to: tetrahedra by the kernel's own last steps, as a region file.
-#ifndef CUTWATER_TESTS_MEASURE_CHEW_FILL_H
-#define CUTWATER_TESTS_MEASURE_CHEW_FILL_H
+#pragma once
 
 #include "chew_points.h"
 #include "mesher/region/region_file.h"
@@ -31,5 +30,3 @@ CwStatus cw_chew_fill(const CwRegionInput *from, const CwChewSurface *surface, c
 // measures the files of regions.
 CwStatus cw_chew_region_mesh(const char *domain, int32_t region, const CwChewSurface *surface, const CwFill *fill,
                              CwRegionMesh *mesh);
-
-#endif

@@ -3,8 +3,7 @@
 // Delaunay meshing, 1997): triangulations that both regions split. Each rank holds those of its regions. A split
 // follows from the interface and from the points of both regions that encroach upon it, which they send one another, so
 // that both sides get the same bits without a further message.
-#ifndef CUTWATER_TESTS_MEASURE_CHEW_INTERFACES_H
-#define CUTWATER_TESTS_MEASURE_CHEW_INTERFACES_H
+#pragma once
 
 #include "mesher/network/plane_map.h"
 #include "mesher/region/region_input.h"
@@ -44,5 +43,3 @@ CwStatus cw_chew_interface_spheres(const CwChewInterface *interface, int32_t ind
 // (encroach.h). Points come last. [in] asked: in an order that is the same for both regions. [out] added.
 CwStatus cw_chew_interface_split(const CwRegionInput *from, int32_t count, const CwChewAsked *asked,
                                  CwChewInterface *interface, int32_t *added);
-
-#endif

@@ -4,8 +4,7 @@
 // as long as their spheres are empty, and the last step recovers what is missing of the fixed ones. Layer top and open
 // patches are fixed: a centre near them, or in their spheres, is left out, as in a fill. A centre in the sphere of an
 // interface triangle is put aside, and the triangle's split is asked for.
-#ifndef CUTWATER_TESTS_MEASURE_CHEW_POINTS_H
-#define CUTWATER_TESTS_MEASURE_CHEW_POINTS_H
+#pragma once
 
 #include "chew_interfaces.h"
 #include "mesher/cad/rays.h"
@@ -68,5 +67,3 @@ CwStatus cw_chew_region_add(CwChewRegion *region, const CwChewInterface *interfa
 // interface[0..count) that the region has. Fills `asked`. Deterministic.
 CwStatus cw_chew_region_refine(const CwRegionInput *from, const CwChewBounds *bounds, int32_t count,
                                const CwChewInterface *interface, CwChewRegion *region);
-
-#endif

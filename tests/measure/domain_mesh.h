@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // All regions of one domain of a finished run.
-#ifndef CUTWATER_TESTS_MEASURE_DOMAIN_MESH_H
-#define CUTWATER_TESTS_MEASURE_DOMAIN_MESH_H
+#pragma once
 
 #include "mesher/region/region_file.h"
 
@@ -13,5 +12,3 @@ typedef struct {
 // Reads MESH_DIR/DOMAIN-0001.h5 and those after it.
 CwStatus cw_domain_mesh_read(const char *mesh_dir, const char *domain, CwDomainMesh *mesh);
 void cw_domain_mesh_free(CwDomainMesh *mesh);
-
-#endif

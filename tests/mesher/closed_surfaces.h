@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Closed triangulations for tests: boxes and spheres, appended to one surface, with their normals out or in.
-#ifndef CUTWATER_TESTS_MESHER_CLOSED_SURFACES_H
-#define CUTWATER_TESTS_MESHER_CLOSED_SURFACES_H
+#pragma once
 
 #include "mesher/fill/fill.h"
 #include "surfaces.h"
@@ -94,5 +93,3 @@ static inline double surface_volume(const Surface *s) {
   }
   return (double)(six / 6.0);
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A box with partition planes placed by hand, and its surfaces, for tests that fill its regions.
-#ifndef CUTWATER_TESTS_MESHER_DIVIDED_BOX_H
-#define CUTWATER_TESTS_MESHER_DIVIDED_BOX_H
+#pragma once
 
 #include <cmath>
 #include <string>
@@ -128,5 +127,3 @@ static inline void make_surfaces(Box &box) {
   for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);
 }
-
-#endif

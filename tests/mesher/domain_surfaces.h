@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The products of one domain from its network to its interfaces, for tests that make them in turn.
-#ifndef CUTWATER_TESTS_MESHER_DOMAIN_SURFACES_H
-#define CUTWATER_TESTS_MESHER_DOMAIN_SURFACES_H
+#pragma once
 
 extern "C" {
 #include "mesher/boundary/boundary.h"
@@ -39,5 +38,3 @@ struct DomainSurfaces {
     return {nullptr, &input, &wall_curves, &surface, &layers, &interfaces};
   }
 };
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A surface as the input of a fill, and what a fill of it must be.
-#ifndef CUTWATER_TESTS_MESHER_FILL_FAULT_H
-#define CUTWATER_TESTS_MESHER_FILL_FAULT_H
+#pragma once
 
 #include "closed_surfaces.h"
 #include "mesher/fill/fill.h"
@@ -18,5 +17,3 @@ typedef struct {
   double dihedral_least, aspect_mean, aspect_most;
 } FillShape;
 FillShape check_fill(const Surface *surface, const CwFill *fill);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A step in the floor of a block, with a fillet that a coarse mesh leaves out.
-#ifndef CUTWATER_TESTS_MESHER_FILLETED_STEP_H
-#define CUTWATER_TESTS_MESHER_FILLETED_STEP_H
+#pragma once
 
 #include <cmath>
 #include <vector>
@@ -31,5 +30,3 @@ inline TopoDS_Shape filleted_step(bool crest) {
   for (size_t i = 0; i + 1 < line.size(); i++) wire.Add(BRepBuilderAPI_MakeEdge(line[i], line[i + 1]));
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 20, 0)).Shape();
 }
-
-#endif

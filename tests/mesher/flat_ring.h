@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A flat ring of four equal passages with the copies of its nodes: 10 to 20 mm from the axis, fluid above.
-#ifndef CUTWATER_TESTS_MESHER_FLAT_RING_H
-#define CUTWATER_TESTS_MESHER_FLAT_RING_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -50,5 +49,3 @@ static inline void flat_ring(FlatRing *ring) {
 static inline CwNodeImages ring_images(FlatRing *ring) {
   return (CwNodeImages){.capacity = POINTS, .next = ring->next, .turns = ring->turns};
 }
-
-#endif

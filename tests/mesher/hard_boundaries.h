@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Closed boundaries that are hard to fill, all made by formulas.
-#ifndef CUTWATER_TESTS_MESHER_HARD_BOUNDARIES_H
-#define CUTWATER_TESTS_MESHER_HARD_BOUNDARIES_H
+#pragma once
 
 #include "closed_surfaces.h"
 
 // How many there are; one of them, with its name and the edge length inside, m.
 int hard_boundary_count(void);
 const char *hard_boundary(int number, Surface *surface, double *size);
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Those of the hard boundaries that no set of tetrahedra on their corners alone fills, or nearly none: twisted prisms,
 // notches, combs and stars.
-#ifndef CUTWATER_TESTS_MESHER_HARD_POLYHEDRA_H
-#define CUTWATER_TESTS_MESHER_HARD_POLYHEDRA_H
+#pragma once
 
 #include "closed_surfaces.h"
 
@@ -17,5 +16,3 @@ typedef struct {
 
 extern const HardBoundary hard_polyhedra[];
 extern const int hard_polyhedra_count;
-
-#endif

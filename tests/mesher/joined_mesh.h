@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What must hold for every mesh of tetrahedra between two operations.
-#ifndef CUTWATER_TESTS_MESHER_JOINED_MESH_H
-#define CUTWATER_TESTS_MESHER_JOINED_MESH_H
+#pragma once
 
 #include "mesher/common/predicates.h"
 #include "mesher/common/quality.h"
@@ -34,5 +33,3 @@ static inline double joined_volume6(const CwTetMesh *mesh) {
   }
   return six;
 }
-
-#endif

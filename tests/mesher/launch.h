@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A test that starts itself under mpirun: alone it is the test, there it is one rank of the run that a test asks for.
-#ifndef CUTWATER_TESTS_MESHER_LAUNCH_H
-#define CUTWATER_TESTS_MESHER_LAUNCH_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,5 +83,3 @@ static inline void launch_and_find_right(int ranks, const char *mode, int times)
   assert_int_equal(sum_of(" WRONG ", &lines), 0);
   assert_int_equal(lines, times * ranks);
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A wall with its layers, and what must hold for every one: told apart from the module's own judgement by
 // other formulas.
-#ifndef CUTWATER_TESTS_MESHER_LAYERS_CASE_H
-#define CUTWATER_TESTS_MESHER_LAYERS_CASE_H
+#pragma once
 
 #include <stdio.h>
 
@@ -164,5 +163,3 @@ static inline void case_run(Case *c, const char *name) {
       assert_true(fabs(away) < 1e-12);
     }
 }
-
-#endif

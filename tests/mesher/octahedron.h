@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A closed background triangulation small enough to know by heart: |x| + |y| + |z| = 1, and inside it, where
 // `hollow`, the same turned in at 1/4 of the size: a hole in the domain.
-#ifndef CUTWATER_TESTS_MESHER_OCTAHEDRON_H
-#define CUTWATER_TESTS_MESHER_OCTAHEDRON_H
+#pragma once
 
 #include <stdint.h>
 
@@ -32,5 +31,3 @@ static inline CwBackground octahedron(Octahedron *shape, int hollow) {
   background.triangle = shape->triangle;
   return background;
 }
-
-#endif

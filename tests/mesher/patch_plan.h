@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Plans of patches for the patch mesher, and what must hold of every mesh of one.
-#ifndef CUTWATER_TESTS_MESHER_PATCH_PLAN_H
-#define CUTWATER_TESTS_MESHER_PATCH_PLAN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -52,5 +51,3 @@ Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int euler,
                        int32_t *triangle_count);
 
 void check_good(Figures figures, double least, double mean);
-
-#endif

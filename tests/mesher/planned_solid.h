@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A small solid as the planner sees it: three regions to be, edges of about 2 mm and layers of 1 mm, as a rule, on all
 // its faces.
-#ifndef CUTWATER_TESTS_MESHER_PLANNED_SOLID_H
-#define CUTWATER_TESTS_MESHER_PLANNED_SOLID_H
+#pragma once
 
 #include <vector>
 
@@ -53,5 +52,3 @@ struct PlannedSolid {
     cw_cad_close(&cad);
   }
 };
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The order of a region's points and tetrahedra.
-#ifndef CUTWATER_TESTS_MESHER_POINT_ORDER_H
-#define CUTWATER_TESTS_MESHER_POINT_ORDER_H
+#pragma once
 
 extern "C" {
 #include "mesher/common/vec.h"
@@ -25,5 +24,3 @@ static inline void check_point_order(const CwRegionMesh &mesh, double size) {
     before = last;
   }
 }
-
-#endif

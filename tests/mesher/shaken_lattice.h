@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Points of a body-centred lattice, shaken and connected, for tests of what improves tetrahedra.
-#ifndef CUTWATER_TESTS_MESHER_SHAKEN_LATTICE_H
-#define CUTWATER_TESTS_MESHER_SHAKEN_LATTICE_H
+#pragma once
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -35,5 +34,3 @@ static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, doub
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])(*x), mesh), CW_OK);
   return count;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Points that regions of a domain share, gathered from one mesh after another.
-#ifndef CUTWATER_TESTS_MESHER_SHARED_POINTS_H
-#define CUTWATER_TESTS_MESHER_SHARED_POINTS_H
+#pragma once
 
 #include <map>
 #include <vector>
@@ -35,5 +34,3 @@ private:
   std::map<int64_t, std::vector<double>> point;
   std::map<int64_t, int> held;
 };
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Small exact solids for the tests of the mesher, written as the geometry stage writes its own: a B-rep in mm
 // and faces.csv, in a temporary folder.
-#ifndef CUTWATER_TESTS_MESHER_SOLIDS_H
-#define CUTWATER_TESTS_MESHER_SOLIDS_H
+#pragma once
 
 #include <cmath>
 #include <cstdio>
@@ -94,5 +93,3 @@ inline CwCad *open_solid(const TopoDS_Shape &solid, const PatchOfFace &patch_of 
   check(cw_cad_open(folder.path.c_str(), "part", &cad));
   return cad;
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Shapes for closed boundaries, appended to a surface (its orientation: 1 out, 0 in), and what bends or
 // refines it. Lengths in m, angles in radians.
-#ifndef CUTWATER_TESTS_MESHER_SURFACE_SHAPES_H
-#define CUTWATER_TESTS_MESHER_SURFACE_SHAPES_H
+#pragma once
 
 #include "closed_surfaces.h"
 #include "tests/draw.h"
@@ -43,5 +42,3 @@ void shape_refine(Surface *s, const double place[3], double least, double growth
 // Scales along the axes; turns about z by a, then about x by b.
 void shape_scale(Surface *s, double x, double y, double z);
 void shape_turn(Surface *s, double a, double b);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Small generators of test surfaces: structured grids, welded where they meet.
-#ifndef CUTWATER_TESTS_MESHER_SURFACES_H
-#define CUTWATER_TESTS_MESHER_SURFACES_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -170,5 +169,3 @@ static inline void surface_free(Surface *s) {
   free(s->triangle);
   memset(s, 0, sizeof *s);
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A tank with n equal sides and a hub in its middle, divided into sectors, up to its network of curves.
-#ifndef CUTWATER_TESTS_MESHER_TANK_H
-#define CUTWATER_TESTS_MESHER_TANK_H
+#pragma once
 
 #include <cmath>
 #include <cstring>
@@ -142,5 +141,3 @@ struct Tank {
     cw_cad_close(&cad);
   }
 };
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The shape of a mesh of tetrahedra before and after they are improved, and what their list keeps of them.
-#ifndef CUTWATER_TESTS_MESHER_TET_SUMS_H
-#define CUTWATER_TESTS_MESHER_TET_SUMS_H
+#pragma once
 
 #include <math.h>
 
@@ -51,5 +50,3 @@ static inline void assert_qualities_kept(const CwTetWork *w) {
     assert_true(listed);
   }
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Case files with one fault each: the line of a good case that is replaced, and what the reader says.
-#ifndef CUTWATER_TESTS_PIPELINE_BAD_CASES_H
-#define CUTWATER_TESTS_PIPELINE_BAD_CASES_H
+#pragma once
 
 typedef struct {
   int line;
@@ -258,5 +257,3 @@ static const BadCase bad_cases[] = {
      "speed nq = "
      "679.5; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)"},
 };
-
-#endif

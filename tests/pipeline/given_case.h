@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A case of a few lines, read from a file of the test's folder.
-#ifndef CUTWATER_TESTS_PIPELINE_GIVEN_CASE_H
-#define CUTWATER_TESTS_PIPELINE_GIVEN_CASE_H
+#pragma once
 
 #include "pipeline/case_read.h"
 #include "tests/test_folder.h"
@@ -18,5 +17,3 @@ static inline CwStatus read_given(const char *head, const char *lines, CwCase *t
   unlink(path);
   return status;
 }
-
-#endif

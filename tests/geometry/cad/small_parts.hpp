@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Parts and a section `cad` for tests of single modules: solids in mm, the axis +z, nothing healed or divided.
-#ifndef CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PARTS_HPP
-#define CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PARTS_HPP
+#pragma once
 
 #include <cstdio>
 #include <cstdlib>
@@ -84,5 +83,3 @@ inline TopoDS_Shape small_box(double x, double y, double z, double dx, double dy
 }
 
 #include "tests/unit_test.h"
-
-#endif

@@ -2,8 +2,7 @@
 // A pump of primitives for tests, mm: the wheel's water is a disc of radius 50 with an inlet pipe of radius 20 along -z
 // and six straight blades; the casing is a ring from radius 50 to 80, thicker than the wheel, with an outlet pipe along
 // x.
-#ifndef CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PUMP_HPP
-#define CUTWATER_TESTS_GEOMETRY_CAD_SMALL_PUMP_HPP
+#pragma once
 
 #include <cmath>
 #include <cstring>
@@ -63,5 +62,3 @@ inline void small_write(const std::string &path, const std::initializer_list<Top
   for (const TopoDS_Shape &shape : shapes) builder.Add(all, shape);
   BRepTools::Write(all, path.c_str());
 }
-
-#endif
