@@ -127,7 +127,8 @@ def casing(r1, neck, r2, width, middle, exit_radius, length):
     return fused(ring, cut(pipe, bore))
 
 
-CASE = """# The drawing {name} of tests/cad.
+CASE = """# SPDX-License-Identifier: AGPL-3.0-or-later
+# The drawing {name} of tests/cad.
 name: {name}
 
 operating_point:
@@ -139,10 +140,10 @@ cad:
   files: [pump.step]
 {cad}
 walls:
-  y_plus_blade: 30
-  y_plus_hub_shroud: 30
-  y_plus_volute: 30
-  y_plus_pipe: 30
+  y_plus_blade: {y_plus}
+  y_plus_hub_shroud: {y_plus}
+  y_plus_volute: {y_plus}
+  y_plus_pipe: {y_plus}
   layer_count: {layers}
   growth_ratio: {growth}
 
@@ -151,8 +152,7 @@ mesh:
 """
 
 
-def main(name, draw, cad, flow=25, head=10, speed=1450, cells=300000, fluid="",
-         layers=4, growth=1.3):
+def main(name, draw, cad, flow=25, head=10, speed=1450, cells=300000, fluid="", y_plus=30, layers=4, growth=1.3):
     """Draws into the folder of the command line. `draw` returns the bodies, in the order of their numbers in `cad`."""
     if len(sys.argv) != 2:
         sys.exit(f"usage: {name}.py FOLDER")
@@ -165,4 +165,4 @@ def main(name, draw, cad, flow=25, head=10, speed=1450, cells=300000, fluid="",
     gmsh.write(str(folder / "pump.step"))
     gmsh.finalize()
     (folder / "case.yaml").write_text(CASE.format(name=name, flow=flow, head=head, speed=speed, fluid=fluid, cad=cad,
-                                                   cells=cells, layers=layers, growth=growth))
+                                                   cells=cells, y_plus=y_plus, layers=layers, growth=growth))

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """pictures.py [--bin build/bin]
 
-Makes the pictures of docs/own-cad.md anew, of the wheel with two eyes: docs/own-cad.svg is FreeCAD's drawing of the
-solids in its STEP file (freecadcmd, Debian's freecad), docs/own-cad-faces.svg two views of the geometry stage's picture
-of numbered faces."""
+Makes the pictures of docs/own-cad.md anew, of cases/own-cad: docs/own-cad.svg is FreeCAD's drawing of the solids in its
+STEP file (freecadcmd, Debian's freecad), docs/own-cad-faces.svg two views of the geometry stage's picture of numbered
+faces."""
 import argparse
 import os
 import pathlib
@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+CASE = SOURCE / "cases/own-cad"
 VIEW = 560  # side of a view in faces_NAME.svg, px
 
 # Edges of each solid as they are seen, hidden ones left out, side by side.
@@ -63,15 +64,13 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
-        subprocess.run(["/usr/bin/python3", SOURCE / "tests/cad/double_suction.py", folder], check=True,
-                       stdout=subprocess.DEVNULL)
-        subprocess.run([options.bin / "cutwater-geometry", "--case", folder / "case.yaml", "--run", folder], check=True)
+        subprocess.run([options.bin / "cutwater-geometry", "--case", CASE / "case.yaml", "--run", folder], check=True)
         (SOURCE / "docs/own-cad-faces.svg").write_text(two_views((folder / "geometry/faces_rotor.svg").read_text()))
         (folder / "drawing.py").write_text(FREECAD)
         drawing = SOURCE / "docs/own-cad.svg"
         drawing.unlink(missing_ok=True)
         subprocess.run(["freecadcmd", folder / "drawing.py"], check=True, stdin=subprocess.DEVNULL,
-                       env={**os.environ, "STEP_FILE": str(folder / "pump.step"), "SVG_FILE": str(drawing)})
+                       env={**os.environ, "STEP_FILE": str(CASE / "pump.step"), "SVG_FILE": str(drawing)})
         if not drawing.exists():
             sys.exit("pictures: FreeCAD has drawn nothing")
 

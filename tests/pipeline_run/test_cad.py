@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The pumps of tests/cad, drawn with the OpenCASCADE kernel of gmsh as a designer would draw them: each from its STEP
-file through all stages to the start of a flow. CUTWATER_DRAWINGS names them, CUTWATER_DRAWING_CELLS the size."""
+file through all stages to the start of a flow. CUTWATER_DRAWINGS names them, CUTWATER_DRAWING_CELLS the size. That of
+cases/own-cad is one."""
 import importlib.util
 import os
 import re
@@ -18,7 +19,8 @@ ROTATING = {"rotor"}
 DOMAINS = {"diffuser": ["rotor", "diffuser", "casing"], "side_chamber": ["rotor", "chamber", "casing"]}
 PAIRS = {"diffuser": 2, "side_chamber": 2}
 # Equal passages, of which one is meshed; 1: fillets differ, and in few cells planes beside blades leave no room.
-PASSAGES = {"volute": 6, "diffuser": 7, "semi_open": 6, "side_chamber": 1, "fillets": 1, "double_suction": 6}
+PASSAGES = {"volute": 6, "diffuser": 7, "semi_open": 6, "side_chamber": 1, "fillets": 1, "double_suction": 6,
+            "own_cad": 6}
 # Of a face of an interface, what the other side covers at least: facets of a ring gap as wide as an edge part more.
 COVERED = {"side_chamber": 0.95}
 # What checkMesh may say of sound cells: thin prisms; layers in wedges; layers in gaps narrower than the cells.
@@ -27,7 +29,30 @@ MOST_SKEW = 10
 MOST_BARE = 1  # % of the wall of a domain, without layers
 
 
+def solids(path):
+    """Volume, and sum of the areas of faces, of each solid in a STEP file."""
+    import gmsh
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.model.occ.importShapes(str(path))
+    gmsh.model.occ.synchronize()
+    found = [(gmsh.model.occ.getMass(*body),
+              sum(gmsh.model.occ.getMass(*face) for face in gmsh.model.getBoundary([body], oriented=False)))
+             for body in gmsh.model.getEntities(3)]
+    gmsh.finalize()
+    return found
+
+
 class Drawn(unittest.TestCase):
+    def test_the_case_is_the_drawing(self):
+        drawn, kept = fresh("cad-kept"), SOURCE / "cases/own-cad"
+        said(self, [sys.executable, SOURCE / "tests/cad/own_cad.py", drawn])
+        self.assertEqual((drawn / "case.yaml").read_text(), (kept / "case.yaml").read_text())
+        self.assertEqual(len(solids(kept / "pump.step")), 2)
+        for made, of in zip(solids(drawn / "pump.step"), solids(kept / "pump.step"), strict=True):
+            for value, other in zip(made, of):
+                self.assertAlmostEqual(value / other, 1, delta=1e-9)
+
     def through(self, name):
         run = fresh(f"cad-{name}")
         said(self, [sys.executable, SOURCE / "tests/cad" / f"{name}.py", run])
