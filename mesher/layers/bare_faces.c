@@ -58,6 +58,12 @@ static int can_stand(const CwCad *cad, const Place *place, int32_t without) {
          CW_LAYERS_LEAST_COSINE;
 }
 
+static int32_t open_face(const CwCad *cad, const Place *place) {
+  for (int32_t i = 0; i < place->count; i++)
+    if (cw_cad_patch_kind(cad, cw_cad_face_patch(cad, place->face[i])) != CW_PATCH_WALL) return place->face[i];
+  return -1;
+}
+
 // Leaves faces bare until a column can stand at the place; returns their number.
 static int32_t settle(CwCad *cad, const double *area, const Place *place, CwBareFaces *bare) {
   int32_t before = bare->count;
@@ -73,6 +79,7 @@ static int32_t settle(CwCad *cad, const double *area, const Place *place, CwBare
     cw_cad_face_leave_bare(cad, chosen);
     if (bare->count++ == 0) {
       bare->first = chosen;
+      bare->open = open_face(cad, place);
       cw_copy(place->x, bare->at);
     }
   }
@@ -116,13 +123,23 @@ done:
   return status;
 }
 
+// Of those on which layers grow.
+static double area_of_walls(const CwCad *cad, const double *area) {
+  double sum = 0;
+  for (int f = 0; f < cw_cad_face_count(cad); f++)
+    if (cw_cad_face_is_wall(cad, f)) sum += area[f];
+  return sum;
+}
+
 CwStatus cw_bare_faces_find(CwCad *cad, const double *area, CwBareFaces *bare) {
   CwStatus status = CW_OK;
-  *bare = (CwBareFaces){.first = -1};
+  *bare = (CwBareFaces){.first = -1, .open = -1};
+  const double walls = area_of_walls(cad, area);
   for (int32_t made = 1; made > 0;) {
     made = settle_edges(cad, area, bare);
     CW_TRY(settle_corners(cad, area, bare, &made));
   }
+  bare->share = bare->count ? 1 - area_of_walls(cad, area) / walls : 0;
 done:
   return status;
 }

@@ -11,7 +11,9 @@
 typedef struct {
   int32_t count; // faces left bare
   int32_t first; // one of them, -1: none
+  int32_t open;  // the inlet, outlet, symmetry or interface that it meets at this place, -1: none
   double at[3];  // place of the first, in the unit of the model
+  double share;  // of the area of the walls
 } CwBareFaces;
 
 // Leaves walls of the CAD bare until columns can stand on all others: at each place without a direction the face of

@@ -8,7 +8,6 @@
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
 #include "mesher/common/model_unit.h"
-#include "mesher/layers/bare_faces.h"
 #include "mesher/layers/thickness_gradation.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
@@ -104,27 +103,14 @@ done:
   return status;
 }
 
-CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain) {
+CwStatus cw_domain_leave_bare(CwDomain *domain, CwBareFaces *bare) {
   CwStatus status = CW_OK;
   const CwBackground *background = &domain->background;
-  CwBareFaces bare;
-  double *area = NULL, centre[3], walls = 0, without = 0;
+  double *area = NULL, centre[3];
   CW_NEW(area, cw_cad_face_count(domain->cad));
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    double of = cw_background_area(background, t, centre);
-    area[background->face[t]] += of;
-    if (cw_cad_face_is_wall(domain->cad, background->face[t])) walls += of;
-  }
-  CW_TRY(cw_bare_faces_find(domain->cad, area, &bare));
-  if (bare.count == 0) goto done;
-  for (int f = 0; f < cw_cad_face_count(domain->cad); f++)
-    if (cw_cad_face_is_wall(domain->cad, f)) without += area[f];
-  cw_log_warn(log,
-              "%s: %d faces, %.2g %% of the wall, carry no layers: no direction sees all faces about a corner or an "
-              "edge of theirs and lies in the open faces there, first at (%.6g, %.6g, %.6g) mm of face '%s'; "
-              "round the solid there where its y+ matters",
-              domain->name, bare.count, 100 * (walls - without) / walls, CW_MM(bare.at),
-              cw_cad_face_name(domain->cad, bare.first));
+  for (int32_t t = 0; t < background->triangle_count; t++)
+    area[background->face[t]] += cw_background_area(background, t, centre);
+  CW_TRY(cw_bare_faces_find(domain->cad, area, bare));
 done:
   free(area);
   return status;

@@ -6,6 +6,7 @@
 #include "mesher/cad/face_radius.h"
 #include "mesher/cad/sharp_edge.h"
 #include "mesher/cad/symmetry.h"
+#include "mesher/layers/bare_faces.h"
 #include "mesher/parallel/context.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_build.h"
@@ -86,8 +87,8 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
 // Starts the tessellation of the background, with this deflection of its chords, and takes its faces up.
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
-// Walls on which no layers can stand become bare, with a warning.
-CwStatus cw_domain_leave_bare(CwLog *log, CwDomain *domain);
+// Walls on which no layers can stand become bare: those that still were not, [out] `bare`.
+CwStatus cw_domain_leave_bare(CwDomain *domain, CwBareFaces *bare);
 
 // First height asked on a face, in the model's unit: that of its patch, or the greatest that its bend has room for.
 double cw_domain_first_height(const CwDomain *domain, int face);

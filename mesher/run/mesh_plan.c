@@ -237,6 +237,17 @@ static void tell_layers(CwMeshRun *run) {
   }
 }
 
+static CwStatus leave_bare(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwBareFaces bare;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    CW_TRY(cw_domain_leave_bare(&run->domain[d], &bare));
+    cw_warn_of_bare(run->context.log, &run->domain[d], &bare, run->headlines);
+  }
+done:
+  return status;
+}
+
 // Once the sizes tell which faces are too narrow for the mesh: the same without them.
 static CwStatus leave_out_narrow(CwMeshRun *run) {
   CwStatus status = CW_OK;
@@ -244,7 +255,7 @@ static CwStatus leave_out_narrow(CwMeshRun *run) {
   cw_profiler_part(&run->context, "narrow faces");
   CW_TRY(cw_leave_out_narrow(run, &left));
   if (left == 0) goto done;
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
+  CW_TRY(leave_bare(run));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:
@@ -266,10 +277,8 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->model.domain_count, "domains"));
   CW_TRY(triangulate_domains(run));
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_domain_leave_bare(run->context.log, &run->domain[d]));
-    CW_TRY(cw_domain_measure_walls(&run->context, &run->domain[d]));
-  }
+  CW_TRY(leave_bare(run));
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_measure_walls(&run->context, &run->domain[d]));
   cw_start_layers(run);
   for (int d = 0; d < run->model.domain_count; d++) {
     cw_warn_of_first_heights(run->context.log, &run->domain[d], run->headlines);

@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "mesher/layers/bare_faces.h"
+#include "mesher/run/layer_record.h"
 }
 
 #include "tests/mesher/solids.h"
@@ -49,6 +50,23 @@ static void a_box_and_a_block_with_a_notch_have_none(void **state) {
   cw_cad_close(&cad);
 }
 
+// What the run begins with names the place and what mends it.
+static void is_a_headline(CwCad *cad, const CwBareFaces *bare, const char *remedy) {
+  CwLog *log = nullptr;
+  json_t *headlines = json_array();
+  CwDomain domain = {};
+  domain.name = "block";
+  domain.cad = cad;
+  check(cw_log_open("mesh", nullptr, 0, 0, &log));
+  cw_warn_of_bare(log, &domain, bare, headlines);
+  assert_int_equal(json_array_size(headlines), 1);
+  const std::string told = json_string_value(json_array_get(headlines, 0));
+  assert_string_equal(told.c_str(), cw_log_warning(log, 0));
+  if (told.find("block: ") != 0 || told.find(remedy) == std::string::npos) fail_msg("%s", told.c_str());
+  json_decref(headlines);
+  cw_log_close(&log);
+}
+
 // A wedge of 2 degrees: the sine of half of it is less than 0.05 on both sides. At 12 degrees it is 0.1.
 static void a_cusp_carries_none(void **state) {
   CwBareFaces bare;
@@ -56,7 +74,12 @@ static void a_cusp_carries_none(void **state) {
     CwCad *cad = open_solid(prism({{0, 0}, {100, 0}, {100, 100 * std::tan(degrees * M_PI / 180)}}));
     size_t found = bare_of(cad, &bare).size();
     if (degrees > 10) assert_int_equal(found, 0);
-    if (degrees < 10) assert_true(found >= 2);
+    if (degrees < 10) {
+      assert_true(found >= 2);
+      assert_int_equal(bare.open, -1);
+      assert_true(bare.share > 0 && bare.share < 1);
+      is_a_headline(cad, &bare, "round the solid there");
+    }
     cw_cad_close(&cad);
   }
 }
@@ -89,6 +112,9 @@ static void a_wall_that_goes_on_as_an_inlet_carries_none(void **state) {
   for (int f : found) of_strip += std::string(cw_cad_patch_name(cad, cw_cad_face_patch(cad, f))) == "strip";
   assert_int_equal(of_strip, 1);
   assert_near(bare.at[0], 0, 1e-12);
+  assert_true(bare.open >= 0);
+  assert_string_equal(cw_cad_patch_name(cad, cw_cad_face_patch(cad, bare.open)), "inlet");
+  is_a_headline(cad, &bare, "let 'inlet' cross the walls there");
   cw_cad_close(&cad);
 }
 
