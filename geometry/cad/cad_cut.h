@@ -5,6 +5,7 @@
 
 #include "geometry/cad/cad_file.h"
 #include "geometry/cad/cad_frame.h"
+#include "pipeline/log.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -12,8 +13,9 @@ extern "C" {
 
 // Replaces each body that the surface parts by its pieces, from the axis outward: NAME_1, NAME_2, and so on. What the
 // file says of a face goes with its pieces; faces on the surface have nothing of it. Does nothing without cad.cut;
-// CW_ERR_INPUT where the surface parts no body.
-CwStatus cw_cad_cut(const CwCaseCad *cad, const CwCadFrame *frame, CwCadBodies *bodies);
+// CW_ERR_INPUT where the surface parts no body. A surface that passes an edge round the axis within `tolerance`, m, is
+// moved onto it, and the log says so: beside it, it would leave strips as narrow as that.
+CwStatus cw_cad_cut(const CwCaseCad *cad, const CwCadFrame *frame, double tolerance, CwLog *log, CwCadBodies *bodies);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,17 @@
 static const double TOLERANCE = 0.01;
 enum { PIECES = 3 }; // of a closed face that does not rotate
 
+static double tolerance_of(const CwCaseCad *cad, double unit) {
+  return cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE * unit;
+}
+
+// What is meant by the unit of a model before there are parts: of a wheel that reaches as far as the cut.
+static double unit_of_cut(const CwCadCut *cut) {
+  double reach = fmax(0, cut->radius);
+  for (int i = 0; i < cut->count; i++) reach = fmax(reach, cut->meridian[i][0]);
+  return reach > 0 ? cw_solid_unit_of_pump(2 * reach) : 0;
+}
+
 static CwStatus read_parts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   CwStatus status = CW_OK;
   CwCadBodies *bodies = NULL;
@@ -25,12 +36,12 @@ static CwStatus read_parts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {
   cw_cad_frame_make(cad, &pump->frame);
   for (int i = 0; i < cad->files.count; i++)
     CW_TRY(cw_cad_file_read(cad->files.text[i], cad->unit, tolerance, &bodies));
-  CW_TRY(cw_cad_cut(cad, &pump->frame, bodies));
+  CW_TRY(cw_cad_cut(cad, &pump->frame, tolerance_of(cad, unit_of_cut(&cad->cut)), log, bodies));
   CW_NEW(domain, cw_cad_body_count(bodies));
   CW_TRY(cw_cad_solid_choice(cad, bodies, domain));
   CW_TRY(cw_cad_parts_make(cad, &pump->frame, bodies, domain, &pump->parts));
   const double unit = cw_cad_parts_unit(pump->parts);
-  pump->tolerance = cw_case_given(cad->tolerance) ? cad->tolerance : TOLERANCE * unit;
+  pump->tolerance = tolerance_of(cad, unit);
   CW_TRY(cw_cad_heal(pump->tolerance / unit, &pump->frame, log, pump->parts, &pump->fault));
 done:
   free(domain);
@@ -100,11 +111,13 @@ static CwStatus cut_contacts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) 
     char off[80] = "";
     cw_cad_frame_to_file(&pump->frame, contact->gap > 0 ? contact->at : pump->survey.face[f].at, at);
     if (contact->gap > 0) snprintf(off, sizeof off, " and is up to %.4g mm off it elsewhere", 1e3 * contact->gap);
-    CW_REQUIRE(contact->part < 0 || contact->share >= 1, CW_ERR_GEOMETRY,
-               "cad.domains: a face of %s still touches %s with a part of it%s, at (%.3f, %.3f, %.3f) mm; allowed: "
-               "domains that touch along whole faces, at the most cad.tolerance_mm, %.3g, apart",
-               cad->domain[pump->survey.face[f].part].name, cad->domain[contact->part].name, off, 1e3 * at[0],
-               1e3 * at[1], 1e3 * at[2], 1e3 * pump->tolerance);
+    CW_REQUIRE(
+        contact->part < 0 || contact->share >= 1, CW_ERR_GEOMETRY,
+        "cad.domains: a face of %s still touches %s with a part of it%s, at (%.3f, %.3f, %.3f) mm; allowed: "
+        "domains that touch along whole faces, at the most cad.tolerance_mm, %.3g, apart; draw the interface once "
+        "and use it for both",
+        cad->domain[pump->survey.face[f].part].name, cad->domain[contact->part].name, off, 1e3 * at[0], 1e3 * at[1],
+        1e3 * at[2], 1e3 * pump->tolerance);
   }
 done:
   return status;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One solid of water parted by a cylinder, a cone and a bent meridian: volumes by hand.
 
+#include <BRepAlgoAPI_Fuse.hxx>
+
 #include "cad/small_parts.hpp"
 
 extern "C" {
@@ -14,12 +16,12 @@ static CwCadBodies disc(double size = 1) {
   return {{body}};
 }
 
-static CwStatus cut(const CwCadCut &surface, CwCadBodies &bodies) {
+static CwStatus cut(const CwCadCut &surface, CwCadBodies &bodies, double tolerance = 0, CwLog *log = nullptr) {
   CwCaseCad cad = {};
   char name[] = "pump.step", *names[] = {name};
   cad.files = {1, names};
   cad.cut = surface;
-  return cw_cad_cut(&cad, &small_frame, &bodies);
+  return cw_cad_cut(&cad, &small_frame, tolerance, log, &bodies);
 }
 
 static void a_radius_parts_wheel_and_casing(void **) {
@@ -55,6 +57,35 @@ static void a_meridian_parts_it_too(void **) {
   assert_near(small_volume(bodies.body[0].solid), M_PI * 10 / 3 * (1600 + 2400 + 3600), 1e-3);
 }
 
+// A disc of radius 80 between z -5 and 5 and one of radius 50 between -9 and -5, fused: an edge at (50, -5).
+static CwCadBodies stepped() {
+  CwCadBodies bodies = disc();
+  bodies.body[0].solid = small_solid_of(BRepAlgoAPI_Fuse(bodies.body[0].solid, small_cylinder(-9, 50, 4)).Shape());
+  bodies.body[0].origin.assign(cw_cad_faces(bodies.body[0].solid).Extent(), {});
+  return bodies;
+}
+
+// Beside it, 0.008 mm off, the cut would leave a ring of wall as narrow: it is moved onto the edge.
+static void a_surface_a_hair_beside_an_edge_is_moved_onto_it(void **) {
+  CwLog *log = nullptr;
+  double along[][2] = {{0.050008, -0.012}, {0.049994, 0.008}}, ends[][2] = {{0.04, 0.005}, {0.049995, -0.005006}};
+  const CwCadCut cuts[] = {{0.050008, 0, nullptr}, {0.049992, 0, nullptr}, {0, 2, along}, {0, 2, ends}};
+  assert_int_equal(cw_log_open("geometry", nullptr, 0, 0, &log), CW_OK);
+  for (const CwCadCut &surface : cuts) {
+    CwCadBodies bodies = stepped();
+    const int before = cw_cad_faces(bodies.body[0].solid).Extent();
+    if (cut(surface, bodies, 1e-5, log)) fail_msg("%s", cw_fail_message());
+    assert_int_equal(bodies.body.size(), 2);
+    int faces = 0;
+    for (const CwCadBody &body : bodies.body) faces += cw_cad_faces(body.solid).Extent();
+    assert_int_equal(faces, before + 3); // the cut from both sides, and the plane that it parts
+  }
+  CwCadBodies bodies = stepped();
+  if (cut(cuts[0], bodies, 1e-6, log)) fail_msg("%s", cw_fail_message());
+  assert_near(small_volume(bodies.body[1].solid), M_PI * (6400 - 50.008 * 50.008) * 10, 1e-3); // farther off: as it is
+  cw_log_close(&log);
+}
+
 static void a_surface_beside_the_water_parts_nothing(void **) {
   CwCadBodies bodies = disc();
   assert_int_equal(cut({0.09, 0, nullptr}, bodies), CW_ERR_INPUT);
@@ -68,9 +99,11 @@ static void without_the_key_nothing_happens(void **) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_radius_parts_wheel_and_casing), cmocka_unit_test(a_meridian_parts_it_too),
-      cmocka_unit_test(small_bodies_are_parted_alike), cmocka_unit_test(a_surface_beside_the_water_parts_nothing),
-      cmocka_unit_test(without_the_key_nothing_happens)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_radius_parts_wheel_and_casing),
+                                     cmocka_unit_test(a_meridian_parts_it_too),
+                                     cmocka_unit_test(small_bodies_are_parted_alike),
+                                     cmocka_unit_test(a_surface_a_hair_beside_an_edge_is_moved_onto_it),
+                                     cmocka_unit_test(a_surface_beside_the_water_parts_nothing),
+                                     cmocka_unit_test(without_the_key_nothing_happens)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
