@@ -19,6 +19,10 @@ VISCOSITY = (1e-6, 1e-3)      # m2/s
 DENSITY = (700, 1300)         # kg/m3, of liquids other than water
 VISCOUS_SHARE = 0.25          # of the pumps; the others pump water
 GIVEN_SPREAD = 1.1            # a given dimension is its correlation times or over this at most
+OVER_DETERMINED = 0.08        # share of the pumps with options that give wrap, outlet blade angle and D2 together
+EXPLICIT_LAYERS = 0.1         # share of them that give first heights
+WATER = (5, 90)               # degrees Celsius
+GROUPS = ("blade", "hub_shroud", "volute", "pipe")  # of walls
 
 
 @lru_cache(maxsize=None)
@@ -168,10 +172,69 @@ class Options:
     def walls(self):
         own = self.stream("walls")
         y_plus = own.log(*within("walls", "y_plus_blade", 0.5, 200))
-        for group in ("blade", "hub_shroud", "volute", "pipe"):
+        for group in GROUPS:
             self.put("walls", f"y_plus_{group}", 1 if own.chance(0.6) else 0, lambda _: y_plus)
         self.put("walls", "layer_count", 0.5, lambda own: own.choice(range(1, 21)))
         self.even("walls", "growth_ratio", 0.5, 1.05, 1.4)
+
+    def given(self, section, key, otherwise=None):
+        return self.sections.get(section, {}).get(key, otherwise)
+
+    def laws(self):
+        """Whose laws the design follows; now and then more is given than they leave open."""
+        self.select("design", "correlations", 0.25)
+        self.select("design", "slip", 0.25)
+        if self.stream("over_determined").chance(OVER_DETERMINED):
+            for key, least, most in (("wrap_angle_deg", 90, 150), ("outlet_blade_angle_deg", 18, 32),
+                                     ("outlet_diameter_mm", 0.97 * self.d2, 1.06 * self.d2)):
+                if not self.given("impeller", key):
+                    self.even("impeller", key, 1, least, most)
+        laws = ["auto"] + [law for law, key in (("wrap", "wrap_angle_deg"), ("beta", "outlet_blade_angle_deg"))
+                           if self.given("impeller", key)]
+        # For the head one of D2 and b2 must be open: 12 to 60 degrees at the outlet do not meet any head.
+        if not (self.given("impeller", "outlet_diameter_mm") and self.given("impeller", "outlet_width_mm")):
+            laws.append("head")
+        self.put("impeller", "priority", 0.25, lambda own: own.choice(laws))
+
+    def nose_and_edges(self):
+        """The hub's nose, and both edges of the blade: a shaft is no thicker than the hub, an edge than the blade."""
+        shaft = self.given("impeller", "through_shaft_diameter_mm", 0)
+        self.put("impeller", "hub_diameter_mm", 0.15, lambda own: max(shaft, self.hub * own.log(0.95, 1.15)))
+        hub = self.given("impeller", "hub_diameter_mm", self.hub)
+        self.length("impeller", "hub_nut_length_mm", 0.15, 7 / 12 * (hub - shaft), 0.7, 1.3)
+        self.length("impeller", "hub_nut_flat_diameter_mm", 0.15, 0.29 * hub, 0.6, 1.3)
+        # 0.635 D1, and drawn into the eye above nq 25.
+        share = 0.635 - 0.003 * min(35, max(0, self.nq - 25))
+        shroud = share * self.given("impeller", "inlet_diameter_mm", self.d1)
+        self.length("impeller", "leading_edge_radius_shroud_mm", 0.12, shroud, 0.97, 1.08)
+        self.length("impeller", "leading_edge_radius_hub_mm", 0.12, shroud, 0.7, 0.9)
+        thickness = self.given("impeller", "blade_thickness_mm", 0)
+        self.length("impeller", "leading_edge_thickness_mm", 0.5, thickness, 0.5, 0.9)
+        self.length("impeller", "trailing_edge_thickness_mm", 0.5, thickness, 0.3, 0.5)
+
+    def throat(self, flow, head):
+        """Throat by Stepanoff's velocity, corners and tongue."""
+        speed = 0.42 * (self.nq / 20) ** -0.2 * math.sqrt(2 * GRAVITY * head)
+        self.length("volute", "throat_area_mm2", 0.12, 1e6 * flow / 3600 / speed, 0.8, 1.1)
+        self.length("volute", "tongue_radius_mm", 0.15, 0.0075 * self.d2, 0.6, 1.2)
+        if self.given("volute", "section") != "circle":
+            width = self.given("volute", "inlet_width_mm", self.b3)
+            self.put("volute", "corner_radius_mm", 0.15,
+                     lambda own: max(0.004 * self.d3, width * own.log(0.08, 0.2)))
+
+    def explicit_layers(self, head, viscosity):
+        """First heights instead of y+, and the thickness of all layers: with u_tau = 0.045 u2 and at the centre of the
+        first cell, as far as half of the passage takes all layers."""
+        own = self.stream("explicit_layers")
+        if not own.chance(EXPLICIT_LAYERS):
+            return
+        tip_speed = math.sqrt(2 * GRAVITY * head / head_coefficient(self.nq))
+        height = min(2e3 * own.log(1, 100) * viscosity / (0.045 * tip_speed), 0.01 * self.b2)
+        for group in GROUPS:
+            self.put("walls", f"first_height_{group}_um", 0.8, lambda _: 1e3 * height)
+        count = self.given("walls", "layer_count")
+        if count:
+            self.put("walls", "total_thickness_mm", 0.5, lambda own: height * count * own.even(1.1, 2))
 
 
 def count_range(key, least, most):
@@ -196,7 +259,14 @@ def pump(seed, index, options=False):
         more.impeller()
         more.volute()
         more.walls()
+        more.laws()
+        more.nose_and_edges()
+        more.throat(flow, head)
+        more.explicit_layers(head, fluid.get("kinematic_viscosity_m2_per_s", 1e-6))
         case.update(more.sections)
+        warm = stream("fluid.temperature_c")
+        if not fluid and warm.chance(0.2):
+            case["fluid"] = {"temperature_c": warm.even(*WATER)}
     return case
 
 
