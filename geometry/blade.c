@@ -356,16 +356,33 @@ double cw_blade_usual_bevel(CwTrailingEdge edge, double thickness, double angle)
   return cut * chord / (1 + chord);
 }
 
-double cw_blade_bevel_begin(const CwBladeSection *section, CwTrailingEdge edge, double facet) {
-  const double beta = cw_blade_beta(section, 1);
+// Length along the suction side that a leg of one unit takes, in p.
+static double leg_in_p(const CwBladeSection *section) {
   double x[2], dx[2];
   at(section, 1, x, dx);
+  return sin(cw_blade_beta(section, 1)) / hypot(dx[0], dx[1]);
+}
+
+double cw_blade_bevel_begin(const CwBladeSection *section, CwTrailingEdge edge, double facet) {
+  const double beta = cw_blade_beta(section, 1);
   double leg = facet / (2 * sin(beta / 2));
   if (edge == CW_EDGE_SHARP) {
     const double cut = cut_length(2 * section->half_trailing, beta), height = cut * sin(beta);
     leg = cut * cos(beta) + sqrt(fmax(0, facet * facet - height * height));
   }
-  return 1 - leg * sin(beta) / hypot(dx[0], dx[1]);
+  return 1 - leg * leg_in_p(section);
+}
+
+double cw_blade_bevel_earliest(CwTrailingEdge edge) {
+  return edge == CW_EDGE_SHARP ? 0.7 : 0.8;
+}
+
+double cw_blade_longest_bevel(const CwBladeSection *section, CwTrailingEdge edge) {
+  const double margin = 0.99, beta = cw_blade_beta(section, 1);
+  const double leg = margin * (1 - cw_blade_bevel_earliest(edge)) / leg_in_p(section);
+  if (edge != CW_EDGE_SHARP) return 2 * leg * sin(beta / 2);
+  const double cut = cut_length(2 * section->half_trailing, beta);
+  return hypot(cut * sin(beta), leg - cut * cos(beta));
 }
 
 double cw_blade_bevel_theta(const CwBladeSection *section, double p_begin) {

@@ -100,6 +100,10 @@ double cw_blade_bevel_begin(const CwBladeSection *section, CwTrailingEdge edge, 
 // Theta on the D2 cylinder where a bevel with legs of equal length ends.
 double cw_blade_bevel_theta(const CwBladeSection *section, double p_begin);
 
+// p before which no bevel may begin: 0.8, of a sharp edge 0.7; and the longest facet that does not.
+double cw_blade_bevel_earliest(CwTrailingEdge edge);
+double cw_blade_longest_bevel(const CwBladeSection *section, CwTrailingEdge edge);
+
 // Length of the facet for which facet and rest of the trailing edge are equally long, or whose leg along the
 // suction side is twice the cut (sharp), m.
 double cw_blade_usual_bevel(CwTrailingEdge edge, double trailing_edge_thickness, double outlet_blade_angle);

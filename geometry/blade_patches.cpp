@@ -198,7 +198,7 @@ void Maker::points() {
   const double p_bevel =
       shape.has_bevel ? cw_blade_bevel_begin(&middle, edge, design->trailing_edge_bevel) : middle.end;
   const double theta_corner = cw_blade_side(&middle, CW_BLADE_PRESSURE, middle.end).theta;
-  const double first = edge == CW_EDGE_SHARP ? 0.7 : 0.8;
+  const double first = cw_blade_bevel_earliest(edge);
   if (!(p_bevel > first) && !shape.has_bevel)
     cw_solid_refuse("the rounding of the trailing edge begins at %.0f %% of the %s; allowed: from %.0f %% on: lower "
                     "trailing_edge_thickness_mm (%.3g mm)",
@@ -208,7 +208,8 @@ void Maker::points() {
         "the bevel of %.3g mm is longer than the trailing edge of the %s, or begins at %.0f %% of it; allowed: "
         "from %.0f %% on: lower trailing_edge_bevel_mm to %.3g, or trailing_edge_thickness_mm (%.3g mm)",
         1e3 * design->trailing_edge_bevel, shape.name, 100 * p_bevel, 100 * first,
-        1e3 * cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle),
+        1e3 * std::min(cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle),
+                       cw_blade_longest_bevel(&middle, edge)),
         1e3 * design->trailing_edge_thickness);
   // With fillets half-way between even steps on the ellipse and even turns of its normal, which their feet follow.
   for (int i = 0; i < nose_points; i++) {

@@ -147,17 +147,31 @@ done:
 // sound triangle there, and nobody casts a fillet round a feather.
 static const double LEAST_FILLETED_WEDGE = 30 * M_PI / 180;
 
+// The longest bevel that blades and splitters have room for.
+static double bevel_room(const CwBladeSection *blade, CwTrailingEdge edge, const CwDesign *design) {
+  const double room = cw_blade_longest_bevel(blade, edge);
+  if (!(design->splitter_start > 0)) return room;
+  const CwBladeSection splitter = cw_blade_splitter(design, blade);
+  return fmin(room, cw_blade_longest_bevel(&splitter, edge));
+}
+
 static double usual_bevel(CwTrailingEdge edge, const CwDesign *design) {
   return cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle);
 }
 
 // The acute corner of a blunt edge has the blade angle as its wedge, a sharp edge less.
-static void trailing_edge(const CwImpellerTable *given, CwDesign *design) {
+static CwStatus trailing_edge(const CwImpellerTable *given, const CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
   const CwTrailingEdge edge = given->trailing_edge;
   const int blunt = edge == CW_EDGE_BLUNT, sharp = edge == CW_EDGE_SHARP;
+  CwBladeSection blade;
+  CW_TRY(cw_blade_section(design, meridian, 0.5, &blade));
   design->trailing_edge = edge;
-  TAKE(trailing_edge_bevel, given->trailing_edge_bevel, usual_bevel(edge, design),
-       sharp ? "leg along the blade twice the cut" : "as long as the rest of the trailing edge");
+  const double usual = usual_bevel(edge, design), room = bevel_room(&blade, edge, design);
+  TAKE(trailing_edge_bevel, given->trailing_edge_bevel, fmin(usual, room),
+       room < usual ? "as far as the blade has room for it"
+       : sharp      ? "leg along the blade twice the cut"
+                    : "as long as the rest of the trailing edge");
   if (blunt || edge == CW_EDGE_ROUNDED) {
     SET(trailing_edge_bevel, 0, "none: blunt or rounded edge");
     if (cw_case_given(given->trailing_edge_bevel))
@@ -166,10 +180,14 @@ static void trailing_edge(const CwImpellerTable *given, CwDesign *design) {
   }
   if (design->root_fillet_radius > 0 && (sharp || (blunt && design->outlet_blade_angle < LEAST_FILLETED_WEDGE))) {
     design->trailing_edge = CW_EDGE_BEVELLED;
-    GIVE_WAY(trailing_edge_bevel, usual_bevel(CW_EDGE_BEVELLED, design), blunt ? 0 : design->trailing_edge_bevel,
+    GIVE_WAY(trailing_edge_bevel,
+             fmin(usual_bevel(CW_EDGE_BEVELLED, design), bevel_room(&blade, CW_EDGE_BEVELLED, design)),
+             blunt ? 0 : design->trailing_edge_bevel,
              blunt ? "trailing_edge blunt gives way to bevelled: root fillets need a wedge of 30 deg"
                    : "trailing_edge sharp gives way to bevelled: root fillets need a wedge of 30 deg");
   }
+done:
+  return status;
 }
 
 // All of the design behind the duty point.
@@ -182,7 +200,7 @@ static CwStatus pump(const CwCase *table, CwDesign *design) {
   CW_TRY(make_clearance(&meridian, design));
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
-  trailing_edge(&table->impeller, design);
+  CW_TRY(trailing_edge(&table->impeller, &meridian, design));
   CW_TRY(cw_design_volute(&table->volute, design));
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   SET(relative_speed, 0.5 * (design->inlet_relative_speed + design->outlet_relative_speed), "(w1 + w2) / 2");

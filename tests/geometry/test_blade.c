@@ -88,6 +88,11 @@ static void bevel(void **state) {
   const double balanced = cw_blade_usual_bevel(CW_EDGE_BEVELLED, 2e-3, 36 * degree),
                leg = balanced / (2 * sin(18 * degree));
   assert_near(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
+  for (CwTrailingEdge edge = CW_EDGE_BEVELLED; edge <= CW_EDGE_SHARP; edge++) {
+    const double longest = cw_blade_longest_bevel(&section, edge), earliest = cw_blade_bevel_earliest(edge);
+    assert_true(cw_blade_bevel_begin(&section, edge, longest) > earliest);
+    assert_true(cw_blade_bevel_begin(&section, edge, 1.02 * longest) < earliest);
+  }
 }
 
 // Of blades without thickness the width is the pitch, r dtheta sin beta, where that is least; a splitter takes its

@@ -217,6 +217,35 @@ static void too_long_a_bevel_is_refused(void **state) {
   cw_fail_clear();
 }
 
+// Seven short blades of 1.8 mm: a sharp edge as long as usual would take nearly half of each.
+static void an_open_bevel_fits(void **state) {
+  CwCase table = duty_point(44.187, 156.7, 27627);
+  table.design.correlations = CW_CORRELATIONS_GUAN;
+  table.impeller.blade_form = CW_BLADE_CYLINDRICAL;
+  table.impeller.trailing_edge = CW_EDGE_SHARP;
+  table.impeller.blade_count = 7;
+  const CwDesign design = design_of(&table);
+  CwMeasuredSolid solid;
+  CwMeasuredRotor rotor;
+  assert_true(design.trailing_edge_bevel <
+              cw_blade_usual_bevel(CW_EDGE_SHARP, design.trailing_edge_thickness, design.outlet_blade_angle));
+  measure(&design, &solid, &rotor);
+  volumes_agree(&design, &solid, 1e-4);
+}
+
+// Two blades that wind round the axis nearly once: hub and shroud between them end in long curves.
+static void long_blades_have_the_volume_of_their_sections(void **state) {
+  CwCase table = duty_point(0.86613, 0.89204, 666.56);
+  table.design.slip = CW_SLIP_PFLEIDERER;
+  table.impeller.blade_count = 2;
+  table.impeller.outlet_width = 4.7371e-3;
+  const CwDesign design = design_of(&table);
+  CwMeasuredSolid solid;
+  CwMeasuredRotor rotor;
+  measure(&design, &solid, &rotor);
+  volumes_agree(&design, &solid, 1e-5);
+}
+
 // Half a circle of 15 mm takes more than a fifth of a blade that is 57 mm long in the meridian: no bevel is to blame.
 static void too_thick_a_rounding_is_refused(void **state) {
   CwCase table = paper();
@@ -241,6 +270,8 @@ int main(void) {
       cmocka_unit_test(splitters),
       cmocka_unit_test(cylindrical_blades_and_lean),
       cmocka_unit_test(too_long_a_bevel_is_refused),
+      cmocka_unit_test(an_open_bevel_fits),
+      cmocka_unit_test(long_blades_have_the_volume_of_their_sections),
       cmocka_unit_test(too_thick_a_rounding_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
