@@ -91,6 +91,11 @@ static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
       "the viscous correction of ANSI/HI 9.6.7 was held against pumps of 3 to 410 m3/h and 6 to 130 m with nq up to 60 "
       "and up to %.0f cSt; this one has %.3g m3/h and %.3g m with water",
       1e6 * CW_VISCOUS_LARGEST_NU, q, d->water_head);
+  remark(remarks, corrected,
+         "the NPSH3 of %.3g m is that with water: no correction of it for the viscosity of %.4g cSt is built in; it "
+         "rises with the viscosity, so leave a margin between it and the %.4g m that "
+         "operating_point.inlet_pressure_pa gives",
+         d->npsh_required, 1e6 * d->viscosity, d->npsh_available);
 }
 
 // tan beta1 falls as 1/r: at mid-span it must leave 12 deg where the leading edge is farthest out.

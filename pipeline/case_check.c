@@ -88,12 +88,15 @@ static CwStatus check_operating_point(const char *path, const CwCase *table, con
   const CwCasePlace *place = &places[cw_case_key_find("operating_point", "speed_rpm")];
   const CwOperatingPoint *point = &table->operating_point;
   double rpm = point->speed * 30 / M_PI;
-  // Specific speed nq = n sqrt(Q) / H^(3/4) in rpm, m3/s, m: radial and mixed-flow impellers lie in 5 to 160.
-  double specific_speed = rpm * sqrt(point->flow_rate) / pow(point->head, 0.75);
+  // Specific speed nq = n sqrt(Q) / H^(3/4) in rpm, m3/s, m: radial and mixed-flow impellers lie in 5 to 160. Given by
+  // their duty alone, those of 7 to 90 can be built.
+  const double rpm_of_one = pow(point->head, 0.75) / sqrt(point->flow_rate), specific_speed = rpm / rpm_of_one;
+  const double built = specific_speed < 5 ? 7 : 90;
   CW_REQUIRE(specific_speed >= 5 && specific_speed <= 160, CW_ERR_INPUT,
              "%s:%d:%d: operating_point.speed_rpm: %.6g contradicts flow rate and head, together they give the "
-             "specific speed nq = %.4g; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)",
-             path, place->line, place->column, rpm, specific_speed);
+             "specific speed nq = %.4g; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m), such as "
+             "speed_rpm: %.6g with nq = %.0f",
+             path, place->line, place->column, rpm, specific_speed, built * rpm_of_one, built);
   // Without swirl before the impeller no blade gives more than u2^2 / g (Euler).
   double tip_speed = point->speed * table->impeller.outlet_diameter / 2;
   double most = cw_case_given(tip_speed) ? tip_speed * tip_speed / CW_GRAVITY : INFINITY;

@@ -219,6 +219,7 @@ static void ends_and_reach_are_remarked(void **state) {
   assert_false(remarked(&design, "overlap"));
   assert_false(remarked(&design, "tongue's tip"));
   assert_false(remarked(&design, "ANSI/HI"));
+  assert_false(remarked(&design, "NPSH3"));
   assert_false(remarked(&design, "Guelich's efficiencies"));
   design.overlap = 0.7;
   assert_true(remarked(&design, "raise wrap_angle_deg to 60"));
@@ -246,6 +247,7 @@ static void ends_and_reach_are_remarked(void **state) {
   design.viscous_efficiency_factor = 0.1;
   design.viscous_parameter = 55;
   assert_true(remarked(&design, "B = 55"));
+  assert_true(remarked(&design, "the NPSH3 of 12 m is that with water"));
   design.shaft_diameter = 2 * design.hub_diameter;
   assert_true(remarked(&design, "has no room for the shaft"));
   design.specific_speed_ns = 25;

@@ -251,9 +251,14 @@ static const BadCase bad_cases[] = {
      "4:11: operating_point.head_m: 24 contradicts speed_rpm and impeller.outlet_diameter_mm, which give the "
      "tip speed "
      "15.18 m/s; allowed: below 23.51 m (u2^2/g)"},
-    // nq = 1450 sqrt(25/3600) / 0.1^0.75 = 120.83 / 0.17783 = 679.5
+    // nq = 1450 sqrt(25/3600) / 0.1^0.75 = 120.83 / 0.17783 = 679.5; 90 0.17783 / 0.083333 = 192.05
     {4, "  head_m: 0.1",
      "5:14: operating_point.speed_rpm: 1450 contradicts flow rate and head, together they give the specific "
      "speed nq = "
-     "679.5; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)"},
+     "679.5; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m), such as speed_rpm: 192.054 with nq = 90"},
+    // nq = 120.83 / 2000^0.75 = 120.83 / 299.07 = 0.404; 7 299.07 / 0.083333 = 25121.9
+    {4, "  head_m: 2000",
+     "5:14: operating_point.speed_rpm: 1450 contradicts flow rate and head, together they give the specific "
+     "speed nq = 0.404; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m), such as speed_rpm: 25121.9 with "
+     "nq = 7"},
 };
