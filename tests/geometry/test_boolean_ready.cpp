@@ -4,6 +4,8 @@
 // or touch one another and for curves that leave their surface by more than the edge's tolerance, among others.
 //
 //   geometry_test_boolean_ready [crossings]     with all faces held against one another too, which takes minutes
+//   geometry_test_boolean_ready CASE            of the pump of this case file; 77: it is refused
+#include <cstdio>
 #include <string>
 
 #include <BOPAlgo_ArgumentAnalyzer.hxx>
@@ -11,6 +13,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
+#include "pipeline/case_read.h"
 #include "tests/geometry/paper_rotor.h"
 #include "tests/unit_test.h"
 
@@ -54,10 +57,31 @@ static void expect_no_fault(const CwSolid *solid) {
   }
 }
 
+static void expect_no_fault_in(const CwPump &pump) {
+  for (int i = 0; i < pump.count; i++) expect_no_fault(pump.solid[i]);
+}
+
+static const char *case_file;
+static bool refused;
+
+static void case_of_the_command_line(void **) {
+  CwCase table;
+  CwDesign design;
+  CwPipeStubs stubs;
+  CwPump pump = {};
+  if (cw_case_read(case_file, &table) != CW_OK) fail_msg("%s", cw_fail_message());
+  refused = cw_hydraulic_design(&table, &design) != CW_OK || cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK ||
+            cw_pump_build(&table, &design, &stubs, &pump) != CW_OK;
+  if (refused) printf("%s\n", cw_fail_message());
+  if (!refused) expect_no_fault_in(pump);
+  cw_pump_free(&pump);
+  cw_case_free(&table);
+}
+
 static void expect_no_fault_in(const CwCase &table) {
   CwDesign design;
   CwPump pump = pump_of(&table, &design);
-  for (int i = 0; i < pump.count; i++) expect_no_fault(pump.solid[i]);
+  expect_no_fault_in(pump);
   cw_pump_free(&pump);
 }
 
@@ -90,6 +114,12 @@ static void sharp_edges(void **) {
 
 int main(int argc, char **argv) {
   crossings = argc > 1 && std::string(argv[1]) == "crossings";
+  if (argc > 1 && !crossings) {
+    case_file = argv[1];
+    const CMUnitTest of_case[] = {cmocka_unit_test(case_of_the_command_line)};
+    const int failed = cmocka_run_group_tests(of_case, NULL, NULL);
+    return !failed && refused ? 77 : failed;
+  }
   const CMUnitTest tests[] = {
       cmocka_unit_test(papers_pump),
       cmocka_unit_test(splitters_and_zones),
