@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""OpenCASCADE's check of the arguments of boolean operations finds nothing in the solids of the shipped cases and of 24
-random pumps with options. Random pumps that are refused do not count."""
+"""OpenCASCADE's check of the arguments of boolean operations finds nothing in the solids of the shipped cases that are
+designed and of 24 random pumps with options. Random pumps that are refused do not count."""
 import subprocess
 import sys
 import tempfile
@@ -25,6 +25,8 @@ class BooleanArguments(unittest.TestCase):
 
     def test_shipped_cases(self):
         for case in sorted((SOURCE / "cases").glob("*/case.yaml")):
+            if "\ncad:" in case.read_text():
+                continue
             with self.subTest(case=case.parent.name):
                 self.assertTrue(self.is_built(case))
 
