@@ -2,7 +2,7 @@
 """Every module has a test: tests/ROOM/test_MODULE, another test of its stage that calls one of its functions, or one
 whose comment at the top names the module (the file name without its ending). With --list: each module and its tests.
 Templates are sources of others' programs, and no modules.
-The README of each room of the mesher names all its modules."""
+The README of each room of the mesher names all its modules, in ROOM lines; docs/mesher.md has PAGE words at most."""
 import os
 import pathlib
 import re
@@ -10,6 +10,7 @@ import sys
 
 STAGES = ["pipeline", "geometry", "mesher", "export"]
 PROGRAMS = {"main"}  # run by the tests of whole runs
+ROOM, PAGE = range(20, 41), 2500
 source = pathlib.Path(os.environ.get("CUTWATER_SOURCE", pathlib.Path(__file__).resolve().parents[1]))
 
 
@@ -50,8 +51,14 @@ for stage in STAGES:
         if not own and not others:
             faults.append(f"{name}: no tests/{name.parent}/test_{path.stem}, and no test calls or names it")
 for readme in sorted((source / "mesher").glob("*/README.md")):
-    named = set(re.findall(r"\b\w+\b", readme.read_text()))
+    text = readme.read_text()
+    named, lines = set(re.findall(r"\b\w+\b", text)), text.count("\n")
+    if lines not in ROOM:
+        faults.append(f"{readme.relative_to(source)}: {lines} lines; allowed: {ROOM[0]} to {ROOM[-1]}")
     faults += [f"{readme.relative_to(source)}: does not name {module}" for module in sorted(
         {path.stem for path in readme.parent.iterdir() if path.suffix in (".c", ".h", ".cpp")} - named)]
+words = len((source / "docs/mesher.md").read_text().split())
+if words > PAGE:
+    faults.append(f"docs/mesher.md: {words} words; allowed: {PAGE}")
 print("\n".join(faults) or f"{seen} modules, each with a test")
 sys.exit(1 if faults or not seen else 0)

@@ -11,6 +11,7 @@ STAGES = {"pipeline": ["pipeline"], "geometry": ["pipeline", "geometry"], "meshe
           "export": ["pipeline", "export"]}
 MESHER = ["parallel", "common", "cad", "size", "surface", "plan", "network", "layers", "boundary", "thickness", "fill",
           "region", "run"]
+SOURCES, HEADERS = (".c", ".cpp"), (".h", ".hpp")
 
 source = pathlib.Path(os.environ["CUTWATER_SOURCE"])
 
@@ -31,12 +32,12 @@ def definitions(text):
 def uses(room):
     """Of each module of a folder those of the same folder that it uses."""
     files = {path: re.sub(r"//.*", "", path.read_text()) for path in sorted(room.iterdir())
-             if path.suffix in (".c", ".h", ".cpp")}
-    owner = {name: path.stem for path, text in files.items() if path.suffix != ".h" for name in definitions(text)}
+             if path.suffix in SOURCES + HEADERS}
+    owner = {name: path.stem for path, text in files.items() if path.suffix in SOURCES for name in definitions(text)}
     used = {path.stem: set() for path in files}
     for path, text in files.items():
         used[path.stem] |= {owner[name] for name in re.findall(r"\bcw_\w+\b", text)
-                            if name in owner and path.suffix != ".h"}
+                            if name in owner and path.suffix in SOURCES}
         for include in re.findall(r'#include "([^"]+)"', text):
             if (source / include).parent == room:
                 used[path.stem].add(pathlib.Path(include).stem)
@@ -63,7 +64,7 @@ assert list(definitions(SOURCE)) == ["cw_b"]
 faults, seen = [], 0
 for stage, allowed in STAGES.items():
     for path in sorted((source / stage).rglob("*")):
-        if path.suffix not in (".c", ".h", ".cpp") or "templates" in path.parts:
+        if path.suffix not in SOURCES + HEADERS or "templates" in path.parts:
             continue
         name = path.relative_to(source)
         for number, line in enumerate(path.read_text().splitlines(), 1):

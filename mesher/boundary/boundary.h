@@ -63,8 +63,8 @@ CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *i
 
 // Grows the layer envelope to `target` thicknesses (m, per wall vertex) and sets the layer top; for its shape columns
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
-// Collective: all ranks work on it and have the same result. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
-// top is found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
+// Collective: all ranks work on it and have the same result. Outcome: that of cw_layers_make, CW_OUTCOME_ASYMMETRIC
+// where no symmetric layer top is found.
 CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
                           const CwBackground *background, const double *target, const double *least,
                           const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);

@@ -9,8 +9,8 @@
 CwStatus cw_image_outlines(const CwBoundaryInput *in, CwFreeCurves *free_curves, CwOutcome *outcome);
 
 // The layers of the whole wall `input` of a boundary with image sets: grown over the first of each image set with what
-// stands near them, copied, and checked as copied. Collective. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric layer
-// top is found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
+// stands near them, copied, and checked as copied. Collective. Outcome: that of cw_layers_make for what is grown,
+// CW_OUTCOME_ASYMMETRIC where the copies do not fit one another.
 CwStatus cw_image_layers(const CwPeriodicImages *images, const CwSurfaceMesh *surface, const CwLayerInput *input,
                          CwLayers *layers, CwOutcome *outcome);
 

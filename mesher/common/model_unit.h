@@ -2,8 +2,9 @@
 // The unit of all lengths in the mesher: metres times a power of two, such that the greatest extent of the model lies
 // between a quarter and a half of it. So a length in the code is a share of the model's size, tolerances of
 // OpenCASCADE included, and models that are 2^k times one another have the same bits. What is read is brought to the
-// unit (the solids by cw_cad_rescale, the case's heights in cw_wall_targets), what is written goes back to metres:
-// both lose no bit. Only region files, manifest, record, VTK and messages know of it.
+// unit (the solids by cw_cad_rescale, the case's heights by cw_domain_set_layers), what is written goes back to metres:
+// both lose no bit. Region files, manifest, record, VTK and messages have metres or millimetres, and so has what the
+// case asks of a patch (CwPatchTarget); elsewhere in the mesher "m" stands for this unit.
 #pragma once
 
 #ifdef __cplusplus

@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 // Keeps the tetrahedra inside the boundary, by its orientation (so shells may lie in voids of others), and
-// drops the points that are not used by them; order is kept. Fails with CW_ERR_MESH where a triangle is no
+// drops the inner points that are not used by them; order is kept. Fails with CW_ERR_MESH where a triangle is no
 // face.
 CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill);
 

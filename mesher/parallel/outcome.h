@@ -32,7 +32,7 @@ typedef struct {
   char reason[CW_REASON_SIZE];
 } CwOutcome;
 
-// Sets kind, place (m; NULL: none) and reason (printf style).
+// Sets kind, place (in the unit of lengths; NULL: none) and reason (printf style); the domain stays.
 void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3], const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

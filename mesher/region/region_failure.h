@@ -18,7 +18,8 @@ typedef struct {
 CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, const char *message, const char *path,
                                    CwRegionFailure *failure);
 
-// Lowers the greatest thicknesses `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they
-// are now: those whose layer top is nearer to it than `reach` wanted lengths, or all of the region.
+// Lowers the greatest thicknesses `most` (of each wall vertex, m) of the columns near the failure to column_kept
+// (policy_table.h) of what they are now: those whose layer top is nearer to it than `reach` wanted lengths, or all of
+// the region.
 void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwRegionFailure *failure, double reach,
                             double *most);

@@ -18,14 +18,15 @@
 // Before the walls are known; 0.95 to 1 in the domains of the paper's pump.
 #define CW_LAYER_SHARE 0.98
 
-// The layers over a piece of wall, where h is nearly one.
+// The layers over a piece of wall on which h hardly changes.
 typedef struct {
   double density; // area / h^3 for h over the scale, m-1
   double size;    // h over the scale, m
   int32_t patch;
 } CwLayerSample;
 
-// The fields are the domain's products in the order in which stages make them.
+// The fields are what the case asks of the domain, what the passes have settled, and its products, in the order in
+// which stages make them.
 typedef struct {
   const char *name;
   const CwModelPatch *patch; // of the model

@@ -7,7 +7,7 @@
 // Collective.
 
 // Free curves, open patches and interfaces. Outcome: CW_OUTCOME_THIN where layers leave no room on the planes, with the
-// places of all domains; CW_OUTCOME_ASYMMETRIC.
+// places of all domains; CW_OUTCOME_ASYMMETRIC; that of cw_interfaces_make for the first domain that is not done.
 CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome);
 
 // The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where

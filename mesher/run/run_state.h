@@ -71,7 +71,7 @@ typedef struct {
   double gradation;                        // of the size field at scale 1
   double wall_scale;                       // at which walls limit its edges; 0: they do not
   CwFinerPlaces finer;                     // where the fields are to be finer than the case asks
-  double *most_thickness[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
+  double *most_thickness[CW_DOMAINS_MOST]; // of each wall vertex, m, once layers were thinned; else NULL
   // With which the domains were planned.
   CwCellLaw planned_prisms, planned_tets;
   double planned_scale;
