@@ -217,7 +217,7 @@ done:
   return status;
 }
 
-static int stuck; // a file could not be closed
+static int stuck; // a file could not be closed: HDF5, of which a process has one, tries again at its end
 
 int cw_cgns_stuck(void) {
   return stuck;

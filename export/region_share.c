@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-// The work on a cell of a turned copy, which is read and written alone, over that on another.
+// The work on a cell of a periodic image, which is read and written alone, over that on another.
 static const double COPY = 0.5;
 
 static int same_counts(const CwMeshRegion *a, const CwMeshRegion *b) {

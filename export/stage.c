@@ -166,7 +166,7 @@ static CwStatus record_results(const CwAssembly *a, CwRecord *record) {
     CW_TRY(cw_record_json(record, a->mesh->domains[d].name, figures));
   }
   CW_TRY(cw_record_integer(record, "cells", cw_assembly_cells(a)));
-  CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
+  CW_TRY(cw_record_integer(record, "faces_on_partition_planes", a->open_count / 2));
   CW_TRY(record_interfaces(a, record));
   CW_TRY(record_patches(a, record));
 done:

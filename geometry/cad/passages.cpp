@@ -27,7 +27,7 @@
 namespace {
 
 const double BEYOND = 2;  // of the greatest coordinate: how far the meridians reach
-const double SAME = 1e-7; // model units: curves that are turned copies already
+const double SAME = 1e-7; // model units: curves that are periodic images already
 const double DISC = 0.5;  // of the way from the axis to the outline of a face: the disc that meridians leave out
 enum { SAMPLES = 5, OUTLINE_STEPS = 40, ANGLES = 48, BESIDE = 2 };
 
@@ -181,7 +181,7 @@ void cut_meridians(const std::vector<TopoDS_Face> &faces, const CwImagesOfSolid 
   cut(tools, part);
 }
 
-// Makes the solid anew from turned copies of the first faces, edges and vertices.
+// Makes the solid anew from periodic images of the first faces, edges and vertices.
 class Copies {
 public:
   explicit Copies(const CwImagesOfSolid &images) : images(images) {}
@@ -334,7 +334,7 @@ std::string make_symmetric(int count, double tolerance, double unit, CwCadPart &
   }
   images.choose();
   const TopoDS_Shape copies = Copies(images).make(unit);
-  if (!BRepCheck_Analyzer(copies).IsValid()) return "turned copies make no valid solid";
+  if (!BRepCheck_Analyzer(copies).IsValid()) return "periodic images make no valid solid";
   cw_cad_replace(copies, made);
   part = made;
   *off = images.off;
@@ -354,7 +354,7 @@ CwStatus cw_cad_passages(int part, int count, double tolerance, CwLog *log, CwCa
       why = "OpenCASCADE: " + cw_solid_failure_text(failure);
     }
     if (why.empty())
-      cw_log(log, "%s: %d faces, turned copies of those of one of %d passages, %.2g mm off those of the file at most",
+      cw_log(log, "%s: %d faces, periodic images of those of one of %d passages, %.2g mm off those of the file at most",
              of.domain.c_str(), (int)of.origin.size(), count, 1e3 * parts->unit * off);
     else
       cw_log(log, "%s: %s; it will be meshed whole, not one of %d passages; cad.tolerance_mm is %.3g",

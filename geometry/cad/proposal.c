@@ -6,7 +6,7 @@
 
 #include "pipeline/vec.h"
 
-static const double ALIKE = 1e-3;             // of area, radius and height: faces that are turned copies
+static const double ALIKE = 1e-3;             // of area, radius and height: faces that are periodic images
 static const double ACROSS = 10 * M_PI / 180; // rad off a right angle
 static const double END = 1e-6;               // of the size: how far the part may reach past a plane at its end
 // Of the hydraulic diameter: what is shorter behind a plane is no pipe. Side chambers of wheels have 0.03 to 0.06

@@ -136,7 +136,8 @@ std::vector<std::array<double, 3>> places(const CwCad *cad, const Side &side, in
 }
 
 // Whether the faces beyond the sides allow the strip to be left out: both are walls, and at like places the flow lies
-// in a hollow between them, or on one surface. Beside a crest, such as the nose of a blade, or a step it does not.
+// in a concave edge between them, or on one surface. Beside a crest, such as the nose of a blade, or a step it does
+// not.
 bool sides_fit(const CwCad *cad, int face, const Side &a, const Side &b) {
   for (const Side *side : {&a, &b})
     for (const CwCadUse &use : *side)

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+// One a process: messages tell places in mm wherever they are made.
 static double unit = 1;
 
 int cw_model_unit_power(double extent) {

@@ -28,7 +28,7 @@ typedef struct {
   uint64_t sign;
 } Segment;
 
-// Why the system last shared none, as errno; 0: it always has.
+// Why the system last shared none with this process, as errno; 0: it always has.
 static int refusal;
 
 // Of this process, as its memory is: bytes that it shares, now and at most; at most without them.

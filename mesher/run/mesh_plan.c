@@ -215,25 +215,21 @@ done:
   return status;
 }
 
-static const char *y_plus_text(const CwMeshRun *run) {
-  static char text[64];
-  text[0] = '\0';
-  if (cw_walls_auto(&run->table->walls)) snprintf(text, sizeof text, "; y+ %.3g where it is open", run->y_plus_auto);
-  return text;
-}
-
 static void tell_layers(CwMeshRun *run) {
+  char y_plus[64] = "";
   int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count;
   double cells = cw_layers_crowd(run);
   if (cells > 0) cw_warn_of_many_layers(run->context.log, given, run->scale, cells, run->headlines);
   cells = cw_layers_short(run, needed);
+  if (cw_walls_auto(&run->table->walls))
+    snprintf(y_plus, sizeof y_plus, "; y+ %.3g where it is open", run->y_plus_auto);
   for (int d = 0; given == 0 && d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     if (cells > 0 && needed[d] > domain->layer_count)
       cw_warn_of_few_layers(run->context.log, domain, needed[d], cells, run->headlines);
     else
       cw_log(run->context.log, "%s: %d layers lead from the first height to the size of the tetrahedra%s", domain->name,
-             domain->layer_count, y_plus_text(run));
+             domain->layer_count, y_plus);
   }
 }
 

@@ -8,7 +8,7 @@ import unittest
 from cutwater import CELLS, RUN, SOURCE, command, error_lines, execute, record, said, surface, with_geometry
 
 
-def rims(corners):
+def open_edges(corners):
     """Edges that are in one triangle alone."""
     once = set()
     for a, b, c in corners:
@@ -36,9 +36,9 @@ class StopAfter(unittest.TestCase):
                 self.assertLess(max(map(max, corners)), len(places))
                 if stage == "interfaces":
                     continue
-                # One column of prisms over each; the walls end where caps begin.
+                # One column of prisms over each; the walls end where open patches begin.
                 self.assertEqual(len(corners) * domain["layers"], domain["prisms"])
-                self.assertGreater(len(rims(corners)), 0)
+                self.assertGreater(len(open_edges(corners)), 0)
             shutil.rmtree(run)
 
     def test_stages_before_the_surface(self):

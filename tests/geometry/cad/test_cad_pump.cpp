@@ -93,7 +93,7 @@ static void wheels_with_two_eyes_need_no_shaft(void **) {
   cw_case_free(&table);
 }
 
-// Round posts for blades, the seam of each elsewhere: the pieces that they are divided into are no turned copies.
+// Round posts for blades, the seam of each elsewhere: the pieces that they are divided into are no periodic images.
 static TopoDS_Shape with_posts(TopoDS_Shape water) {
   for (int k = 0; k < 6; k++) {
     const double at = k * M_PI / 3, seam = 0.7 * k;

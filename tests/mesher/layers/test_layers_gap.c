@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Thicknesses: what gaps, hollows and gradation leave of them.
+// Thicknesses: what gaps, concave places and gradation leave of them.
 #include "layers_case.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers.h"
@@ -101,7 +101,7 @@ static void gradation(void **state) {
 
 // A pipe narrower than its layers: at most 0.6 of the way to where the columns meet, its axis, and less as far as the
 // triangles of the layer top would be narrow.
-static void hollow(void **state) {
+static void concave_place(void **state) {
   const double length = 4 * MM;
   Case c = {.target = 0.8 * MM, .constraint = case_end_planes, .constraint_context = &length};
   surface_pipe(&c.wall, 1 * MM, length, 24, 16);
@@ -205,7 +205,7 @@ int main(void) {
       cmocka_unit_test(the_foot_of_a_slope),
       cmocka_unit_test(gap_to_open_patch),
       cmocka_unit_test(gradation),
-      cmocka_unit_test(hollow),
+      cmocka_unit_test(concave_place),
       cmocka_unit_test(low_crease),
       cmocka_unit_test(gap_beside_bent_patch),
   };

@@ -344,7 +344,7 @@ static void bumpy_spheres(void **state) {
     char name[40];
     snprintf(name, sizeof name, "bumps of %.3f, %s", b.size, run % 2 ? "outside" : "inside");
     case_run(&c, name);
-    assert_true(c.share >= 0.95); // hollows between bumps take a little
+    assert_true(c.share >= 0.95); // concave places between bumps take a little
     case_free(&c);
   }
 }

@@ -125,8 +125,8 @@ static void images_have_those_of_their_first(void **state) {
   free_wall(&wall, &targets);
 }
 
-// A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below a hollow. One end of
-// the ridge lies higher by `lift`.
+// A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below it is concave. One end
+// of the ridge lies higher by `lift`.
 static double roof_height(double size, int fluid_above, double lift) {
   double x[5][3] = {{0, 0, 0}, {0, -1, lift}, {0, 1, 0}, {-1, 0, -1}, {1, 0, -1}};
   int32_t triangle[4][3] = {{1, 4, 0}, {0, 4, 2}, {2, 3, 0}, {0, 3, 1}}, face[4] = {0};
@@ -144,7 +144,7 @@ static double roof_height(double size, int fluid_above, double lift) {
 }
 
 static void bends_of_the_wall(void **state) {
-  // In the hollow tetrahedra are lower by cos 45: with a last layer of 2.25, after 1 and 1.5.
+  // Where it is concave tetrahedra are lower by cos 45: with a last layer of 2.25, after 1 and 1.5.
   assert_near(roof_height(edge_below(2.25) / sqrt(0.5), 0, 0), 4.75, 1e-9);
   // Over the ridge they are not, be it level or rising to one side.
   assert_near(roof_height(edge_below(2.25), 1, 0), 4.75, 1e-9);
