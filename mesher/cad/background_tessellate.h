@@ -15,7 +15,7 @@ extern "C" {
 // all ranks.
 typedef struct CwTessellation CwTessellation;
 
-// Chord deflection in m, angle in rad, both greater than zero.
+// Chord deflection in m, angle in rad, both greater than zero. CW_ERR_LIBRARY where OpenCASCADE fails, as below.
 CwStatus cw_tessellation_start(const CwCad *cad, double deflection, double angle, CwTessellation **tessellation);
 void cw_tessellation_free(CwTessellation **tessellation);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The exact geometry of one domain, read from the geometry stage. The one bridge of the mesher to OpenCASCADE. The
 // B-rep has a unit of its own; lengths here are metres until cw_cad_rescale brings them to the unit of the model
-// (common/model_unit). Indices are 0-based.
+// (common/model_unit). Indices are 0-based. One thread at a time asks a solid: OpenCASCADE keeps what it found last.
 #pragma once
 
 #include "mesher/common/box.h"
@@ -14,8 +14,9 @@ extern "C" {
 
 typedef struct CwCad CwCad;
 
-// Opens GEOMETRY_DIR/DOMAIN.brep and its rows of GEOMETRY_DIR/faces.csv. Fails with CW_ERR_IO or CW_ERR_INPUT
-// (a face with a seam or two degenerate edges, a face without a row).
+// Opens GEOMETRY_DIR/DOMAIN.brep and its rows of GEOMETRY_DIR/faces.csv. Fails with CW_ERR_IO, with CW_ERR_INPUT (other
+// than one solid, a face with a seam or two degenerate edges, a face without a row), with CW_ERR_LIBRARY where
+// OpenCASCADE does. [out] cad: cw_cad_close.
 CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
 void cw_cad_close(CwCad **cad);
 

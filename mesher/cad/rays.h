@@ -20,7 +20,8 @@ CwStatus cw_rays_make(const CwContext *context, int32_t point_count, const doubl
 void cw_rays_free(CwRays **rays);
 
 // First triangle through which x + s * direction (unit vector) leaves the domain, from < s < to; -1: none.
-// Hits from outside in are passed over: from a point on the wall they can only be rounding. *distance gets s.
+// Hits from outside in are passed over: from a point on the wall they can only be rounding. *distance gets s, and stays
+// where there is none.
 int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      double *distance);
 
@@ -30,8 +31,8 @@ typedef struct {
   int32_t triangle;
 } CwRayHit;
 
-// All hits of the line x + s direction (unit vector), from <= s <= to, in order; at most `most` of them. An edge
-// between two triangles may be hit twice.
+// All hits of the line x + s direction (unit vector), from <= s <= to, in order; of more than `most` any so many. An
+// edge between two triangles may be hit twice.
 int32_t cw_rays_hits(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      int32_t most, CwRayHit *hit);
 

@@ -18,11 +18,11 @@ CwStatus cw_verticals_make(const double (*x)[3], int32_t triangle_count, const i
 void cw_verticals_free(CwVerticals **verticals);
 
 // Heights z at which the line at (x, y) crosses the surface, in *z (which belongs to the verticals, until the next
-// call), in any order. A crossing at an edge or corner counts once: inside lie the points below an odd number of
-// crossings.
+// call: one thread at a time), in any order. A crossing at an edge or corner counts once: inside lie the points below
+// an odd number of crossings.
 CwStatus cw_verticals_cut(CwVerticals *verticals, double x, double y, int32_t *count, const double **z);
 
-// 1 inside, 0 outside; either for points on the surface.
+// 1 inside, 0 outside; either for points on the surface. Any thread.
 int cw_verticals_inside(const CwVerticals *verticals, const double p[3]);
 
 #ifdef __cplusplus

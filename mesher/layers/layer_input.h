@@ -11,7 +11,8 @@
 // How columns are divided, for the determinants of prisms.
 typedef struct {
   int count; // of layers; 0: determinants are not looked at
-  // Share that the last layer takes of the column over a vertex where that is so high (m); NULL: even layers.
+  // Share that the last layer takes of the column over a vertex where that is so high (m); NULL: even layers. Any
+  // thread.
   double (*last)(const void *context, int32_t vertex, double thickness);
   const void *context;
 } CwLayerDivision;
@@ -33,7 +34,7 @@ typedef struct {
   const double (*constraint_normal)[2][3]; // unit normals of the surfaces that hold the column
   const uint8_t
       *constraint_stays; // of each vertex: held by an open patch, which is there in any plan; may be NULL: none
-  // Puts a moved vertex back onto its constraints (a cylinder, say); may be NULL.
+  // Puts a moved vertex back onto its constraints (a cylinder, say); may be NULL. Any thread.
   void (*snap)(const void *context, int32_t vertex, double x[3]);
   const void *snap_context;
   // Surfaces without layers that columns must not reach (open patches: inlet, outlet, rotor/stator interface), normal

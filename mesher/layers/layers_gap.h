@@ -12,13 +12,15 @@ CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
 // than leaves `core` (m) to the tetrahedra between both layer tops; but as much as makes its last prism no smaller than
 // 1 / core_ratio of a tetrahedron across what is left, and as much as keeps the first layer.
 double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core);
-// t = min(most, room before walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
+// t = min(most, room before walls, 0.6 of the gap to obstacles) for the columns as they stand, with its reason; keeps
+// the gaps for the next call. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a concave place, where columns side by side lean to one another, 0.6 of the thickness
 // at which they would meet. Beside a concave crease the smoothing keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_concavity(CwLayerWork *work);
 // Lowers thicknesses until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower
-// thickness. lowered: vertices lowered since that last held; NULL: any. Collective.
+// thickness, but no less than columns_apart (policy_table.h) of that on the wall. lowered: vertices lowered since that
+// last held; NULL: any. Collective.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 // Where the slope begins that limits the column of v: from each vertex that is limited by its neighbours to that of
 // them which limits it, and on. v itself where none does.

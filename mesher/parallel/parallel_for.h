@@ -9,7 +9,8 @@
 #include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
-// Fills the `width` zeroed bytes of one item. given: as cw_parallel_for was.
+// Fills the `width` zeroed bytes of one item. given: as cw_parallel_for was. Several threads call it at a time where
+// the team works by threads (groups.h).
 typedef CwStatus (*CwParallelBody)(void *given, int32_t item, void *out);
 
 // Calls body for the items 0 .. count-1; all ranks get all of `out`. step: in the profiler.

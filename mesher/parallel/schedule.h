@@ -39,8 +39,9 @@ typedef struct {
 // the caller frees bytes[i]. Without `gather` a result stays on the rank that ran the task. `seconds` (count, may be
 // NULL) receives the processor time of each task on all ranks: what else runs on the machine does not count.
 // A rank that waits sleeps, so that more ranks than cores cost nothing. The next task comes from a server that answers
-// while tasks run (task_server.h); where MPI allows no threads they are dealt in turn, as those that are alike.
-// A failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
+// while tasks run (task_server.h); where MPI allows no threads they are dealt in turn, as those that are alike. Where
+// the team works by threads (groups.h) several call `run` at a time, and no task may wait for another: CW_ERR_INPUT. A
+// failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
 CwStatus cw_schedule_run(const CwContext *context, const CwSchedule *schedule, void **bytes, int64_t *size,
                          double *seconds);
 

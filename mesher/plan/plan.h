@@ -57,14 +57,15 @@ int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], dou
 // True where the plane of `ancestor` bounds the cell of `node` or a cell around it (a node is not its own ancestor).
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
 
-// The part of the line plane(a) . x, plane(b) . x as point and unit direction; 0 where the planes are nearly parallel.
+// The line in which two planes meet: its point nearest to the origin, and its unit direction, normal(a) x normal(b). 0,
+// and no line, where the sine of the angle between the planes is below 0.01.
 int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]);
 
 // Begins a plan, with room for so many nodes and regions.
 CwStatus cw_plan_new(size_t room, CwPlan *plan);
 void cw_plan_free(CwPlan *plan);
 
-// The plan in one block of bytes (malloc'd), to travel between ranks, and back.
+// The plan in one block of bytes (malloc'd), to travel between ranks, and back into a new plan. CW_ERR_MEMORY.
 CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count);
 CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan);
 

@@ -7,8 +7,9 @@
 
 // All are collective.
 
-// Surface meshes from the results of their faces, first heights and targets of all wall vertices, and what these take
-// of the volume. Outcome: that of cw_surface_mesh_make for the first domain that is not done.
+// Surface meshes from the results of their faces, first heights and targets of all wall vertices, lowered where layers
+// were thinned (run_thinning.h), and what these take of the volume. Outcome: that of cw_surface_mesh_make for the first
+// domain that is not done.
 CwStatus cw_run_merge_walls(CwMeshRun *run, const CwResults *results, CwOutcome *outcome);
 
 // Layers of those thicknesses and the room of their columns. Outcome: that of cw_boundary_grow for the first domain

@@ -23,7 +23,7 @@ typedef struct CwSize CwSize;
 // gaps ask for there; then those of the edges, and last the lines that tell which part of space lies in the domain.
 // `patch_size` gives the relative size of each patch of the CAD (from the mesh table of the case). Sizes are
 // relative to `base_size` (m), the edge length at relative size 1 before scaling. Different parts may be made on
-// different ranks; they come packed (malloc'd).
+// different ranks; they come packed (malloc'd). CW_ERR_USAGE where a size, a gradation or an angle is not above 0.
 typedef struct CwSizeSeeds CwSizeSeeds;
 CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                              const double *patch_size, double base_size, CwSizeSeeds **seeds);
@@ -56,7 +56,8 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
                       CwSizePart part, void **bytes, int64_t *byte_count);
 // The field in its block, which it takes over (*bytes is NULL after).
 CwStatus cw_size_unpack(void **bytes, CwSize **size);
-// Gives a field the open edges of another one, of the open edges alone or of both; frees what is left of that.
+// Gives a field that has none the open edges of another one, of the open edges alone or of both; frees what is left of
+// that.
 void cw_size_join(CwSize *size, CwSize **open_edges);
 void cw_size_free(CwSize **size);
 
