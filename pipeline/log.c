@@ -201,7 +201,8 @@ int cw_log_error(CwLog *log, CwStatus status) {
   if (status == CW_OK) return 0;
   if (status == CW_ERR_RANK && log && !log->speaks) return (int)status;
   char text[LINE_SIZE];
-  snprintf(text, sizeof text, "%s", cw_fail_message()[0] ? cw_fail_message() : cw_status_text(status));
+  snprintf(text, sizeof text, "%s%s", cw_fail_message()[0] ? cw_fail_message() : cw_status_text(status),
+           status == CW_ERR_FAULT ? "; this is a fault of the program: please report it, with the case" : "");
   make_one_line(text);
   write_line(log, "error: ", text);
   if (log && log->verbose && cw_fail_trace()[0]) write_line(log, "passed: ", cw_fail_trace());

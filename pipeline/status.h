@@ -36,7 +36,8 @@ extern "C" {
   X(CW_ERR_MESH, 8, "the mesh cannot be made")                                                                         \
   X(CW_ERR_EXPORT, 9, "the case cannot be written")                                                                    \
   X(CW_ERR_LIBRARY, 10, "a library failed")                                                                            \
-  X(CW_ERR_RANK, 11, "another rank failed")
+  X(CW_ERR_RANK, 11, "another rank failed")                                                                            \
+  X(CW_ERR_FAULT, 12, "a fault of the program")
 
 #define CW_STATUS_ENUM(name, value, text) name = value,
 typedef enum { CW_STATUS_LIST(CW_STATUS_ENUM) } CwStatus;

@@ -11,14 +11,14 @@ static CwStatus audit_curve(const CwFreeCurves *free_curves, const CwNetwork *ne
   const CwCurve *curve = &network->curve[i];
   const CwCurveNodes *nodes = &free_curves->curve[i];
   if (curve->wall) return CW_OK;
-  CW_REQUIRE(nodes->count >= 2, CW_ERR_MESH, "free curve %d has %d nodes", i, nodes->count);
+  CW_REQUIRE(nodes->count >= 2, CW_ERR_FAULT, "free curve %d has %d nodes", i, nodes->count);
   for (int end = 0; end < 2; end++) {
     int32_t node = nodes->node[end ? nodes->count - 1 : 0], wanted = free_curves->corner_node[curve->corner[end]];
-    CW_REQUIRE(node == wanted, CW_ERR_MESH, "free curve %d ends at node %d; its corner has node %d", i, node, wanted);
+    CW_REQUIRE(node == wanted, CW_ERR_FAULT, "free curve %d ends at node %d; its corner has node %d", i, node, wanted);
   }
   for (int32_t k = 0; k + 1 < nodes->count; k++) {
     int32_t a = nodes->node[k], b = nodes->node[k + 1];
-    CW_REQUIRE(a >= 0 && b >= 0 && a < free_curves->nodes.count && b < free_curves->nodes.count && a != b, CW_ERR_MESH,
+    CW_REQUIRE(a >= 0 && b >= 0 && a < free_curves->nodes.count && b < free_curves->nodes.count && a != b, CW_ERR_FAULT,
                "free curve %d has an edge from node %d to %d of %d", i, a, b, free_curves->nodes.count);
   }
 done:
@@ -29,15 +29,15 @@ static CwStatus audit_outline(const CwFreeCurves *free_curves, int32_t i) {
   CwStatus status = CW_OK;
   const CwInterfaceOutline *outline = &free_curves->outline[i];
   CW_REQUIRE(outline->loop_start[0] == 0 && outline->loop_start[outline->loop_count] == outline->corner_count,
-             CW_ERR_MESH, "outline %d: its loops hold %d of %d corners", i, outline->loop_start[outline->loop_count],
+             CW_ERR_FAULT, "outline %d: its loops hold %d of %d corners", i, outline->loop_start[outline->loop_count],
              outline->corner_count);
   for (int32_t l = 0; l < outline->loop_count; l++) {
     int32_t corners = outline->loop_start[l + 1] - outline->loop_start[l];
-    CW_REQUIRE(corners >= 3, CW_ERR_MESH, "outline %d: loop %d has %d corners", i, l, corners);
+    CW_REQUIRE(corners >= 3, CW_ERR_FAULT, "outline %d: loop %d has %d corners", i, l, corners);
   }
   for (int32_t k = 0; k < outline->corner_count; k++) {
     int32_t node = outline->corner[k];
-    CW_REQUIRE(node >= 0 && node < free_curves->nodes.count && free_curves->nodes.on_plane[node], CW_ERR_MESH,
+    CW_REQUIRE(node >= 0 && node < free_curves->nodes.count && free_curves->nodes.on_plane[node], CW_ERR_FAULT,
                "outline %d has the corner %d, which is no node on a plane", i, node);
   }
 done:

@@ -51,8 +51,8 @@ typedef struct {
 } CwFreeCurves;
 
 // Checks what free curves hold that are not tight: each begins and ends at the nodes of its corners, with distinct
-// nodes between, and outlines whose loops have three corners or more, all of them nodes on planes. CW_ERR_MESH with the
-// first that does not hold.
+// nodes between, and outlines whose loops have three corners or more, all of them nodes on planes. CW_ERR_FAULT with
+// the first that does not hold.
 CwStatus cw_free_curves_audit(const CwFreeCurves *free_curves, const CwNetwork *network);
 
 // Appends a node.

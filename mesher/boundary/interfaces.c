@@ -28,7 +28,7 @@ static CwStatus audit_corners(const CwInterfaces *interfaces, const char *what, 
   for (int32_t t = 0; t < count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t v = triangle[t][k];
-      CW_REQUIRE(v >= 0 && v < interfaces->nodes.count && v != triangle[t][(k + 1) % 3], CW_ERR_MESH,
+      CW_REQUIRE(v >= 0 && v < interfaces->nodes.count && v != triangle[t][(k + 1) % 3], CW_ERR_FAULT,
                  "%s: triangle %d has the corners %d, %d, %d of %d nodes", what, t, triangle[t][0], triangle[t][1],
                  triangle[t][2], interfaces->nodes.count);
     }
@@ -43,7 +43,7 @@ static CwStatus audit_outline(const CwInterfaces *interfaces, const CwInterfaceO
   CwStatus status = CW_OK;
   Edge *edge = NULL;
   size_t edges = 0;
-  CW_REQUIRE(from >= 0 && count > 0 && from + count <= of->count, CW_ERR_MESH,
+  CW_REQUIRE(from >= 0 && count > 0 && from + count <= of->count, CW_ERR_FAULT,
              "interfaces: an outline on plane %d has the triangles %d to %d of %d", outline->node, from,
              from + count - 1, of->count);
   CW_NEW(edge, 3 * (size_t)count + (size_t)outline->corner_count);
@@ -59,7 +59,7 @@ static CwStatus audit_outline(const CwInterfaces *interfaces, const CwInterfaceO
   for (size_t i = 0, uses; i < edges; i += uses) {
     uses = 1;
     while (i + uses < edges && !by_ends(&edge[i], &edge[i + uses])) uses++;
-    CW_REQUIRE(uses == 2, CW_ERR_MESH,
+    CW_REQUIRE(uses == 2, CW_ERR_FAULT,
                "interfaces: on plane %d the edge from (%.3f, %.3f, %.3f) to (%.3f, %.3f, %.3f) mm is used %zu times by "
                "triangles and loops; 2 are allowed",
                outline->node, CW_MM(interfaces->nodes.x[edge[i].low]), CW_MM(interfaces->nodes.x[edge[i].high]), uses);
@@ -75,8 +75,8 @@ static CwStatus audit_triangles(const CwInterfaces *interfaces, const CwInterfac
   for (int32_t t = 0; t < of->count; t++) {
     const int32_t *region = of->region[t];
     CW_REQUIRE(region[0] != region[1] && region[0] >= 0 && region[1] >= 0 && region[0] < regions && region[1] < regions,
-               CW_ERR_MESH, "interfaces: triangle %d lies between the regions %d and %d of %d", t, region[0], region[1],
-               regions);
+               CW_ERR_FAULT, "interfaces: triangle %d lies between the regions %d and %d of %d", t, region[0],
+               region[1], regions);
   }
 done:
   return status;
@@ -88,7 +88,7 @@ CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions) {
   CW_TRY(audit_corners(interfaces, "open patches", interfaces->open_patch.count,
                        (const int32_t(*)[3])interfaces->open_patch.triangle));
   for (int32_t t = 0; t < interfaces->open_patch.count; t++) {
-    CW_REQUIRE(interfaces->open_patch.region[t] >= 0 && interfaces->open_patch.region[t] < regions, CW_ERR_MESH,
+    CW_REQUIRE(interfaces->open_patch.region[t] >= 0 && interfaces->open_patch.region[t] < regions, CW_ERR_FAULT,
                "open patches: triangle %d lies in region %d of %d", t, interfaces->open_patch.region[t], regions);
   }
   CW_TRY(audit_triangles(interfaces, &interfaces->refined, regions));

@@ -43,7 +43,7 @@ static inline const CwInterfaceTriangles *cw_interfaces_of(const CwInterfaces *i
 
 // Checks what finished interfaces hold: corners within the nodes and distinct, the two regions of a triangle distinct,
 // outlines whose triangles follow one another, and each edge of one outline in two of its triangles, but for those of
-// its loops, which are in one. CW_ERR_MESH with the first that does not hold. regions: their number.
+// its loops, which are in one. CW_ERR_FAULT with the first that does not hold. regions: their number.
 CwStatus cw_interfaces_audit(const CwInterfaces *interfaces, int32_t regions);
 
 // Writes open patches and interfaces as VTK PolyData (cell data face, -1 on interfaces; region, the lower of two), for

@@ -27,14 +27,14 @@ static CwStatus audit_corners(const CwSurfaceMesh *surface) {
   for (int32_t t = 0; t < surface->triangle_count; t++) {
     const int32_t *corner = surface->triangle[t];
     for (int k = 0; k < 3; k++) {
-      CW_REQUIRE(corner[k] >= 0 && corner[k] < surface->vertex_count && corner[k] != corner[(k + 1) % 3], CW_ERR_MESH,
+      CW_REQUIRE(corner[k] >= 0 && corner[k] < surface->vertex_count && corner[k] != corner[(k + 1) % 3], CW_ERR_FAULT,
                  "surface mesh: triangle %d has the corners %d, %d, %d of %d vertices", t, corner[0], corner[1],
                  corner[2], surface->vertex_count);
       used[corner[k]] = 1;
     }
   }
   for (int32_t v = 0; v < surface->vertex_count; v++) {
-    CW_REQUIRE(used[v], CW_ERR_MESH, "surface mesh: vertex %d at (%.3f, %.3f, %.3f) mm has no triangle", v,
+    CW_REQUIRE(used[v], CW_ERR_FAULT, "surface mesh: vertex %d at (%.3f, %.3f, %.3f) mm has no triangle", v,
                CW_MM(surface->x[v]));
   }
 done:
@@ -54,7 +54,7 @@ static CwStatus audit_edges(const CwSurfaceMesh *surface) {
   qsort(edge, count, sizeof *edge, by_ends);
   for (size_t i = 1; i < count; i++) {
     const Edge *a = &edge[i - 1], *b = &edge[i];
-    CW_REQUIRE(a->low != b->low || a->high != b->high || a->backwards != b->backwards, CW_ERR_MESH,
+    CW_REQUIRE(a->low != b->low || a->high != b->high || a->backwards != b->backwards, CW_ERR_FAULT,
                "surface mesh: triangles %d and %d run the same way along the edge from (%.3f, %.3f, %.3f) to (%.3f, "
                "%.3f, %.3f) mm",
                a->triangle, b->triangle, CW_MM(surface->x[a->low]), CW_MM(surface->x[a->high]));
@@ -66,20 +66,20 @@ done:
 
 static CwStatus audit_regions(const CwSurfaceMesh *surface, int32_t regions) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(surface->region_start[0] == 0 && surface->region_start[regions] == surface->triangle_count, CW_ERR_MESH,
+  CW_REQUIRE(surface->region_start[0] == 0 && surface->region_start[regions] == surface->triangle_count, CW_ERR_FAULT,
              "surface mesh: regions list %d of %d triangles", surface->region_start[regions], surface->triangle_count);
   for (int32_t r = 0; r < regions; r++) {
     int32_t before = -1;
     for (int32_t i = surface->region_start[r]; i < surface->region_start[r + 1]; i++) {
       int32_t t = surface->region_triangle[i];
-      CW_REQUIRE(t > before && t < surface->triangle_count && surface->region[t] == r, CW_ERR_MESH,
+      CW_REQUIRE(t > before && t < surface->triangle_count && surface->region[t] == r, CW_ERR_FAULT,
                  "surface mesh: region %d lists triangle %d after %d", r, t, before);
       before = t;
     }
   }
   for (int32_t t = 0; t < surface->triangle_count; t++) {
     int32_t source = surface->source[t];
-    CW_REQUIRE(source >= 0 && source < surface->triangle_count && surface->source[source] == source, CW_ERR_MESH,
+    CW_REQUIRE(source >= 0 && source < surface->triangle_count && surface->source[source] == source, CW_ERR_FAULT,
                "surface mesh: triangle %d is a copy of %d, which is one itself", t, source);
   }
 done:

@@ -30,7 +30,7 @@ typedef struct {
 
 // Checks what every surface mesh holds: corners within the vertices and distinct, each vertex in a triangle, each edge
 // in at most two triangles that run through it in opposite directions, regions that list each of their triangles once,
-// sources that are their own. CW_ERR_MESH with the first that does not hold. regions: their number.
+// sources that are their own. CW_ERR_FAULT with the first that does not hold. regions: their number.
 CwStatus cw_surface_mesh_audit(const CwSurfaceMesh *surface, int32_t regions);
 
 // Writes the triangles as VTK PolyData (cell data face, region), for a look.

@@ -23,7 +23,7 @@ CwStatus cw_wall_curves_audit(const CwWallCurves *curves, const CwNetwork *netwo
   CW_NEW(used, curves->vertex_count);
   for (int32_t i = 0; i < network->corner_count; i++) {
     int32_t v = curves->corner_vertex[i];
-    CW_REQUIRE(!network->corner[i].on_wall == (v < 0) && v < curves->vertex_count && (v < 0 || !used[v]), CW_ERR_MESH,
+    CW_REQUIRE(!network->corner[i].on_wall == (v < 0) && v < curves->vertex_count && (v < 0 || !used[v]), CW_ERR_FAULT,
                "wall curves: corner %d at (%.3f, %.3f, %.3f) mm has vertex %d of %d", i, CW_MM(network->corner[i].x), v,
                curves->vertex_count);
     if (v >= 0) used[v] = 1;
@@ -31,23 +31,23 @@ CwStatus cw_wall_curves_audit(const CwWallCurves *curves, const CwNetwork *netwo
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
     const CwCurveNodes *nodes = &curves->curve[i];
-    CW_REQUIRE(curve->wall ? nodes->count >= 2 : nodes->count == 0, CW_ERR_MESH,
+    CW_REQUIRE(curve->wall ? nodes->count >= 2 : nodes->count == 0, CW_ERR_FAULT,
                "wall curves: curve %d has %d vertices", i, nodes->count);
     for (int32_t k = 0; k < nodes->count; k++) {
       int32_t v = nodes->node[k];
       if (k == 0 || k == nodes->count - 1) {
-        CW_REQUIRE(v == curves->corner_vertex[curve->corner[k > 0]], CW_ERR_MESH,
+        CW_REQUIRE(v == curves->corner_vertex[curve->corner[k > 0]], CW_ERR_FAULT,
                    "wall curves: curve %d ends at vertex %d, its corner has %d", i, v,
                    curves->corner_vertex[curve->corner[k > 0]]);
         continue;
       }
-      CW_REQUIRE(v >= 0 && v < curves->vertex_count && !used[v], CW_ERR_MESH,
+      CW_REQUIRE(v >= 0 && v < curves->vertex_count && !used[v], CW_ERR_FAULT,
                  "wall curves: vertex %d of %d on curve %d lies on another one too", v, curves->vertex_count, i);
       used[v] = 1;
     }
   }
   for (int32_t v = 0; v < curves->vertex_count; v++) {
-    CW_REQUIRE(used[v], CW_ERR_MESH, "wall curves: vertex %d at (%.3f, %.3f, %.3f) mm lies on no curve", v,
+    CW_REQUIRE(used[v], CW_ERR_FAULT, "wall curves: vertex %d at (%.3f, %.3f, %.3f) mm lies on no curve", v,
                CW_MM(curves->x[v]));
   }
 done:

@@ -26,8 +26,8 @@ typedef struct {
 } CwWallCurves;
 
 // Checks what finished wall curves hold: each wall curve begins and ends at the vertices of its corners, each corner on
-// a wall has a vertex of its own, and each other vertex lies inside of one curve alone. CW_ERR_MESH with the first that
-// does not hold.
+// a wall has a vertex of its own, and each other vertex lies inside of one curve alone. CW_ERR_FAULT with the first
+// that does not hold.
 CwStatus cw_wall_curves_audit(const CwWallCurves *curves, const CwNetwork *network);
 
 // Appends a vertex while wall curves are made.

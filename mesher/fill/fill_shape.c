@@ -47,7 +47,7 @@ CwStatus cw_tet_neighbours(int32_t tetrahedron_count, const int32_t (*tetrahedro
   CW_TRY(sort_faces(tetrahedron_count, tetrahedron, 0, NULL, &faces, &face));
   for (int64_t k = 0, next; k < faces; k = next) {
     for (next = k + 1; next < faces && same(&face[k], &face[next]);) next++;
-    CW_REQUIRE(next - k <= 2, CW_ERR_MESH, "a face of tetrahedron %d belongs to more than two", face[k].owner / 4);
+    CW_REQUIRE(next - k <= 2, CW_ERR_FAULT, "a face of tetrahedron %d belongs to more than two", face[k].owner / 4);
     int32_t a = face[k].owner, b = next - k == 2 ? face[k + 1].owner : -1;
     neighbour[a / 4][a % 4] = b;
     if (b >= 0) neighbour[b / 4][b % 4] = a;

@@ -14,7 +14,7 @@ extern "C" {
 CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill);
 
 // Neighbours of tetrahedra: neighbour[t][i] = 4 * other + its face at the face opposite corner i of t, -1
-// where there is none. Fails with CW_ERR_MESH where a face has more than two.
+// where there is none. CW_ERR_FAULT where a face has more than two.
 CwStatus cw_tet_neighbours(int32_t tetrahedron_count, const int32_t (*tetrahedron)[4], int32_t (*neighbour)[4]);
 
 #ifdef __cplusplus

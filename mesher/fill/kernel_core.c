@@ -152,7 +152,7 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwTetMesh *mesh) {
   if (!core->lattice.face_count) goto done;
   CW_TRY(sort_skin(core, mesh, &skin));
   int32_t found = part(core, &skin, mesh, &waiting);
-  CW_REQUIRE(found == core->lattice.face_count, CW_ERR_MESH,
+  CW_REQUIRE(found == core->lattice.face_count, CW_ERR_FAULT,
              "the Delaunay mesh has %d of the %d faces of the lattice's core", found, core->lattice.face_count);
   while (waiting >= 0) {
     const CwTet *tet = &mesh->tet[waiting];

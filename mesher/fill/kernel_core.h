@@ -20,7 +20,7 @@ typedef struct {
 // of the mesh, the fixed ones first. Caller frees *x.
 CwStatus cw_kernel_core_make(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
                              const CwLatticeSite *site, CwKernelCore *core, int32_t *count, double (**x)[3]);
-// Takes the tetrahedra inside the core's surface out of the Delaunay mesh of those points. Fails (CW_ERR_MESH)
+// Takes the tetrahedra inside the core's surface out of the Delaunay mesh of those points. Fails (CW_ERR_FAULT)
 // where a face of the surface is missing, which exact predicates exclude.
 CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwTetMesh *mesh);
 // Adds the core to the fill that the mesh has become, whose first points are the fixed ones.

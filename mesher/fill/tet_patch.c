@@ -159,7 +159,7 @@ CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwTetMesh *whole, int32_t *so
       }
       CwTetSide wanted = cw_tet_side(tet->corner, i, -1);
       const CwTetSide *side = bsearch(&wanted, hull, (size_t)sides, sizeof *hull, cw_tet_sides_compare);
-      CW_REQUIRE(side, CW_ERR_MESH, "a patch of %d tetrahedra came back with another hull", patch->tet_count);
+      CW_REQUIRE(side, CW_ERR_FAULT, "a patch of %d tetrahedra came back with another hull", patch->tet_count);
       tet->neighbour[i] = side->owner;
       if (side->owner >= 0) whole->tet[side->owner / 4].neighbour[side->owner % 4] = 4 * (*place)[k] + i;
     }

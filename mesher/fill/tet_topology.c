@@ -114,7 +114,7 @@ CwStatus cw_tet_exchange(CwTetMesh *mesh, int old_count, const int32_t *old, int
       side[m] = side[--sides];
     }
   }
-  CW_REQUIRE(sides == 0, CW_ERR_MESH, "an exchange of %d tetrahedra for %d left %d faces open", old_count, count,
+  CW_REQUIRE(sides == 0, CW_ERR_FAULT, "an exchange of %d tetrahedra for %d left %d faces open", old_count, count,
              sides);
 done:
   return status;

@@ -42,6 +42,6 @@ static inline CwTetSide cw_tet_side(const int32_t corner[4], int i, int32_t owne
 int cw_tet_sides_compare(const void *left, const void *right);
 
 // Puts `count` tetrahedra in the place of the `old_count` ones, which fill the same cavity; slot[k] is where each is
-// now. Fails (CW_ERR_MESH) where they do not have the same hull.
+// now. Fails (CW_ERR_FAULT) where they do not have the same hull.
 CwStatus cw_tet_exchange(CwTetMesh *mesh, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                          int32_t *slot);

@@ -80,21 +80,21 @@ done:
 CwStatus cw_layers_audit(const CwLayers *layers, const double (*x)[3]) {
   CwStatus status = CW_OK;
   for (int32_t v = 0; v < layers->column_count; v++) {
-    CW_REQUIRE(layers->thickness[v] > 0, CW_ERR_MESH, "layers: the column at (%.3f, %.3f, %.3f) mm is %g mm thick",
+    CW_REQUIRE(layers->thickness[v] > 0, CW_ERR_FAULT, "layers: the column at (%.3f, %.3f, %.3f) mm is %g mm thick",
                CW_MM(x[v]), cw_mm(layers->thickness[v]));
   }
   for (int32_t t = 0; t < layers->triangle_count; t++) {
     const int32_t *corner = layers->triangle[t];
     const double *wall[3], *top[3];
     for (int k = 0; k < 3; k++) {
-      CW_REQUIRE(corner[k] >= 0 && corner[k] < layers->column_count && corner[k] != corner[(k + 1) % 3], CW_ERR_MESH,
+      CW_REQUIRE(corner[k] >= 0 && corner[k] < layers->column_count && corner[k] != corner[(k + 1) % 3], CW_ERR_FAULT,
                  "layers: triangle %d has the corners %d, %d, %d of %d columns", t, corner[0], corner[1], corner[2],
                  layers->column_count);
       wall[k] = x[corner[k]];
       top[k] = layers->top[corner[k]];
     }
     double quality = cw_prism_quality(wall, top);
-    CW_REQUIRE(quality > 0, CW_ERR_MESH,
+    CW_REQUIRE(quality > 0, CW_ERR_FAULT,
                "layers: the prism over triangle %d at (%.3f, %.3f, %.3f) mm has a quality of %g", t, CW_MM(wall[0]),
                quality);
   }

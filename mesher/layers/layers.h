@@ -54,7 +54,7 @@ void cw_layers_arrays(void *layers, CwArrayVisit visit, void *given);
 void cw_layers_free(CwLayers *layers);
 
 // Checks what finished layers hold: corners of triangles within the columns and distinct, thicknesses above 0, and no
-// prism between the wall (x: its vertices) and the layer top turned inside out. CW_ERR_MESH with the first that does
+// prism between the wall (x: its vertices) and the layer top turned inside out. CW_ERR_FAULT with the first that does
 // not hold.
 CwStatus cw_layers_audit(const CwLayers *layers, const double (*x)[3]);
 

@@ -15,20 +15,20 @@ static CwStatus audit_polyline(const CwNetwork *network, int32_t i) {
   CwStatus status = CW_OK;
   const CwCurve *curve = &network->curve[i];
   int32_t last = curve->fine_count - 1;
-  CW_REQUIRE(last >= 1 && curve->fine_length[0] == 0, CW_ERR_MESH, "curve %d has %d points and begins at %g", i,
+  CW_REQUIRE(last >= 1 && curve->fine_length[0] == 0, CW_ERR_FAULT, "curve %d has %d points and begins at %g", i,
              curve->fine_count, last >= 0 ? curve->fine_length[0] : 0);
   for (int end = 0; end < 2; end++) {
     int32_t corner = curve->corner[end];
-    CW_REQUIRE(corner >= 0 && corner < network->corner_count, CW_ERR_MESH, "curve %d has the corner %d of %d", i,
+    CW_REQUIRE(corner >= 0 && corner < network->corner_count, CW_ERR_FAULT, "curve %d has the corner %d of %d", i,
                corner, network->corner_count);
     double off = cw_distance(network->corner[corner].x, curve->fine_x[end ? last : 0]);
-    CW_REQUIRE(off <= NEAR, CW_ERR_MESH, "curve %d ends %.3g mm off its corner at (%.3f, %.3f, %.3f) mm", i, cw_mm(off),
-               CW_MM(network->corner[corner].x));
+    CW_REQUIRE(off <= NEAR, CW_ERR_FAULT, "curve %d ends %.3g mm off its corner at (%.3f, %.3f, %.3f) mm", i,
+               cw_mm(off), CW_MM(network->corner[corner].x));
   }
   for (int32_t k = 0; k < last; k++) {
     double way = cw_distance(curve->fine_x[k], curve->fine_x[k + 1]),
            rise = curve->fine_length[k + 1] - curve->fine_length[k];
-    CW_REQUIRE(way > 0 && fabs(rise - way) <= NEAR * way + 1e-14, CW_ERR_MESH,
+    CW_REQUIRE(way > 0 && fabs(rise - way) <= NEAR * way + 1e-14, CW_ERR_FAULT,
                "curve %d: its length rises by %.17g over a way of %.17g at (%.3f, %.3f, %.3f) mm", i, rise, way,
                CW_MM(curve->fine_x[k]));
   }
@@ -44,8 +44,8 @@ static CwStatus audit_planes(const CwNetwork *network, int32_t i) {
     const CwPlane *plane = &network->plan->node[curve->plane[p]].plane;
     for (int32_t k = 0; k < curve->fine_count; k++) {
       double off = fabs(cw_plane_distance(plane, curve->fine_x[k]));
-      CW_REQUIRE(off <= NEAR, CW_ERR_MESH, "curve %d lies %.3g mm off plane %d at (%.3f, %.3f, %.3f) mm", i, cw_mm(off),
-                 curve->plane[p], CW_MM(curve->fine_x[k]));
+      CW_REQUIRE(off <= NEAR, CW_ERR_FAULT, "curve %d lies %.3g mm off plane %d at (%.3f, %.3f, %.3f) mm", i,
+                 cw_mm(off), curve->plane[p], CW_MM(curve->fine_x[k]));
     }
   }
 done:
@@ -62,7 +62,7 @@ CwStatus cw_network_audit(const CwNetwork *network) {
     for (int end = 0; end < 2; end++) on_wall[network->curve[i].corner[end]] |= network->curve[i].wall != 0;
   }
   for (int32_t i = 0; i < network->corner_count; i++) {
-    CW_REQUIRE(on_wall[i] == (network->corner[i].on_wall != 0), CW_ERR_MESH,
+    CW_REQUIRE(on_wall[i] == (network->corner[i].on_wall != 0), CW_ERR_FAULT,
                "corner %d at (%.3f, %.3f, %.3f) mm is %s a wall, and %s wall curve ends there", i,
                CW_MM(network->corner[i].x), network->corner[i].on_wall ? "on" : "off", on_wall[i] ? "a" : "no");
   }

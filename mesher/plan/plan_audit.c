@@ -13,7 +13,7 @@ static CwStatus audit_child(const CwPlan *plan, int32_t node, int side, int32_t 
   CwStatus status = CW_OK;
   int32_t child = plan->node[node].child[side], regions = plan->region_count;
   int opens = !cw_sector_holds(plan, node) || side == 1;
-  CW_REQUIRE(child < plan->node_count && -1 - child < regions && child != node, CW_ERR_MESH,
+  CW_REQUIRE(child < plan->node_count && -1 - child < regions && child != node, CW_ERR_FAULT,
              "plan: node %d has the child %d; there are %d nodes and %d regions", node, child, plan->node_count,
              regions);
   if (child < 0) {
@@ -21,7 +21,7 @@ static CwStatus audit_child(const CwPlan *plan, int32_t node, int side, int32_t 
     goto done;
   }
   CW_REQUIRE(!opens || (child > node && (plan->node[child].parent == node || cw_sector_holds(plan, child))),
-             CW_ERR_MESH, "plan: node %d has the child %d, whose parent is %d", node, child, plan->node[child].parent);
+             CW_ERR_FAULT, "plan: node %d has the child %d, whose parent is %d", node, child, plan->node[child].parent);
   uses[child] += opens;
 done:
   return status;
@@ -30,19 +30,19 @@ done:
 CwStatus cw_plan_audit(const CwPlan *plan) {
   CwStatus status = CW_OK;
   int32_t all = plan->node_count + plan->region_count, *uses = NULL;
-  CW_REQUIRE(plan->region_count == plan->node_count + (plan->sector_count == 0), CW_ERR_MESH,
+  CW_REQUIRE(plan->region_count == plan->node_count + (plan->sector_count == 0), CW_ERR_FAULT,
              "plan: %d nodes divide a domain into %d regions", plan->node_count, plan->region_count);
   CW_NEW(uses, all);
   for (int32_t i = 0; i < plan->node_count; i++) {
     double length = cw_norm(plan->node[i].plane.normal);
-    CW_REQUIRE(fabs(length - 1) <= UNIT, CW_ERR_MESH, "plan: the normal of node %d is %.17g long", i, length);
+    CW_REQUIRE(fabs(length - 1) <= UNIT, CW_ERR_FAULT, "plan: the normal of node %d is %.17g long", i, length);
     for (int side = 0; side < 2; side++) CW_TRY(audit_child(plan, i, side, uses));
   }
   for (int32_t i = 0; i < all; i++) {
     // The root is no child; of the half-planes node 0 names the first.
     int is_root = i == 0 && plan->node_count > 0, other = i < plan->node_count && cw_sector_holds(plan, i);
     int wanted = is_root || (other && i > plan->sector_first) || plan->node_count == 0 ? 0 : 1;
-    CW_REQUIRE(uses[i] == wanted, CW_ERR_MESH, "plan: %s %d is the child of %d nodes; %d is allowed",
+    CW_REQUIRE(uses[i] == wanted, CW_ERR_FAULT, "plan: %s %d is the child of %d nodes; %d is allowed",
                i < plan->node_count ? "node" : "region", i < plan->node_count ? i : i - plan->node_count, uses[i],
                wanted);
   }

@@ -6,7 +6,7 @@
 #include "mesher/plan/plan.h"
 
 // Checks what every plan holds: planes with unit normals, parents before their children, each region a leaf of one node
-// (beside half-planes of two), each part of the tree reached from the root. CW_ERR_MESH with the first that does not
+// (beside half-planes of two), each part of the tree reached from the root. CW_ERR_FAULT with the first that does not
 // hold.
 CwStatus cw_plan_audit(const CwPlan *plan);
 

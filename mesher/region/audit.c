@@ -91,7 +91,7 @@ static CwStatus check_faces(const CwRegionMesh *r, Tetrahedra *pairs, uint64_t *
   int32_t *open = NULL, count = 0;
   char name[40];
   snprintf(name, sizeof name, "%s region %d", r->domain, r->region);
-  CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, data, !pairs, pairs ? judge_pair : NULL, pairs, &open, &count));
+  CW_TRY(cw_region_open_faces(name, CW_ERR_FAULT, data, !pairs, pairs ? judge_pair : NULL, pairs, &open, &count));
   for (int32_t k = 0; k < count; k++) *sum += open_face_hash(data, open[k]);
 done:
   free(open);
@@ -107,7 +107,7 @@ static CwStatus check_indices(const CwRegionMesh *r) {
     int corners;
     const int32_t *corner = cw_cell_nodes(data, c, &corners);
     for (int k = 0; k < corners; k++) {
-      CW_REQUIRE(corner[k] >= 0 && corner[k] < r->cells.point_count, CW_ERR_MESH,
+      CW_REQUIRE(corner[k] >= 0 && corner[k] < r->cells.point_count, CW_ERR_FAULT,
                  "%s region %d: cell %d names point %d; 0 to %d are allowed", r->domain, r->region, c, corner[k],
                  r->cells.point_count - 1);
       used[corner[k]] = 1;
@@ -117,13 +117,13 @@ static CwStatus check_indices(const CwRegionMesh *r) {
     int quad = k >= r->cells.triangle_count;
     const int32_t *corner = quad ? r->cells.quads[k - r->cells.triangle_count] : r->cells.triangles[k];
     for (int i = 0; i < (quad ? 4 : 3); i++) {
-      CW_REQUIRE(corner[i] >= 0 && corner[i] < r->cells.point_count, CW_ERR_MESH,
+      CW_REQUIRE(corner[i] >= 0 && corner[i] < r->cells.point_count, CW_ERR_FAULT,
                  "%s region %d: boundary face %lld names point %d; 0 to %d are allowed", r->domain, r->region,
                  (long long)k, corner[i], r->cells.point_count - 1);
     }
   }
   for (int32_t p = 0; p < r->cells.point_count; p++) {
-    CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell", r->domain,
+    CW_REQUIRE(used[p], CW_ERR_FAULT, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell", r->domain,
                r->region, p, CW_MM(r->cells.points[p]));
   }
 done:
@@ -167,7 +167,7 @@ static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, in
     double centre[3];
     cw_cell_centre(data, cell, centre);
     status =
-        CW_FAIL(CW_ERR_MESH, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3",
+        CW_FAIL(CW_ERR_FAULT, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3",
                 r->domain, r->region, cell_name(*corners), cell, CW_MM(centre), cw_mm3(*volume));
   }
   return status;

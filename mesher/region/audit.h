@@ -51,7 +51,7 @@ typedef struct {
   int64_t prism_jacobian_bin[CW_QUALITY_BINS]; // scaled Jacobian from 0 to 1; negative ones in the first
 } CwQuality;
 
-// Fails with CW_ERR_MESH, naming region, cell and place (mm), where a cell has no positive volume, a face
+// Fails with CW_ERR_FAULT, naming region, cell and place (mm), where a cell has no positive volume, a face
 // belongs to more than two cells (or has both of its two on one side), a point belongs to no cell, a listed
 // face has the wrong cell or its normal into the domain, or an open face is neither listed as boundary
 // exactly once nor has all its points shared (on a partition plane). Where it passes fills *quality.

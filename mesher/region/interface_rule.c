@@ -246,7 +246,7 @@ CwStatus cw_interface_rule_merge(const CwPeriodicImages *images, CwInterfaces *i
     }
   }
   for (int32_t i = 0; i < interfaces->outline_count; i++)
-    CW_REQUIRE(interfaces->outline[i].refined_count > 0, CW_ERR_MESH, "interface %d has no owner", i);
+    CW_REQUIRE(interfaces->outline[i].refined_count > 0, CW_ERR_FAULT, "interface %d has no owner", i);
 done:
   free(block);
   return status;

@@ -70,7 +70,7 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, CwLay
   for (int32_t e = 0; e < ends; e++) {
     const int32_t patch = cells->triangle_patch[wall[e]];
     const double *x = cells->points[end[e][0]];
-    CW_REQUIRE(above[e] >= 0, CW_ERR_MESH,
+    CW_REQUIRE(above[e] >= 0, CW_ERR_FAULT,
                "%s region %d: the column that ends at (%.6g, %.6g, %.6g) mm has no tetrahedron there", mesh->domain,
                mesh->region, CW_MM(x));
     Meeting meeting = meet(mesh, cells->triangle_cell[wall[e]] + last, cells->tetrahedra[above[e]]);

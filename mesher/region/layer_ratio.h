@@ -28,8 +28,8 @@ typedef struct {
 } CwLayerRatio;
 
 // Adds the wall faces of a region to ratio[patch], which has `patches` rows. The weight of the face between two cells
-// is the lesser distance of their centres from its plane over the sum of both. Fails with CW_ERR_MESH where a column of
-// `layers` prisms has no tetrahedron on its end.
+// is the lesser distance of their centres from its plane over the sum of both. Fails with CW_ERR_FAULT where a column
+// of `layers` prisms has no tetrahedron on its end.
 CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, CwLayerRatio *ratio);
 
 // Adds what another region has counted.

@@ -190,28 +190,39 @@ static int32_t column_point(const Build *build, int32_t local, int level) {
 }
 
 // Nodes of a face of an interface lie on its exact surface: solvers couple the two sides there.
-static CwStatus check_on_open_patch(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
-                                    int count) {
-  CwStatus status = CW_OK;
+static void check_on_open_patch(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
+                                int count, CwOutcome *outcome) {
   const CwCad *cad = build->context->from.in->cad;
   const double *x[4];
   int patch = cw_cad_face_patch(cad, face);
-  if (cw_cad_patch_kind(cad, patch) != CW_PATCH_INTERFACE) return CW_OK;
+  if (cw_cad_patch_kind(cad, patch) != CW_PATCH_INTERFACE) return;
   for (int c = 0; c < count; c++) x[c] = mesh->cells.points[corner[c]];
   double allowed = cw_interface_tolerance(count, x);
   for (int c = 0; c < count; c++) {
     double off = cw_cad_face_distance(cad, face, x[c]);
-    CW_REQUIRE(off <= allowed, CW_ERR_MESH,
-               "%s region %d: the node at (%.6g, %.6g, %.6g) mm is %.3g mm off patch %s; allowed: %.3g mm",
-               build->context->domain, build->region + 1, CW_MM(x[c]), cw_mm(off), cw_cad_patch_name(cad, patch),
-               cw_mm(allowed));
+    CW_END_UNLESS(off <= allowed, outcome, CW_OUTCOME_THIN, x[c],
+                  "%s region %d: a node is %.3g mm off patch %s; allowed: %.3g mm", build->context->domain,
+                  build->region + 1, cw_mm(off), cw_cad_patch_name(cad, patch), cw_mm(allowed));
   }
 done:
-  return status;
+  return;
+}
+
+// Between layers whose nodes were brought onto a curved patch.
+static void check_prism(const Build *build, const CwRegionMesh *mesh, const int32_t prism[6], CwOutcome *outcome) {
+  const double *x[6];
+  double centre[3] = {0};
+  for (int k = 0; k < 6; k++) x[k] = mesh->cells.points[prism[k]];
+  for (int k = 0; k < 18; k++) centre[k % 3] += x[k / 3][k % 3] / 6;
+  double volume = cw_cell_volume(6, x);
+  CW_END_UNLESS(volume > 0, outcome, CW_OUTCOME_THIN, centre, "%s region %d: a prism has no positive volume: %.3g mm3",
+                build->context->domain, build->region + 1, cw_mm3(volume));
+done:
+  return;
 }
 
 // Prisms of all columns, wall triangles under them, and the quads of their sides on open patches.
-static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
+static CwStatus add_layers(Build *build, CwRegionMesh *mesh, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
   const CwRegionInput *from = &context->from;
@@ -241,7 +252,8 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
           mesh->cells.quads[q][3] = column_point(build, b, k + 1);
           mesh->cells.quad_patch[q] = cw_cad_face_patch(from->in->cad, open_patch);
           mesh->cells.quad_cell[q] = first_cell + k;
-          CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.quads[q], 4));
+          check_on_open_patch(build, mesh, open_patch, mesh->cells.quads[q], 4, outcome);
+          if (outcome->kind != CW_OUTCOME_DONE) goto done;
         }
       }
       if (pass == 0) continue;
@@ -251,6 +263,8 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
           prism[c] = column_point(build, corner[(3 - c) % 3], k);
           prism[c + 3] = column_point(build, corner[(3 - c) % 3], k + 1);
         }
+        check_prism(build, mesh, prism, outcome);
+        if (outcome->kind != CW_OUTCOME_DONE) goto done;
       }
       int32_t w = mesh->cells.triangle_count++;
       for (int c = 0; c < 3; c++) mesh->cells.triangles[w][c] = column_point(build, corner[c], 0);
@@ -263,7 +277,7 @@ done:
 }
 
 // Triangles of the open patches with the tetrahedron behind each.
-static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
+static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwRegionInput *from = &build->context->from;
   const int32_t first = build->inner.wall_count, made = mesh->cells.triangle_count;
@@ -276,9 +290,10 @@ static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh) {
     const int patch = cw_cad_face_patch(from->in->cad, open_patch);
     for (int c = 0; c < 3; c++) mesh->cells.triangles[made + t][c] = build->place[corner[t][c]];
     mesh->cells.triangle_patch[made + t] = patch;
-    CW_TRY(check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made + t], 3));
+    check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made + t], 3, outcome);
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     const double *x = mesh->cells.points[mesh->cells.triangles[made + t][0]];
-    CW_REQUIRE(mesh->cells.triangle_cell[made + t] >= 0, CW_ERR_MESH,
+    CW_REQUIRE(mesh->cells.triangle_cell[made + t] >= 0, CW_ERR_FAULT,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
                build->region + 1, cw_cad_patch_name(from->in->cad, patch), CW_MM(x));
   }
@@ -287,7 +302,15 @@ done:
   return status;
 }
 
-CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh) {
+// A boundary that cannot be filled has layers that leave no room.
+static CwStatus thin_unless_filled(CwStatus filled, CwOutcome *outcome) {
+  if (filled != CW_ERR_MESH) return filled;
+  cw_outcome_set(outcome, CW_OUTCOME_THIN, NULL, "%s", cw_fail_message());
+  return CW_OK;
+}
+
+CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh,
+                         CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Build build = {.context = context, .region = region};
   double(*inner)[3] = NULL;
@@ -302,11 +325,12 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_TRY(cw_region_boundary_make(&context->from, region, 0, &build.inner));
   CwFillInput input = cw_region_fill_input(&context->from, &build.inner, name);
   if (context->from.interfaces->planned.triangle) {
-    CW_TRY(cw_interface_rule_points(&context->from, region, name, &input.inner_count, &inner, &site));
+    CwStatus found = cw_interface_rule_points(&context->from, region, name, &input.inner_count, &inner, &site);
+    CW_TRY_STAGE(thin_unless_filled(found, outcome), outcome);
     input.inner = (const double(*)[3])inner;
     input.inner_site = site;
   }
-  CW_TRY(cw_fill_with_fallback(&input, context->fill, &build.fill));
+  CW_TRY_STAGE(thin_unless_filled(cw_fill_with_fallback(&input, context->fill, &build.fill), outcome), outcome);
   mesh->recovery = build.fill.recovery;
   CW_TRY(place_points(&build, mesh));
   CW_TRY(order_tetrahedra(&build));
@@ -318,10 +342,10 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_NEW(mesh->cells.triangles, build.inner.wall_count + build.inner.open_patch_count);
   CW_NEW(mesh->cells.triangle_patch, build.inner.wall_count + build.inner.open_patch_count);
   CW_NEW(mesh->cells.triangle_cell, build.inner.wall_count + build.inner.open_patch_count);
-  CW_TRY(add_layers(&build, mesh));
-  CW_TRY(add_open_patches(&build, mesh));
+  CW_TRY_STAGE(add_layers(&build, mesh, outcome), outcome);
+  CW_TRY_STAGE(add_open_patches(&build, mesh, outcome), outcome);
 done:
-  if (status != CW_OK) cw_region_free(mesh);
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_region_free(mesh);
   cw_fill_free(&build.fill);
   cw_region_boundary_free(&build.inner);
   free(inner);

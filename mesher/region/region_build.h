@@ -2,6 +2,7 @@
 // One region of the mesh from the boundary: tetrahedra inside its layer top, prisms in its columns, boundary faces.
 #pragma once
 
+#include "mesher/parallel/outcome.h"
 #include "mesher/region/column_place.h"
 #include "mesher/region/region_file.h"
 #include "mesher/region/region_input.h"
@@ -36,5 +37,8 @@ typedef struct {
 // Hex fingerprint of all that region `region` (0-based) follows from.
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]);
 
-// Makes the region. Fails with CW_ERR_MESH naming domain, region and place.
-CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh);
+// Makes the region. [out] mesh: freed by cw_region_free; empty unless the outcome is done. Outcome: CW_OUTCOME_THIN
+// where the boundary cannot be filled, a prism has no positive volume or a node lies off its interface of domains; the
+// reason names domain and region. CW_ERR_FAULT where what was filled does not fit the boundary.
+CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh,
+                         CwOutcome *outcome);

@@ -44,7 +44,7 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
   const CwRegionInput *from = &context->from;
   int32_t first = node_of(context, id), node = cw_image_node(&from->interfaces->images, first, turns);
   int64_t level = id - context->shared->base[first];
-  CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no periodic image",
+  CW_REQUIRE(node >= 0, CW_ERR_FAULT, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no periodic image",
              context->domain, CW_MM(from->interfaces->nodes.x[first]));
   *turned = context->shared->base[node] + level;
   if (node < from->surface->vertex_count && level < context->layer_count) {
@@ -72,7 +72,7 @@ CwStatus cw_region_turn(const CwRegionContext *context, int32_t turns, int32_t n
     cw_copy(turned, cells->points[i]);
     if (i >= cells->shared_count) continue;
     CW_TRY(turned_point(context, cells->shared_id[i], turns, &cells->shared_id[i], cells->points[i]));
-    CW_REQUIRE(cw_distance(turned, cells->points[i]) < SAME_POINT, CW_ERR_MESH,
+    CW_REQUIRE(cw_distance(turned, cells->points[i]) < SAME_POINT, CW_ERR_FAULT,
                "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its periodic image",
                context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, cells->points[i])));
   }

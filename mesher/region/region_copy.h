@@ -10,7 +10,7 @@
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
                                 char fingerprint[CW_HASH_TEXT]);
 
-// Makes that copy of the mesh that it is given, in its place, with its fingerprint. Fails with CW_ERR_MESH where a
+// Makes that copy of the mesh that it is given, in its place, with its fingerprint. Fails with CW_ERR_FAULT where a
 // shared point of the boundary does not lie where the turn takes it; then the mesh is neither.
 CwStatus cw_region_turn(const CwRegionContext *context, int32_t turns, int32_t number, const char *fingerprint,
                         CwRegionMesh *mesh);

@@ -22,15 +22,19 @@ static void name_patch(const CwRegionInput *from, const CwRegionBoundary *inner,
   snprintf(patch, 40, "%s", name);
 }
 
-CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, const char *message, const char *path,
+CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, const CwOutcome *why, const char *path,
                                    CwRegionFailure *failure) {
   CwStatus status = CW_OK;
   CwRegionBoundary inner = {0};
   int32_t(*pair)[2] = NULL, pairs = 0;
   int32_t *crossing = NULL;
   char name[64];
-  *failure = (CwRegionFailure){.failed = 1, .everywhere = 1};
-  snprintf(failure->message, sizeof failure->message, "%s", message);
+  *failure = (CwRegionFailure){.failed = 1, .everywhere = !why->has_place};
+  snprintf(failure->message, sizeof failure->message, "%.*s", (int)sizeof failure->message - 1, why->reason);
+  if (why->has_place) {
+    snprintf(failure->patch, sizeof failure->patch, "the layers");
+    cw_copy(why->place, failure->at);
+  }
   snprintf(name, sizeof name, "boundary of region %d", region + 1);
   CW_TRY(cw_region_boundary_make(from, region, 0, &inner));
   int32_t count = inner.wall_count + inner.open_patch_count + inner.interface_count;
@@ -38,7 +42,7 @@ CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, co
   CW_TRY(cw_self_intersections(inner.node_count, (const double(*)[3])inner.x, count,
                                (const int32_t(*)[3])inner.triangle, &pairs, &pair));
   for (int32_t p = 0; p < pairs; p++) crossing[pair[p][0]] = crossing[pair[p][1]] = 1;
-  if (pairs > 0) {
+  if (pairs > 0 && failure->everywhere) {
     const int32_t *corner = inner.triangle[pair[0][0]];
     failure->everywhere = 0;
     name_patch(from, &inner, pair[0][0], failure->patch);

@@ -110,8 +110,8 @@ static CwStatus take_up(const char *path, const char *fingerprint, CwRegionMesh 
   CW_TRY(cw_region_take_up(path, fingerprint, mesh, &found));
   if (found == CW_REGION_TAKEN) {
     status = cw_audit_region(mesh, &summary->quality);
-    if (status == CW_ERR_MESH) found = CW_REGION_DAMAGED;
-    if (status != CW_ERR_MESH) CW_TRY(status);
+    if (status == CW_ERR_FAULT) found = CW_REGION_DAMAGED;
+    if (status != CW_ERR_FAULT) CW_TRY(status);
   }
   status = CW_OK;
   *taken = found == CW_REGION_TAKEN;
@@ -188,6 +188,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
   CwAtomicFile file = {0};
+  CwOutcome outcome = {0};
   char path[PATH_SIZE], boundary_path[PATH_SIZE], fingerprint[CW_HASH_TEXT];
   int taken;
   int32_t first = cw_image_region_first(&domain->images, &domain->plan, task.index);
@@ -196,17 +197,15 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CW_NEW(summary, 1);
   cw_region_fingerprint(&domain->context, task.index, fingerprint);
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
-  CwStatus made = taken ? CW_OK : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
-  if (made == CW_OK && !taken) { // on its way to the disk while it is looked at
-    CW_TRY(cw_region_write_begin(path, &mesh, &file));
-    made = cw_audit_region(&mesh, &summary->quality);
-  }
-  if (made == CW_ERR_MESH) {
-    CW_TRY(cw_region_failure_examine(&domain->context.from, task.index, cw_fail_message(), boundary_path,
-                                     &summary->failure));
+  if (!taken) CW_TRY(cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh, &outcome));
+  if (outcome.kind != CW_OUTCOME_DONE) {
+    CW_TRY(cw_region_failure_examine(&domain->context.from, task.index, &outcome, boundary_path, &summary->failure));
     remove(path); // of an earlier attempt: it must not be copied
   } else {
-    CW_TRY(made);
+    if (!taken) { // on its way to the disk while it is looked at
+      CW_TRY(cw_region_write_begin(path, &mesh, &file));
+      CW_TRY(cw_audit_region(&mesh, &summary->quality));
+    }
     remove(boundary_path); // of an earlier attempt
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));

@@ -19,8 +19,9 @@ CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 // An open patch, or after all faces an interface polygon.
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-// Makes the region, or takes it up from its file where an earlier run left it whole. A periodic image is made of its
-// first.
+// Makes the region, or takes it up from its file where an earlier run left it whole; the summary tells of a damaged
+// file, and of a region whose layers have to become thinner. A periodic image is made of its first. CW_ERR_FAULT where
+// a region that was made fails its audit.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 
 // How many regions a region stands for: itself and its periodic images.

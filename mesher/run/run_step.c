@@ -18,7 +18,7 @@ typedef struct {
 
 // The status of work on a domain, whose name a failure tells.
 static CwStatus in_domain(const CwMeshRun *run, int32_t domain, CwStatus status) {
-  if (status == CW_ERR_GEOMETRY || status == CW_ERR_MESH || status == CW_ERR_LIBRARY)
+  if (status == CW_ERR_GEOMETRY || status == CW_ERR_MESH || status == CW_ERR_LIBRARY || status == CW_ERR_FAULT)
     cw_fail_place(run->domain[domain].name);
   return status;
 }

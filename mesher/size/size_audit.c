@@ -10,7 +10,7 @@ CwStatus cw_size_audit(const CwSize *size, const CwBackground *background) {
   CwStatus status = CW_OK;
   for (int32_t p = 0; p < background->point_count; p++) {
     double h = cw_size_at(size, background->x[p]);
-    CW_REQUIRE(h > 0 && isfinite(h), CW_ERR_MESH, "size field: edges of %g mm are wanted at (%.3f, %.3f, %.3f) mm",
+    CW_REQUIRE(h > 0 && isfinite(h), CW_ERR_FAULT, "size field: edges of %g mm are wanted at (%.3f, %.3f, %.3f) mm",
                cw_mm(h), CW_MM(background->x[p]));
   }
 done:

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-// Checks that wanted edge lengths at all points of the background are above 0 and finite. CW_ERR_MESH with the first
+// Checks that wanted edge lengths at all points of the background are above 0 and finite. CW_ERR_FAULT with the first
 // that is not.
 CwStatus cw_size_audit(const CwSize *size, const CwBackground *background);
 

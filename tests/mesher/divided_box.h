@@ -10,6 +10,7 @@
 
 extern "C" {
 #include "mesher/cad/background_make.h"
+#include "mesher/region/region_build.h"
 }
 
 #include "domain_surfaces.h"
@@ -127,3 +128,26 @@ static inline void make_surfaces(Box &box) {
   for (void *bytes : open_patches) free(bytes);
   for (void *bytes : interfaces) free(bytes);
 }
+
+// What regions of the box are made from: four layers, the first 0.2 mm.
+struct Regions {
+  std::vector<double> first, growth;
+  CwSharedNodes shared;
+  CwRegionContext context = {};
+
+  explicit Regions(const DomainSurfaces &boundary)
+      : first(boundary.surface.vertex_count, 2e-4), growth(boundary.surface.vertex_count, 1.5) {
+    context.from = boundary.regions();
+    context.domain = "box";
+    context.layer_count = 4;
+    context.growth = growth.data();
+    context.first_height = first.data();
+    check(cw_shared_nodes_make(&context.from, context.layer_count, &shared));
+    context.shared = &shared;
+    check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
+  }
+  ~Regions() {
+    cw_open_edge_places_free(&context.open_edge_places);
+    cw_shared_nodes_free(&shared);
+  }
+};

@@ -101,6 +101,23 @@ static void lines_go_to_standard_error_and_to_the_copy(void **state) {
   assert_int_equal(cw_log_warning_count(test_log), 0);
 }
 
+// Who runs into one knows that nothing of his is wrong.
+static void a_fault_of_the_program_is_called_so(void **state) {
+  char seen[TEXT_SIZE];
+  int file = open_capture();
+  capture_start(file);
+  cw_log_open("mesh", NULL, 1, 0, &test_log);
+  CW_FAIL(CW_ERR_FAULT, "a face has three cells");
+  int code = cw_log_error(test_log, CW_ERR_FAULT);
+  capture_end();
+  cw_log_close(&test_log);
+  read_capture(file, seen);
+  assert_int_equal(code, 12);
+  assert_string_equal(seen,
+                      "cutwater-mesh: error: a face has three cells; this is a fault of the program: please report "
+                      "it, with the case\n");
+}
+
 static void verbose_adds_debug_lines_and_the_trace(void **state) {
   char seen[TEXT_SIZE];
   int file = open_capture();
@@ -286,6 +303,7 @@ static void clock_and_memory_are_true(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lines_go_to_standard_error_and_to_the_copy),
+      cmocka_unit_test(a_fault_of_the_program_is_called_so),
       cmocka_unit_test(verbose_adds_debug_lines_and_the_trace),
       cmocka_unit_test(quiet_ranks_keep_lines_for_others),
       cmocka_unit_test(quiet_ranks_print_errors_only),

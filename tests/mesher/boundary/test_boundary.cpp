@@ -190,29 +190,6 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
   assert_int_equal(arcs, 2);
 }
 
-// What regions of the box are made from: four layers, the first 0.2 mm.
-struct Regions {
-  std::vector<double> first, growth;
-  CwSharedNodes shared;
-  CwRegionContext context = {};
-
-  explicit Regions(const DomainSurfaces &boundary)
-      : first(boundary.surface.vertex_count, 2e-4), growth(boundary.surface.vertex_count, 1.5) {
-    context.from = boundary.regions();
-    context.domain = "box";
-    context.layer_count = 4;
-    context.growth = growth.data();
-    context.first_height = first.data();
-    check(cw_shared_nodes_make(&context.from, context.layer_count, &shared));
-    context.shared = &shared;
-    check(cw_open_edge_places_make(&context.from, &context.open_edge_places));
-  }
-  ~Regions() {
-    cw_open_edge_places_free(&context.open_edge_places);
-    cw_shared_nodes_free(&shared);
-  }
-};
-
 // Regions of the whole box: audited, together as large as the box, with shared points and faces that agree to the last
 // bit.
 static void fill_the_box(int rule) {
@@ -234,7 +211,9 @@ static void fill_the_box(int rule) {
   for (int r = 0; r < 4; r++) {
     CwRegionMesh mesh;
     CwQuality quality;
-    check(cw_region_build(&regions.context, r, number[r], &mesh));
+    CwOutcome outcome = {};
+    check(cw_region_build(&regions.context, r, number[r], &mesh, &outcome));
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     check(cw_audit_region(&mesh, &quality));
     assert_int_equal(mesh.cells.prism_count % 4, 0);
     volume += quality.volume;
@@ -339,14 +318,18 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(through, boundary.interfaces.nodes.x[best]);
   const Regions regions(boundary);
   CwRegionMesh mesh;
-  assert_int_equal(cw_region_build(&regions.context, 0, 1, &mesh), CW_ERR_MESH);
+  CwOutcome why = {};
+  check(cw_region_build(&regions.context, 0, 1, &mesh, &why));
+  assert_int_equal(why.kind, CW_OUTCOME_THIN);
+  assert_null(mesh.cells.points);
   const TemporaryFolder folder;
-  const std::string message = cw_fail_message(), path = folder.path + "/failed-box-0001.vtk";
+  const std::string path = folder.path + "/failed-box-0001.vtk";
   CwRegionFailure failure;
-  check(cw_region_failure_examine(&regions.context.from, 0, message.c_str(), path.c_str(), &failure));
+  check(cw_region_failure_examine(&regions.context.from, 0, &why, path.c_str(), &failure));
   assert_int_equal(failure.failed, 1);
   assert_int_equal(failure.everywhere, 0);
-  assert_string_equal(failure.message, message.c_str());
+  assert_true(strlen(why.reason) > 20);
+  assert_string_equal(failure.message, why.reason);
   assert_true(!strcmp(failure.patch, "side") || !strcmp(failure.patch, "partition plane"));
   assert_true(cw_distance(failure.at, through) < 0.012);
 
@@ -356,7 +339,7 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_copy(boundary.surface.x[best], boundary.layers.top[best]);
   boundary.layers.top[best][2] -= 1.5e-3;
   cw_copy(boundary.layers.top[best], boundary.interfaces.nodes.x[best]);
-  check(cw_region_failure_examine(&regions.context.from, 0, "none", path.c_str(), &failure));
+  check(cw_region_failure_examine(&regions.context.from, 0, &why, path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
 }
 

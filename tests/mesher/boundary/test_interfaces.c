@@ -51,7 +51,7 @@ static void sound_ones_pass(void **state) {
 }
 
 static void told(Square *of, const char *message) {
-  assert_int_equal(cw_interfaces_audit(&of->interfaces, REGIONS), CW_ERR_MESH);
+  assert_int_equal(cw_interfaces_audit(&of->interfaces, REGIONS), CW_ERR_FAULT);
   if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
   make(of);
 }

@@ -52,7 +52,7 @@ static void sound_ones_pass(void **state) {
 }
 
 static void told(Tetrahedron *of, const char *message) {
-  assert_int_equal(cw_surface_mesh_audit(&of->surface, REGIONS), CW_ERR_MESH);
+  assert_int_equal(cw_surface_mesh_audit(&of->surface, REGIONS), CW_ERR_FAULT);
   if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
   make(of);
 }

@@ -46,7 +46,7 @@ static void unmake(Made *made) {
 }
 
 static void told(Made *of, const char *message) {
-  assert_int_equal(cw_wall_curves_audit(&of->curves, &of->network), CW_ERR_MESH);
+  assert_int_equal(cw_wall_curves_audit(&of->curves, &of->network), CW_ERR_FAULT);
   if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
   unmake(of);
   make(of);

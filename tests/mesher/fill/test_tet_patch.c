@@ -94,7 +94,7 @@ static void other_hull_is_refused(void **state) {
   int32_t k = 0;
   while (patch.mesh.tet[k / 4].neighbour[k % 4] < 0) k++;
   patch.mesh.tet[k / 4].neighbour[k % 4] = -1; // a face inside stands open
-  assert_int_equal(cw_tet_patch_put(&patch, &whole, &sources, &place), CW_ERR_MESH);
+  assert_int_equal(cw_tet_patch_put(&patch, &whole, &sources, &place), CW_ERR_FAULT);
   free(place);
   cw_tet_patch_free(&patch);
   cw_tet_mesh_free(&whole);

@@ -222,7 +222,7 @@ static void square(Square *made) {
 }
 
 static void told(Square *of, const char *message) {
-  assert_int_equal(cw_layers_audit(&of->layers, (const double(*)[3])of->x), CW_ERR_MESH);
+  assert_int_equal(cw_layers_audit(&of->layers, (const double(*)[3])of->x), CW_ERR_FAULT);
   if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
   square(of);
 }

@@ -48,7 +48,7 @@ static void sound_ones_pass(void **state) {
 }
 
 static void told(Lines *lines, const char *message) {
-  assert_int_equal(cw_network_audit(&lines->network), CW_ERR_MESH);
+  assert_int_equal(cw_network_audit(&lines->network), CW_ERR_FAULT);
   if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
   make(lines);
 }

@@ -50,7 +50,7 @@ static void sound_ones_pass(void **state) {
 }
 
 static void told(Made *made, const char *message) {
-  assert_int_equal(cw_plan_audit(&made->plan), CW_ERR_MESH);
+  assert_int_equal(cw_plan_audit(&made->plan), CW_ERR_FAULT);
   if (!strstr(cw_fail_message(), message)) fail_msg("%s", cw_fail_message());
   make_box(made);
 }

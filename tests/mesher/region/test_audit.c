@@ -38,7 +38,7 @@ static CwRegionMesh prism_and_tet(void) {
 static void fails_with(const CwRegionMesh *r, const char *part) {
   CwQuality q;
   cw_fail_clear();
-  assert_int_equal(cw_audit_region(r, &q), CW_ERR_MESH);
+  assert_int_equal(cw_audit_region(r, &q), CW_ERR_FAULT);
   assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
   if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
 }
@@ -154,7 +154,7 @@ static void two_cells_on_one_side(void **state) {
   fails_with(&r, "has both of its cells on one side");
 }
 
-static void open_face_is_allowed_only_on_dividing_planes(void **state) {
+static void open_face_is_allowed_only_on_partition_planes(void **state) {
   CwRegionMesh r = prism_and_tet();
   CwQuality q;
   r.cells.quad_count = 2; // quad 2, 0, 3, 5 is no longer listed
@@ -271,7 +271,7 @@ static void copies_are_audited_by_what_is_their_own(void **state) {
   assert_true(sum != 0 && sum == q.open_faces);
   x[6][2] = 1.0;
   cw_fail_clear();
-  assert_int_equal(cw_audit_copy(&r, &sum), CW_ERR_MESH);
+  assert_int_equal(cw_audit_copy(&r, &sum), CW_ERR_FAULT);
   assert_non_null(strstr(cw_fail_message(), "tetrahedron of cell 0"));
   assert_non_null(strstr(cw_fail_message(), "no positive volume"));
 }
@@ -353,7 +353,7 @@ int main(void) {
       cmocka_unit_test(cells_above_and_below_one_face),
       cmocka_unit_test(a_tetrahedron_far_larger_than_the_next_counts_as_flat),
       cmocka_unit_test(two_cells_on_one_side),
-      cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
+      cmocka_unit_test(open_face_is_allowed_only_on_partition_planes),
       cmocka_unit_test(corners_may_be_turned),
       cmocka_unit_test(many_faces_at_one_point),
       cmocka_unit_test(copies_are_audited_by_what_is_their_own),

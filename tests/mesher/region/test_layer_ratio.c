@@ -83,7 +83,7 @@ static void sums_and_quantiles(void **state) {
 
 static void a_bare_end_is_an_error(void **state) {
   CwLayerRatio ratio[2] = {0};
-  assert_int_equal(count(0.9, 0, ratio), CW_ERR_MESH);
+  assert_int_equal(count(0.9, 0, ratio), CW_ERR_FAULT);
 }
 
 int main(void) {

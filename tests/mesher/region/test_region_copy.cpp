@@ -154,17 +154,19 @@ static void fill_the_tank(bool divided, bool rule) {
   const int each = (regions - 1) / 5; // regions of a wedge
   for (int r = 0; r < regions; r++) {
     CwQuality quality;
+    CwOutcome outcome = {};
     if (r <= each) {
-      check(cw_region_build(&context, r, number[r], &mesh));
+      check(cw_region_build(&context, r, number[r], &mesh, &outcome));
     } else {
       char fingerprint[33];
       const int source = 1 + (r - 1) % each;
-      check(cw_region_build(&context, source, number[source], &mesh));
+      check(cw_region_build(&context, source, number[source], &mesh, &outcome));
       cw_region_copy_fingerprint(&context, &mesh, (r - 1) / each, fingerprint);
       assert_string_not_equal(mesh.fingerprint, fingerprint);
       check(cw_region_turn(&context, (r - 1) / each, number[r], fingerprint, &mesh));
       assert_string_equal(mesh.fingerprint, fingerprint);
     }
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     assert_int_equal(mesh.region, r + 1);
     check(cw_audit_region(&mesh, &quality));
     volume += quality.volume;

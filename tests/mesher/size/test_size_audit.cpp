@@ -19,7 +19,7 @@ static void fields_are_positive(void **) {
   assert_int_equal(cw_size_audit(box.size, &box.background), CW_OK);
   for (double scale : {0.0, -1.0, (double)INFINITY, (double)NAN}) {
     cw_size_set_scale(box.size, scale);
-    assert_int_equal(cw_size_audit(box.size, &box.background), CW_ERR_MESH);
+    assert_int_equal(cw_size_audit(box.size, &box.background), CW_ERR_FAULT);
     assert_non_null(strstr(cw_fail_message(), "mm are wanted at ("));
   }
 }
