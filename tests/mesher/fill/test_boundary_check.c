@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is no boundary is refused by each way to fill, with one line that names the region and a place.
-// Modules without a test of their own that it runs: fill_shape.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
