@@ -68,7 +68,7 @@ SECTIONS = {
         "measured only where it is named."),
     "table1": Section(
         "Table 1 of the paper: shapes of the tetrahedra, time and messages", "tests/bench/table1.py --cells 21M",
-        "The rotor, meshed whole, in six ways (`tests/bench/table1.py --help` says what rows and columns mean). "
+        "The paper's water body, the rotor alone, in six ways (`tests/bench/table1.py --help` says what rows and columns mean). "
         "Chew's algorithm runs on the mesher's own regions, layers and size field; its interfaces are split by the "
         "limits of distance that the rule has, and the lines round them stay as they are, as with the rule."),
     "table2": Section(

@@ -4,12 +4,16 @@ that a later call takes up."""
 import base64
 import json
 import re
+import shutil
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from programs import MPIRUN, SOURCE, execute
+
+sys.path.insert(0, str(SOURCE / "pipeline"))
+import needs  # noqa: E402  (pipeline/needs.py)
 
 BIN, PAPER_CASE = SOURCE / "build/bin", SOURCE / "cases/paper/case.yaml"
 
@@ -22,6 +26,27 @@ def stage_line(programs, stage, case, run, cells=None, ranks=1):
 
 def record(run, stage="mesh"):
     return json.loads((run / stage / "record.json").read_text())
+
+
+def domain_alone(programs, geometry, domain, folder):
+    """Copies a geometry with one domain of it alone, whose interfaces are outlets."""
+    shutil.copytree(geometry, folder)
+    model = json.loads((folder / "model.json").read_text())
+    model["domains"] = [one for one in model["domains"] if one["name"] == domain]
+    if not model["domains"]:
+        sys.exit(f"{Path(sys.argv[0]).stem}: {folder}: no domain is called '{domain}'")
+    model["interfaces"] = []
+    for patch in model["domains"][0]["patches"]:
+        if patch["kind"] == "interface":
+            patch.update(kind="outlet", flow_share=1.0)
+    (folder / "model.json").write_text(json.dumps(model))
+    head, *faces = (folder / "faces.csv").read_text().splitlines()
+    rows = [line.split(",") for line in faces if line.startswith(f"{domain},")]
+    kind = head.split(",").index("kind")
+    for row in rows:
+        row[kind] = row[kind].replace("interface", "outlet")
+    (folder / "faces.csv").write_text("".join(f"{line}\n" for line in [head, *map(",".join, rows)]))
+    execute(programs / "seal_files", folder)
 
 
 def cases_named(names):

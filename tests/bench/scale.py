@@ -25,11 +25,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from programs import ENVIRONMENT, SOURCE, execute, options_of
-from runs import BIN, PAPER_CASE, record, seconds_by_step, stage_line, with_key
-
-sys.path.insert(0, str(SOURCE / "pipeline"))
-import needs  # noqa: E402  (pipeline/needs.py)
+from programs import ENVIRONMENT, execute, options_of
+from runs import BIN, PAPER_CASE, needs, record, seconds_by_step, stage_line, with_key
 
 
 def command(options, stage, run, cells):
