@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Table 2 of the paper again: time, speed-up and parallel efficiency of the mesher.
 
-  tests/bench/speedup.py [--cells 2M] [--repeat 1] [--case FILE] [--bin build/bin] [--ranks 6 12 ...] [--record FILE]
-    [--gmsh [del3d | hxt]]
+  tests/bench/speedup.py [--cells 2M] [--scaled 1G] [--repeat 1] [--case FILE] [--bin build/bin] [--ranks 6 12 ...]
+    [--record FILE [--smaller FILE]] [--check RANKS] [--gmsh [del3d | hxt]]
 
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs
@@ -11,12 +11,22 @@ on the machine does not count) are replayed schedule by schedule through the mes
 first, with what waits for it, each rank takes the next task when it is free and waits where that one comes after
 another; a schedule starts when the one before has ended on all ranks).
 What no task accounts for is done by every rank, or by one on each host while the others wait, and gains nothing. Where
-domains are worked on side by side, ranks are grouped as the mesher does it and the longest group counts. The model
-knows no network and no shared memory bus; the row of 2 ranks, measured and modelled, and --check tell how far it holds
-here.
+domains are worked on side by side, ranks are grouped as the mesher does it and the longest group counts. Messages
+and bytes are those of the busiest rank, each message at 2 us and 10 GB/s, as the record of the run tells them
+(tests/bench/network.py). The model knows no memory bus and no file system; the row of 2 ranks, measured and modelled,
+and --check tell how far it holds here.
+
+Exporter and report: 1 and 2 ranks by the clock; further rows from what the second rank saved in each of their steps.
+
+--scaled CELLS: one more table, for so many cells. Its task times are not measured but scaled, each step's by the power
+of the cells between this run and one with an eighth of the cells (tests/bench/scaled_run.py).
+
+`asked` is what the project asks for: 95 % on 2 ranks by the clock; with 1,000 million cells 90 % on 12, 85 % on 24 and
+70 % on 256.
 
 --check RANKS runs the mesher on so many ranks, more than there are cores too, and sets the processor seconds of the
-longest rank beside the model, step by step. --cells-per-region takes the place of the case's.
+longest rank beside the model, step by step, and the messages that Open MPI has counted beside those of the model.
+--cells-per-region takes the place of the case's.
 
 `efficiency` is that against the mesher itself on one rank. The paper's T1, though, is the time of serial Gmsh for as
 many cells, so that a mesher faster than Gmsh has more than 100 % of it on few cores. --gmsh measures that T1 here:
@@ -25,29 +35,43 @@ many tetrahedra as the run has cells, by its Delaunay mesher unless `hxt` is nam
 TN) with it. Gmsh makes tetrahedra of one size and no layers.
 
 `waiting` is the efficiency if regions waited for the fills of their smaller-numbered neighbours, as section 2.3 reads,
-in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring."""
+in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring; with
+--scaled, --smaller is that of a run with fewer cells."""
 import heapq
 import json
 import shutil
 import sys
 import tempfile
+from collections import namedtuple
 from pathlib import Path
 
+import network
 from programs import execute, gmsh, gmsh_first_size, options_of, size_for
-from runs import BIN, PAPER_CASE, record, stage_line, with_key
+from runs import BIN, PAPER_CASE, needs, record, seconds_by_step, stage_line, with_key
+from scaled_run import TASKS, growths, with_cells
 
+MESSAGES = "messages"
 PAPER = {6: 81.13, 12: 75.92, 18: 60.94, 24: 51.04}  # efficiency, %
-TASKS = " (tasks)"
+ASKED = {2: 95}  # efficiency, %, by the clock
+ASKED_SCALED, LARGE = {12: 90, 24: 85, 256: 70}, 1e9  # by the model, with so many cells
+STAGES = {"export": "exporter", "report": "report"}
+SMALLER = 8  # times fewer cells, from which --scaled is scaled
+
+# Seconds of the mesher by the clock, its record, and of the other stages seconds by step; what Open MPI counted.
+Made = namedtuple("Made", "seconds record stages sent")
 
 
-def mesh(arguments, geometry, ranks):
-    """One run in a fresh folder; seconds and the record."""
+def make(arguments, geometry, ranks, cells=None, stages=(), count=False):
+    """One run in a fresh folder."""
     with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
-        run = Path(name)
+        run, by_stage = Path(name), {}
         shutil.copytree(geometry, run / "geometry")
-        seconds = execute("mpirun", "-q", "--oversubscribe", "-n", ranks, arguments.bin / "cutwater-mesh", "--case",
-                          arguments.case, "--run", run, "--cells", arguments.cells).wall
-        return seconds, record(run)
+        line = stage_line(arguments.bin, "mesh", arguments.case, run, cells or arguments.cells, ranks)
+        seconds = execute(line[0], *(network.counting(run) if count else []), *line[1:]).wall
+        for stage in stages:
+            execute(*stage_line(arguments.bin, stage, arguments.case, run, ranks=ranks))
+            by_stage[stage] = seconds_by_step(record(run, stage))
+        return Made(seconds, record(run), by_stage, network.counted(run))
 
 
 def group_sides(cost, own, least_ranks, ranks):
@@ -147,17 +171,18 @@ def add(seconds, more):
 
 
 class Account:
-    """What ranks do together: seconds of what every rank does, by part, and the lists of tasks (cost, seconds); the
-    least of several runs."""
+    """What ranks do together: seconds of what every rank does, by part, the lists of tasks (cost, seconds), and of each
+    list their number, whether they are asked for, and bytes of results; the least of several runs."""
 
     def __init__(self, several):
-        self.parts, self.steps = {}, []
+        self.parts, self.steps, self.sent = {}, [], []
         for runs in zip(*(account["tasks"] for account in several)):
             assert len({step["step"] for step in runs}) == 1
             times = [min(values) for values in zip(*(step["task_seconds"] for step in runs))]
             cost = runs[0]["task_cost"] or [0] * len(times)
             after = [int(task) for task in runs[0]["task_after"]] or [-1] * len(times)
             self.steps.append((runs[0]["step"], list(zip(cost, times, after))))
+            self.sent.append((len(times), bool(runs[0]["task_cost"]), runs[0]["bytes"]))
         for runs in zip(*(account["every_rank"] for account in several)):
             assert len({part["part"] for part in runs}) == 1
             add(self.parts, {runs[0]["part"]: min(part["seconds"] for part in runs)})
@@ -171,7 +196,11 @@ class Account:
             waits = before and name == "regions"
             add(seconds, {name + TASKS: replay_waiting(tasks, of_all(before, tasks), ranks) if waits
                           else replay(tasks, ranks)})
+        add(seconds, {MESSAGES: network.seconds(self.traffic(ranks))})
         return seconds
+
+    def traffic(self, ranks):
+        return network.total(network.of_schedule(*sent, ranks) for sent in self.sent)
 
 
 def longest_groups(sides, ranks, seconds_of):
@@ -192,8 +221,8 @@ def longest_groups(sides, ranks, seconds_of):
 class Model:
     """The run on one rank: what all ranks do together, and side by side."""
 
-    def __init__(self, runs):
-        results = [made["results"] for _, made in runs]
+    def __init__(self, results):
+        """results: of the records of one run or several."""
         self.results = results[0]
         self.together = Account([result["together"] for result in results])
         self.sides = results[0]["side_by_side"]
@@ -206,7 +235,14 @@ class Model:
         """By name: parts, and steps with " (tasks)"."""
         seconds = self.together.seconds(ranks, self.before if waiting else None)
         add(seconds, longest_groups(self.sides, ranks, lambda step, side, of: self.accounts[step][side].seconds(of)))
+        add(seconds, {MESSAGES: network.seconds(network.between_hosts(self.results["cells"], ranks))})
         return seconds
+
+    def traffic(self, ranks):
+        """Of the busiest rank: all domains' messages are counted, though groups of ranks send but their own."""
+        sides = [account for accounts in self.accounts for account in accounts]
+        return network.total([*(account.traffic(ranks) for account in [self.together, *sides]),
+                              network.between_hosts(self.results["cells"], ranks)])
 
     def total(self, ranks, waiting=False):
         return sum(self.seconds(ranks, waiting).values())
@@ -233,23 +269,62 @@ def serial_gmsh(arguments, cells):
     return seconds
 
 
-def print_table(model, ranks_asked, measured, serial):
-    """`serial`: processor seconds of serial gmsh, or None."""
+def table_line(ranks, seconds, one, rest, asked, kind):
+    """A row; `rest`: waiting, by paper, paper, messages and MB as they are printed."""
+    efficiency = 100 * one / seconds / ranks
+    wanted = f"{asked[ranks]:7.2f}" if ranks in asked else f"{'-':>7s}"
+    print(f"{ranks:5d}  {seconds:8.2f}  {one / seconds:8.2f}  {efficiency:12.2f}  {wanted}  {rest:48s}  {kind}")
+
+
+def print_table(model, ranks_asked, measured, serial, kind="model"):
+    """`measured`: seconds by ranks; `serial`: processor seconds of serial gmsh, or None."""
     results = model.results
     regions = sum(domain["regions"] for domain in results["domains"])
     print(f"{results['cells']:,} cells in {regions} regions, {results['passes']} passes; colours "
           f"{', '.join(str(domain['colours']) for domain in results['domains'])}; were fills to wait, chains of "
           f"{depth(model.before)} regions")
-    print("ranks   seconds  speed-up  efficiency %  waiting %  by paper %  paper %")
+    print(f"each message {1e6 * network.LATENCY:.0f} us and {network.BANDWIDTH / 1e9:.0f} GB/s; messages and MB of the "
+          "busiest rank")
+    print("ranks   seconds  speed-up  efficiency %  asked %  waiting %  by paper %  paper %  messages       MB")
     for ranks, seconds in measured.items():
-        print(f"{ranks:5d}  {seconds:8.2f}  {measured[1] / seconds:8.2f}  {100 * measured[1] / seconds / ranks:12.2f}"
-              f"{'':33s}  measured")
+        table_line(ranks, seconds, measured[1], "", ASKED, "measured")
     for ranks in [2] + ranks_asked:
-        seconds, waiting = model.total(ranks), model.total(ranks, True)
-        paper = f"{PAPER[ranks]:7.2f}" if ranks in PAPER else "      -"
-        by_paper = f"{100 * serial / seconds / ranks:10.1f}" if serial else "         -"
-        print(f"{ranks:5d}  {seconds:8.2f}  {model.one / seconds:8.2f}  {100 * model.one / seconds / ranks:12.2f}  "
-              f"{100 * model.total(1, True) / waiting / ranks:9.2f}  {by_paper}  {paper}  model")
+        seconds, waiting, sent = model.total(ranks), model.total(ranks, True), model.traffic(ranks)
+        paper = f"{PAPER[ranks]:7.2f}" if ranks in PAPER else f"{'-':>7s}"
+        by_paper = f"{100 * serial / seconds / ranks:10.1f}" if serial else f"{'-':>10s}"
+        rest = (f"{100 * model.total(1, True) / waiting / ranks:9.2f}  {by_paper}  {paper}  {sent.messages:8d} "
+                f"{sent.bytes / 1e6:8.1f}")
+        table_line(ranks, seconds, model.one, rest, ASKED_SCALED if results["cells"] >= LARGE else {}, kind)
+
+
+def stage_seconds(one, two, ranks):
+    """Of a stage on so many ranks, from seconds by step on 1 and 2: what the second rank saved goes with 1 / ranks."""
+    saved = {name: min(max(2 * (seconds - two[name]), 0), seconds) for name, seconds in one.items()}
+    return sum(one[name] - saved[name] * (1 - 1 / ranks) for name in one)
+
+
+def print_stages(ones, twos, ranks_asked, kind="model"):
+    """Rows of exporter and report. ones, twos: seconds by stage and step."""
+    for stage in ones:
+        one, two = sum(ones[stage].values()), sum(twos[stage].values())
+        print(f"\n{STAGES[stage]}")
+        for ranks, seconds in ((1, one), (2, two)) if kind == "model" else ():
+            table_line(ranks, seconds, one, "", ASKED, "measured")
+        for ranks in ranks_asked:
+            table_line(ranks, stage_seconds(ones[stage], twos[stage], ranks), one, "", {}, kind)
+
+
+def least_stages(several):
+    """The least seconds of each step of several runs."""
+    return {stage: {name: min(made.stages[stage][name] for made in several) for name in steps}
+            for stage, steps in several[0].stages.items()}
+
+
+def scaled_stages(small, large, given, ratio, factor):
+    """`given`, seconds by stage and step, with `factor` times the cells: as they grew from `small` to `large`."""
+    by = {stage: growths(small[stage], large[stage], ratio, factor) for stage in given}
+    return {stage: {name: by[stage][name] * seconds for name, seconds in steps.items()}
+            for stage, steps in given.items()}
 
 
 def print_losses(model, ranks_asked):
@@ -274,10 +349,11 @@ def most_of(account):
     return seconds
 
 
-def print_check(model, results):
+def print_check(model, made):
     """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by
     schedule, side by side those of the longest group. Such a run may have more ranks than cores: a rank that waits
     sleeps."""
+    results = made.record["results"]
     ranks, sides = results["ranks"], results["side_by_side"]
     modelled, measured = model.seconds(ranks), most_of(results["together"])
     add(measured, longest_groups(sides, ranks, lambda step, side, of: most_of(sides[step]["side"][side])))
@@ -287,43 +363,83 @@ def print_check(model, results):
         if max(row) >= 1e-3 * model.one:
             print(f"{name:50s} {row[0]:9.2f} {row[1]:9.2f}")
     print(f"{'all':50s} {sum(modelled.values()):9.2f} {sum(measured.values()):9.2f}")
+    sent = model.traffic(ranks)
+    print(f"{'messages of the busiest rank':50s} {sent.messages:9d} {made.sent.messages:9d}")
+    print(f"{'MB of the busiest rank':50s} {sent.bytes / 1e6:9.1f} {made.sent.bytes / 1e6:9.1f}")
+
+
+def results_of(path):
+    """Of a record.json of one rank."""
+    made = json.loads(path.read_text())["results"]
+    if made["ranks"] != 1:
+        sys.exit(f"speedup: {path}: a run on {made['ranks']} ranks; one is asked for")
+    return made
+
+
+def print_scaled(arguments, small, large, ones, twos):
+    """The table for more cells: of records' results; small: Made or results alone; ones, twos: of the larger run."""
+    made = with_cells(small.record["results"] if isinstance(small, Made) else small, large,
+                      needs.read_count(arguments.scaled))
+    kind = f"model of task times scaled from {large['cells']:,} cells"
+    print(f"\n{arguments.scaled} cells: {kind}")
+    print_table(Model([made]), arguments.ranks, {}, None, kind="scaled model")
+    if ones:
+        ratio = large["cells"] / small.record["results"]["cells"], made["cells"] / large["cells"]
+        print_stages(*(scaled_stages(small.stages, ones, of, *ratio) for of in (ones, twos)), arguments.ranks,
+                     kind="scaled model")
+
+
+def measure(arguments):
+    """Runs on 1 and 2 ranks, that of --check, and a smaller one for --scaled."""
+    ones, twos, check, small = [], [], None, None
+    with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
+        run = Path(name)
+        if arguments.cells_per_region:
+            text = with_key(arguments.case.read_text(), "mesh", "cells_per_region", arguments.cells_per_region)
+            arguments.case = run / "case.yaml"
+            arguments.case.write_text(text)
+        execute(*stage_line(arguments.bin, "geometry", arguments.case, run))
+        for _ in range(arguments.repeat):
+            ones.append(make(arguments, run / "geometry", 1, stages=STAGES))
+            twos.append(make(arguments, run / "geometry", 2, stages=STAGES))
+        if arguments.check:
+            check = make(arguments, run / "geometry", arguments.check, count=True)
+        if arguments.scaled:
+            fewer = needs.read_count(arguments.cells) // SMALLER
+            small = make(arguments, run / "geometry", 1, cells=fewer, stages=STAGES)
+    return ones, twos, check, small
 
 
 def main():
     parser = options_of(__doc__, cells="2M", repeat=1, case=PAPER_CASE, bin=BIN)
     parser.add_argument("--ranks", type=int, nargs="*", default=[6, 12, 18, 24, 48, 96, 256, 1024])
     parser.add_argument("--record", type=Path)
+    parser.add_argument("--smaller", type=Path)
+    parser.add_argument("--scaled")
     parser.add_argument("--check", type=int)
     parser.add_argument("--cells-per-region")
     parser.add_argument("--gmsh", nargs="?", const="del3d", choices=["del3d", "hxt"])
     arguments = parser.parse_args()
-    measured, check = {}, None
+    measured, check, stages = {}, None, ({}, {})
     if arguments.record:
-        made = json.loads(arguments.record.read_text())
-        if made["results"]["ranks"] != 1:
-            sys.exit(f"speedup: {arguments.record}: a run on {made['results']['ranks']} ranks; one is asked for")
-        model = Model([(None, made)])
+        if arguments.scaled and not arguments.smaller:
+            sys.exit("speedup: --scaled asks for --smaller too, a record.json of fewer cells")
+        results = [results_of(arguments.record)]
+        small = results_of(arguments.smaller) if arguments.smaller else None
     else:
-        ones, twos = [], []
-        with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
-            run = Path(name)
-            if arguments.cells_per_region:
-                text = with_key(arguments.case.read_text(), "mesh", "cells_per_region", arguments.cells_per_region)
-                arguments.case = run / "case.yaml"
-                arguments.case.write_text(text)
-            execute(*stage_line(arguments.bin, "geometry", arguments.case, run))
-            for _ in range(arguments.repeat):
-                ones.append(mesh(arguments, run / "geometry", 1))
-                twos.append(mesh(arguments, run / "geometry", 2))
-            if arguments.check:
-                check = mesh(arguments, run / "geometry", arguments.check)[1]["results"]
-        measured = {1: min(seconds for seconds, _ in ones), 2: min(seconds for seconds, _ in twos)}
-        model = Model(ones)
-    serial = serial_gmsh(arguments, model.results["cells"]) if arguments.gmsh else None
+        ones, twos, check, small = measure(arguments)
+        measured = {ranks: min(made.seconds for made in runs) for ranks, runs in ((1, ones), (2, twos))}
+        stages = least_stages(ones), least_stages(twos)
+        results = [made.record["results"] for made in ones]
+    model = Model(results)
+    serial = serial_gmsh(arguments, results[0]["cells"]) if arguments.gmsh else None
     print_table(model, arguments.ranks, measured, serial)
     print_losses(model, [ranks for ranks in arguments.ranks if ranks <= 96])
+    print_stages(*stages, arguments.ranks)
     if check:
         print_check(model, check)
+    if arguments.scaled:
+        print_scaled(arguments, small, results[0], *stages)
 
 
 if __name__ == "__main__":

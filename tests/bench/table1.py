@@ -5,8 +5,8 @@
   tests/bench/table1.py [--cells 2M] [--regions 24] [--build build] [--case cases/paper/case.yaml] [--domains rotor]
     [--ranks 2] [--radius R] [--ratio B] [--algorithms del3d hxt] [--limit 3600]
 
-Each domain is meshed alone, with --cells cells: prisms and tetrahedra, within 2 %. --regions is what the rows of several
-regions are divided into; the paper ran on up to 24 cores, a region each.
+Each domain is meshed alone, with --cells cells: prisms and tetrahedra, within 2 %. --regions is what the rows of
+several regions are divided into; the paper ran on up to 24 cores, a region each.
 
 The rows of several regions have the same walls, layers and partition planes. Those of one region have walls and layers
 of their own, for as many cells: no curve of a partition plane cuts their walls. The impeller is meshed whole, since the
@@ -24,8 +24,8 @@ a partition plane, `apart` the others. Seconds are of the processor, summed over
 to the finished tetrahedra (`wall`: by the clock; Gmsh: its own steps). Messages and bytes are those between regions,
 each on a rank of its own; `sent`, those between the ranks of this run. The mesher itself sends the refined interfaces
 to all ranks. Fails where the mean ratio of the tetrahedra beside is worse in the mean than that of the others by more
-than 5 %, or that of the proposed mesh worse than that of the serial one by more than 2 %, or where a mesh has another number
-of cells or regions than asked."""
+than 5 %, or that of the proposed mesh worse than that of the serial one by more than 2 %, or where a mesh has
+another number of cells or regions than asked."""
 import json
 import shutil
 import sys
