@@ -13,8 +13,8 @@ The last lines are a model of the largest rank and of all together:
   largest  = A + B n / regions + C n^(2/3) + D n^(2/3) / ranks
   together = ranks (A + B n / regions) + C n^(2/3)
 
-n: cells. A: the program, CAD, size field, plan, curves; B: the region in its hands; C: what one rank of a host holds
-for all while it works on walls and layers; D: what they share when it is made. Coefficients are those of the least
+n: cells. A: the program, CAD, plan, curves; B: the region in its hands; C: what one rank of a host holds for all while
+it works on walls and layers; D: what they share when it is made. Coefficients are those of the least
 squares of relative errors; one below 0 is left out. The sizes but --held-out are fitted, and what the model says there
 stands beside what was measured. It then tells what 1,000 million cells need on 64 ranks of one machine, in as many
 regions as the largest size has; 1 GiB a rank is asked."""

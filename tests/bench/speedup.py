@@ -19,7 +19,8 @@ and --check tell how far it holds here.
 Exporter and report: 1 and 2 ranks by the clock; further rows from what the second rank saved in each of their steps.
 
 --scaled CELLS: one more table, for so many cells. Its task times are not measured but scaled, each step's by the power
-of the cells between this run and one with an eighth of the cells (tests/bench/scaled_run.py).
+of the cells between this run and one with an eighth of the cells (tests/bench/scaled_run.py). --cells is 2M or more
+then: coarser pumps have no layers.
 
 `asked` is what the project asks for: 95 % on 2 ranks by the clock; with 1,000 million cells 90 % on 12, 85 % on 24 and
 70 % on 256.
