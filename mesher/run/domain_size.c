@@ -199,13 +199,17 @@ done:
   return status;
 }
 
-CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain, void **bytes) {
+static CwStatus take(void **bytes, int kept, CwSize **size) {
+  return kept ? cw_size_read(*bytes, size) : cw_size_unpack(bytes, size);
+}
+
+CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain, int kept, void **bytes) {
   CwStatus status = CW_OK;
   CwSize *open_edges = NULL;
   cw_size_seeds_free(&domain->seeds);
   cw_size_free(&domain->size);
-  CW_TRY(cw_size_unpack(&bytes[0], &domain->size));
-  CW_TRY(cw_size_unpack(&bytes[1], &open_edges));
+  CW_TRY(take(&bytes[0], kept, &domain->size));
+  CW_TRY(take(&bytes[1], kept, &open_edges));
   cw_size_join(domain->size, &open_edges);
   domain->solid_volume = 0;
   for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
@@ -218,10 +222,10 @@ done:
   return status;
 }
 
-CwStatus cw_domain_take_field(const CwContext *context, CwDomain *domain, double scale, void **bytes) {
+CwStatus cw_domain_take_field(const CwContext *context, CwDomain *domain, double scale, int kept, void **bytes) {
   CwStatus status = CW_OK;
   CwSize *field = NULL;
-  CW_TRY(cw_size_unpack(bytes, &field));
+  CW_TRY(take(bytes, kept, &field));
   cw_size_join(field, &domain->size);
   domain->size = field;
   CW_TRY(integrate(context, domain, scale));

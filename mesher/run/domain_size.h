@@ -17,10 +17,11 @@ void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
                              int32_t point_count, const CwSizePoint *point, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count);
-CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain,
-                             void **bytes); // takes them over (cw_size_unpack); collective
+// [in,out] bytes: taken over (cw_size_unpack); kept: they stay the caller's, for as long as the domain has its size
+// field (cw_size_read). Collective.
+CwStatus cw_domain_take_size(const CwContext *context, CwDomain *domain, int kept, void **bytes);
 // The same for part CW_SIZE_SEEDS made once more, for about this scale.
-CwStatus cw_domain_take_field(const CwContext *context, CwDomain *domain, double scale, void **bytes);
+CwStatus cw_domain_take_field(const CwContext *context, CwDomain *domain, double scale, int kept, void **bytes);
 // Adds up area / h^2 of the walls at a scale of the field, and what it would be with no edge longer than they allow.
 void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, double *asked);
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of

@@ -136,13 +136,21 @@ static int walls_limit(const CwMeshRun *run, double scale) {
   return asked <= cw_policy.walls_ask_most * wanted;
 }
 
+// Once the domains have taken their size fields: those from before are not read any more, but for the open edges as
+// they were first made.
+static void keep_sizes(CwMeshRun *run, int again, CwResults *results) {
+  if (!again) cw_host_memory_free(&run->sizes[0]);
+  cw_host_memory_free(&run->sizes[1]);
+  run->sizes[again] = cw_results_keep(results);
+}
+
 // The scale multiplies the field with its growth, and with the edges on walls. Where meshes are so coarse that the
 // growth would be more than the case allows, the fields are made again with less, and with edges on walls no longer
 // than their layers allow. Less growth makes the scale greater, by about the fourth root of what it is less by
 // (measured on all pumps of cases/ at 0.3 and 1 million cells); where edges on walls make it greater still, once more.
 static CwStatus hold_gradation(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwResults results = {0};
+  CwResults results = {.shared = 1};
   double allowed = run->table->mesh.gradation, made_for = 0, greatest = 0;
   int32_t parts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++)
@@ -161,8 +169,8 @@ static CwStatus hold_gradation(CwMeshRun *run) {
                  run->scale, run->gradation, run->wall_scale);
     CW_TRY(run_parts(run, "size field", "parts", cw_step_size, parts, field_cost, &results));
     for (int d = 0; d < run->model.domain_count; d++)
-      CW_TRY(cw_domain_take_field(&run->context, &run->domain[d], made_for, results.bytes[d]));
-    cw_results_free(&results);
+      CW_TRY(cw_domain_take_field(&run->context, &run->domain[d], made_for, results.memory != NULL, results.bytes[d]));
+    keep_sizes(run, 1, &results);
   }
 done:
   cw_results_free(&results);
@@ -173,7 +181,7 @@ done:
 // the exact volumes beside them.
 static CwStatus make_sizes(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwResults seeds = {0}, results = {0};
+  CwResults seeds = {0}, results = {.shared = 1};
   int32_t parts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->model.domain_count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
   CW_TRY(run_parts(run, "size seeds", "parts", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
@@ -186,7 +194,8 @@ static CwStatus make_sizes(CwMeshRun *run) {
   CW_TRY(run_parts(run, "size field", "parts", cw_step_size, parts, cw_domain_size_costs, &results));
   cw_profiler_part(&run->context, "integrals of the size");
   for (int d = 0; d < run->model.domain_count; d++)
-    CW_TRY(cw_domain_take_size(&run->context, &run->domain[d], results.bytes[d]));
+    CW_TRY(cw_domain_take_size(&run->context, &run->domain[d], results.memory != NULL, results.bytes[d]));
+  keep_sizes(run, 0, &results);
   CW_TRY(hold_gradation(run));
   for (int d = 0; d < run->model.domain_count; d++)
     CW_AUDIT(cw_size_audit(run->domain[d].size, &run->domain[d].background));

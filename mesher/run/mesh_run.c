@@ -279,4 +279,5 @@ void cw_mesh_run_free(CwMeshRun *run) {
     free(run->summary[d]);
     free(run->region_seconds[d]);
   }
+  for (int again = 0; again < 2; again++) cw_host_memory_free(&run->sizes[again]);
 }

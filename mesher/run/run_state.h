@@ -5,6 +5,7 @@
 #include <jansson.h>
 
 #include "mesher/parallel/context.h"
+#include "mesher/parallel/host_memory.h"
 #include "mesher/region/audit.h"
 #include "mesher/region/layer_ratio.h"
 #include "mesher/region/region_failure.h"
@@ -64,6 +65,7 @@ typedef struct {
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
   void **seeds[CW_DOMAINS_MOST];           // of the size field, by part, while it is made
+  CwHostMemory *sizes[2];                  // where the size fields lie on each host: as first made, and made again
   double y_plus_auto;                      // where the case leaves it open
   CwCellLaw prisms, tets;                  // prisms of a layer, tetrahedra: as the passes learn them
   double scale;                            // of the size field

@@ -148,6 +148,17 @@ void cw_results_free(CwResults *results) {
   cw_host_memory_free(&results->memory);
 }
 
+CwHostMemory *cw_results_keep(CwResults *results) {
+  CwHostMemory *memory = results->memory;
+  results->memory = NULL;
+  for (int d = 0; memory && d < CW_DOMAINS_MOST; d++) {
+    free(results->bytes[d]);
+    results->bytes[d] = NULL;
+  }
+  cw_results_free(results);
+  return memory;
+}
+
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
   for (int d = 0; d < run->model.domain_count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
 }

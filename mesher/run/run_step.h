@@ -9,13 +9,15 @@
 typedef struct {
   int32_t count[CW_DOMAINS_MOST];
   void **bytes[CW_DOMAINS_MOST];
-  int shared;                        // 1: they may lie once on each host: nobody takes one over
+  int shared;                        // 1: they may lie once on each host: nobody takes one over where `memory` is set
   int (*in_vain)(const void *bytes); // as in CwSchedule
   CwHostMemory *memory;              // where they do; NULL: each has its own
 } CwResults;
 
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count);
 void cw_results_free(CwResults *results);
+// The same, but for where they lie on each host: the caller's, who goes on reading them. NULL: each had its own.
+CwHostMemory *cw_results_keep(CwResults *results);
 
 // Every rank finds sizes, planes and curves for itself, with mathematical libraries that round differently from one
 // kind of processor to another. Collective; CW_ERR_LIBRARY where they, or the `size` bytes of `also`, are not the same

@@ -22,8 +22,8 @@ struct CwSize {
   CwSizeGrid open_edge;  // m, whatever the scale: what open edges of walls allow; no nodes where they ask nothing
   double open_edge_asks; // mean along the open edges of what they allow over what is wanted at scale 1
   CwScanlines lines;
-  void *block;           // that holds the arrays
-  void *open_edge_block; // that holds those of open edges that joined it
+  void *block;           // that holds the arrays; NULL: another's
+  void *open_edge_block; // that holds those of open edges that joined it; NULL: another's, or none
 };
 
 static CwStatus check_input(const CwSizeInput *input) {
@@ -268,16 +268,23 @@ done:
   return status;
 }
 
-CwStatus cw_size_unpack(void **bytes, CwSize **size) {
+CwStatus cw_size_read(void *bytes, CwSize **size) {
   CwStatus status = CW_OK;
   Packed head;
   CwSize *made;
   CW_NEW(made, 1);
-  memcpy(&head, *bytes, sizeof head);
-  *made = arrays_in(&head, *bytes);
-  made->block = *bytes;
-  *bytes = NULL;
+  memcpy(&head, bytes, sizeof head);
+  *made = arrays_in(&head, bytes);
   *size = made;
+done:
+  return status;
+}
+
+CwStatus cw_size_unpack(void **bytes, CwSize **size) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_size_read(*bytes, size));
+  (*size)->block = *bytes;
+  *bytes = NULL;
 done:
   return status;
 }

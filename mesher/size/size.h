@@ -56,6 +56,8 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
                       CwSizePart part, void **bytes, int64_t *byte_count);
 // The field in its block, which it takes over (*bytes is NULL after).
 CwStatus cw_size_unpack(void **bytes, CwSize **size);
+// The field in a block that stays the caller's, unchanged for as long as there is the field, or one that it has joined.
+CwStatus cw_size_read(void *bytes, CwSize **size);
 // Gives a field that has none the open edges of another one, of the open edges alone or of both; frees what is left of
 // that.
 void cw_size_join(CwSize *size, CwSize **open_edges);

@@ -61,7 +61,7 @@ static void open_domain(CwDomain *made, int number, const char *folder) {
   assert_non_null(field);
   for (int i = 0; i < parts; i++)
     check(cw_domain_make_size(made, &table, table.mesh.gradation, 0, 0, NULL, seed, i, &field[i], &size));
-  check(cw_domain_take_size(NULL, made, field));
+  check(cw_domain_take_size(NULL, made, 0, field));
   for (int i = 0; i < seeds; i++) free(seed[i]);
   free(seed);
   for (int i = 0; i < parts; i++) free(field[i]);

@@ -42,6 +42,55 @@ static int be_a_rank(int argc, char **argv) {
   return end_as_rank(all, 0);
 }
 
+enum { ITEMS = 2, WORDS = 1 << 18 }; // of a result: so large that ranks share it
+
+static CwStatus fill(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  int32_t *word = NULL;
+  (void)run;
+  CW_NEW(word, WORDS);
+  for (int32_t i = 0; i < WORDS; i++) word[i] = WORDS * task.index + i;
+  *bytes = word;
+  *size = (int64_t)WORDS * (int64_t)sizeof *word;
+done:
+  return status;
+}
+
+// Results are kept: where the ranks share them, the lists go and the words stay; else all goes but what was taken.
+static int keep_as_rank(int argc, char **argv) {
+  static CwMeshRun run;
+  CwTeam *all;
+  CwResults results = {.shared = 1};
+  const int32_t *word[ITEMS], count[1] = {ITEMS};
+  CwMeshTask task[ITEMS] = {{0, 0, 1}, {0, 1, 1}};
+  int wrong = 0;
+  begin_as_rank(&argc, &argv, &all);
+  run.context.team = all;
+  run.rank = cw_team_rank(all);
+  CwStatus status = cw_record_start("mesh", NULL, &run.record);
+  if (status == CW_OK) status = cw_results_make(&results, 1, count);
+  if (status == CW_OK) status = cw_run_step(&run, "words", "words", fill, ITEMS, task, NULL, &results, NULL);
+  if (status != CW_OK) return cw_mpi_fail(NULL, status);
+  int shared = results.memory != NULL;
+  void *taken = results.bytes[0][0];
+  for (int i = 0; i < ITEMS; i++) word[i] = results.bytes[0][i];
+  if (!shared) results.bytes[0][0] = NULL;
+  CwHostMemory *memory = cw_results_keep(&results);
+  wrong += shared != (cw_team_ranks(all) > 1) || (memory != NULL) != shared || results.bytes[0] || results.memory;
+  for (int i = 0; i < (shared ? ITEMS : 1); i++) {
+    for (int32_t k = 0; k < WORDS; k++) wrong += word[i][k] != WORDS * i + k;
+  }
+  printf("RANK %d WRONG %d\n", run.rank, wrong);
+  if (!shared) free(taken);
+  cw_host_memory_free(&memory);
+  cw_record_free(run.record);
+  return end_as_rank(all, 0);
+}
+
+static void kept_results_stay_where_they_are_shared(void **state) {
+  for (int ranks = 1; ranks <= 3; ranks++) launch_and_find_right(ranks, "keep", 1);
+}
+
 static void ranks_that_are_alike_go_on(void **state) {
   for (int ranks = 1; ranks <= 3; ranks++) launch_and_find_right(ranks, "alike", 1);
 }
@@ -56,10 +105,11 @@ static void a_bit_that_differs_ends_the_run(void **state) {
 }
 
 int main(int argc, char **argv) {
-  if (launched(argc)) return be_a_rank(argc, argv);
+  if (launched(argc)) return strcmp(argv[1], "keep") ? be_a_rank(argc, argv) : keep_as_rank(argc, argv);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(ranks_that_are_alike_go_on),
       cmocka_unit_test(a_bit_that_differs_ends_the_run),
+      cmocka_unit_test(kept_results_stay_where_they_are_shared),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,6 +26,7 @@ struct Model {
   CwCad *cad;
   CwBackground background;
   CwSize *size = nullptr;
+  std::vector<char> packed; // the field of the seeds
 
   Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
         std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall,
@@ -50,6 +51,7 @@ struct Model {
     const CwSizeLimits *open_edge = open_edge_size.empty() ? nullptr : &limits;
     check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, open_edge, parts.data(),
                        CW_SIZE_SEEDS, &block, &bytes));
+    packed.assign((const char *)block, (const char *)block + bytes);
     check(cw_size_unpack(&block, &size));
     assert_null(block);
     if (open_edge) {
@@ -103,6 +105,22 @@ static void patch_size_grows_into_the_inside(void **state) {
   assert_near(box.at(50, 50, 1000), box.at(50, 50, 105), 1e-9); // clamped outside
   cw_size_set_scale(box.size, 0.5);
   assert_near(box.at(50, 50, 50), 0.5 * centre, 1e-9);
+}
+
+static void a_field_is_read_where_it_lies(void **state) {
+  Model box(BRepPrimAPI_MakeBox(100, 100, 100).Shape(), 5, 0.5, 2, {2});
+  const std::vector<char> before = box.packed;
+  CwSize *there = nullptr, *joined = nullptr;
+  check(cw_size_read(box.packed.data(), &there));
+  check(cw_size_read(box.packed.data(), &joined));
+  cw_size_join(joined, &there);
+  assert_null(there);
+  cw_size_set_scale(joined, 0.5);
+  cw_size_set_scale(box.size, 0.5);
+  const double places[3][3] = {{0.05, 0.05, 0}, {0.02, 0.07, 0.09}, {0.05, 0.05, 1}};
+  for (const auto &x : places) assert_true(cw_size_at(joined, x) == cw_size_at(box.size, x));
+  cw_size_free(&joined);
+  assert_true(box.packed == before); // neither changed nor freed
 }
 
 static void curvature_refines_to_two_fifths_at_most(void **state) {
@@ -325,6 +343,7 @@ static void wrong_input_is_refused(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(patch_size_grows_into_the_inside),
+      cmocka_unit_test(a_field_is_read_where_it_lies),
       cmocka_unit_test(curvature_refines_to_two_fifths_at_most),
       cmocka_unit_test(gaps_get_their_cells),
       cmocka_unit_test(walls_of_a_wedge_are_no_gap),
