@@ -15,9 +15,9 @@ The last lines are a model of the largest rank and of all together:
 
 n: cells. A: the program, CAD, plan, curves; B: the region in its hands; C: what one rank of a host holds for all while
 it works on walls and layers; D: what they share when it is made. Coefficients are those of the least
-squares of relative errors; one below 0 is left out. The sizes but --held-out are fitted, and what the model says there
-stands beside what was measured. It then tells what 1,000 million cells need on 64 ranks of one machine, in as many
-regions as the largest size has; 1 GiB a rank is asked."""
+squares of relative errors; one below 0 is left out. The sizes but --held-out are fitted, three at least, and what the
+model says there stands beside what was measured. It then tells what 1,000 million cells need on 64 ranks of one
+machine, in as many regions as the largest size has; 1 GiB a rank is asked."""
 import math
 import os
 import shutil
@@ -33,6 +33,7 @@ from runs import BIN, PAPER_CASE, needs, record, stage_line, with_key
 
 LARGE, LARGE_RANKS, LARGE_ASKED = 1e9, 64, 2**30  # bytes a rank
 MANY, TIMES = 16, 3  # ranks, of which the largest is asked to hold so many times less than one alone
+SIZES = 3  # at least, to tell the terms of the model apart
 STAGES = {"mesh": "mesher", "export": "exporter"}
 
 # Of a run: bytes of all ranks together and of the largest, by stage.
@@ -70,6 +71,8 @@ def watch(line, program):
         if child.returncode:
             said.seek(0)
             sys.exit(f"memory: {' '.join(map(str, line))}:\n{said.read()[-2000:]}")
+    if not largest:
+        sys.exit(f"memory: {program} ended before it was looked at; more cells take longer")
     return together, largest
 
 
@@ -141,8 +144,8 @@ def measure(options, case, geometry, run, cells, ranks):
     """A run and its row; the point."""
     shutil.copytree(geometry, run)
     programs = options.bin.resolve()
-    row = {stage: watch(stage_line(programs, stage, case, run, cells, ranks), programs / f"cutwater-{stage}")
-           for stage in STAGES}
+    row = {stage: watch(stage_line(programs, stage, case, run, cells, ranks),
+                        (programs / f"cutwater-{stage}").resolve()) for stage in STAGES}
     domains = record(run)["results"]["domains"]
     point = Point(sum(domain[kind] for domain in domains for kind in ("tetrahedra", "prisms")),
                   sum(len(domain["region_list"]) for domain in domains), ranks,
@@ -173,7 +176,7 @@ def main():
             print_less(points)
             is_held = needs.read_count(cells) == needs.read_count(options.held_out)
             (held_out if is_held else known).extend(points)
-    if len(known) > 1:
+    if len({point.cells for point in known}) >= SIZES:
         print_model(known + held_out, held_out)
 
 
