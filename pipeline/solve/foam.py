@@ -170,15 +170,18 @@ def stop_solver(child):
             continue
 
 
-def progress(table, most, rate, name):
+def progress(table, most, rate, rest, name):
+    """One line: `rate` is in iterations a second. The time left is that until head and torque settle, where their last
+    windows tell it, else that until `most` iterations are done."""
     iteration = max(table)
     row = table[iteration]
-    left = settling.settled(table, 0)[1]
+    left, wanted = settling.settled(table, rest)[1], settling.iterations_left(table, rest)
     way = f"{100 * left:.2f} % of its way left" if math.isfinite(left) else "before the third window"
-    residual = f", p {row['residual_p']:.1e}" if "residual_p" in row else ""
-    minutes = (most - iteration) / rate / 60 if rate > 0 else math.inf
+    residuals = f", residuals: p {row['residual_p']:.1e}, U {row['residual_u']:.1e}" if "residual_p" in row else ""
+    known = wanted is not None and wanted < most - iteration
+    minutes = (wanted if known else most - iteration) / rate / 60
     say(f"{name}: iteration {iteration} of {most} at most, {rate:.2f} a second: head {row['head_m']:.3f} m, torque "
-        f"{row['torque_n_m']:.4g} N m{residual}; {way}; at most {minutes:.0f} min left")
+        f"{row['torque_n_m']:.4g} N m{residuals}; {way}; {'about' if known else 'at most'} {minutes:.0f} min left")
 
 
 def remedy(case):
@@ -193,38 +196,46 @@ def require_bounded(table, case, name):
         raise Trouble(f"{name}: iteration {last}: see {case / 'log.simpleFoam'}; {remedy(case)}")
 
 
-def watch(child, case, most, within, name):
-    """Looks at the reports of the running solver until it ends; asks it to end where head and torque have settled.
+def solved(case):
+    """The iteration of the latest fields, from which the solver goes on."""
+    part = case / "processor0"
+    return max(times(part if part.is_dir() else case), default=0)
+
+
+def watch(child, case, most, rest, name):
+    """Looks at the reports of the running solver until it ends; asks it to end where head and torque have settled. What
+    a solver reported that was stopped before, maybe behind the fields from which this one goes on, does not count.
 
     It asks again and again: OpenFOAM takes no notice of a change within 10 s (fileModificationSkew) after it has read
     a file."""
-    first, began, told, stopping = max(reports.history(case), default=0), time.monotonic(), time.monotonic(), False
+    before, first = max(reports.history(case), default=0), solved(case)
+    began = told = time.monotonic()
+    stopping = False
     while child.poll() is None:
         time.sleep(LOOK_EVERY)
         table = reports.history(case)
-        if not table:
+        last = max(table, default=before)
+        if last == before:
             continue
-        last = max(table)
-        if last != first:  # else it may be what a solver reported that diverged before
-            require_bounded(table, case, name)
+        require_bounded(table, case, name)
         if last > first and time.monotonic() - told > TELL_EVERY:
             told = time.monotonic()
-            progress(table, most, (last - first) / (told - began), name)
+            progress(table, most, (last - first) / (told - began), rest, name)
         if stopping:
             (case / "system/controlDict").touch()
-        elif settling.settled(table, within)[0]:
+        elif settling.settled(table, rest)[0]:
             set_entry(case, "system/controlDict", "stopAt", "writeNow")
             stopping = True
 
 
-def run_solver(case, ranks, most, within, name):
+def run_solver(case, ranks, most, rest, name):
     """One run of the solver, until it has settled or `most` iterations are done."""
     set_entry(case, "system/controlDict", "stopAt", "endTime")
     line = mpirun(ranks, "simpleFoam", "-parallel") if ranks > 1 else ["simpleFoam"]
     with open(case / "log.simpleFoam", "a", encoding="utf-8") as out:
         child = subprocess.Popen(line, start_new_session=True, **child_options(case, out))
     try:
-        watch(child, case, most, within, name)
+        watch(child, case, most, rest, name)
     except BaseException:
         stop_solver(child)
         raise
@@ -235,18 +246,25 @@ def run_solver(case, ranks, most, within, name):
                       + (f"; {remedy(case)}" if "sigFpe::" in words else ""))
 
 
-def iterate(case, ranks, most, within, name):
+def history(case):
+    """What was reported up to the latest fields."""
+    last = solved(case)
+    return {iteration: row for iteration, row in reports.history(case).items() if iteration <= last}
+
+
+def iterate(case, ranks, most, rest, name):
     """Runs the solver until it has settled, by its last iteration too, or `most` iterations are done, up to the next
-    report; its history. The fields of the last iteration are then whole in the case folder."""
+    report; its history. The fields of the last iteration are then whole in the case folder. A solver that was killed
+    may have reported more than it has written: then it goes on from its fields."""
     most = REPORTED * math.ceil(most / REPORTED)
     set_entry(case, "system/controlDict", "endTime", most)
     set_entry(case, "system/controlDict", "writeInterval", math.gcd(WRITTEN, most))  # the solver writes no other end
-    table = reports.history(case)
+    table = history(case)
     done = -1  # iterations; the last ones may lie between two reports
-    while done < max(table, default=0) < most and not settling.settled(table, within)[0]:
+    while done < max(table, default=0) < most and not settling.settled(table, rest)[0]:
         done = max(table, default=0)
-        run_solver(case, ranks, most, within, name)
-        table = reports.history(case)
+        run_solver(case, ranks, most, rest, name)
+        table = history(case)
     require_bounded(table, case, name)
     if ranks > 1:
         call(case, "log.reconstructPar", "reconstructPar", "-latestTime")
