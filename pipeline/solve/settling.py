@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 WINDOW = 100  # iterations of one mean
-FALLS = 0.9   # what falls has in a window at most this share of its mean two windows before
+FALLS = 0.9   # what falls comes in two windows to this share of its mean at most
 
 
 class Rest(NamedTuple):
