@@ -113,8 +113,10 @@ def rejoin(case):
 
 def divide(case, ranks):
     """The mesh and its latest fields, for the ranks."""
-    set_entry(case, "system/decomposeParDict", "numberOfSubdomains", ranks)
-    set_entry(case, "system/decomposeParDict", "coeffs/n", f"({ranks} 1 1)")
+    dictionary = "system/decomposeParDict"
+    set_entry(case, dictionary, "numberOfSubdomains", ranks)
+    if "hierarchical" in (case / dictionary).read_text():  # scotch follows the number alone
+        set_entry(case, dictionary, "coeffs/n", f"({ranks} 1 1)")
     call(case, "log.decomposePar", "decomposePar", "-force", "-latestTime", "-copyUniform")
     call(case, "log.renumberMesh", *mpirun(ranks, "renumberMesh", "-parallel", "-overwrite"))
 

@@ -234,6 +234,7 @@ class Case(unittest.TestCase):
         run = fresh("solve_ranks") / "run"
         for folder in ("0", "system", "constant/polyMesh"):
             (run / "export/openfoam" / folder).mkdir(parents=True)
+        (run / "export/openfoam/system/decomposeParDict").write_text("method hierarchical;")
         case, divided = run / "solve/steady", "decomposePar -force -latestTime -copyUniform"
         start = mock.Mock(return_value=None)
         self.assertEqual(self.prepared(run, 2, start), [divided])
@@ -260,6 +261,22 @@ class Case(unittest.TestCase):
         (run / "export/openfoam/system/fvSchemes").write_text("other")
         self.assertEqual(self.prepared(run, 2, start), [divided])
         self.assertEqual((start.call_count, foam.times(case)), (2, []))
+
+    def test_a_case_is_divided_by_the_method_of_its_release(self):
+        case, call = fresh("solve_method"), foam.call
+        parts = SOURCE / "export/templates/openfoam_parts"
+        for method, entries in (("hierarchical", {"numberOfSubdomains": "3", "coeffs/n": "( 3 1 1 )"}),  # v1912
+                                ("scotch", {"numberOfSubdomains": "3"})):                               # v2406
+            (case / "system").mkdir(parents=True, exist_ok=True)
+            text = "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class dictionary;\n    object a;\n}\n"
+            text += "numberOfSubdomains 2;\n" + (parts / method).read_text().replace("@processors@", "2")
+            (case / "system/decomposeParDict").write_text(text)
+            with mock.patch.object(foam, "call", lambda folder, log, *line:
+                                   call(folder, log, *line) if line[0] == "foamDictionary" else None):
+                foam.divide(case, 3)
+            for entry, value in entries.items():
+                call(case, "log.value", "foamDictionary", "-entry", entry, "-value", "system/decomposeParDict")
+                self.assertEqual((case / "log.value").read_text().splitlines()[-1], value, method)
 
     def test_a_coarse_start_finds_its_geometry(self):
         folder = fresh("solve_coarse") / "run"
