@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""needs.py FOLDER [--solve] [--case FILE] [--ranks N] CELLS...: tells what runs of so many cells need of disk and
-memory, before they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M. With
---case the formats of the export and the cells of a region are those of the case, and its number of cells where none is
-given; what a run in FOLDER has on the disk already counts as free, and small runs say nothing. --ranks: of the mesher
-on this machine, 2 unless given. needs.py --table CELLS...: prints a row of a table for each number.
+"""needs.py FOLDER [--solve] [--sweep] [--case FILE]... [--ranks N] CELLS...: tells what runs of so many cells need of
+disk and memory, before they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M.
+With --case the formats of the export and the cells of a region are those of the case, and its number of cells where
+none is given; what the run in FOLDER has on the disk already counts as free, and a small one says nothing. With --sweep
+a run of each case and each number is meant, in FOLDER/NAME-CELLS with NAME from cases/NAME/case.yaml, and what they
+need is told however small. --ranks: of the mesher on this machine, 2 unless given. --solve: the flow is solved too.
+needs.py --table CELLS...: prints a row of a table for each number.
 
 The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 100 million cells (tests/bench/scale.py prints
 them, tests/bench/memory.py the memory over the ranks); layers and size change them by a third."""
@@ -14,6 +16,7 @@ import re
 import shutil
 import sys
 from pathlib import Path
+from typing import NamedTuple, Sequence
 
 # Bytes on the disk: a cell's, and those that go with the area of the walls, by cells to the power 2/3.
 DISK = {"mesh": (22, 1250), "cgns": (22, 1000), "openfoam": (76, 0), "fluent": (200, 0)}
@@ -23,7 +26,7 @@ SOLVED_BYTES_A_CELL = 500              # the case, in parts and whole, with the 
 # surfaces. Of a rank: at least, and by cells of the region that it fills.
 HOST_MEMORY, RANK_MEMORY = (170e6, 2700), (68e6, 100)
 REGION_CELLS, REGIONS_MOST = 270e3, 140  # of a region at least, and of a mesh at most (mesher/policy_table.h)
-SOLVE_MEMORY_A_CELL = 2000
+SOLVE_MEMORY, SOLVE_MEMORY_A_CELL = 0.3e9, 2000
 UNITS = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 SMALL = 10**9  # bytes of disk below which a run says nothing
 
@@ -77,7 +80,7 @@ def row(text):
     """What a run of so many cells needs, in a row of a table."""
     cells = read_count(text)
     values = (disk_of("mesh", cells), disk_of("cgns", cells), export_disk(cells), cells * SOLVED_BYTES_A_CELL,
-              host_memory(cells), rank_memory(cells), 0.3e9 + cells * SOLVE_MEMORY_A_CELL)
+              host_memory(cells), rank_memory(cells), SOLVE_MEMORY + cells * SOLVE_MEMORY_A_CELL)
     return f"| {text} | " + " | ".join(f"{value / 1e9:,.2g}" if value < 1e11 else f"{value / 1e9:,.0f}"
                                        for value in values) + " |"
 
@@ -93,11 +96,31 @@ def case_says(path):
             read_count(of_region[1]) if of_region else None)
 
 
+class Run(NamedTuple):
+    """What is known of a run before it starts."""
+    cells: int
+    formats: Sequence[str] = FORMATS
+    of_region: float | None = None  # cells of a region
+    folder: Path | None = None
+
+
+def runs_of(folder, sizes, options):
+    """The runs that the words mean."""
+    for case in options.case:
+        formats, of_case, of_region = case_says(case)
+        for text in sizes or of_case:
+            run = Path(folder, f"{Path(case).parent.name}-{text}") if options.sweep else Path(folder)
+            yield Run(read_count(text), formats, of_region, run)
+    if not options.case:
+        yield from (Run(read_count(text)) for text in sizes)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("words", nargs="+")
     parser.add_argument("--solve", action="store_true")
-    parser.add_argument("--case")
+    parser.add_argument("--sweep", action="store_true")
+    parser.add_argument("--case", action="append", default=[])
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--table", action="store_true")
     options = parser.parse_intermixed_args()
@@ -108,16 +131,20 @@ def main():
         print("\n".join(row(text) for text in options.words))
         return
     folder, *sizes = options.words
-    formats, of_case, of_region = case_says(options.case) if options.case else (FORMATS, [], None)
-    cells = [read_count(text) for text in sizes or of_case]
-    disk = sum(disk_of("mesh", n) + export_disk(n, formats) + n * SOLVED_BYTES_A_CELL * options.solve for n in cells)
-    most = max(cells)
-    memory = 0.3e9 + most * SOLVE_MEMORY_A_CELL if options.solve else mesher_memory(most, options.ranks, of_region)
-    if options.case and disk < SMALL:
+    if not sizes and not options.case:
+        sys.exit("needs: error: no number of cells and no --case that has one; allowed: 500000, 500k or 2M")
+    runs = list(runs_of(folder, sizes, options))
+    cells = [run.cells for run in runs]
+    disk = sum(disk_of("mesh", run.cells) + export_disk(run.cells, run.formats) +
+               run.cells * SOLVED_BYTES_A_CELL * options.solve for run in runs)
+    memory = max(mesher_memory(run.cells, options.ranks, run.of_region) for run in runs)
+    if options.solve:
+        memory = max(memory, SOLVE_MEMORY + max(cells) * SOLVE_MEMORY_A_CELL)
+    if options.case and not options.sweep and disk < SMALL:
         return
-    free = shutil.disk_usage(existing(folder)).free + (size_of(folder) if options.case else 0)
-    runs = f"{len(cells)} runs, {sum(cells):,} cells" if len(cells) > 1 else f"{cells[0]:,} cells"
-    print(f"{runs}: about {disk / 1e9:.3g} GB of the {free / 1e9:.3g} GB free on the "
+    free = shutil.disk_usage(existing(folder)).free + sum(map(size_of, {run.folder for run in runs} - {None}))
+    told = f"{len(cells)} runs, {sum(cells):,} cells" if len(cells) > 1 else f"{cells[0]:,} cells"
+    print(f"{told}: about {disk / 1e9:.3g} GB of the {free / 1e9:.3g} GB free on the "
           f"disk, {memory / 1e9:.2g} GB of {memory_of_machine() / 1e9:.3g} GB of memory", file=sys.stderr)
     if disk > free:
         sys.exit(f"needs: error: {folder}: the disk has {free / 1e9:.3g} GB free, the runs need about {disk / 1e9:.3g} "

@@ -75,7 +75,7 @@ $(3)/log/cells: FORCE
 	@$$(call cutwater_note,$(4))
 
 $(3)/mesh/record.json: $(2) $(3)/log/cells $(3)/geometry/record.json $(BIN)/cutwater-mesh
-	@python3 $(ROOT)/pipeline/needs.py $(3) --case $(2) $(cutwater_ranks_here) $(4)
+	@python3 $(ROOT)/pipeline/needs.py $(3) --case $(2) $(if $(cutwater_solves),--solve) $(cutwater_ranks_here) $(4)
 	@$(LAUNCHER) $(BIN)/cutwater-mesh --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 $(3)/export/record.json: $(2) $(3)/mesh/record.json $(BIN)/cutwater-export

@@ -2,6 +2,7 @@
 """The make rules with stages that only note their call: what runs when, and what a failing stage does."""
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -217,6 +218,14 @@ class FrontDoor(unittest.TestCase):
         self.assertRegex(self.make("solve", "MOST=8000").stdout, r"solve\.py .* --most 8000 ")
         self.assertRegex(self.make("-C", "cases", "paper-curve", "MOST=20").stdout, r"solve\.py .* --most 20 --curve")
         self.assertNotIn("--most", self.make("solve").stdout)
+
+    def test_what_a_solved_flow_needs_is_told(self):
+        for words, solved in ((["paper"], False), (["solve"], True), (["curve"], True),
+                              (["-C", "cases", "ns40"], False), (["-C", "cases", "ns40-curve"], True),
+                              (["-C", "cases", "ns40-sweep", "SWEEP=40k"], False),
+                              (["-C", "cases", "ns40-sweep", "SWEEP=40k", "SOLVE=1"], True)):
+            lines = re.findall(r".*needs\.py .*", self.make(*words).stdout)
+            self.assertEqual([" --solve " in line for line in lines], [solved], words)
 
     def test_a_wrong_variable_is_refused_before_anything_runs(self):
         for words, told in ((["CELLS=abc"], "CELLS is 'abc'; allowed: a number of cells as 500000 or 500k or 2M"),

@@ -105,6 +105,10 @@ class Sweep(unittest.TestCase):
         self.assertEqual(call(WORK, "2000G").returncode, 1)
         self.assertIn(" on the disk, 0.47 GB of ", call(WORK, "8M").stderr)
         self.assertIn(" on the disk, 1.8 GB of ", call(WORK, "--ranks", "16", "8M").stderr)
+        for more in ((), ("--solve",)):
+            alone = call(WORK, *more)
+            self.assertEqual(alone.returncode, 1)
+            self.assertRegex(alone.stderr, r"^needs: error: no number of cells and no --case that has one; .*\n$")
         self.assertRegex(call(WORK, "1.5.5M").stderr, r"^needs: error: '1\.5\.5M' is no number of cells; allowed: .*")
 
     def test_the_memory_of_the_mesher_is_about_what_was_measured(self):
@@ -165,6 +169,35 @@ class Sweep(unittest.TestCase):
         self.assertAlmostEqual(memory[1] - memory[0], 4 * 3.7e6 * 100e-9, delta=0.06)
         self.assertIn("make room, or ask for fewer cells", call("export: {formats: cgns}\n", "2000G").stdout)
         self.assertEqual(call("", "2000G").returncode, 1)
+
+    def test_a_sweep_is_told_what_its_cases_need_and_what_its_runs_have_is_free(self):
+        folder, files = fresh("needs_sweep"), []
+        for name, formats in (("all", ""), ("few", "export: {formats: [cgns]}\nmesh: {cells_per_region: 4M}\n")):
+            files.append(folder / "cases" / name / "case.yaml")
+            files[-1].parent.mkdir(parents=True)
+            files[-1].write_text(f"name: {name}\n{formats}")
+
+        def told(*words):
+            text = execute([sys.executable, SOURCE / "pipeline/needs.py", folder, "--sweep", *words]).stdout
+            return [float(re.search(pattern, text)[1]) for pattern in
+                    (r"about ([\d.]+) GB", r" of the ([\d.e+]+) GB free", r"disk, ([\d.]+) GB of")]
+        both = told("--case", files[0], "--case", files[1], "8M", "20M")
+        each = [told("--case", file, "8M", "20M") for file in files]
+        self.assertAlmostEqual(both[0], each[0][0] + each[1][0], delta=0.02)
+        self.assertLess(2 * each[1][0], each[0][0])
+        self.assertEqual(both[2], each[1][2])
+        self.assertGreater(each[1][2], each[0][2] + 0.5)
+        solving = told("--solve", "--case", files[1], "8M", "20M")
+        self.assertAlmostEqual(solving[0] - each[1][0], 14, delta=0.1)  # 500 bytes a cell
+        self.assertEqual(solving[2], 40)
+        few = told("--solve", "--ranks", "64", "--case", files[1], "30k")  # the ranks of the mesher need more
+        self.assertAlmostEqual(few[2], needs.mesher_memory(30e3, 64, 4e6) / 1e9, delta=0.06)
+        written = folder / "few-20M/mesh"
+        written.mkdir(parents=True)
+        with open(written / "a", "wb") as file:
+            file.truncate(10**13)  # of holes
+        self.assertGreater(told("--case", files[1], "8M", "20M")[1] - each[1][1], 9000)
+        self.assertLess(told("--case", files[0], "8M", "20M")[1] - each[0][1], 1000)
 
     def test_records_are_digested_as_the_stages_do(self):
         for stage in ("geometry", "mesh"):
