@@ -192,17 +192,17 @@ done:
 static CwStatus set_turbulence(CwTurbulenceModel model, CwValues *values) {
   CwStatus status = CW_OK;
   static const char *const names[] = {[CW_K_EPSILON] = "kEpsilon", [CW_SST] = "kOmegaSST", [CW_LAMINAR] = "none"};
-  static const char *const solved[] = {
-      [CW_K_EPSILON] = "U p k epsilon", [CW_SST] = "U p k omega", [CW_LAMINAR] = "U p"};
   const int laminar = model == CW_LAMINAR;
   CW_TRY(cw_values_set(values, "turbulence_model", "%s", names[model]));
-  CW_TRY(cw_values_set(values, "solved_fields", "%s", solved[model]));
+  CW_TRY(cw_values_set(values, "solved_fields", "%s", laminar ? "U p" : "U p \"(k|epsilon|omega)\""));
   CW_TRY(cw_values_set_file(values, "turbulence",
                             laminar ? "openfoam_parts/turbulence_laminar" : "openfoam_parts/turbulence_ras"));
   CW_TRY(cw_values_set(values, "turbulence_words", "%s%s", names[model],
                        laminar
                            ? ", the flow along all walls is laminar"
                            : ". Wall functions in `0/nut` follow from the y+ targets and the roughness of the case"));
+  CW_TRY(cw_values_start(values, "omega_function"));
+  if (model == CW_K_EPSILON) CW_TRY(cw_values_append_file(values, "omega_function", "openfoam_parts/omega_function"));
   CW_TRY(cw_values_set(values, "eddies_words", "%s",
                        laminar ? "" : ", and `les/` goes on from it with a large eddy simulation"));
   CW_TRY(cw_values_set(values, "eddies_after", "%s",

@@ -109,6 +109,8 @@ static void the_paper_in_code_saturne(void **state) {
 static void log_layer_meshes_take_k_epsilon(void **state) {
   export_with("");
   expect("openfoam/constant/turbulenceProperties", "RASModel        kEpsilon;");
+  expect("openfoam/system/controlDict", "turbulenceFields;"); // omega for transient/
+  expect("openfoam/transient/constant/turbulenceProperties", "RASModel        kOmegaSST;");
   expect("openfoam/0/nut", "nutkWallFunction");
   assert_null(strstr(output, "Rough"));
   assert_null(strstr(output, "Spalding"));
@@ -169,6 +171,7 @@ static void resolved_walls_take_k_omega(void **state) {
   export_with("");
   assert_int_equal(stage_walls_set(run, NULL, "30.0", output), 0);
   expect("openfoam/constant/turbulenceProperties", "RASModel        kOmegaSST;");
+  expect("openfoam/system/controlDict", "    #include \"functions\"\n}");
   expect("openfoam/0/nut", "blade_pressure\n    {\n        type            nutUSpaldingWallFunction;");
   expect("openfoam/0/nut", "volute\n    {\n        type            nutkWallFunction;");
   expect("openfoam/les/constant/turbulenceProperties", "delta           vanDriest;");

@@ -147,10 +147,11 @@ static void transient_run_starts_from_the_steady_one(void **state) {
                          "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
                          "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' "
                          "../system/functions && "
-                         "./Allrun && grep -c '^Time = ' log.pimpleFoam",
+                         "./Allrun && grep '^Selecting RAS' log.pimpleFoam && grep -ao 'internalField *[a-z]*' 0/omega",
                          test_folder);
   if (code) fail_msg("%s", output);
   assert_non_null(strstr(output, "starts from iteration 100 of the steady run"));
+  assert_non_null(strstr(output, "kOmegaSST\ninternalField   nonuniform\n")); // from a steady result of kEpsilon
   assert_near(number_after("out "), 25.0 / 3600, 1e-8);
   assert_true(number_after("\nhead ") > 3);
 }
