@@ -33,6 +33,11 @@ CwTurbulenceModel cw_turbulence_model(const CwMesh *mesh) {
   return !resolved ? CW_K_EPSILON : laminar ? CW_LAMINAR : CW_SST;
 }
 
+const char *cw_turbulence_model_name(CwTurbulenceModel model) {
+  static const char *const names[] = {[CW_K_EPSILON] = "k-epsilon", [CW_SST] = "k-omega SST", [CW_LAMINAR] = "laminar"};
+  return names[model];
+}
+
 int cw_patch_is_there(const CwAssembly *assembly, int patch) {
   return cw_face_count(assembly->patches[patch].faces) > 0;
 }

@@ -26,6 +26,9 @@ int cw_patch_resolved(const CwModelPatch *patch);
 typedef enum { CW_K_EPSILON, CW_SST, CW_LAMINAR, CW_TURBULENCE_MODELS } CwTurbulenceModel;
 CwTurbulenceModel cw_turbulence_model(const CwMesh *mesh);
 
+// As the record has it.
+const char *cw_turbulence_model_name(CwTurbulenceModel model);
+
 // The patches of a kind, there or not.
 int cw_patch_kind_count(const CwMesh *mesh, CwPatchKind kind);
 

@@ -102,6 +102,20 @@ static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
   return cw_record_json(record, "patches", patches);
 }
 
+// Meshes of one pump may differ in these, and their solved flows then in more than the size of the cells.
+static CwStatus record_turbulence(const CwAssembly *a, CwRecord *record) {
+  CwStatus status = CW_OK;
+  json_t *resolved = json_array();
+  for (int p = 0; p < a->mesh->patch_count; ++p)
+    if (cw_patch_is_there(a, p) && cw_patch_resolved(&a->mesh->patches[p]))
+      json_array_append_new(resolved, json_string(a->mesh->patches[p].name));
+  CW_TRY(cw_record_json(record, "resolved_walls", resolved));
+  CW_TRY(
+      cw_record_json(record, "turbulence_model", json_string(cw_turbulence_model_name(cw_turbulence_model(a->mesh)))));
+done:
+  return status;
+}
+
 static CwStatus record_interfaces(const CwAssembly *a, CwRecord *record) {
   json_t *list = json_array();
   for (int i = 0; i < a->mesh->interface_count; ++i) {
@@ -169,6 +183,7 @@ static CwStatus record_results(const CwAssembly *a, CwRecord *record) {
   CW_TRY(cw_record_integer(record, "faces_on_partition_planes", a->open_count / 2));
   CW_TRY(record_interfaces(a, record));
   CW_TRY(record_patches(a, record));
+  CW_TRY(record_turbulence(a, record));
 done:
   return status;
 }

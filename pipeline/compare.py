@@ -74,6 +74,11 @@ def settled(run):
     return None if not solve else "yes" if solve["results"].get("settled") else "no"
 
 
+def resolved_walls(run):
+    walls = run["row"].get("resolved_walls")
+    return None if walls is None else len(walls.split())
+
+
 def warning_count(run):
     return sum(len(record.get("warnings", [])) for record in run["records"].values() if record)
 
@@ -92,6 +97,7 @@ PARTS = {
     "Flow": [("head predicted by the design, m", of_record("geometry", "predicted_head_m"), ".2f"),
              ("head solved, m", of_row("head_m"), ".3f"), ("torque, N m", of_row("torque_n_m"), ".3f"),
              ("hydraulic efficiency, %", of_row("hydraulic_efficiency_percent"), ".1f"),
+             ("turbulence model", of_row("turbulence_model"), ""), ("resolved walls", resolved_walls, "d"),
              ("greatest y+", of_row("y_plus_most"), ".1f"), ("iterations", of_record("solve", "iterations"), "d"),
              ("settled", settled, "")],
     "Run": [("geometry to export, s", whole_time, ".1f"), ("mesher, s", of_row("mesh_s"), ".1f"),
@@ -135,11 +141,12 @@ def measured_head(family):
 
 
 def converged(family, key):
-    """What sweep.py finds of the three finest runs that have the quantity; None where there are no three of them, or
-    where they are too alike."""
-    last = [run["row"] for run in family if key in run["row"]][-3:]
+    """What sweep.py finds of the three finest runs that have the quantity; None where there are no three of them,
+    where they are too alike, or where their models differ."""
+    last = sweep.finest([run["row"] for run in family], key)
     sizes = [row["cells"]**(-1 / 3) for row in last]
-    if len(last) < 3 or any(coarse < LEAST_RATIO * fine for coarse, fine in zip(sizes, sizes[1:])):
+    near = any(coarse < LEAST_RATIO * fine for coarse, fine in zip(sizes, sizes[1:]))
+    if len(last) < 3 or near or sweep.models_apart(last):
         return None
     return sweep.convergence(sizes, [row[key] for row in last])
 
@@ -163,7 +170,10 @@ def sweep_rows(family):
 
 def sweep_table(name, family):
     heads = ["cells", "ratio", *sweep.NAMES.values(), "greatest y+"]
-    yield f"<h3>{html.escape(name)}</h3><div class=\"wide\"><table><thead><tr><th></th>"
+    yield f"<h3>{html.escape(name)}</h3>"
+    if models := sweep.models_apart(sweep.finest([run["row"] for run in family], "head_m")):
+        yield f"<p>No order and no grid convergence index: {html.escape(models)}.</p>"
+    yield "<div class=\"wide\"><table><thead><tr><th></th>"
     yield "".join(f"<th>{head}</th>" for head in heads) + "</tr></thead><tbody>"
     for k, (words, values) in enumerate(sweep_rows(family)):
         kind = " class=\"last\"" if k + 1 == len(family) else ""  # of the runs
@@ -197,7 +207,7 @@ def sweep_part(runs):
         yield from drawn("Solved flow over the cells", [name for name, _ in found], charts)
         yield ("<p>Ratio: of the mesh sizes of a run and the one before it. Order, extrapolated value and grid "
                "convergence index are of the three finest runs of a pump, after Celik et al. (2008); "
-               f"&ndash;: not monotonous, or ratios below {LEAST_RATIO}.</p>")
+               f"&ndash;: not monotonous, ratios below {LEAST_RATIO}, or other models of turbulence and walls.</p>")
         for name, family in found:
             if len(family) > 1:
                 yield from sweep_table(name, family)

@@ -5,7 +5,8 @@ Where runs were solved it draws head, torque and efficiency over the cells into 
 case (operating_point.test_head_m) and the extrapolated values as broken lines. Of three or more solved runs the three
 finest also give, for each quantity, the observed order of convergence, the value extrapolated to no mesh size at all,
 and the grid convergence index of the finest mesh, after Celik et al., J. Fluids Eng. 130 (2008) 078001, with the safety
-factor 1.25."""
+factor 1.25. Where the three differ in the turbulence model or in the walls that the layers resolve there is none of
+this, and the first line says so: their flows differ in more than the mesh size."""
 import csv
 import io
 import json
@@ -73,7 +74,26 @@ def row_of(run):
             "tetrahedron_aspect_mean": sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"]
                                            for domain in domains) / max(tetrahedra, 1),
             "least_dihedral_deg": min(domain["least_dihedral_deg"] for domain in domains),
-            "mesh_s": record["seconds"], "mesh_memory_mb": record["peak_memory_bytes"] / 1e6, **solved(run)}
+            "mesh_s": record["seconds"], "mesh_memory_mb": record["peak_memory_bytes"] / 1e6, **flow_model(run),
+            **solved(run)}
+
+
+def flow_model(run):
+    """How the exported cases of a run model turbulence and walls."""
+    results = (read_record(run, "export") or {}).get("results", {})
+    if "turbulence_model" not in results:
+        return {}
+    return {"turbulence_model": results["turbulence_model"], "resolved_walls": " ".join(results["resolved_walls"])}
+
+
+def models_apart(rows):
+    """In words the models of turbulence and walls of the runs; None where all have one."""
+    found = {}
+    for row in rows:
+        found.setdefault((row.get("turbulence_model"), row.get("resolved_walls", "")), []).append(row)
+    return None if len(found) < 2 else "; ".join(
+        f"{model} with {len(walls.split())} resolved walls on {', '.join(row['run'] for row in alike)}"
+        for (model, walls), alike in found.items())
 
 
 def order_of(ratio, coarse, fine):
@@ -112,7 +132,14 @@ def test_head(runs):
     return read_record(runs[0], "export")["results"].get("test_head_m")
 
 
+def finest(rows, name):
+    """Of the runs, coarse to fine, the three finest that have the quantity."""
+    return [row for row in rows if name in row][-3:]
+
+
 def tell(rows):
+    if models := models_apart(finest(rows, "head_m")):
+        print(f"no order and no grid convergence index: {models}")
     print(f"{'run':20s} {'cells':>12s} {'ratio':>6s} {'first height':>12s} {'dihedral':>9s} {'mesh':>8s} {'memory':>8s}"
           f" {'head':>9s} {'efficiency':>10s} {'y+ most':>7s}")
     for row in rows:
@@ -130,9 +157,9 @@ def charts_of(rows, measured):
     charts = []
     for name in SOLVED:
         solved_rows = [row for row in rows if name in row]
-        last = solved_rows[-3:]
+        last = finest(rows, name)
         marks = [(measured, f"measured {measured:g}")] if measured and name == "head_m" else []
-        if len(last) == 3:
+        if len(last) == 3 and not models_apart(last):
             found = convergence([row["cells"]**(-1 / 3) for row in last], [row[name] for row in last])
             print(f"{name:30s} " + (f"order {found[0]:.2f}, extrapolated {found[1]:.5g}, grid convergence index "
                                     f"{100 * found[2]:.2f} %" if found else "does not converge monotonously"))

@@ -175,6 +175,8 @@ static void resolved_walls_take_k_omega(void **state) {
   expect("openfoam/0/nut", "blade_pressure\n    {\n        type            nutUSpaldingWallFunction;");
   expect("openfoam/0/nut", "volute\n    {\n        type            nutkWallFunction;");
   expect("openfoam/les/constant/turbulenceProperties", "delta           vanDriest;");
+  expect("record.json", "\"turbulence_model\": \"k-omega SST\"");
+  expect("record.json", "\"resolved_walls\": [\n      \"blade_pressure\"\n    ]");
 }
 
 // A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.

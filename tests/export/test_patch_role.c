@@ -36,6 +36,7 @@ static void the_model_follows_from_all_walls(void **state) {
   assert_int_equal(cw_turbulence_model(&mesh), CW_LAMINAR);
   const CwMesh open = {.patches = patches, .patch_count = 1};
   assert_int_equal(cw_turbulence_model(&open), CW_K_EPSILON);
+  assert_string_equal(cw_turbulence_model_name(CW_SST), "k-omega SST");
 }
 
 int main(void) {

@@ -61,18 +61,42 @@ class Sweep(unittest.TestCase):
         self.assertIsNone(sweep.convergence([3, 2, 1], [1.0, 1.2, 1.1]))
         self.assertIsNone(sweep.convergence([3, 2, 1], [1.0, 1.0, 1.0]))
 
-    def test_runs_that_were_solved_are_drawn_with_what_was_measured(self):
-        folder = fresh("sweep_drawn")
-        for name, cells, head in (("a", 100000, 10.4), ("b", 300000, 10.2), ("c", 900000, 10.1)):
+    @staticmethod
+    def solved_runs(name, models=(["k-epsilon"],) * 3):
+        """Three of them in a folder, whose meshes have these models: of turbulence, and the walls that are resolved."""
+        folder = fresh(name)
+        for name, cells, head, (model, *walls) in zip("abc", (100000, 300000, 900000), (10.4, 10.2, 10.1), models):
             results = record(RUN, "mesh")["results"] | {"cells": cells}
-            export = {"results": {"test_head_m": 10}}
+            export = {"seconds": 1,
+                      "results": {"test_head_m": 10, "turbulence_model": model, "resolved_walls": walls}}
             written = {"mesh": record(RUN, "mesh") | {"results": results}, "export": export,
-                       "solve": {"made_from": stage_files.of_export(export),
+                       "solve": {"made_from": stage_files.of_export(export), "warnings": [],
                                  "results": {"head_m": head, "torque_n_m": 7.0, "hydraulic_efficiency": None,
                                              "y_plus": {"hub": {"most": 41.5}}}}}
             for stage, text in written.items():
                 (folder / name / stage).mkdir(parents=True)
                 (folder / name / stage / "record.json").write_text(json.dumps(text))
+        return folder
+
+    def test_flows_of_different_models_have_no_order(self):
+        sst = "k-omega SST"
+        for models, told in (((["k-epsilon"], [sst, "hub"], [sst, "hub"]),
+                              "k-epsilon with 0 resolved walls on a; k-omega SST with 1 resolved walls on b, c"),
+                             (([sst, "hub"], [sst, "hub"], [sst, "hub", "shroud"]),
+                              "SST with 1 resolved walls on a, b; k-omega SST with 2 resolved walls on c")):
+            folder = self.solved_runs("sweep_models", models)
+            runs = [folder / name for name in "abc"]
+            said_here = said(self, [sys.executable, SOURCE / "pipeline/sweep.py", folder / "sweep.csv", *runs])
+            self.assertRegex(said_here, "^no order and no grid convergence index: ")
+            self.assertIn(told, said_here.splitlines()[0])
+            self.assertNotIn("extrapolated", said_here + (folder / "sweep.svg").read_text())
+            said(self, [sys.executable, SOURCE / "pipeline/compare.py", folder])
+            page = (folder / "index.html").read_text()
+            self.assertIn(f"{told}.</p>", page)
+            self.assertRegex(page, "<th>observed order</th>(<td></td>){2}(<td>&ndash;</td>){3}")
+
+    def test_runs_that_were_solved_are_drawn_with_what_was_measured(self):
+        folder = self.solved_runs("sweep_drawn")
         table = folder / "sweep.csv"
         told = said(self, [sys.executable, SOURCE / "pipeline/sweep.py", table, *(folder / name for name in "cab")])
         # Equal ratios of cells: the order is ln(0.2 / 0.1) / ln(3^(1/3)), and as far again is left beyond the finest.
