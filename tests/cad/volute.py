@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """A volute swept through circles that grow round the wheel, fused with its neck and with the cone of the outlet; the
-tongue is the sharp edge between them. The neck is wider than the outlet of the wheel, whose six blades are
+tongue between them is rounded. The neck is wider than the outlet of the wheel, whose six blades are
 cylindrical."""
 import math
 
 import draw
 from draw import OCC
+
+TONGUE = 1  # mm, radius
 
 
 def circle(r, angle, x, radius):
@@ -27,7 +29,8 @@ def pump():
     neck = draw.revolved((101, -10.5), [(111, -10.5), (111, 1.5), (101, 1.5), (101, -10.5)])
     bore = [(3, OCC.addCylinder(0, 0, -30, 0, 0, 60, 101))]
     volute = draw.cut(draw.fused(neck, spiral + cone), bore)
-    return volute
+    kinds = ["BSpline surface", "Unknown"]  # the spiral and the cone
+    return draw.filleted(volute, TONGUE, lambda of, at: of == kinds and 105 < at[0] < 120)
 
 
 CAD = """  domains:

@@ -26,7 +26,8 @@ COVERED = {"side_chamber": 0.95}
 # What checkMesh may say of sound cells: thin prisms; layers in wedges; layers in gaps narrower than the cells.
 ALLOWED = "small determinant|Max skewness|small interpolation weight|small volume ratio"
 MOST_SKEW = 10
-MOST_BARE = 1  # % of the wall of a domain, without layers
+MOST_BARE = 1  # % of the wall of a domain, without layers at corners
+FLUSH = "volute"  # its neck is wider than the wheel: walls beside the interface go on from it, and no column stands there
 
 
 def solids(path):
@@ -97,21 +98,24 @@ class Drawn(unittest.TestCase):
         self.assertEqual(len(error), ITERATIONS)
         self.assertLess(error[-1], error[0])
 
-    def covered(self, run):
+    def covered(self, name, run):
         """All layers stand on each face that the record counts; it warns of faces that carry none."""
         made = record(run, "mesh")
         for domain in made["results"]["domains"]:
             faces = sum(wall["wall_faces"] for wall in domain["layer_coverage"])
             self.assertEqual(domain["prisms"], domain["layers"] * faces, domain["name"])
-        for bare in re.findall(r"faces, (\S+) % of the wall, carry no layers", "\n".join(made["warnings"])):
-            self.assertLessEqual(float(bare), MOST_BARE)
+        bare = re.findall(r"faces, (\S+) % of the wall, carry no layers.*; (\w+) ", "\n".join(made["warnings"]))
+        for share, remedy in bare:
+            if remedy == "round":
+                self.assertLessEqual(float(share), MOST_BARE)
+        self.assertEqual([remedy for _, remedy in bare if remedy == "let"], ["let"] if name == FLUSH else [])
 
     def test_each_is_meshed_and_its_flow_begins(self):
         for name in DRAWINGS:
             with self.subTest(name):
                 run = self.through(name)
                 self.meshed(name, run)
-                self.covered(run)
+                self.covered(name, run)
                 self.checked(name, run / "export/openfoam")
                 self.solved(run / "export/openfoam")
 
