@@ -26,7 +26,6 @@ typedef struct {
   double *most;                     // the target, or less in a concave place: no thickness is greater, m
   int32_t *curve;                   // all vertices along a curve through space: near in the list, near in space
   double *gap, (*gap_column)[3];    // thickness that the gap along a column allows, m, and that column; NULL at first
-  uint8_t *faced;                   // whether another wall stands so near the column's end that it could limit it
   struct CwSmoothing *smoothing;    // direction_smoothing.h, whose free it is; NULL before the first
   uint8_t *reason;                  // CwLayerReason
 } CwLayerWork;

@@ -74,9 +74,6 @@ static int flip_helps(const double (*wall)[3], const double (*top)[3], double be
                       int32_t d) {
   double after = fmin(least_angle(top, c, d, b), least_angle(top, d, c, a));
   if (after < cw_policy.top_flip_gain * before) return 0;
-  double wall_before = fmin(least_angle(wall, a, b, c), least_angle(wall, b, a, d));
-  double wall_after = fmin(least_angle(wall, c, d, b), least_angle(wall, d, c, a));
-  if (wall_after < cw_policy.wanted_angle * CW_DEGREE && wall_after < cw_policy.top_flip_wall * wall_before) return 0;
   const int32_t old[2][3] = {{a, b, c}, {b, a, d}}, new[2][3] = {{c, d, b}, {d, c, a}};
   if (least_share(top, new[0], new[1]) < SHARE) return 0;
   if (!flat_pair(top, old[0], old[1]) || !flat_pair(top, new[0], new[1])) return 0;

@@ -12,7 +12,7 @@
 #include "pipeline/status.h"
 
 // Flips edges between triangles of equal `group`, not below 0, where that raises the least angle of the layer top
-// and leaves neither triangle small beside the other, keeps the wall's triangles fair and flat, and leaves the thick
-// prisms valid. Changes `mesh` in place; *flips counts. Deterministic. Collective.
+// and leaves neither triangle small beside the other, keeps the wall flat, and leaves the thick prisms valid. Changes
+// `mesh` in place; *flips counts. Deterministic. Collective.
 CwStatus cw_layer_top_flip(const CwContext *context, const double (*wall)[3], const double (*top)[3],
                            int32_t triangle_count, CwFlipMesh *mesh, const int64_t *group, int32_t *flips);

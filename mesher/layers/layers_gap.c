@@ -111,14 +111,7 @@ typedef struct {
   int constrained;
   double x[3], g[3], stretch, offset, best, far;
   double core; // between two layer tops, that a tetrahedron fits in, m
-  int faced;   // whether a wall stands opposite
 } Ray;
-
-// What the ray has found.
-typedef struct {
-  double thickness;
-  int32_t faced;
-} Free;
 
 // The mean length of the wall's edges at v, m.
 static double mean_edge(const CwLayerWork *work, int32_t v) {
@@ -162,7 +155,6 @@ static int meet(void *context, int32_t f) {
   if (wall) {
     if (facing < FACING || belongs_to_crease(ray->work, ray->v, f)) return 0;
     double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
-    ray->faced = 1;
     ray->best = fmin(ray->best, cw_layers_room(ray->work, ray->v, way / ray->stretch, core / ray->stretch));
   } else {
     if (facing < (ray->constrained ? FACING_OF_CONSTRAINED : FACING)) return 0;
@@ -205,20 +197,19 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
   cw_box_tree_ray(gaps->tree, gaps->normals, ray.x, ray.g, &ray.far, meet, &ray);
-  *(Free *)out = (Free){ray.best, ray.faced};
+  *(double *)out = ray.best;
   return CW_OK;
 }
 
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
-  Free *most = NULL;
+  double *most = NULL;
   CwBoxTree normals = {0};
   Gaps gaps = {.work = work, .tree = tree, .normals = &normals};
   int again = work->gap != NULL;
   if (!again) {
     CW_NEW_UNSET(work->gap, work->n);
     CW_NEW_UNSET(work->gap_column, work->n);
-    CW_NEW(work->faced, work->n);
   }
   CW_NEW_UNSET(gaps.vertex, work->n);
   for (int32_t v = 0; v < work->n; v++) {
@@ -229,10 +220,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CW_NEW_UNSET(most, gaps.count);
   CW_TRY(cw_box_tree_alike(work->in->context, tree, normal_of, work->in, &normals));
   CW_TRY(cw_parallel_for(work->in->context, "layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));
-  for (int32_t i = 0; i < gaps.count; i++) {
-    work->gap[gaps.vertex[i]] = most[i].thickness;
-    work->faced[gaps.vertex[i]] = (uint8_t)most[i].faced;
-  }
+  for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], work->gap[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
@@ -285,8 +273,7 @@ static double most_beside(const void *context, int32_t v, int32_t w) {
   double e[3], d[3], t = fmin(work->t[v], work->t[w]);
   cw_sub(work->in->x[w], work->in->x[v], e);
   for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
-  double wall = cw_norm(e);
-  return work->t[v] + cw_policy.slope * fmin(wall, fmax(cw_norm(d), cw_policy.columns_apart * wall));
+  return work->t[v] + cw_policy.slope * fmin(cw_norm(e), cw_norm(d));
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {

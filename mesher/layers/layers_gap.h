@@ -19,8 +19,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // at which they would meet. Beside a concave crease the smoothing keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_concavity(CwLayerWork *work);
 // Lowers thicknesses until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower
-// thickness, but no less than columns_apart (policy_table.h) of that on the wall. lowered: vertices lowered since that
-// last held; NULL: any. Collective.
+// thickness. lowered: vertices lowered since that last held; NULL: any. Collective.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 // Where the slope begins that limits the column of v: from each vertex that is limited by its neighbours to that of
 // them which limits it, and on. v itself where none does.

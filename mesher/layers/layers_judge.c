@@ -11,13 +11,6 @@
 
 static const double GAIN = 1e-6; // of quality: less is none
 
-// Whether another wall is so near that the layers of both leave a core of few cells. Elsewhere tetrahedra have room to
-// grow from needles of the layer top; there they reach to the other side.
-static int in_channel(const CwLayerWork *work, int32_t f) {
-  const int32_t *v = work->in->triangle[f];
-  return work->faced && (work->faced[v[0]] || work->faced[v[1]] || work->faced[v[2]]);
-}
-
 // Of prism f; prism_good at least where it is no worse than its columns have to lean.
 static double prism_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   double prism = cw_layers_prism_quality(work, f, top), least = INFINITY;
@@ -26,12 +19,11 @@ static double prism_quality(const CwLayerWork *work, int32_t f, const double (*t
 }
 
 double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
-  double share = in_channel(work, f) ? cw_policy.channel_share : 1;
   double prism = prism_quality(work, f, top), quality = prism < cw_policy.sound_quality ? prism : cw_policy.prism_good;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
     if (work->t[v] <= cw_layer_least(work->in, v)) continue;
-    quality = share * fmin(prism, cw_layers_top_quality(work, f, top));
+    quality = fmin(prism, cw_layers_top_quality(work, f, top));
     break;
   }
   if (quality <= cw_policy.prism_good) return quality;

@@ -201,7 +201,6 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->reason);
   free(work->gap);
   free(work->gap_column);
-  free(work->faced);
   free(work->curve);
   memset(work, 0, sizeof *work);
 }
