@@ -27,7 +27,7 @@ COVERED = {"side_chamber": 0.95}
 ALLOWED = "small determinant|Max skewness|small interpolation weight|small volume ratio"
 MOST_SKEW = 10
 MOST_BARE = 1  # % of the wall of a domain, without layers at corners
-FLUSH = "volute"  # its neck is wider than the wheel: walls beside the interface go on from it, and no column stands there
+FLUSH = "volute"  # its neck is wider than the wheel: walls go on from the interface, and no column stands beside it
 
 
 def solids(path):
