@@ -15,10 +15,10 @@ CELLS = int(os.environ["CUTWATER_SIMILAR_CELLS"])
 # million cells it may choose another plane. The least angle is that of a single tetrahedron: in regions of 2000 the
 # search for it ends wherever chance leads it, above what is called good.
 SMALL = CELLS < 500000
-COUNT_OFF = 0.01 if SMALL else 0.005
 ASKED_OFF = 0.02  # from the asked count, as of any mesh
+COUNT_OFF = 2 * ASKED_OFF if SMALL else 0.005
 MET_OFF = 0.002
-ASPECT_OFF = 0.02
+ASPECT_OFF = 0.03 if SMALL else 0.02
 DIHEDRAL_OFF = 3.5 if SMALL else 2.5  # degrees
 DIHEDRAL_GOOD = 12
 POWERS = (-3, -2, -1, 1, 2, 3)
