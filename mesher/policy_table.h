@@ -80,6 +80,7 @@ NUMBER(int64_t, search_share, 500, none, "tetrahedra",
 NUMBER(int64_t, search_fewest, 600, 0, "1", "tries of a mesh, or more by the share")
 
 // Decomposition (plan/).
+NUMBER(double, plan_line_beside, 0.3, 1, "1", "of a line that may run beside another")
 NUMBER(double, plan_room, 2, 1, "1",
        "times the least room, beside lines and edges of two planes, layers of walls and other lines: from there on "
        "nothing is cramped")

@@ -208,7 +208,7 @@ static int is_at_end(const Line *line, const End *end, double place, int32_t tri
 // A run of the line through the domain.
 static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *to, Lines *lines) {
   const CwPlanModel *model = line->model;
-  double run = to->place - from->place;
+  double run = to->place - from->place, beside = 0;
   double cramped = judge_end(line, part, from, lines);
   cramped = fmax(cramped, judge_end(line, part, to, lines));
   double taken = from->layers + to->layers;
@@ -222,6 +222,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
     double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
     double h = cw_size_at(model->size, x), near = plane_near(line, x, cw_policy.plan_room * h);
+    if (near < SAME_LINE * h) beside += step;
     cramped = fmax(cramped, shortage(near, SAME_LINE * h, cw_policy.plan_room * h));
     if (s - from->place < from->layers || to->place - s < to->layers) continue;
     CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * model->thickest);
@@ -230,6 +231,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
     cramped = fmax(cramped, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));
     if (wall.distance < wall.thickness) lines->impossible = 1;
   }
+  if (beside > cw_policy.plan_line_beside * run && beside > 2 * step) lines->impossible = 1;
   add_cramped(cramped, lines);
 }
 

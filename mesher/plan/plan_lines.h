@@ -16,8 +16,8 @@ typedef struct {
 } CwPlanLines;
 
 // The lines of `plane`, which is or is to become `node`, with the planes above. They cost INFINITY where one runs
-// through the layers of a wall, or where a parallel plane leaves no room between both: then the plane will not do. A
-// line just outside the domain, or in a blade beside its edges, costs as one without room: there the planes cut the
-// boundary side by side. May stop at any sum of `most` or more.
+// through the layers of a wall or along that of another plane, or where a parallel plane leaves no room between both:
+// then the plane will not do. A line just outside the domain, or in a blade beside its edges, costs as one without
+// room: there the planes cut the boundary side by side. May stop at any sum of `most` or more.
 CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                        const CwPlane *plane, double most, CwPlanLines *found);
