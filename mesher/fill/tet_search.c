@@ -400,7 +400,8 @@ CwStatus cw_tet_search(CwTetWork *w) {
   s.tries = w->mesh->tet_count > policy->search_share * policy->search_fewest
                 ? w->mesh->tet_count / policy->search_share
                 : policy->search_fewest;
-  if (count_bad(w) > s.tries) goto done;
+  int64_t most = w->mesh->tet_count / policy->search_share;
+  if (count_bad(w) > (most > policy->search_any ? most : policy->search_any)) goto done;
   if (find_worst(&s, 0, NULL, NULL, &least) >= 0) {
     CW_TRY(sine_allowed(w->mesh, &allowed));
     s.again = fmin(flat_sine(), allowed);
