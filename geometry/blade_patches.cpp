@@ -15,19 +15,18 @@ const int fillet_points = 7;
 
 class Maker {
 public:
-  Maker(const CwDesign *from, const CwMeridian *section, double unit, CwBladeShape &of)
-      : design(from), meridian(*section), scale(1 / unit), shape(of) {}
+  Maker(const CwDesign *from, const CwMeridian *section, CwBladeShape &of)
+      : design(from), meridian(*section), shape(of) {}
   void make(double room);
   void make_seam(double room);
 
 private:
   const CwDesign *design;
   const CwMeridian &meridian;
-  const double scale; // model units in a metre
   CwBladeShape &shape;
 
   gp_Pnt at(double r, double theta, double z) const {
-    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
+    return gp_Pnt(r * std::cos(theta), r * std::sin(theta), z);
   }
 
   void trailing_points(double p_bevel);
@@ -151,7 +150,7 @@ Handle(Geom2d_BSplineCurve) Maker::curve_on_wall(const CwBladePatch &patch, int 
 
 // (theta, t) of the point of a wall nearest to one beside it, from a guess.
 gp_Pnt2d Maker::nearest_on_wall(const CwMeridianCurve &curve, const gp_Pnt &point, const gp_Pnt2d &guess) const {
-  const double r = std::hypot(point.X(), point.Y()) / scale, z = point.Z() / scale;
+  const double r = std::hypot(point.X(), point.Y()), z = point.Z();
   double theta = std::atan2(point.Y(), point.X()), t = guess.Y();
   theta += 2 * M_PI * std::round((guess.X() - theta) / (2 * M_PI));
   for (int i = 0; i < 8; i++) {
@@ -198,19 +197,19 @@ void Maker::points() {
   const double p_bevel =
       shape.has_bevel ? cw_blade_bevel_begin(&middle, edge, design->trailing_edge_bevel) : middle.end;
   const double theta_corner = cw_blade_side(&middle, CW_BLADE_PRESSURE, middle.end).theta;
-  const double first = cw_blade_bevel_earliest(edge);
+  const double first = cw_blade_bevel_earliest(edge), mm = 1e3 * design->unit;
   if (!(p_bevel > first) && !shape.has_bevel)
     cw_solid_refuse("the rounding of the trailing edge begins at %.0f %% of the %s; allowed: from %.0f %% on: lower "
                     "trailing_edge_thickness_mm (%.3g mm)",
-                    100 * p_bevel, shape.name, 100 * first, 1e3 * design->trailing_edge_thickness);
+                    100 * p_bevel, shape.name, 100 * first, mm * design->trailing_edge_thickness);
   if (!(p_bevel > first) || (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner))
     cw_solid_refuse(
         "the bevel of %.3g mm is longer than the trailing edge of the %s, or begins at %.0f %% of it; allowed: "
         "from %.0f %% on: lower trailing_edge_bevel_mm to %.3g, or trailing_edge_thickness_mm (%.3g mm)",
-        1e3 * design->trailing_edge_bevel, shape.name, 100 * p_bevel, 100 * first,
-        1e3 * std::min(cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle),
-                       cw_blade_longest_bevel(&middle, edge)),
-        1e3 * design->trailing_edge_thickness);
+        mm * design->trailing_edge_bevel, shape.name, 100 * p_bevel, 100 * first,
+        mm * std::min(cw_blade_usual_bevel(edge, design->trailing_edge_thickness, design->outlet_blade_angle),
+                      cw_blade_longest_bevel(&middle, edge)),
+        mm * design->trailing_edge_thickness);
   // With fillets half-way between even steps on the ellipse and even turns of its normal, which their feet follow.
   for (int i = 0; i < nose_points; i++) {
     const double f = (double)i / (nose_points - 1), even = M_PI * (f - 0.5);
@@ -351,11 +350,10 @@ void Maker::guide_line(int wall, double room) {
 
 } // namespace
 
-void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, double room,
-                      CwBladeShape *shape) {
-  Maker(design, meridian, unit, *shape).make(room);
+void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double room, CwBladeShape *shape) {
+  Maker(design, meridian, *shape).make(room);
 }
 
-void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double unit, double room, CwBladeShape *shape) {
-  Maker(design, meridian, unit, *shape).make_seam(room);
+void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double room, CwBladeShape *shape) {
+  Maker(design, meridian, *shape).make_seam(room);
 }

@@ -10,12 +10,11 @@
 #include "geometry/design.h"
 #include "geometry/meridian.h"
 
-// Makes all surfaces, in the model unit (m), and curves of a shape whose name and sections are set. The lines from its
-// nose to the eye turn into the meridian within a fifth of the angle `room`. Throws std::runtime_error with the
-// reason where the trailing edge or the root fillets do not fit.
-void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, double room,
-                      CwBladeShape *shape);
+// Makes all surfaces and curves of a shape whose name and sections are set, of a design in the model unit. The lines
+// from its nose to the eye turn into the meridian within a fifth of the angle `room`. Throws std::runtime_error with
+// the reason where the trailing edge or the root fillets do not fit.
+void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double room, CwBladeShape *shape);
 
 // Makes the guide lines of a seam whose sections are set, those of the blade shifted into the passage. On its way it
 // turns into the meridian within a fifth of the angle `room` at either end.
-void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double unit, double room, CwBladeShape *shape);
+void cw_blade_seam(const CwDesign *design, const CwMeridian *meridian, double room, CwBladeShape *shape);

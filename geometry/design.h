@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A finished hydraulic design: every dimension of the pump and what follows from them. SI units: m, rad, s, kg. It is
-// made by hydraulic_design.h.
+// made by hydraulic_design.h; rotor and stator are built from it in their own unit (design_unit.h).
 #pragma once
 
 #include "geometry/volute.h"
@@ -142,6 +142,7 @@ typedef struct {
   CwBladeForm blade_form;
   CwTrailingEdge trailing_edge;
   double warn_share, density;
+  double unit; // m: of the lengths; 1, but as design_unit.h makes it
   CW_DESIGN_LIST(CW_DESIGN_MEMBER)
   CwTriangle inlet_triangle[CW_TRIANGLE_SPANS];  // with blockage, without swirl
   CwTriangle outlet_triangle[CW_TRIANGLE_SPANS]; // behind the blades, with slip

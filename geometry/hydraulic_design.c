@@ -293,7 +293,8 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
                        .blade_form = table->impeller.blade_form,
                        .trailing_edge = table->impeller.trailing_edge,
                        .warn_share = table->design.warn_share,
-                       .density = table->fluid.density};
+                       .density = table->fluid.density,
+                       .unit = 1};
   SET(flow_rate, table->operating_point.flow_rate, "case");
   SET(head, table->operating_point.head, "case");
   SET(angular_speed, table->operating_point.speed, "case");

@@ -53,13 +53,15 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
   return t;
 }
 
-// Arc length where the curve passes a radius, going downstream; the radius grows along the curve there.
-static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, const char *what, double *length) {
+// Arc length where the curve passes a radius, going downstream; the radius grows along the curve there. mm: millimetres
+// in a unit.
+static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, double mm, const char *what,
+                                double *length) {
   CwStatus status = CW_OK;
   double low = 0, high = 1, x[2];
   CW_REQUIRE(radius > curve->pole[0][0] && radius < curve->pole[3][0], CW_ERR_DESIGN,
-             "the %s has the radius %.3f mm; allowed: between %.3f and %.3f mm", what, radius * 1e3,
-             curve->pole[0][0] * 1e3, curve->pole[3][0] * 1e3);
+             "the %s has the radius %.3f mm; allowed: between %.3f and %.3f mm", what, radius * mm,
+             curve->pole[0][0] * mm, curve->pole[3][0] * mm);
   for (int i = 0; i < 60; i++) {
     const double middle = 0.5 * (low + high);
     cw_meridian_point(curve, middle, x, NULL);
@@ -84,21 +86,21 @@ void cw_meridian_walls(const CwDesign *design, double hub_radial, double shroud_
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   CwStatus status = CW_OK;
   const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2, ri = design->interface_radius;
-  const double rn = design->hub_diameter / 2;
+  const double rn = design->hub_diameter / 2, mm = 1e3 * design->unit;
   CW_REQUIRE(rn < r1 && r1 < r2 && r2 < ri, CW_ERR_DESIGN,
              "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order: change "
              "hub_diameter_mm, inlet_diameter_mm, outlet_diameter_mm or base_diameter_mm",
-             rn * 1e3, r1 * 1e3, r2 * 1e3, ri * 1e3);
+             rn * mm, r1 * mm, r2 * mm, ri * mm);
   cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial,
                     &meridian->hub, &meridian->shroud);
   curve_measure(&meridian->hub);
   curve_measure(&meridian->shroud);
-  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub,
+  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub, mm,
                          "leading edge at the hub (leading_edge_radius_hub_mm)", &meridian->hub_leading));
-  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud,
+  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud, mm,
                          "leading edge at the shroud (leading_edge_radius_shroud_mm)", &meridian->shroud_leading));
-  CW_TRY(curve_at_radius(&meridian->hub, r2, "trailing edge at the hub", &meridian->hub_trailing));
-  CW_TRY(curve_at_radius(&meridian->shroud, r2, "trailing edge at the shroud", &meridian->shroud_trailing));
+  CW_TRY(curve_at_radius(&meridian->hub, r2, mm, "trailing edge at the hub", &meridian->hub_trailing));
+  CW_TRY(curve_at_radius(&meridian->shroud, r2, mm, "trailing edge at the shroud", &meridian->shroud_trailing));
   meridian->shaft_radius = design->through_shaft_diameter / 2;
   meridian->nut_disk_radius = design->nut_disk_radius;
   meridian->nut_end_z = meridian->hub.pole[0][1] - design->nut_length;
@@ -106,8 +108,8 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   CW_REQUIRE(meridian->inlet_z < meridian->nut_end_z, CW_ERR_DESIGN,
              "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: raise "
              "suction_pipe_length_mm to more than %.3f",
-             meridian->inlet_z * 1e3, meridian->nut_end_z * 1e3,
-             1e3 * (design->suction_pipe_length + meridian->inlet_z - meridian->nut_end_z));
+             meridian->inlet_z * mm, meridian->nut_end_z * mm,
+             mm * (design->suction_pipe_length + meridian->inlet_z - meridian->nut_end_z));
 done:
   return status;
 }

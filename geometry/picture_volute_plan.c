@@ -57,7 +57,7 @@ static int diffuser_wall(const CwVolute *volute, const double from[2], const dou
   const double lean = volute->discharge_lean, radius = volute->input.outlet_diameter / 2;
   const double end[3] = {volute->outlet_x + side * radius * cos(lean), volute->outlet_y + side * radius * sin(lean), 0};
   const double down[2] = {-sin(lean), cos(lean)};
-  const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
+  const CwDiffuserLines lines = cw_diffuser_lines(volute);
   const double start[3] = {from[0], from[1], 0}, leaving[3] = {lines.tangent * along[0] / along[1], lines.tangent, 0};
   for (int i = 0; i < WALL_POINTS; i++) {
     double point[3];

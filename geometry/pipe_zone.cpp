@@ -17,6 +17,7 @@
 #include <gp_Trsf.hxx>
 
 #include "geometry/stator_builder.hpp"
+#include "pipeline/significant.h"
 
 namespace {
 
@@ -44,7 +45,7 @@ class Prism {
 public:
   Prism(const std::vector<CwSolidFace *> &ends, double unit, double length) : builder(PLANE_CURVE, unit) {
     const gp_Dir out = outward_of(*ends[0]);
-    along = gp_Vec(out) * (length / unit);
+    along = gp_Vec(out) * cw_multiple(length / unit, -26);
     for (const CwSolidFace *end : ends) {
       std::vector<int> loop;
       for (TopExp_Explorer at(end->face, TopAbs_EDGE); at.More(); at.Next())

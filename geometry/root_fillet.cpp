@@ -134,6 +134,7 @@ void Fillets::feet(CwBladePatch &patch, bool straight, const Fillets *before, bo
 }
 
 void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape) {
+  const double mm = 1e3 * design->unit;
   double taken = 0;
   for (const CwBladePatch *patch : shape->patches())
     for (size_t i = 0; i < patch->u.size(); i++)
@@ -141,8 +142,8 @@ void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape
   if (taken > most_of_span)
     cw_solid_refuse("root fillets of %.3g mm take %.0f %% of the %s's height, %.0f %% are allowed: lower "
                     "root_fillet_radius_mm to %.3g",
-                    design->root_fillet_radius * 1e3, 100 * taken, shape->name, 100 * most_of_span,
-                    design->root_fillet_radius * 1e3 * most_of_span / taken * 0.98);
+                    design->root_fillet_radius * mm, 100 * taken, shape->name, 100 * most_of_span,
+                    design->root_fillet_radius * mm * most_of_span / taken * 0.98);
   for (int wall : {CW_HUB, CW_SHROUD}) {
     const CwBladeOnWall on = cw_blade_on_wall(meridian, wall);
     const int j = wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1;
@@ -151,7 +152,7 @@ void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape
       if (on.begin + q * on.length > 0.02 * on.begin) continue;
       cw_solid_refuse("root fillets of %.3g mm have no room before the %s's leading edge on the %s: lower "
                       "root_fillet_radius_mm, or raise leading_edge_radius_%s_mm",
-                      design->root_fillet_radius * 1e3, shape->name, wall == CW_HUB ? "hub" : "shroud",
+                      design->root_fillet_radius * mm, shape->name, wall == CW_HUB ? "hub" : "shroud",
                       wall == CW_HUB ? "hub" : "shroud");
     }
   }

@@ -8,6 +8,7 @@
 
 #include "geometry/blade.h"
 #include "geometry/blade_patches.hpp"
+#include "geometry/design_unit.h"
 #include "geometry/meridian.h"
 #include "geometry/rotor_faces.hpp"
 #include "geometry/solid.hpp"
@@ -22,13 +23,12 @@ const double usual_margin = 0.5;
 // From the design to the solid: the sections of blade, splitter and seams, their patches, then edges and faces.
 class RotorMaker {
 public:
-  RotorMaker(const CwDesign *from, double model_unit) : design(from), unit(model_unit) {}
+  explicit RotorMaker(const CwDesign *from) : design(from) {}
   CwStatus sections();
   CwSolid *build();
 
 private:
-  const CwDesign *design;
-  const double unit; // the model unit, m
+  const CwDesign *design; // in the model unit
   CwMeridian meridian;
   std::vector<CwBladeShape> shapes; // the blade and, behind its pressure side, the splitter or seams
   double pitch, margin;
@@ -56,7 +56,7 @@ CwStatus RotorMaker::sections() {
       CW_REQUIRE(s.nose < longest, CW_ERR_GEOMETRY,
                  "the leading edge's ellipse takes %.0f %% of the %s at span %.2f; allowed: %.0f %%: lower "
                  "leading_edge_thickness_mm to %.3g, or raise thickest_at",
-                 100 * s.nose, shape.name, s.span, 100 * longest, 1e3 * thickness);
+                 100 * s.nose, shape.name, s.span, 100 * longest, 1e3 * design->unit * thickness);
     }
   CW_TRY(seams());
 done:
@@ -90,10 +90,10 @@ done:
 CwSolid *RotorMaker::build() {
   for (CwBladeShape &shape : shapes)
     if (shape.seam)
-      cw_blade_seam(design, &meridian, unit, pitch / shapes.size(), &shape);
+      cw_blade_seam(design, &meridian, pitch / shapes.size(), &shape);
     else
-      cw_blade_patches(design, &meridian, unit, shape.section[0].start > 0 ? pitch : std::min(pitch, margin), &shape);
-  return RotorFaces(design, meridian, shapes, margin, unit).make();
+      cw_blade_patches(design, &meridian, shape.section[0].start > 0 ? pitch : std::min(pitch, margin), &shape);
+  return RotorFaces(design, meridian, shapes, margin).make();
 }
 
 } // namespace
@@ -101,7 +101,8 @@ CwSolid *RotorMaker::build() {
 CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
   *rotor = nullptr;
   return cw_solid_guard(CW_ERR_GEOMETRY, "rotor", "", [&]() -> CwStatus {
-    RotorMaker maker(design, cw_solid_unit_of_pump(design->outlet_diameter));
+    const CwDesign in_unit = cw_design_in_unit(design, cw_solid_unit_of_pump(design->outlet_diameter));
+    RotorMaker maker(&in_unit);
     const CwStatus status = maker.sections();
     if (status != CW_OK) return status;
     *rotor = maker.build();

@@ -12,11 +12,11 @@
 #include "geometry/bspline_fit.hpp"
 
 RotorEdges::RotorEdges(const CwDesign *from, const CwMeridian &section, const std::vector<CwBladeShape> &kinds,
-                       double before, double model_unit)
-    : design(from), meridian(section), shapes(kinds), curve{&section.hub, &section.shroud}, unit(model_unit),
-      scale(1 / model_unit), pitch(2 * M_PI / from->blade_count), margin(before),
-      bands((int)kinds[0].pressure.band.size()), has_nut(section.nut_end_z < section.hub.pole[0][1]),
-      has_shaft(section.shaft_radius > 0), blade(from->blade_count * kinds.size()) {
+                       double before)
+    : design(from), meridian(section), shapes(kinds), curve{&section.hub, &section.shroud},
+      pitch(2 * M_PI / from->blade_count), margin(before), bands((int)kinds[0].pressure.band.size()),
+      has_nut(section.nut_end_z < section.hub.pole[0][1]), has_shaft(section.shaft_radius > 0),
+      blade(from->blade_count * kinds.size()) {
   for (size_t i = 0; i < blade.size(); i++) {
     RotorBlade &b = blade[i];
     b.turns = (int)(i / shapes.size());
@@ -31,7 +31,7 @@ RotorEdges::RotorEdges(const CwDesign *from, const CwMeridian &section, const st
 // Axes whose x axis is the zero of the parameter planes of the passage behind blade i.
 gp_Ax3 RotorEdges::blade_axes(int i, double z) const {
   const double angle = zero_of(i);
-  return gp_Ax3(gp_Pnt(0, 0, scale * z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
+  return gp_Ax3(gp_Pnt(0, 0, z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
 }
 
 Handle(Geom_Curve) RotorEdges::meridian_curve(const CwMeridianCurve &curve, double theta) const {
@@ -143,8 +143,8 @@ void RotorEdges::wall_edges(RotorBlade &b) {
   }
   const double at_hub = turn + s.theta_up[CW_HUB], at_shroud = turn + s.theta_up[CW_SHROUD];
   b.inlet = shell.vertex(at(r_pipe, at_shroud, meridian.inlet_z));
-  b.e_end[CW_SHROUD] = shell.edge(new Geom_Line(at(r_pipe, at_shroud, 0), gp::DZ()), scale * meridian.inlet_z,
-                                  scale * curve[CW_SHROUD]->pole[0][1], b.inlet, b.up[CW_SHROUD]);
+  b.e_end[CW_SHROUD] = shell.edge(new Geom_Line(at(r_pipe, at_shroud, 0), gp::DZ()), meridian.inlet_z,
+                                  curve[CW_SHROUD]->pole[0][1], b.inlet, b.up[CW_SHROUD]);
   b.disk = b.up[CW_HUB];
   if (has_nut) {
     b.disk = shell.vertex(at(meridian.nut_disk_radius, at_hub, meridian.nut_end_z));
@@ -154,8 +154,8 @@ void RotorEdges::wall_edges(RotorBlade &b) {
     const double r = meridian.shaft_radius, from[3] = {r, at_hub, meridian.inlet_z},
                  to[3] = {r_pipe, at_shroud, meridian.inlet_z};
     b.shaft = shell.vertex(at(r, at_hub, meridian.inlet_z));
-    b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), scale * meridian.inlet_z,
-                           scale * meridian.nut_end_z, b.shaft, b.disk);
+    b.e_shaft =
+        shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), meridian.inlet_z, meridian.nut_end_z, b.shaft, b.disk);
     b.e_inlet = slanted_line(from, to, b.shaft, b.inlet);
   }
   const double ri = design->interface_radius, half = design->outlet_width / 2;
@@ -170,8 +170,7 @@ void RotorEdges::arcs(int i) {
   const RotorBlade &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const auto arc_to_next = [&](double r, double height, double from, double to, int begin, int end) {
-    return shell.edge(new Geom_Circle(blade_axes(i, height).Ax2(), scale * r), from + near_of(i), to + far_of(i), begin,
-                      end);
+    return shell.edge(new Geom_Circle(blade_axes(i, height).Ax2(), r), from + near_of(i), to + far_of(i), begin, end);
   };
   for (int w : {CW_HUB, CW_SHROUD}) {
     b.a_out[w] = arc_to_next(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w],

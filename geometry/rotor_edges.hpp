@@ -39,18 +39,16 @@ struct RotorBlade {
 
 class RotorEdges {
 public:
-  // Makes them all. [in] from, section, kinds: outlive this; the kinds are the blades of one pitch, by their angle,
-  // with patches and guide lines. `before`: by what angle the parameter planes of a passage begin before its blade,
-  // rad.
-  RotorEdges(const CwDesign *from, const CwMeridian &section, const std::vector<CwBladeShape> &kinds, double before,
-             double model_unit);
+  // Makes them all, of a design in the model unit. [in] from, section, kinds: outlive this; the kinds are the blades of
+  // one pitch, by their angle, with patches and guide lines. `before`: by what angle the parameter planes of a passage
+  // begin before its blade, rad.
+  RotorEdges(const CwDesign *from, const CwMeridian &section, const std::vector<CwBladeShape> &kinds, double before);
 
 protected:
   const CwDesign *design;
   const CwMeridian &meridian;
   const std::vector<CwBladeShape> &shapes; // the blade and, behind its pressure side, the splitter or seams
   const CwMeridianCurve *curve[2];         // hub and shroud
-  const double unit, scale;                // the model unit, m; model units in a metre
   const double pitch, margin;
   const int bands;
   const bool has_nut, has_shaft;
@@ -74,7 +72,7 @@ protected:
 
 private:
   gp_Pnt at(double r, double theta, double z) const {
-    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
+    return gp_Pnt(r * std::cos(theta), r * std::sin(theta), z);
   }
   // An edge between places (r, theta, z), in which it is linear: straight where both angles are the same, else part of
   // a helix or spiral.

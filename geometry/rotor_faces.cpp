@@ -35,9 +35,9 @@ Handle(Geom2d_Curve) moved(const Handle(Geom2d_BSplineCurve) & curve, double du)
 }
 
 // A line between (r, theta) in the parameters of a plane, in which both are linear.
-Handle(Geom2d_Curve) slanted_line_in_plane(double scale, double r, double theta, double to_r, double to_theta) {
+Handle(Geom2d_Curve) slanted_line_in_plane(double r, double theta, double to_r, double to_theta) {
   const auto in_plane = [&](double f) {
-    const double at_r = scale * (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
+    const double at_r = (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
     return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
   };
   if (theta == to_theta) return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
@@ -52,7 +52,7 @@ Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
 
 // Axes and parameter plane are those of the passage behind blade i.
 Handle(Geom_Surface) RotorFaces::cylinder(int i, double r) const {
-  return new Geom_CylindricalSurface(blade_axes(i), scale * r);
+  return new Geom_CylindricalSurface(blade_axes(i), r);
 }
 
 // Hub or shroud between a blade and the next.
@@ -87,7 +87,7 @@ void RotorFaces::wall_face(int i, int w) {
 void RotorFaces::tube_faces(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
-  const double near = near_of(i), far = far_of(i), z_inlet = scale * meridian.inlet_z;
+  const double near = near_of(i), far = far_of(i), z_inlet = meridian.inlet_z;
   const auto tube = [&](const Handle(Geom_Surface) & surface, int w, int line, int next_line, int low, double v_low,
                         int high, double v_high, bool outward, const char *patch) {
     shell.face(surface,
@@ -101,21 +101,21 @@ void RotorFaces::tube_faces(int i) {
     tube(revolved(nut_curve(zero_of(i))), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB], b.a_end[CW_HUB], 0,
          b.a_up[CW_HUB], 1, false, "hub_nut");
   tube(cylinder(i, design->inlet_diameter / 2), CW_SHROUD, b.e_end[CW_SHROUD], next.e_end[CW_SHROUD],
-       b.a_end[CW_SHROUD], z_inlet, b.a_up[CW_SHROUD], scale * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
+       b.a_end[CW_SHROUD], z_inlet, b.a_up[CW_SHROUD], curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
   if (has_shaft)
     tube(cylinder(i, meridian.shaft_radius), CW_HUB, b.e_shaft, next.e_shaft, b.a_shaft, z_inlet, b.a_end[CW_HUB],
-         scale * meridian.nut_end_z, false, "hub_shaft");
+         meridian.nut_end_z, false, "hub_shaft");
 }
 
 // The inlet round a shaft between a blade and the next. The plane's axes are those of the passage.
 void RotorFaces::inlet_ring_face(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const auto spoke = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-    return slanted_line_in_plane(scale, meridian.shaft_radius, shape.theta_up[CW_HUB] + offset,
-                                 design->inlet_diameter / 2, shape.theta_up[CW_SHROUD] + offset);
+    return slanted_line_in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset, design->inlet_diameter / 2,
+                                 shape.theta_up[CW_SHROUD] + offset);
   };
   const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
-    return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), scale * r);
+    return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), r);
   };
   shell.face(new Geom_Plane(blade_axes(i, meridian.inlet_z)),
              {{b.e_inlet, true, spoke(*b.shape, near_of(i))},
@@ -127,7 +127,7 @@ void RotorFaces::inlet_ring_face(int i) {
 
 void RotorFaces::interface_face(int i) {
   const RotorBlade &b = blade[i], &next = blade[(i + 1) % blade.size()];
-  const double half = scale * design->outlet_width / 2;
+  const double half = design->outlet_width / 2;
   // An axial line has its length as its parameter, a helix 0 to 1.
   const auto across = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
     if (shape.theta_corner[CW_HUB] == shape.theta_corner[CW_SHROUD])
@@ -187,10 +187,9 @@ void RotorFaces::disk_face(double height, double r, int w, bool outward, const c
   for (size_t i = 0; i < blade.size(); i++) {
     const double angle = zero_of((int)i);
     loop.push_back({blade[i].a_end[w], true,
-                    new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), scale * r)});
+                    new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), r)});
   }
-  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, scale * height), gp::DZ(), gp::DX())), loop, outward, patch, kind,
-             name);
+  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, height), gp::DZ(), gp::DX())), loop, outward, patch, kind, name);
 }
 
 CwSolid *RotorFaces::make() {
@@ -206,5 +205,5 @@ CwSolid *RotorFaces::make() {
     disk_face(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", CW_PATCH_WALL, "hub_nut_end");
     disk_face(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", CW_PATCH_INLET, "inlet");
   }
-  return shell.finish("rotor", unit);
+  return shell.finish("rotor", design->unit);
 }

@@ -56,6 +56,10 @@ std::string cw_solid_fault(const CwSolid &solid) {
 }
 
 double cw_solid_unit_of_pump(double outlet_diameter) {
+  return outlet_diameter / 200;
+}
+
+double cw_solid_unit_of_drawing(double outlet_diameter) {
   const double millimetre = 1e-3; // m
   const int size_exponent = 8;    // D2 is less than 2^8 units
   int exponent;

@@ -2,9 +2,9 @@
 // One closed solid in a model unit with a patch for each face. Faces are counted from 0 in the order of
 // TopExp::MapShapes(solid, TopAbs_FACE).
 //
-// The unit is 2^k mm, with the k for which D2 is 128 to 256 of them. OpenCASCADE's absolute tolerances (1e-7) then mean
-// the same share of every pump, and similar pumps whose sizes are powers of two apart have the same solids, bit by bit:
-// a product with a power of two is exact.
+// The unit is D2 / 200. OpenCASCADE's absolute tolerances (1e-7) then mean the same share of every pump, and similar
+// pumps have the same solids, bit by bit (design_unit.h). Of a drawn pump it is 2^k mm, so that its numbers, which are
+// in millimetres, keep their bits.
 #pragma once
 
 #include "pipeline/model.h"
@@ -16,8 +16,10 @@ extern "C" {
 
 typedef struct CwSolid CwSolid; // solid.hpp shows its members to the C++ bridges
 
-// The model unit of a pump with the impeller outlet D2 > 0, m: its length in m.
+// The model unit, m, of a pump with the impeller outlet D2 > 0, m.
 double cw_solid_unit_of_pump(double outlet_diameter);
+// The same of a drawn one: D2 is 128 to 256 of them.
+double cw_solid_unit_of_drawing(double outlet_diameter);
 
 void cw_solid_free(CwSolid **solid);
 const char *cw_solid_domain(const CwSolid *solid); // "rotor", "stator", "suction" or "discharge"

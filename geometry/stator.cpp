@@ -17,6 +17,7 @@
 #include <gp_Trsf.hxx>
 
 #include "geometry/bspline_fit.hpp"
+#include "geometry/design_unit.h"
 #include "geometry/stator_builder.hpp"
 #include "geometry/stator_check.hpp"
 #include "geometry/volute_diffuser.h"
@@ -43,8 +44,7 @@ using PointOfOne = std::function<gp_Pnt(double)>;
 class StatorMaker {
 public:
   StatorMaker(const CwVolute &volute, double unit)
-      : v_(volute), unit_(unit), scale_(1 / unit),
-        across_(std::isnan(volute.input.corner_radius) ? ACROSS : ACROSS_CORNERS),
+      : v_(volute), unit_(unit), across_(std::isnan(volute.input.corner_radius) ? ACROSS : ACROSS_CORNERS),
         b_(volute.end_half_angle > volute.arc_half_angle ? PLANE_CURVE_BENT : PLANE_CURVE, unit) {}
 
   CwSolid *make() {
@@ -67,10 +67,10 @@ private:
     return side == TOP ? 1 : -1;
   }
   double r3() const {
-    return 0.5 * scale_ * v_.input.base_diameter;
+    return 0.5 * v_.input.base_diameter;
   }
   double half_width(double r) const {
-    return scale_ * cw_volute_half_width(&v_, r * unit_);
+    return cw_volute_half_width(&v_, r);
   }
   double psi(double t) const {
     return v_.arc_half_angle * (2 * t - 1);
@@ -79,7 +79,7 @@ private:
   gp_Pnt wall(double phi, double psi) const {
     double x[3];
     cw_volute_wall_point(&v_, phi, psi, x, nullptr, nullptr);
-    return gp_Pnt(x[0] * scale_, x[1] * scale_, x[2] * scale_);
+    return gp_Pnt(x[0], x[1], x[2]);
   }
 
   static gp_Pnt polar(double r, double angle, double z) {
@@ -115,8 +115,7 @@ private:
 
   // Interface cylinder, neck, and the step from b2 to b3 at D3/2.
   void make_inner_rings() {
-    double r = scale_ * v_.input.interface_radius, b2 = 0.5 * scale_ * v_.input.neck_width,
-           b3 = 0.5 * scale_ * v_.input.inlet_width;
+    double r = v_.input.interface_radius, b2 = 0.5 * v_.input.neck_width, b3 = 0.5 * v_.input.inlet_width;
     Ring interface[2], neck[2];
     std::array<int, SECTORS> neck_joint[2], step_joint[2];
     for (int side : {BOTTOM, TOP}) {
@@ -187,8 +186,8 @@ private:
       // u = 0 lies on the outer wall's border exactly.
       double z = contact[2] * (1 + (u > 0 ? height / v_.side_level - 1 : 0));
       double beta = direction(psi(v)) * (1 - u);
-      return gp_Pnt(scale_ * (v_.inner_wall_x - radius + radius * std::cos(beta)),
-                    scale_ * (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), scale_ * z);
+      return gp_Pnt((v_.inner_wall_x - radius + radius * std::cos(beta)),
+                    (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), z);
     });
     for (int side : {BOTTOM, TOP}) {
       flank_vertex_[side] = b_.vertex(surface->Value(1, side));
@@ -209,7 +208,7 @@ private:
 
   // The plane x = x_i from the nose to the throat.
   void make_flank() {
-    double x = scale_ * v_.inner_wall_x, y = scale_ * v_.throat_y;
+    double x = v_.inner_wall_x, y = v_.throat_y;
     gp_Pln plane(gp_Ax3(gp_Pnt(x, 0, 0), gp::DX(), gp::DY())); // its parameters are y and z
     for (int side : {BOTTOM, TOP}) {
       double from = b_.point(flank_vertex_[side]).Y();
@@ -226,16 +225,16 @@ private:
 
   gp_Pnt throat_side(double t, int side) const {
     double a = b_.point(throat_vertex_[side]).X(), b = b_.point(kink_vertex_[SECTORS][side]).X();
-    double x = a + t * (b - a), y = scale_ * v_.throat_y;
+    double x = a + t * (b - a), y = v_.throat_y;
     return gp_Pnt(x, y, sign(side) * half_width(std::hypot(x, y)));
   }
 
   void make_side_walls() {
-    double cone_angle = 0.5 * M_PI - v_.input.side_wall_angle, b3 = 0.5 * scale_ * v_.input.inlet_width;
+    double cone_angle = 0.5 * M_PI - v_.input.side_wall_angle, b3 = 0.5 * v_.input.inlet_width;
     for (int side : {BOTTOM, TOP}) {
       std::array<int, SECTORS> ray;
       for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
-      gp_Pln throat(gp_Ax3(gp_Pnt(0, scale_ * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
+      gp_Pln throat(gp_Ax3(gp_Pnt(0, v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
       Handle(Geom2d_BSplineCurve) curve = cw_bspline_curve_2d(
           SIDE, 0, 1, [&](double t) { return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z()); });
       throat_side_[side] =
@@ -275,7 +274,7 @@ private:
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave
   // in the tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
-    double length = CW_DIFFUSER_TANGENT * scale_ * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
+    double length = CW_DIFFUSER_TANGENT * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
     auto outer_start = [&](double t) { return wall(cw_volute_throat_angle(&v_, psi(t)), psi(t)); };
     auto outer_direction = [&](double t) {
@@ -306,12 +305,12 @@ private:
     // where the first begins.
     corner_ = {-a, a, b, 2 * M_PI - b, 2 * M_PI - a};
 
-    double radius = 0.5 * scale_ * v_.input.outlet_diameter;
+    double radius = 0.5 * v_.input.outlet_diameter;
     circle_end_ = make_circle(outlet_centre(0));
     auto on_circle = [&](double angle) {
       return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
     };
-    const CwDiffuserLines lines = cw_diffuser_lines(&v_, scale_);
+    const CwDiffuserLines lines = cw_diffuser_lines(&v_);
     const std::vector<double> along = along_diffuser(lines.turning);
     auto leaf = [&](int count, const PointOfOne &start, const PointOfOne &direction, const PointOfOne &finish) {
       return cw_bspline_surface(count, along, [&](double u, double v) {
@@ -369,9 +368,9 @@ private:
       for (int j = 1; j <= samples; j++) {
         gp_Pnt p = surface->Value(double(i) / samples, double(j) / samples);
         CwVoluteSection s = cw_volute_section(&v_, std::atan2(p.Y(), p.X()));
-        double z = std::min(std::fabs(p.Z()) * unit_, s.kink_height);
-        double wall = scale_ * cw_volute_wall_radius(&s, z);
-        if (std::fabs(p.Z()) > scale_ * s.kink_height + least || std::hypot(p.X(), p.Y()) > wall + least) continue;
+        double z = std::min(std::fabs(p.Z()), s.kink_height);
+        double wall = cw_volute_wall_radius(&s, z);
+        if (std::fabs(p.Z()) > s.kink_height + least || std::hypot(p.X(), p.Y()) > wall + least) continue;
         const double mm = 1e3 * unit_;
         cw_solid_refuse("the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; allowed: a wall of %.2f mm between "
                         "them: raise diffuser_length_mm or tongue_gap_mm, or lower outlet_diameter_mm (%.1f mm)",
@@ -388,7 +387,7 @@ private:
     return gp_Dir(c * std::cos(v_.discharge_lean), c * std::sin(v_.discharge_lean), std::sin(angle));
   }
   gp_Pnt outlet_centre(double behind) const {
-    return gp_Pnt(scale_ * v_.outlet_x, scale_ * v_.outlet_y, 0).Translated(gp_Vec(downstream()) * behind);
+    return gp_Pnt(v_.outlet_x, v_.outlet_y, 0).Translated(gp_Vec(downstream()) * behind);
   }
 
   struct Circle {
@@ -396,7 +395,7 @@ private:
   };
   Circle make_circle(const gp_Pnt &centre) {
     Circle circle;
-    double radius = 0.5 * scale_ * v_.input.outlet_diameter;
+    double radius = 0.5 * v_.input.outlet_diameter;
     for (int i = 0; i < 4; i++) circle.vertex[i] = b_.vertex(centre.XYZ() + radius * in_outlet_plane(corner_[i]).XYZ());
     for (int i = 0; i < 4; i++)
       circle.arc[i] = b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
@@ -405,21 +404,21 @@ private:
   }
 
   void make_pipe() {
-    gp_Pnt centre = outlet_centre(scale_ * v_.input.discharge_pipe_length);
+    gp_Pnt centre = outlet_centre(v_.input.discharge_pipe_length);
     Circle outlet = make_circle(centre);
     int line[4];
     for (int i = 0; i < 4; i++) line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
     for (int i = 0; i < 4; i++) {
       gp_Ax3 at(outlet_centre(0), -downstream(), in_outlet_plane(corner_[i] - U_MARGIN));
-      b_.face(new Geom_CylindricalSurface(at, 0.5 * scale_ * v_.input.outlet_diameter),
+      b_.face(new Geom_CylindricalSurface(at, 0.5 * v_.input.outlet_diameter),
               {circle_end_.arc[i], line[(i + 1) % 4], outlet.arc[i], line[i]}, "discharge");
     }
     b_.face(new Geom_Plane(gp_Ax3(centre, downstream())), {outlet.arc[0], outlet.arc[1], outlet.arc[2], outlet.arc[3]},
             "outlet", CW_PATCH_OUTLET);
   }
 
-  const CwVolute &v_;
-  const double unit_, scale_; // the model unit, m; model units in a metre
+  const CwVolute &v_; // in the model unit
+  const double unit_; // the model unit, m
   const int across_;
   LoopBuilder b_;
   double angle_[SECTORS + 1];
@@ -435,7 +434,8 @@ private:
 CwStatus cw_stator_build(const CwVolute *volute, double unit, CwSolid **stator) {
   *stator = nullptr;
   return cw_solid_guard(CW_ERR_GEOMETRY, "stator", "", [&] {
-    std::unique_ptr<CwSolid> fresh(StatorMaker(*volute, unit).make());
+    const CwVolute in_unit = cw_volute_in_unit(volute, unit);
+    std::unique_ptr<CwSolid> fresh(StatorMaker(in_unit, unit).make());
     cw_stator_check(*fresh);
     *stator = fresh.release();
     return CW_OK;

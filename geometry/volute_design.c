@@ -443,15 +443,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   CW_TRY(status);
   volute->help = CW_VOLUTE_OTHER_INPUT; // of the diffuser
 
-  double k = volute->arc_half_angle, centre[2], normal[2];
-  volute->side_level = cw_volute_section(volute, volute->start_angle).kink_height;
-  cw_volute_contact_circle(volute, volute->start_angle, k, centre, normal);
-  volute->side_centre_y = centre[1];
-  // One-sided, of second order: above this level there is no wall.
-  double step = 1e-4 * volute->side_level;
-  double near = cw_volute_nose_y(volute, volute->side_level - step);
-  double far = cw_volute_nose_y(volute, volute->side_level - 2 * step);
-  volute->side_centre_slope = (3 * centre[1] - 4 * near + far) / (2 * step);
+  cw_volute_side_line(volute);
   CW_TRY(cw_volute_diffuser(volute));
 done:
   return status;

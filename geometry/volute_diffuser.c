@@ -28,9 +28,9 @@ static double tenths_of_mm(double least) {
   return ceil(1e4 * (1 - SLACK) * least) / 10;
 }
 
-CwDiffuserLines cw_diffuser_lines(const CwVolute *volute, double scale) {
+CwDiffuserLines cw_diffuser_lines(const CwVolute *volute) {
   double x[3], x_phi[3];
-  CwDiffuserLines lines = {.tangent = CW_DIFFUSER_TANGENT * scale * volute->diffuser_length, .turning = 1};
+  CwDiffuserLines lines = {.tangent = CW_DIFFUSER_TANGENT * volute->diffuser_length, .turning = 1};
   const double lean[2] = {volute->throat_lean, volute->discharge_lean};
   const int radial = volute->input.discharge == CW_DISCHARGE_RADIAL;
   if (radial) lines.bend = fmax(0, lean[0] - lean[1]);
@@ -162,7 +162,7 @@ static void inner_wall_point(const CwVolute *volute, const CwDiffuserLines *line
 static double clearance(const CwVolute *volute) {
   enum { LINES = 8, POINTS = 16 };
   const InnerWall wall = inner_wall(volute);
-  const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
+  const CwDiffuserLines lines = cw_diffuser_lines(volute);
   double least = HUGE_VAL;
   for (int i = 0; i <= 2 * LINES; i++)
     for (int j = 0; j <= POINTS; j++) {

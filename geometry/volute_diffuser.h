@@ -32,7 +32,7 @@ double cw_diffuser_bore(double flow_rate, double throat_area);
 // it over the share `turning` of their length, d the difference of both tangents:
 //   line(v) = cubic along the axis + d turning t (1 - t)^3, t = v / turning <= 1
 typedef struct {
-  double tangent;          // CW_DIFFUSER_TANGENT of the diffuser's length, in units of which `scale` make a metre
+  double tangent;          // CW_DIFFUSER_TANGENT of the diffuser's length
   double axis[2], down[2]; // unit vectors of the diffuser's axis at throat and outlet
   double bend;             // rad, to the right; 0: straight
   double turning;          // 1: plain cubics
@@ -40,7 +40,7 @@ typedef struct {
 
 #define CW_DIFFUSER_TANGENT 0.4
 
-CwDiffuserLines cw_diffuser_lines(const CwVolute *volute, double scale);
+CwDiffuserLines cw_diffuser_lines(const CwVolute *volute);
 
 // Point of the line from `start` to `end` at its share v, all in the lines' unit. `leaving`: the wall's direction at
 // the throat, with `tangent` along y.

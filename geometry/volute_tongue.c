@@ -62,6 +62,18 @@ double cw_volute_nose_y(const CwVolute *volute, double w) {
   return centre[1];
 }
 
+void cw_volute_side_line(CwVolute *volute) {
+  double centre[2], normal[2];
+  volute->side_level = cw_volute_section(volute, volute->start_angle).kink_height;
+  cw_volute_contact_circle(volute, volute->start_angle, volute->arc_half_angle, centre, normal);
+  volute->side_centre_y = centre[1];
+  // One-sided, of second order: above this level there is no wall.
+  double step = 1e-4 * volute->side_level;
+  double near = cw_volute_nose_y(volute, volute->side_level - step);
+  double far = cw_volute_nose_y(volute, volute->side_level - 2 * step);
+  volute->side_centre_slope = (3 * centre[1] - 4 * near + far) / (2 * step);
+}
+
 static double nose_height_excess(double w, const void *context) {
   const Context *c = context;
   double radius = c->volute->input.tongue_radius;

@@ -20,6 +20,9 @@ void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, do
 // the kink, where the spiral has no wall to touch, it goes on with the same slope and levels out.
 double cw_volute_nose_y(const CwVolute *volute, double w);
 
+// Sets the fields side_...: where the line of the nose's centres goes on above the wall.
+void cw_volute_side_line(CwVolute *volute);
+
 // Level |z| at which the line of the nose in the direction `beta` from the circle's centre (rad from +x; the
 // nose lies at -pi < beta <= 0) meets the side wall. NAN: nowhere.
 double cw_volute_nose_height(const CwVolute *volute, double beta);

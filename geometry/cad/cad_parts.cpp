@@ -110,7 +110,7 @@ CwStatus cw_cad_parts_make(const CwCaseCad *cad, const CwCadFrame *frame, const 
     }
     status = check_size(file, radius);
     if (status != CW_OK) return status;
-    (*parts)->unit = cw_solid_unit_of_pump(2 * radius * millimetre);
+    (*parts)->unit = cw_solid_unit_of_drawing(2 * radius * millimetre);
     const double factor = millimetre / (*parts)->unit;
     gp_Trsf scale;
     scale.SetScale(gp_Pnt(0, 0, 0), factor);

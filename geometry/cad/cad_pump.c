@@ -25,7 +25,7 @@ static double tolerance_of(const CwCaseCad *cad, double unit) {
 static double unit_of_cut(const CwCadCut *cut) {
   double reach = fmax(0, cut->radius);
   for (int i = 0; i < cut->count; i++) reach = fmax(reach, cut->meridian[i][0]);
-  return reach > 0 ? cw_solid_unit_of_pump(2 * reach) : 0;
+  return reach > 0 ? cw_solid_unit_of_drawing(2 * reach) : 0;
 }
 
 static CwStatus read_parts(const CwCaseCad *cad, CwLog *log, CwCadPump *pump) {

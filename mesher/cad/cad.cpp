@@ -33,8 +33,9 @@ static const double pcurve_tolerance =
 
 static CwStatus open_cad(const std::string &folder, const char *domain, CwCad *cad) {
   std::string path = folder + "/" + domain + ".brep";
-  CwStatus status = cw_cad_unit_read(folder.c_str(), &cad->unit);
+  CwStatus status = cw_cad_unit_read(folder.c_str(), &cad->metres);
   if (status != CW_OK) return status;
+  cad->unit = cad->metres;
   status = cw_cad_read_shape(path.c_str(), cad);
   if (status != CW_OK) return status;
   status = cw_face_table_read((folder + "/faces.csv").c_str(), domain, cad->face_map.Extent(), &cad->table);

@@ -22,10 +22,10 @@ void cw_cad_close(CwCad **cad);
 
 // Widens the box by the vertices of the solid and places along its edges.
 void cw_cad_add_to_box(const CwCad *cad, CwBox *box);
-// Makes the solid 2^power times as large about the origin: no number loses a bit (of moved faces the place does), so
-// that solids which are powers of two of one another become one and the same. What was asked of it before, parameters
-// included, holds no more.
-CwStatus cw_cad_rescale(CwCad *cad, int power);
+// Lengths are in `unit`, m, from then on: the unit of the B-rep file times a power of two, so that no number loses a
+// bit (of moved faces the place does), and solids with the same numbers, or powers of two of them, become one and the
+// same. What was asked before, parameters included, holds no more.
+CwStatus cw_cad_rescale(CwCad *cad, double unit);
 
 // Within which places of the solid are one: the greatest tolerance of its vertices and edges, but no less than 1e-9 in
 // the unit of the model.

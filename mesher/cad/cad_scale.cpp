@@ -27,7 +27,7 @@
 
 namespace {
 
-const double millimetre = 1e-3; // m
+const int fineness = 10; // powers of two that the B-rep's unit is less than that of lengths
 
 // Coordinates and parameters that are lengths are multiplied, those that are angles or free stay as they are.
 struct ParameterScale {
@@ -123,12 +123,11 @@ TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power) {
   return modifier.ModifiedShape(shape);
 }
 
-CwStatus cw_cad_rescale(CwCad *cad, int power) {
-  // The B-rep's unit is a millimetre or up to two from then on: what the library takes for near follows the model too.
-  int of_unit = std::ilogb(cad->unit / millimetre);
-  cad->unit = std::ldexp(cad->unit, -of_unit);
-  power += of_unit;
-  if (power == 0) return CW_OK;
+CwStatus cw_cad_rescale(CwCad *cad, double unit) {
+  // The model has 256 to 512 units of the B-rep from then on: what the library takes for near follows the model too.
+  const int power = std::ilogb(cad->metres / unit) + fineness;
+  cad->metres = std::ldexp(cad->metres, -power);
+  cad->unit = std::ldexp(1, -fineness);
   try {
     cad->solid = cw_cad_scaled_shape(cad->solid, power);
     cw_cad_map_parts(cad);

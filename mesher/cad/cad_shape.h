@@ -74,7 +74,8 @@ struct CwCadEdge {
 };
 
 struct CwCad {
-  double unit;      // of the B-rep, m; of the model's unit once the solid has that
+  double metres;    // the unit of the B-rep, m
+  double unit;      // the same in the unit of lengths: m, or the model's once the solid has that
   std::string path; // of the file
   TopoDS_Shape solid;
   TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based

@@ -51,7 +51,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   const CwRegionInput *from = &context->from;
   const CwCad *cad = from->in->cad;
   CwHash hash = cw_hash_start();
-  double numbers[3] = {context->layer_count, (double)context->shared->count, context->fill};
+  double numbers[] = {context->layer_count, (double)context->shared->count, context->fill, cw_model_unit()};
   cw_policy_hash(&hash);
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));

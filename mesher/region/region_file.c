@@ -21,28 +21,17 @@ static const struct {
                 {"tetgen", offsetof(CwRegionMesh, recovery.tetgen)}};
 enum { INTEGERS = sizeof integers / sizeof *integers };
 
-static void multiply(int32_t count, const double (*x)[3], double by, double (*to)[3]) {
-  for (int32_t p = 0; p < count; p++) {
-    for (int k = 0; k < 3; k++) to[p][k] = by * x[p][k];
-  }
-}
-
 static CwStatus write_items(hid_t file, CwRegionMesh *r) {
   CwStatus status = CW_OK;
-  CwRegionData data = r->cells;
-  double(*metres)[3] = NULL;
-  CW_NEW_UNSET(metres, r->cells.point_count);
-  multiply(r->cells.point_count, (const double(*)[3])r->cells.points, cw_model_unit(), metres);
-  data.points = metres;
   CW_TRY(cw_region_items_put_integer(file, "format", CW_REGION_FORMAT));
   CW_TRY(cw_region_items_put_text(file, "domain", r->domain));
   CW_TRY(cw_region_items_put_text(file, "fingerprint", r->fingerprint));
   for (size_t k = 0; k < INTEGERS; k++)
     CW_TRY(
         cw_region_items_put_integer(file, integers[k].name, *(const int32_t *)((const char *)r + integers[k].place)));
-  CW_TRY(cw_region_items_write(file, &data, r->digest));
+  CW_TRY(cw_region_items_put_number(file, "unit_m", cw_model_unit()));
+  CW_TRY(cw_region_items_write(file, &r->cells, r->digest));
 done:
-  free(metres);
   return status;
 }
 
@@ -78,6 +67,7 @@ CwStatus cw_region_write(const char *path, CwRegionMesh *region) {
 static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   CwStatus status = CW_OK;
   CwRegionData *cells = &r->cells;
+  double unit;
   cells->point_count = cells->shared_count = cells->tetrahedron_count = cells->pyramid_count = -1;
   cells->prism_count = cells->triangle_count = cells->quad_count = -1; // not known before
   for (size_t k = 0; k < INTEGERS; k++)
@@ -86,7 +76,8 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   CW_TRY(cw_region_items_text(file, path, "fingerprint", r->fingerprint, sizeof r->fingerprint));
   CW_TRY(cw_region_items_read(file, path, CW_REGION_WHOLE, cells));
   CW_TRY(cw_region_items_check(path, CW_REGION_WHOLE, INT32_MAX, INT64_MAX, cells));
-  multiply(r->cells.point_count, (const double(*)[3])r->cells.points, 1 / cw_model_unit(), r->cells.points);
+  CW_TRY(cw_region_items_number(file, path, "unit_m", &unit));
+  cw_region_items_scale(cells, unit / cw_model_unit());
 done:
   return status;
 }

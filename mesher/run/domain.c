@@ -60,11 +60,11 @@ CwStatus cw_domain_measure_walls(const CwContext *context, CwDomain *domain) {
   double *width = NULL;
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(width, patches);
-  for (int p = 0; p < patches; p++) width[p] = domain->patch_target[p].flow.width / cw_model_unit();
+  for (int p = 0; p < patches; p++) width[p] = cw_in_model_unit(domain->patch_target[p].flow.width);
   CW_TRY(cw_passage_widths(context, domain->cad, &domain->background, width));
   for (int p = 0; p < patches; p++) {
     double *of = &domain->patch_target[p].flow.width, measured = width[p] * cw_model_unit();
-    if (measured < *of)
+    if (width[p] < cw_in_model_unit(*of))
       cw_log_debug(context->log, "%s: %s is %g mm wide, %g mm as designed", domain->name, domain->patch[p].name,
                    1e3 * measured, 1e3 * *of);
     *of = measured;
@@ -84,8 +84,9 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
     CwPatchTarget *target = &domain->patch_target[p];
     target->first = cw_first_height_choose(table, &target->walls, &target->flow, y_plus_auto, layer_count);
     domain->patch_layers[p] = cw_layer_target(table, &target->walls, target->first.height, layer_count);
-    domain->patch_layers[p].first_height /= cw_model_unit();
-    domain->patch_layers[p].thickness /= cw_model_unit();
+    CwLayerTarget *layers = &domain->patch_layers[p];
+    layers->first_height = cw_in_model_unit(layers->first_height);
+    layers->thickness = cw_in_model_unit(layers->thickness);
   }
 }
 

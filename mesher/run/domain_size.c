@@ -115,7 +115,7 @@ void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needi
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *layers = &domain->patch_layers[sample->patch];
-    double room = cw_column_room(&domain->patch_target[sample->patch].flow) / cw_model_unit();
+    double room = cw_in_model_unit(cw_column_room(&domain->patch_target[sample->patch].flow));
     int fitting = cw_layer_count_fitting(layers->first_height, layers->growth, room);
     int count = cw_layer_count(layers->first_height, layers->growth, scale * sample->size);
     needing[(int)fmax(fmin(count, fitting), CW_LAYERS_LEAST)] += sample->density * sample->size;

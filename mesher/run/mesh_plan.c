@@ -216,10 +216,10 @@ static CwStatus settle_unit(CwMeshRun *run) {
       extent > 0 && isfinite(extent), CW_ERR_INPUT,
       "%s/geometry: the solids reach over %g mm; allowed: a length above 0; make it again with cutwater-geometry",
       run->run_path, 1e3 * extent);
-  int power = cw_model_unit_power(extent);
-  cw_model_unit_set(power);
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, -power));
-  cw_log_debug(run->context.log, "the model reaches over %.6g mm; the unit of lengths is 2^%d m", 1e3 * extent, power);
+  cw_model_unit_fit(run->model.unit, extent);
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, cw_model_unit()));
+  cw_log_debug(run->context.log, "the model reaches over %.6g mm; the unit of lengths is %.6g mm", 1e3 * extent,
+               cw_mm(1));
 done:
   return status;
 }

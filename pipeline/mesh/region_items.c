@@ -39,6 +39,12 @@ void cw_mesh_region_free(CwRegionData *data) {
   memset(data, 0, sizeof *data);
 }
 
+void cw_region_items_scale(CwRegionData *data, double by) {
+  for (int32_t p = 0; p < data->point_count; p++) {
+    for (int k = 0; k < 3; k++) data->points[p][k] *= by;
+  }
+}
+
 // Little-endian in the file.
 static hid_t type_of(Kind kind) {
   return kind == REAL ? H5T_IEEE_F64LE : kind == INDEX ? H5T_STD_I32LE : H5T_STD_I64LE;
@@ -122,17 +128,26 @@ done:
   return status;
 }
 
-CwStatus cw_region_items_integer(hid_t file, const char *path, const char *name, int32_t *value) {
+// One value of a type, `kind`.
+static CwStatus read_value(hid_t file, const char *path, const char *name, hid_t type, const char *kind, void *value) {
   CwStatus status = CW_OK;
   hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
   hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
   CW_REQUIRE(attribute >= 0, CW_ERR_INPUT, "%s: attribute '%s' is missing", path, name);
-  CW_REQUIRE(H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, H5T_NATIVE_INT32, value) >= 0, CW_ERR_INPUT,
-             "%s: attribute '%s' must be one integer", path, name);
+  CW_REQUIRE(H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0, CW_ERR_INPUT,
+             "%s: attribute '%s' must be one %s", path, name, kind);
 done:
   if (space >= 0) H5Sclose(space);
   if (attribute >= 0) H5Aclose(attribute);
   return status;
+}
+
+CwStatus cw_region_items_integer(hid_t file, const char *path, const char *name, int32_t *value) {
+  return read_value(file, path, name, H5T_NATIVE_INT32, "integer", value);
+}
+
+CwStatus cw_region_items_number(hid_t file, const char *path, const char *name, double *value) {
+  return read_value(file, path, name, H5T_NATIVE_DOUBLE, "number", value);
 }
 
 CwStatus cw_region_items_text(hid_t file, const char *path, const char *name, char *text, size_t size) {
@@ -249,11 +264,19 @@ done:
   return status;
 }
 
-CwStatus cw_region_items_put_integer(hid_t file, const char *name, int32_t value) {
+static CwStatus put_value(hid_t file, const char *name, hid_t type, const void *value) {
   hid_t space = H5Screate(H5S_SCALAR);
-  CwStatus status = write_attribute(file, name, H5T_STD_I32LE, space, &value);
+  CwStatus status = write_attribute(file, name, type, space, value);
   H5Sclose(space);
   return status;
+}
+
+CwStatus cw_region_items_put_integer(hid_t file, const char *name, int32_t value) {
+  return put_value(file, name, H5T_STD_I32LE, &value);
+}
+
+CwStatus cw_region_items_put_number(hid_t file, const char *name, double value) {
+  return put_value(file, name, H5T_IEEE_F64LE, &value);
 }
 
 CwStatus cw_region_items_put_text(hid_t file, const char *name, const char *text) {

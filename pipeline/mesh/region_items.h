@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-enum { CW_REGION_FORMAT = 2, CW_REGION_ARRAYS = 11 };
+enum { CW_REGION_FORMAT = 3, CW_REGION_ARRAYS = 11 };
 
 // A region in memory, as its file has it: the fields are its arrays and their counts; see docs/file-formats.md for
 // shapes and orders.
@@ -29,6 +29,8 @@ typedef struct {
 } CwRegionData;
 
 void cw_mesh_region_free(CwRegionData *data);
+// Brings the points from one unit to another, of which `by` are one.
+void cw_region_items_scale(CwRegionData *data, double by);
 
 typedef enum {
   CW_REGION_WHOLE,
@@ -43,12 +45,14 @@ CwStatus cw_region_items_open(const char *path, hid_t *file, char digest[CW_HASH
 // The digest of all attributes but itself, as they are. CW_ERR_IO.
 CwStatus cw_region_items_digest(hid_t file, const char *path, char digest[CW_HASH_TEXT]);
 
-// An attribute; CW_ERR_INPUT where it is missing, or no integer, or a text of `size` or more characters.
+// An attribute; CW_ERR_INPUT where it is missing, or no integer or number, or a text of `size` or more characters.
 CwStatus cw_region_items_integer(hid_t file, const char *path, const char *name, int32_t *value);
+CwStatus cw_region_items_number(hid_t file, const char *path, const char *name, double *value);
 CwStatus cw_region_items_text(hid_t file, const char *path, const char *name, char *text, size_t size);
 
 // Writes an attribute. CW_ERR_IO.
 CwStatus cw_region_items_put_integer(hid_t file, const char *name, int32_t value);
+CwStatus cw_region_items_put_number(hid_t file, const char *name, double value);
 CwStatus cw_region_items_put_text(hid_t file, const char *name, const char *text);
 
 // Reads the arrays of a part into new memory and holds each against its digest. Counts that are not negative on entry

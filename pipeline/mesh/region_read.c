@@ -19,6 +19,7 @@ CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, 
   const char *path = line->path;
   hid_t file = -1;
   int32_t number = 0;
+  double unit;
   char name[CW_MESH_NAME_SIZE], digest[CW_HASH_TEXT];
   CW_TRY(cw_region_items_open(path, &file, digest));
   CW_TRY(cw_region_items_integer(file, path, "region", &number));
@@ -42,6 +43,8 @@ CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, 
   }
   CW_TRY(cw_region_items_read(file, path, part, r));
   CW_TRY(cw_region_items_check(path, part, domain->patch_count, domain->shared_points, r));
+  CW_TRY(cw_region_items_number(file, path, "unit_m", &unit));
+  cw_region_items_scale(r, unit);
 done:
   if (file >= 0) H5Fclose(file);
   return status;

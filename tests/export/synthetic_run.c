@@ -280,7 +280,8 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
     }
 }
 
-static int write_region_file(const char *path, const Domain *d, int region, const CwRegionData *data) {
+// In a unit of 2 m, so that who reads it must bring it to metres.
+static int write_region_file(const char *path, const Domain *d, int region, CwRegionData *data) {
   char digest[CW_HASH_TEXT];
   hid_t file = cw_region_items_create(path);
   if (file < 0) return -1;
@@ -288,7 +289,10 @@ static int write_region_file(const char *path, const Domain *d, int region, cons
   failed |= cw_region_items_put_integer(file, "region", region + 1) != CW_OK;
   failed |= cw_region_items_put_integer(file, "number", region + 1) != CW_OK;
   failed |= cw_region_items_put_text(file, "domain", d->name) != CW_OK;
+  failed |= cw_region_items_put_number(file, "unit_m", 2) != CW_OK;
+  cw_region_items_scale(data, 0.5);
   failed |= cw_region_items_write(file, data, digest) != CW_OK;
+  cw_region_items_scale(data, 2);
   failed |= H5Fclose(file) < 0;
   return failed ? -1 : 0;
 }

@@ -288,7 +288,7 @@ static void widest_diffuser(void **state) {
 
 // Least distance of the diffuser's walls at z = 0, square to its axis at the throat, over that of the throat.
 static double narrowest(const CwVolute *volute) {
-  const CwDiffuserLines lines = cw_diffuser_lines(volute, 1);
+  const CwDiffuserLines lines = cw_diffuser_lines(volute);
   const double radius = 0.5 * volute->input.outlet_diameter, throat = volute->throat_width * lines.axis[1];
   double wall[3], along[3], least = HUGE_VAL;
   cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, wall, along, NULL);
@@ -312,8 +312,8 @@ static void long_diffusers_are_not_pinched(void **state) {
     input.diffuser_length = length;
     const CwVolute volute = designed(&input);
     assert_true(narrowest(&volute) > 0.85);
-    if (length < 0.11) assert_true(cw_diffuser_lines(&volute, 1).turning == 1);
-    if (length > 0.2) assert_true(cw_diffuser_lines(&volute, 1).turning < 1 && narrowest(&volute) > 0.89);
+    if (length < 0.11) assert_true(cw_diffuser_lines(&volute).turning == 1);
+    if (length > 0.2) assert_true(cw_diffuser_lines(&volute).turning < 1 && narrowest(&volute) > 0.89);
   }
 }
 

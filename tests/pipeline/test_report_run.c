@@ -87,6 +87,7 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
   assert_int_equal(cw_region_items_put_integer(file, "format", CW_REGION_FORMAT), CW_OK);
   assert_int_equal(cw_region_items_put_integer(file, "region", 1), CW_OK);
   assert_int_equal(cw_region_items_put_text(file, "domain", domain), CW_OK);
+  assert_int_equal(cw_region_items_put_number(file, "unit_m", 1), CW_OK);
   assert_int_equal(cw_region_items_write(file, &data, digest), CW_OK);
   H5Fclose(file);
 }

@@ -131,8 +131,8 @@ static void the_tip_of_a_cone_is_a_vertex(void **) {
 
 static void rescaled_solids_keep_their_poles(void **) {
   CwCad *cad = open_solid(quarter_of_a_cone());
-  assert_int_equal(cw_cad_rescale(cad, 3), CW_OK);
-  check_outline(cad, face_with_pole(cad), 8 * height);
+  assert_int_equal(cw_cad_rescale(cad, 8e-3), CW_OK); // of millimetres
+  check_outline(cad, face_with_pole(cad), height / 8e-3);
   cw_cad_close(&cad);
 }
 

@@ -62,12 +62,14 @@ Answers ask(const CwCad *cad) {
 
 // Every length 2^power times as great, to `rounding` of the greatest; every direction as it was.
 void check_scaling(const TopoDS_Shape &solid, int power, double rounding) {
+  const double unit = 0.128; // m: 2^7 of the file's
   CwCad *cad = open_solid(solid);
+  assert_int_equal(cw_cad_rescale(cad, unit), CW_OK);
   Answers before = ask(cad);
   CwBox box = cw_box_empty(), scaled_box = cw_box_empty();
   cw_cad_add_to_box(cad, &box);
   double off = rounding * std::ldexp(cw_distance(box.low, box.high), power);
-  assert_int_equal(cw_cad_rescale(cad, power), CW_OK);
+  assert_int_equal(cw_cad_rescale(cad, std::ldexp(unit, -power)), CW_OK);
   cw_cad_add_to_box(cad, &scaled_box);
   for (int k = 0; k < 3; k++) assert_near(scaled_box.high[k], std::ldexp(box.high[k], power), off);
   Answers scaled = ask(cad);
@@ -76,7 +78,7 @@ void check_scaling(const TopoDS_Shape &solid, int power, double rounding) {
     assert_near(scaled.lengths[i], std::ldexp(before.lengths[i], power), off);
   for (size_t i = 0; i < before.directions.size(); i++)
     assert_near(scaled.directions[i], before.directions[i], rounding);
-  assert_int_equal(cw_cad_rescale(cad, -power), CW_OK);
+  assert_int_equal(cw_cad_rescale(cad, unit), CW_OK);
   Answers after = ask(cad);
   for (size_t i = 0; i < before.lengths.size(); i++)
     assert_near(after.lengths[i], before.lengths[i], std::ldexp(off, -power));

@@ -101,6 +101,6 @@ int main(void) {
       cmocka_unit_test(lines_are_read_back),
       cmocka_unit_test(no_folder_is_told),
   };
-  cw_model_unit_set(1); // 2 m
+  cw_model_unit_set(2);
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
