@@ -155,22 +155,18 @@ static void add_figures(CwTetFigures *sum, const CwTetFigures *more) {
 }
 
 // Corners and volume of a cell, which must be positive beyond rounding.
-static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, int32_t cell, int *corners,
-                             const double *x[6], double *volume) {
-  CwStatus status = CW_OK;
-  const int32_t *corner = cw_cell_nodes(data, cell, corners);
-  for (int k = 0; k < *corners; k++) x[k] = data->points[corner[k]];
+static void check_volume(const CwRegionMesh *r, int32_t cell, int *corners, const double *x[6], double *volume,
+                         CwOutcome *outcome) {
+  const int32_t *corner = cw_cell_nodes(&r->cells, cell, corners);
+  for (int k = 0; k < *corners; k++) x[k] = r->cells.points[corner[k]];
   int is_tet = *corners == 4;
   *volume = is_tet ? cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0 : cw_cell_volume(*corners, x);
   double doubt = is_tet ? cw_tet_volume6_error(x[0], x[1], x[2], x[3]) / 6.0 : 0.0;
-  if (!(*volume > doubt)) {
-    double centre[3];
-    cw_cell_centre(data, cell, centre);
-    status =
-        CW_FAIL(CW_ERR_FAULT, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3",
-                r->domain, r->region, cell_name(*corners), cell, CW_MM(centre), cw_mm3(*volume));
-  }
-  return status;
+  if (*volume > doubt) return;
+  double centre[3];
+  cw_cell_centre(&r->cells, cell, centre);
+  cw_outcome_set(outcome, CW_OUTCOME_THIN, centre, "%s region %d: %s of cell %d has no positive volume: %.3g mm3",
+                 r->domain, r->region, cell_name(*corners), cell, cw_mm3(*volume));
 }
 
 // The faces of each tetrahedron that lie on patches, as bits. *on_patches [out]: malloc'd.
@@ -200,7 +196,7 @@ static double flatness_of(const double *const *x, double dihedral, unsigned on_p
   return cw_lesser(dihedral, cw_policy.flat_angle * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT)));
 }
 
-static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality *quality) {
+static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality *quality, CwOutcome *outcome) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
   double aspects = 0.0;
@@ -213,7 +209,8 @@ static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality 
     const double *x[6];
     double volume;
     int corners;
-    CW_TRY(check_volume(r, data, c, &corners, x, &volume));
+    check_volume(r, c, &corners, x, &volume, outcome);
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     quality->volume += volume;
     quality->least_volume = cw_lesser(quality->least_volume, volume);
     if (corners == 4) {
@@ -245,28 +242,29 @@ done:
   return status;
 }
 
-CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality) {
+CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Tetrahedra tetrahedra = {.data = &region->cells, .quality = quality};
   cw_quality_start(quality);
   CW_NEW_UNSET(tetrahedra.volume, region->cells.tetrahedron_count);
   CW_TRY(check_indices(region));
-  CW_TRY(check_cells(region, tetrahedra.volume, quality));
+  CW_TRY_STAGE(check_cells(region, tetrahedra.volume, quality, outcome), outcome);
   CW_TRY(check_faces(region, &tetrahedra, &quality->open_faces));
 done:
   free(tetrahedra.volume);
   return status;
 }
 
-CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces) {
+CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const double *x[6];
   double volume;
   int corners;
   *open_faces = 0;
-  const CwRegionData *data = &copy->cells;
-  for (int32_t c = 0, cells = cw_region_cell_count(data); c < cells; c++)
-    CW_TRY(check_volume(copy, data, c, &corners, x, &volume));
+  for (int32_t c = 0, cells = cw_region_cell_count(&copy->cells); c < cells; c++) {
+    check_volume(copy, c, &corners, x, &volume, outcome);
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
+  }
   CW_TRY(check_faces(copy, NULL, open_faces));
 done:
   return status;

@@ -6,6 +6,7 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/parallel/outcome.h"
 #include "mesher/region/region_file.h"
 
 #ifdef __cplusplus
@@ -51,14 +52,16 @@ typedef struct {
   int64_t prism_jacobian_bin[CW_QUALITY_BINS]; // scaled Jacobian from 0 to 1; negative ones in the first
 } CwQuality;
 
-// Fails with CW_ERR_FAULT, naming region, cell and place (mm), where a cell has no positive volume, a face
-// belongs to more than two cells (or has both of its two on one side), a point belongs to no cell, a listed
-// face has the wrong cell or its normal into the domain, or an open face is neither listed as boundary
-// exactly once nor has all its points shared (on a partition plane). Where it passes fills *quality.
-CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality);
+// Outcome: CW_OUTCOME_THIN with its centre where a cell has no positive volume: tetrahedra may be as flat as rounding
+// where nothing better fits the boundary, prisms be turned over between layers whose nodes were brought onto a curved
+// patch. Fails with CW_ERR_FAULT, naming region, cell and place (mm), where a face belongs to more than two cells (or
+// has both of its two on one side), a point belongs to no cell, a listed face has the wrong cell or its normal into
+// the domain, or an open face is neither listed as boundary exactly once nor has all its points shared (on a
+// partition plane). Where it passes fills *quality.
+CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality, CwOutcome *outcome);
 // What is left to audit in a periodic image of a region that passed: its points are its own, but its cells and faces
-// are those of the first. Fails like cw_audit_region where a cell has no positive volume; *open_faces as there.
-CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces);
+// are those of the first. Its outcome and *open_faces are as there.
+CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces, CwOutcome *outcome);
 // Adds figures of one region, which holds `tetrahedra`, to those of others. Starts by cw_quality_start: no
 // cells, volume 0, least volume infinite, dihedral angles 180 and 0 degrees, scaled Jacobian 1.
 void cw_quality_start(CwQuality *sum);

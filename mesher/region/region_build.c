@@ -7,7 +7,6 @@
 
 #include "mesher/common/hilbert.h"
 #include "mesher/common/model_unit.h"
-#include "mesher/common/quality.h"
 #include "mesher/common/radix.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_with_fallback.h"
@@ -209,24 +208,6 @@ done:
   return;
 }
 
-// Tetrahedra may be as flat as rounding where nothing better fits the boundary, prisms be turned over between layers
-// whose nodes were brought onto a curved patch.
-static void check_cell(const Build *build, const CwRegionMesh *mesh, int corners, const int32_t *node,
-                       CwOutcome *outcome) {
-  const double *x[6];
-  double centre[3] = {0}, volume;
-  for (int k = 0; k < corners; k++) x[k] = mesh->cells.points[node[k]];
-  for (int k = 0; k < 3 * corners; k++) centre[k % 3] += x[k / 3][k % 3] / corners;
-  if (corners == 4)
-    volume = (cw_tet_volume6(x[0], x[1], x[2], x[3]) - cw_tet_volume6_error(x[0], x[1], x[2], x[3])) / 6;
-  else
-    volume = cw_cell_volume(corners, x);
-  CW_END_UNLESS(volume > 0, outcome, CW_OUTCOME_THIN, centre, "%s region %d: a %s has no positive volume: %.3g mm3",
-                build->context->domain, build->region + 1, corners == 4 ? "tetrahedron" : "prism", cw_mm3(volume));
-done:
-  return;
-}
-
 // Prisms of all columns, wall triangles under them, and the quads of their sides on open patches.
 static CwStatus add_layers(Build *build, CwRegionMesh *mesh, CwOutcome *outcome) {
   CwStatus status = CW_OK;
@@ -269,8 +250,6 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh, CwOutcome *outcome)
           prism[c] = column_point(build, corner[(3 - c) % 3], k);
           prism[c + 3] = column_point(build, corner[(3 - c) % 3], k + 1);
         }
-        check_cell(build, mesh, 6, prism, outcome);
-        if (outcome->kind != CW_OUTCOME_DONE) goto done;
       }
       int32_t w = mesh->cells.triangle_count++;
       for (int c = 0; c < 3; c++) mesh->cells.triangles[w][c] = column_point(build, corner[c], 0);
@@ -344,8 +323,6 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_NEW(mesh->cells.tetrahedra, mesh->cells.tetrahedron_count);
   for (int32_t t = 0; t < mesh->cells.tetrahedron_count; t++) {
     for (int k = 0; k < 4; k++) mesh->cells.tetrahedra[t][k] = build.place[build.fill.tetrahedron[t][k]];
-    check_cell(&build, mesh, 4, mesh->cells.tetrahedra[t], outcome);
-    if (outcome->kind != CW_OUTCOME_DONE) goto done;
   }
   CW_NEW(mesh->cells.triangles, build.inner.wall_count + build.inner.open_patch_count);
   CW_NEW(mesh->cells.triangle_patch, build.inner.wall_count + build.inner.open_patch_count);

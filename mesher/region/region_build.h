@@ -38,7 +38,7 @@ typedef struct {
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]);
 
 // Makes the region. [out] mesh: freed by cw_region_free; empty unless the outcome is done. Outcome: CW_OUTCOME_THIN
-// where the boundary cannot be filled, a cell has no positive volume or a node lies off its interface of domains; the
-// reason names domain and region. CW_ERR_FAULT where what was filled does not fit the boundary.
+// where the boundary cannot be filled or a node lies off its interface of domains; the reason names domain and region.
+// CW_ERR_FAULT where what was filled does not fit the boundary. Its cells are not looked at (cw_audit_region).
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh,
                          CwOutcome *outcome);

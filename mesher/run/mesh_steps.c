@@ -107,15 +107,17 @@ static CwStatus take_up(const char *path, const char *fingerprint, CwRegionMesh 
                         int *taken) {
   CwStatus status = CW_OK;
   CwRegionFound found;
+  CwOutcome outcome = {0};
   CW_TRY(cw_region_take_up(path, fingerprint, mesh, &found));
   if (found == CW_REGION_TAKEN) {
-    status = cw_audit_region(mesh, &summary->quality);
-    if (status == CW_ERR_FAULT) found = CW_REGION_DAMAGED;
+    status = cw_audit_region(mesh, &summary->quality, &outcome);
+    if (status == CW_ERR_FAULT || outcome.kind != CW_OUTCOME_DONE) found = CW_REGION_DAMAGED;
     if (status != CW_ERR_FAULT) CW_TRY(status);
   }
   status = CW_OK;
   *taken = found == CW_REGION_TAKEN;
-  if (found == CW_REGION_DAMAGED) snprintf(summary->damage, sizeof summary->damage, "%s", cw_fail_message());
+  if (found == CW_REGION_DAMAGED)
+    snprintf(summary->damage, sizeof summary->damage, "%s", outcome.kind ? outcome.reason : cw_fail_message());
   if (!*taken) cw_region_free(mesh);
 done:
   return status;
@@ -129,6 +131,7 @@ static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source,
   const CwDomain *domain = &run->domain[task.domain];
   const CwPeriodicImages *images = &domain->images;
   CwRegionMesh first = {0}, mesh = {0};
+  CwOutcome outcome = {0};
   char path[PATH_SIZE], fingerprint[CW_HASH_TEXT];
   int32_t turns = 1;
   int taken;
@@ -139,7 +142,8 @@ static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source,
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
   if (!taken) {
     CW_TRY(cw_region_turn(&domain->context, turns, domain->number[task.index], fingerprint, &first));
-    CW_TRY(cw_audit_copy(&first, &summary->quality.open_faces));
+    CW_TRY(cw_audit_copy(&first, &summary->quality.open_faces, &outcome));
+    CW_REQUIRE(outcome.kind == CW_OUTCOME_DONE, CW_ERR_FAULT, "%s", outcome.reason); // the first has passed
     CW_TRY(cw_region_write(path, &first));
   }
   strcpy(summary->digest, taken ? mesh.digest : first.digest);
@@ -198,14 +202,14 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   cw_region_fingerprint(&domain->context, task.index, fingerprint);
   CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
   if (!taken) CW_TRY(cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh, &outcome));
+  if (!taken && outcome.kind == CW_OUTCOME_DONE) { // on its way to the disk while it is looked at
+    CW_TRY(cw_region_write_begin(path, &mesh, &file));
+    CW_TRY(cw_audit_region(&mesh, &summary->quality, &outcome));
+  }
   if (outcome.kind != CW_OUTCOME_DONE) {
     CW_TRY(cw_region_failure_examine(&domain->context.from, task.index, &outcome, boundary_path, &summary->failure));
     remove(path); // of an earlier attempt: it must not be copied
   } else {
-    if (!taken) { // on its way to the disk while it is looked at
-      CW_TRY(cw_region_write_begin(path, &mesh, &file));
-      CW_TRY(cw_audit_region(&mesh, &summary->quality));
-    }
     remove(boundary_path); // of an earlier attempt
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));

@@ -108,6 +108,7 @@ static CwStatus finish(Domain *domain, int32_t r, const char *name, const char *
   CwFill fill = {0};
   CwRegionMesh mesh = {0};
   CwQuality quality;
+  CwOutcome outcome = {0};
   char text[4200];
   double start = cw_processor_seconds();
   snprintf(text, sizeof text, "%s region %d", name, r + 1);
@@ -118,7 +119,8 @@ static CwStatus finish(Domain *domain, int32_t r, const char *name, const char *
   cw_chew_region_close(&domain->region[r]);
   double wall = MPI_Wtime();
   CW_TRY(cw_chew_region_mesh(name, r, &surface, &fill, &mesh));
-  CW_TRY(cw_audit_region(&mesh, &quality));
+  CW_TRY(cw_audit_region(&mesh, &quality, &outcome));
+  CW_REQUIRE(outcome.kind == CW_OUTCOME_DONE, CW_ERR_FAULT, "%s", outcome.reason);
   *open_faces += quality.open_faces;
   snprintf(text, sizeof text, "%s/%s-%04d.h5", path, name, r + 1);
   CW_TRY(cw_region_write(text, &mesh));

@@ -214,7 +214,7 @@ static void fill_the_box(int rule) {
     CwOutcome outcome = {};
     check(cw_region_build(&regions.context, r, number[r], &mesh, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
-    check(cw_audit_region(&mesh, &quality));
+    check(cw_audit_region(&mesh, &quality, &outcome));
     assert_int_equal(mesh.cells.prism_count % 4, 0);
     volume += quality.volume;
     assert_true(quality.open_faces != 0);

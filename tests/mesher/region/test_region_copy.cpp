@@ -168,7 +168,7 @@ static void fill_the_tank(bool divided, bool rule) {
     }
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     assert_int_equal(mesh.region, r + 1);
-    check(cw_audit_region(&mesh, &quality));
+    check(cw_audit_region(&mesh, &quality, &outcome));
     volume += quality.volume;
     for (int i = 0; i < mesh.cells.point_count; i++) { // every point lies in its own region
       assert_true(cw_plan_in_region(&tank.plan, r, mesh.cells.points[i], 1e-9));
