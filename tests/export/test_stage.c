@@ -170,7 +170,7 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
   expect_error_on(run, 2, "mm has a volume of -");
   // Point 0 is shared: moved a little in one region only.
   copy_run("bad", run);
-  move_point(run, "rotor-0001.h5", 0, 2, -4.0001e-3);
+  move_point(run, "rotor-0001.h5", 0, 2, -4.0001e-3 / 2); // in the unit of the file, 2 m
   seal(run);
   expect_error(run, "differs between regions by 0.0001 mm");
   copy_run("bad", run);
