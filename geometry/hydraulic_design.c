@@ -11,6 +11,8 @@
 #include "geometry/impeller_design.h"
 #include "geometry/meridian.h"
 #include "geometry/meridian_passage.h"
+#include "geometry/pump.h"
+#include "geometry/root_fillet_size.h"
 #include "geometry/velocity_triangles.h"
 #include "geometry/viscous_correction.h"
 #include "pipeline/water.h"
@@ -120,9 +122,29 @@ static double fillet_width(double radius, double wall_angle) {
   return 2 * radius / sin(fmax(M_PI / 4, wall_angle));
 }
 
-// Between neighbours a quarter of the blade's thickness must be left of hub and shroud beside the root fillets. Fillets
-// that take more become smaller, to this share of what there is room for.
+// Between neighbours a quarter of the blade's thickness must be left of hub and shroud beside the root fillets, and a
+// part of the blade's height between those on either. Fillets that take more become smaller, to this share of what
+// there is room for, and where that leaves narrower faces than a solid may have there are none.
 static const double FILLETS_LEFT = 0.95;
+static CwStatus fit_root_fillets(const CwMeridian *meridian, double room, CwDesign *design) {
+  CwStatus status = CW_OK;
+  CwFilletFit fit;
+  const double asked = design->root_fillet_radius;
+  if (asked == 0) goto done;
+  if (room < 1)
+    GIVE_WAY(root_fillet_radius, FILLETS_LEFT * room * asked, asked,
+             "root_fillet_radius_mm gives way to a quarter of the blade's thickness left between fillets");
+  CW_TRY(cw_root_fillet_fit(design, meridian, &fit));
+  if (fit.height_share > CW_ROOT_FILLETS_MOST)
+    GIVE_WAY(root_fillet_radius, FILLETS_LEFT * CW_ROOT_FILLETS_MOST / fit.height_share * design->root_fillet_radius,
+             asked, "root_fillet_radius_mm gives way to the blade's height between fillets");
+  CW_TRY(cw_root_fillet_fit(design, meridian, &fit));
+  if (fit.narrowest < CW_PUMP_LEAST_FACE * design->outlet_diameter)
+    GIVE_WAY(root_fillet_radius, 0, asked, "root_fillet_radius_mm gives way to none: fillets that fit are too narrow");
+done:
+  return status;
+}
+
 static CwStatus make_clearance(const CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
   double clear, angle;
@@ -135,10 +157,7 @@ static CwStatus make_clearance(const CwMeridian *meridian, CwDesign *design) {
              "thickness): lower blade_count, blade_thickness_mm or the wrap%s",
              design->blade_count, splitters, clear * 1e3, least * 1e3,
              *splitters ? ", or leave splitter_start out" : "");
-  if (clear <= least + fillets)
-    GIVE_WAY(root_fillet_radius, FILLETS_LEFT * design->root_fillet_radius * (clear - least) / fillets,
-             design->root_fillet_radius,
-             "root_fillet_radius_mm gives way to a quarter of the blade's thickness left between fillets");
+  CW_TRY(fit_root_fillets(meridian, (clear - least) / fillets, design));
 done:
   return status;
 }

@@ -11,7 +11,6 @@
 namespace {
 
 const double largest_mitre = 1.6; // length of the mitre at a corner over L
-const double most_of_span = 0.85; // that both fillets may take
 const double settles = 0.15;      // share of a patch over which it takes its own size from that of its end
 
 struct Vector {
@@ -139,11 +138,11 @@ void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape
   for (const CwBladePatch *patch : shape->patches())
     for (size_t i = 0; i < patch->u.size(); i++)
       taken = std::max(taken, patch->reach[CW_HUB][i] + patch->reach[CW_SHROUD][i]);
-  if (taken > most_of_span)
+  if (taken > CW_ROOT_FILLETS_MOST)
     cw_solid_refuse("root fillets of %.3g mm take %.0f %% of the %s's height, %.0f %% are allowed: lower "
                     "root_fillet_radius_mm to %.3g",
-                    design->root_fillet_radius * mm, 100 * taken, shape->name, 100 * most_of_span,
-                    design->root_fillet_radius * mm * most_of_span / taken * 0.98);
+                    design->root_fillet_radius * mm, 100 * taken, shape->name, 100 * CW_ROOT_FILLETS_MOST,
+                    design->root_fillet_radius * mm * CW_ROOT_FILLETS_MOST / taken * 0.98);
   for (int wall : {CW_HUB, CW_SHROUD}) {
     const CwBladeOnWall on = cw_blade_on_wall(meridian, wall);
     const int j = wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1;

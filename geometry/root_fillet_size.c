@@ -38,3 +38,40 @@ double cw_root_fillet_length(const CwDesign *design, const CwBladeSection *on, d
   const double narrow = cw_smooth_step((place_on_blade(on, q) - narrows_from) / (1 - narrows_from));
   return full + narrow * (fmin(full, room) - full);
 }
+
+enum { PLACES = 40, NORMALS = 3 }; // along the blade; at a place: of both sides, and of the leading edge
+
+// Adds what the fillets on one wall take of the blade's height. off: the section of a near span.
+static void add_wall(const CwDesign *design, const CwMeridian *meridian, const CwBladeSection *on,
+                     const CwBladeSection *off, double taken[PLACES + 1][NORMALS], CwFilletFit *fit) {
+  const double step = 1.0 / PLACES;
+  for (int i = 0; i <= PLACES; i++) {
+    const double p = (double)i / PLACES, q = on->start + p * (1 - on->start);
+    const double from = fmax(0, p - 0.5 * step), to = fmin(1, p + 0.5 * step);
+    const CwFilletPlace place = cw_root_fillet_place(meridian, on, off, q);
+    const double m = (to - from) * (1 - on->start) * place.speed;
+    const double t = (cw_blade_theta(on, to) - cw_blade_theta(on, from)) * place.radius, length = hypot(m, t);
+    const double normal[NORMALS][2] = {
+        {-t / length, m / length}, {t / length, -m / length}, {-m / length, -t / length}};
+    for (int k = 0; k < (i ? NORMALS - 1 : NORMALS); k++) {
+      const double alpha = cw_root_fillet_angle(&place, normal[k][0], normal[k][1]);
+      const double tangent = cw_root_fillet_length(design, on, q, alpha);
+      taken[i][k] += tangent * sin(alpha) / place.height;
+      fit->height_share = fmax(fit->height_share, taken[i][k]);
+      fit->narrowest = fmin(fit->narrowest, 2 * tangent * cos(alpha / 2));
+    }
+  }
+}
+
+CwStatus cw_root_fillet_fit(const CwDesign *design, const CwMeridian *meridian, CwFilletFit *fit) {
+  CwStatus status = CW_OK;
+  static const double span[4] = {0, 0.25, 0.75, 1};
+  CwBladeSection section[4];
+  double taken[PLACES + 1][NORMALS] = {{0}};
+  *fit = (CwFilletFit){0, INFINITY};
+  for (int j = 0; j < 4; j++) CW_TRY(cw_blade_section(design, meridian, span[j], &section[j]));
+  add_wall(design, meridian, &section[0], &section[1], taken, fit);
+  add_wall(design, meridian, &section[3], &section[2], taken, fit);
+done:
+  return status;
+}

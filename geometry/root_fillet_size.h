@@ -11,6 +11,9 @@
 extern "C" {
 #endif
 
+// Greatest share of the blade's height that the fillets on hub and shroud may take together.
+#define CW_ROOT_FILLETS_MOST 0.85
+
 // A place on a wall at the foot of the blade. Vectors along the wall are (downstream, in the sense of theta).
 typedef struct {
   double speed;   // of the meridian curve by q, m
@@ -29,6 +32,15 @@ double cw_root_fillet_angle(const CwFilletPlace *place, double normal_m, double 
 
 // L at q of a crease with the angle alpha, m.
 double cw_root_fillet_length(const CwDesign *design, const CwBladeSection *on, double q, double alpha);
+
+// Of the fillets on both sides of the blade's mean surface and before its leading edge.
+typedef struct {
+  double height_share; // of the blade's height that those on hub and shroud take together, at most
+  double narrowest;    // chord, m
+} CwFilletFit;
+
+// Fails as cw_blade_section().
+CwStatus cw_root_fillet_fit(const CwDesign *design, const CwMeridian *meridian, CwFilletFit *fit);
 
 #ifdef __cplusplus
 }

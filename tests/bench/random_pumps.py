@@ -59,6 +59,18 @@ def outlet_diameter(head, speed, nq):
     return 1000 * 60 / (math.pi * speed) * math.sqrt(2 * GRAVITY * head / head_coefficient(nq))
 
 
+def water_duty(flow, head, speed, viscosity):
+    """Flow and head with water of a pump that has these with a liquid of that viscosity, m2/s, or None: water;
+    ANSI/HI 9.6.7, whose B ends at 40."""
+    if viscosity is None:
+        return flow, head
+    factor = 1
+    for _ in range(60):
+        b = 16.5 * math.sqrt(1e6 * viscosity) * (head / factor)**0.0625 / ((flow / factor)**0.375 * speed**0.25)
+        factor = math.exp(-0.165 * math.log10(min(b, 40))**3.15) if b > 1 else 1
+    return flow / factor, head / factor
+
+
 class Stream:
     """Random numbers of one key of one pump. Only random() is used: Python keeps its values for a seed."""
 
@@ -191,8 +203,8 @@ class Options:
                     self.even("impeller", key, 1, least, most)
         laws = ["auto"] + [law for law, key in (("wrap", "wrap_angle_deg"), ("beta", "outlet_blade_angle_deg"))
                            if self.given("impeller", key)]
-        # For the head one of D2 and b2 must be open: 12 to 60 degrees at the outlet do not meet any head.
-        if not (self.given("impeller", "outlet_diameter_mm") and self.given("impeller", "outlet_width_mm")):
+        # For the head D2 must be open: 12 to 60 degrees at the outlet do not meet any head.
+        if not self.given("impeller", "outlet_diameter_mm"):
             laws.append("head")
         self.put("impeller", "priority", 0.25, lambda own: own.choice(laws))
 
@@ -207,9 +219,13 @@ class Options:
         share = 0.635 - 0.003 * min(35, max(0, self.nq - 25))
         shroud = share * self.given("impeller", "inlet_diameter_mm", self.d1)
         self.length("impeller", "leading_edge_radius_shroud_mm", 0.12, shroud, 0.97, 1.08)
-        self.length("impeller", "leading_edge_radius_hub_mm", 0.12, shroud, 0.7, 0.9)
+        # Who gives the hub's leading edge has a hub that it lies outside of.
+        if 1.15 * hub / 2 < 0.7 * shroud and self.given("impeller", "hub_diameter_mm"):
+            self.length("impeller", "leading_edge_radius_hub_mm", 0.5, shroud, 0.7, 0.9)
         thickness = self.given("impeller", "blade_thickness_mm", 0)
-        self.length("impeller", "leading_edge_thickness_mm", 0.5, thickness, 0.5, 0.9)
+        # The edges of all blades, at the least blade angle of 12 degrees, take no more than half of the inlet.
+        room = 0.5 * math.sin(math.radians(12)) * 2 * math.pi * shroud / self.given("impeller", "blade_count", 7)
+        self.length("impeller", "leading_edge_thickness_mm", 0.5, min(thickness, room / 0.9), 0.5, 0.9)
         self.length("impeller", "trailing_edge_thickness_mm", 0.5, thickness, 0.3, 0.5)
 
     def throat(self, flow, head):
@@ -255,6 +271,8 @@ def pump(seed, index, options=False):
     if fluid:
         case["fluid"] = fluid
     if options:
+        viscosity = fluid.get("kinematic_viscosity_m2_per_s")
+        flow, head = water_duty(flow, head, speed, viscosity)
         more = Options(stream, flow, head, speed)
         more.impeller()
         more.volute()
@@ -262,7 +280,7 @@ def pump(seed, index, options=False):
         more.laws()
         more.nose_and_edges()
         more.throat(flow, head)
-        more.explicit_layers(head, fluid.get("kinematic_viscosity_m2_per_s", 1e-6))
+        more.explicit_layers(head, viscosity or 1e-6)
         case.update(more.sections)
         warm = stream("fluid.temperature_c")
         if not fluid and warm.chance(0.2):

@@ -17,6 +17,12 @@ def duty_of(case):
     return flow, head, speed, speed * math.sqrt(flow / 3600) / head**0.75
 
 
+def water_of(case):
+    flow, head, speed, _ = duty_of(case)
+    flow, head = random_pumps.water_duty(flow, head, speed, case.get("fluid", {}).get("kinematic_viscosity_m2_per_s"))
+    return flow, head, speed, speed * math.sqrt(flow / 3600) / head**0.75
+
+
 def furthest_from_even(shares):
     """Greatest distance of a sample's distribution from the even one on 0 to 1."""
     ranked = sorted(shares)
@@ -43,6 +49,15 @@ class RandomPumps(unittest.TestCase):
     def test_outlet_diameter_by_hand(self):
         # psi = 1 at nq = 100 ln(1.21) / 0.77, and 5 m then need u2 = sqrt(2 g 5 m) = 9.9028 m/s: 189.13 mm at 1000 rpm.
         self.assertAlmostEqual(outlet_diameter(5, 1000, 100 * math.log(1.21) / 0.77), 189.13, places=2)
+
+    def test_water_duty_by_hand(self):
+        # B = 16.5 * 10 * 16^0.0625 / (10000^0.375 * 4096^0.25) = 165 * 1.18921 / (31.6228 * 8) = 0.776: no correction.
+        self.assertEqual(random_pumps.water_duty(10000, 16, 4096, 1e-4), (10000, 16))
+        flow, head = random_pumps.water_duty(10, 20, 1450, 2e-4)
+        b = 16.5 * math.sqrt(200) * head**0.0625 / (flow**0.375 * 1450**0.25)
+        self.assertAlmostEqual(20 / head, math.exp(-0.165 * math.log10(b)**3.15), places=12)
+        self.assertAlmostEqual(flow / 10, head / 20, places=12)
+        self.assertGreater(head, 25)
 
     def test_specific_speed_is_spread_evenly_in_its_logarithm(self):
         least, most = SPECIFIC_SPEED
@@ -91,7 +106,7 @@ class RandomPumps(unittest.TestCase):
 
     def test_what_is_drawn_later_leaves_the_values_before_it(self):
         for index, case in enumerate(self.options[:300], 1):
-            flow, head, speed, _ = duty_of(case)
+            flow, head, speed, _ = water_of(case)
             before = Options(lambda key, of=index: Stream(1, "options", of, key), flow, head, speed)
             before.impeller()
             before.volute()
@@ -134,7 +149,7 @@ class RandomPumps(unittest.TestCase):
 
     def test_given_dimensions_lie_near_their_correlations(self):
         given = [(outlet_diameter(head, speed, nq), case["impeller"]["outlet_diameter_mm"])
-                 for case in self.options for _, head, speed, nq in [duty_of(case)]
+                 for case in self.options for _, head, speed, nq in [water_of(case)]
                  if "outlet_diameter_mm" in case.get("impeller", {})]
         self.assertGreater(len(given), COUNT / 10)
         for correlation, value in given:

@@ -370,6 +370,35 @@ static void fillets_need_room_between_the_blades(void **state) {
   assert_near(design_of(&table).root_fillet_radius, fits, 1e-12);
 }
 
+// A ball of radius R in a crease of 45 to 90 degrees reaches 1.71 to 1 R up the blade: two of them take 85 % of it.
+static void fillets_need_room_on_the_blade(void **state) {
+  CwCase table = paper();
+  table.impeller.blade_count = 3;
+  const double b2 = design_of(&table).outlet_width;
+  table.impeller.root_fillet_radius = 0.5 * b2;
+  const CwDesign found = design_of(&table);
+  const double fits = found.root_fillet_radius;
+  assert_string_equal(found.source[CW_DESIGN_root_fillet_radius],
+                      "root_fillet_radius_mm gives way to the blade's height between fillets");
+  assert_near(found.asked[CW_DESIGN_root_fillet_radius], 0.5 * b2, 1e-12);
+  assert_true(2 * fits <= 0.85 * b2 && 2 * 1.71 * fits >= 0.95 * 0.85 * b2);
+  table.impeller.root_fillet_radius = 1.04 * fits;
+  assert_near(design_of(&table).root_fillet_radius, 1.04 * fits, 1e-12);
+  table.impeller.root_fillet_radius = 1.06 * fits;
+  assert_near(design_of(&table).root_fillet_radius, fits, 1e-12);
+}
+
+// The chord of a fillet in a crease of 90 degrees is 1.41 R, in one of 135 degrees 0.77 R; faces are 0.0005 D2 wide.
+static void fillets_narrower_than_faces_are_left_out(void **state) {
+  CwCase table = paper();
+  const double d2 = design_of(&table).outlet_diameter;
+  table.impeller.root_fillet_radius = 5e-4 / 1.42 * d2;
+  assert_near(design_of(&table).root_fillet_radius, 0, 0);
+  assert_near(design_of(&table).asked[CW_DESIGN_root_fillet_radius], 5e-4 / 1.42 * d2, 1e-12);
+  table.impeller.root_fillet_radius = 5e-4 / 0.76 * d2;
+  assert_near(design_of(&table).root_fillet_radius, 5e-4 / 0.76 * d2, 1e-12);
+}
+
 static void rows_are_lines(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
@@ -404,6 +433,8 @@ int main(void) {
       cmocka_unit_test(impossible_wrap_is_refused),
       cmocka_unit_test(wraps_stay_within_a_revolution),
       cmocka_unit_test(fillets_need_room_between_the_blades),
+      cmocka_unit_test(fillets_need_room_on_the_blade),
+      cmocka_unit_test(fillets_narrower_than_faces_are_left_out),
       cmocka_unit_test(rows_are_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

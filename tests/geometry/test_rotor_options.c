@@ -89,12 +89,13 @@ static void fillets_go_with_every_option(void **state) {
   }
 }
 
-// Fillets that meet between hub and shroud, and fillets that reach before the hub, are refused with what to do.
+// Fillets that meet between hub and shroud, and fillets that reach before the hub, are refused with what to do where a
+// design has them all the same.
 static void too_large_fillets_are_refused(void **state) {
   CwCase table = paper();
   CwSolid *rotor = NULL;
-  table.impeller.root_fillet_radius = 6e-3;
-  const CwDesign design = design_of(&table);
+  CwDesign design = design_of(&table);
+  design.root_fillet_radius = 6e-3;
   assert_int_equal(cw_rotor_build(&design, &rotor), CW_ERR_GEOMETRY);
   assert_null(rotor);
   assert_non_null(strstr(cw_fail_message(), "lower root_fillet_radius_mm to"));
@@ -104,11 +105,11 @@ static void too_large_fillets_are_refused(void **state) {
 // The radius that the refusal names fits, also on the same wheel with a D2 of 200/512 = 0.39 mm: some 0.006 mm.
 static void named_fillets_fit(void **state) {
   CwCase table = paper();
-  table.impeller.root_fillet_radius = 6e-3;
   for (int size = 1; size <= 512; size *= 512) {
     CwDesign design = design_of(&table);
     CwSolid *rotor = NULL;
     double fits = 0;
+    design.root_fillet_radius = 6e-3;
     double *length[] = {
         &design.inlet_diameter,         &design.outlet_diameter,         &design.outlet_width,
         &design.hub_diameter,           &design.nut_disk_radius,         &design.nut_length,
