@@ -77,7 +77,6 @@ static CwStatus smoothing_make(CwLayerWork *work) {
   smoothing = work->smoothing;
   smoothing->work = work;
   CW_NEW(smoothing->reach, work->n);
-  CW_TRY(cw_scratch_make((int64_t)work->n * (int64_t)sizeof(int32_t), &smoothing->local));
   CW_NEW(smoothing->member, work->n);
   CW_NEW(smoothing->place, work->n);
   CW_NEW(smoothing->lean_t, work->n);
@@ -98,7 +97,6 @@ void cw_smoothing_free(CwSmoothing **smoothing) {
   cw_task_results_free(&(*smoothing)->lean);
   free((*smoothing)->source);
   free((*smoothing)->reach);
-  cw_scratch_free(&(*smoothing)->local);
   free((*smoothing)->member);
   free((*smoothing)->place);
   free((*smoothing)->lean_t);
@@ -120,7 +118,10 @@ CwStatus cw_smooth_directions(CwLayerWork *work) {
   for (int32_t v = 0; v < work->n; v++) smoothing->lean_t[v] = smoothing->reach[v].source >= 0 ? work->t[v] : -1;
   for (int32_t i = 0; i < smoothing->count; i++) {
     const CwLean *lean = (const CwLean *)made.bytes[i / CW_SMOOTHING_BLOCK] + i % CW_SMOOTHING_BLOCK;
-    if (lean->changed) memcpy(work->column[smoothing->member[i]], lean->column, sizeof lean->column);
+    int32_t v = smoothing->member[i];
+    if (!lean->changed || memcmp(work->column[v], lean->column, sizeof lean->column) == 0) continue;
+    memcpy(work->column[v], lean->column, sizeof lean->column);
+    if (work->stale) work->stale[v] = 1;
   }
   cw_task_results_free(&smoothing->lean);
   smoothing->lean = made;

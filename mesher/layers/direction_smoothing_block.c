@@ -6,6 +6,7 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/common/vertex_heap.h"
+#include "mesher/common/vertex_map.h"
 #include "mesher/layers/direction_smoothing_work.h"
 #include "mesher/layers/layers_normal.h"
 #include "mesher/layers/layers_topology.h"
@@ -100,7 +101,7 @@ typedef struct {
   double (*column)[3], (*top)[3];
   int32_t triangle_count, (*corner)[3]; // of the wall, with a member; their local numbers
   double *quality;                      // of the prisms over them
-  int32_t *local;                       // of the domain's vertices; as in CwSmoothing
+  CwVertexMap local;                    // their local numbers, from 1
 } Part;
 
 static int32_t vertex_of(const Part *part, int32_t i) {
@@ -108,7 +109,7 @@ static int32_t vertex_of(const Part *part, int32_t i) {
 }
 
 static void part_free(Part *part) {
-  for (int32_t i = 0; part->local && i < part->all; i++) part->local[vertex_of(part, i)] = 0;
+  cw_vertex_map_free(&part->local);
   free(part->member);
   free(part->outer);
   free(part->near_start);
@@ -152,7 +153,7 @@ static CwStatus gather_members(const CwSmoothing *smoothing, int32_t block, Part
   CW_NEW(part->member, capacity);
   for (int32_t i = 0; i < block_size(smoothing, block); i++) {
     int32_t v = smoothing->member[block * CW_SMOOTHING_BLOCK + i];
-    part->local[v] = 1;
+    CW_TRY(cw_vertex_map_set(&part->local, v, 1));
     part->member[part->count++] = v;
   }
   part->all = part->count;
@@ -162,9 +163,9 @@ static CwStatus gather_members(const CwSmoothing *smoothing, int32_t block, Part
       int32_t v = part->member[ring];
       for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
         int32_t w = work->near[k];
-        if (smoothing->place[w] < 0 || part->local[w]) continue;
+        if (smoothing->place[w] < 0 || cw_vertex_map_get(&part->local, w)) continue;
         CW_GROW(part->member, capacity, part->count + 1);
-        part->local[w] = 1;
+        CW_TRY(cw_vertex_map_set(&part->local, w, 1));
         part->member[part->count++] = w;
         part->all++;
       }
@@ -181,16 +182,32 @@ done:
   return status;
 }
 
-static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *local, Part *part) {
+// Lists the wall triangles at member i that no member before it has listed.
+static void list_triangles(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = part->member[i];
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+    const int32_t *corner = work->in->triangle[work->face[k]];
+    int32_t *made = part->corner[part->triangle_count];
+    int is_first = 1;
+    for (int c = 0; c < 3; c++) {
+      made[c] = cw_vertex_map_get(&part->local, corner[c]) - 1;
+      is_first &= made[c] >= i;
+    }
+    part->triangle_count += is_first;
+  }
+}
+
+static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, Part *part) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = smoothing->work;
   int32_t links = 0, faces = 0;
-  *part = (Part){.work = work, .local = local};
+  *part = (Part){.work = work};
   CW_TRY(gather_members(smoothing, block, part));
   int32_t count = part->count;
   for (int32_t i = 0; i < count; i++) {
     int32_t v = part->member[i];
-    local[v] = i + 1;
+    CW_TRY(cw_vertex_map_set(&part->local, v, i + 1));
     links += work->near_start[v + 1] - work->near_start[v];
     faces += work->face_start[v + 1] - work->face_start[v];
   }
@@ -216,23 +233,16 @@ static CwStatus part_make(const CwSmoothing *smoothing, int32_t block, int32_t *
     cw_layers_weights(work, v, part->weight + links, &part->area[i]);
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++, links++) {
       int32_t w = work->near[k];
-      if (!local[w]) {
+      if (!cw_vertex_map_get(&part->local, w)) {
         part->outer[part->all - count] = w;
-        local[w] = ++part->all;
+        CW_TRY(cw_vertex_map_set(&part->local, w, ++part->all));
       }
-      part->near[links] = local[w] - 1;
+      part->near[links] = cw_vertex_map_get(&part->local, w) - 1;
       part->across[links] = work->crease[w] == CW_CREASE_CONVEX && !is_source(smoothing, w);
       part->weights[i] += part->weight[links];
     }
     part->near_start[i + 1] = links;
-    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
-      const int32_t *corner = work->in->triangle[work->face[k]];
-      int is_first = 1; // of the members of this triangle: the one that lists it
-      for (int c = 0; c < 3; c++) is_first &= local[corner[c]] > i;
-      if (!is_first) continue;
-      for (int c = 0; c < 3; c++) part->corner[part->triangle_count][c] = local[corner[c]] - 1;
-      part->triangle_count++;
-    }
+    list_triangles(part, i);
   }
   CW_NEW(part->reach, part->all);
   CW_NEW(part->share, count);
@@ -446,9 +456,7 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
   Part part = {0};
   CwLean *lean_of = NULL;
   int32_t count = block_size(smoothing, block);
-  void *local = NULL;
-  CW_TRY(cw_scratch_take(smoothing->local, &local));
-  CW_TRY(part_make(smoothing, block, local, &part));
+  CW_TRY(part_make(smoothing, block, &part));
   for (int32_t i = 0; i < part.all; i++) start(smoothing, &part, i);
   for (int32_t i = 0; i < part.count; i++) set_share(&part, i);
   for (int round = 0; round <= WIDENINGS; round++) {
@@ -462,7 +470,7 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
   }
   CW_NEW(lean_of, count);
   for (int32_t k = 0; k < count; k++) {
-    int32_t i = part.local[smoothing->member[block * CW_SMOOTHING_BLOCK + k]] - 1;
+    int32_t i = cw_vertex_map_get(&part.local, smoothing->member[block * CW_SMOOTHING_BLOCK + k]) - 1;
     memcpy(lean_of[k].column, part.column[i], sizeof part.column[i]);
     memcpy(lean_of[k].u, part.u[i], sizeof part.u[i]);
     lean_of[k].widen = part.widen[i];
@@ -474,6 +482,5 @@ CwStatus cw_smoothing_solve_block(void *context, int32_t block, void **bytes, in
 done:
   free(lean_of);
   part_free(&part);
-  cw_scratch_give(smoothing->local, local);
   return status;
 }

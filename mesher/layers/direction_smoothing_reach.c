@@ -11,6 +11,7 @@
 #include "mesher/common/box.h"
 #include "mesher/common/vec.h"
 #include "mesher/common/vertex_heap.h"
+#include "mesher/common/vertex_map.h"
 #include "mesher/layers/direction_smoothing_work.h"
 #include "mesher/policy.h"
 
@@ -19,24 +20,23 @@ static const double ROUNDING = 1e-9;       // of a length summed along edges
 
 typedef struct {
   const CwSmoothing *smoothing;
-  CwScratch *reached; // of a block: every vertex of the domain; no waves when given back
-  CwScratch *visited; // of a block: those that a wave has come to
-  int32_t block;      // vertices of each but the last
+  int32_t block; // vertices of each but the last
 } Blocks;
 
-// The wave that a vertex belongs to: that of source number wave - 1; 0: none so far.
+// A vertex and the wave that it belongs to.
 typedef struct {
   double distance;
-  int32_t wave;
+  int32_t vertex, source; // of the wave, its place in the list
 } Reached;
 
 // The layer top of the distances in a block.
 typedef struct {
   const CwSmoothing *smoothing;
-  Reached *reached; // every vertex of the domain
-  int32_t visited_count, *visited;
-  CwBox box;   // of the block
-  double most; // longest way of a wave that can come to it
+  int32_t count, capacity;
+  Reached *reached;  // those that a wave has come to
+  CwVertexMap place; // among these, from 1
+  CwBox box;         // of the block
+  double most;       // longest way of a wave that can come to it
   CwHeap heap;
 } Spread;
 
@@ -48,22 +48,39 @@ static double distance_to(const CwBox *box, const double x[3]) {
   return cw_norm(d);
 }
 
-// v has its distance: offers its neighbours a way through it.
-static CwStatus settle(Spread *spread, int32_t v) {
+static CwStatus reach(Spread *spread, Reached made) {
+  CwStatus status = CW_OK;
+  int32_t place = cw_vertex_map_get(&spread->place, made.vertex);
+  if (!place) {
+    CW_GROW(spread->reached, spread->capacity, spread->count + 1);
+    place = ++spread->count;
+    CW_TRY(cw_vertex_map_set(&spread->place, made.vertex, place));
+  }
+  spread->reached[place - 1] = made;
+done:
+  return status;
+}
+
+static double distance_of(const Spread *spread, int32_t v) {
+  int32_t place = cw_vertex_map_get(&spread->place, v);
+  return place ? spread->reached[place - 1].distance : INFINITY;
+}
+
+// A vertex has its distance: offers its neighbours a way through it.
+static CwStatus settle(Spread *spread, Reached at) {
   CwStatus status = CW_OK;
   const CwSmoothing *smoothing = spread->smoothing;
   const CwLayerWork *work = smoothing->work;
-  Reached *reached = spread->reached, at = reached[v];
-  double most = cw_policy.smoothing_reach * smoothing->source[at.wave - 1].thickness;
+  int32_t v = at.vertex;
+  double most = cw_policy.smoothing_reach * smoothing->source[at.source].thickness;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
-    double before = reached[w].wave ? reached[w].distance : INFINITY;
+    double before = distance_of(spread, w);
     if (before <= at.distance) continue;
     double distance = at.distance + cw_distance(work->in->x[v], work->in->x[w]);
     if (distance >= before || distance > most) continue;
     if (distance + distance_to(&spread->box, work->in->x[w]) > spread->most) continue;
-    if (!reached[w].wave) spread->visited[spread->visited_count++] = w;
-    reached[w] = (Reached){distance, at.wave};
+    CW_TRY(reach(spread, (Reached){distance, w, at.source}));
     CW_TRY(cw_heap_push(&spread->heap, distance, w));
   }
 done:
@@ -91,37 +108,33 @@ static CwStatus find_block(void *context, int32_t block, void **bytes, int64_t *
   int32_t first = block * blocks->block, left = work->n - first;
   int32_t last = left < blocks->block ? work->n : first + blocks->block;
   Spread spread = {.smoothing = smoothing};
-  void *reached = NULL, *visited = NULL;
   CwSmoothingReach *made = NULL;
   CW_NEW(made, last - first);
-  CW_TRY(cw_scratch_take(blocks->reached, &reached));
-  CW_TRY(cw_scratch_take(blocks->visited, &visited));
-  spread.reached = reached;
-  spread.visited = visited;
   measure(&spread, first, last);
   for (int32_t i = 0; spread.most > 0 && i < smoothing->source_count; i++) {
     int32_t v = smoothing->source[i].vertex;
     if (distance_to(&spread.box, work->in->x[v]) > spread.most) continue;
-    spread.reached[v] = (Reached){0, i + 1};
-    spread.visited[spread.visited_count++] = v;
+    CW_TRY(reach(&spread, (Reached){0, v, i}));
   }
-  int32_t sources = spread.visited_count;
-  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, spread.visited[i])); // nothing is nearer
+  int32_t sources = spread.count;
+  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, spread.reached[i])); // nothing is nearer
   while (spread.heap.count) {
     CwHeapItem least = cw_heap_pop(&spread.heap);
-    if (least.key == spread.reached[least.v].distance) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
+    const Reached at = spread.reached[cw_vertex_map_get(&spread.place, least.v) - 1];
+    if (least.key == at.distance) CW_TRY(settle(&spread, at)); // else a nearer way was found
   }
   for (int32_t i = first; i < last; i++) {
-    const Reached *at = &spread.reached[work->curve[i]];
-    made[i - first] = at->wave ? (CwSmoothingReach){at->distance, at->wave - 1} : (CwSmoothingReach){INFINITY, -1};
+    int32_t place = cw_vertex_map_get(&spread.place, work->curve[i]);
+    made[i - first] = (CwSmoothingReach){INFINITY, -1};
+    if (place)
+      made[i - first] = (CwSmoothingReach){spread.reached[place - 1].distance, spread.reached[place - 1].source};
   }
   *size = (int64_t)(last - first) * (int64_t)sizeof *made;
   *bytes = made;
   made = NULL;
 done:
-  for (int32_t i = 0; i < spread.visited_count; i++) spread.reached[spread.visited[i]] = (Reached){0};
-  cw_scratch_give(blocks->reached, reached);
-  cw_scratch_give(blocks->visited, visited);
+  free(spread.reached);
+  cw_vertex_map_free(&spread.place);
   cw_heap_free(&spread.heap);
   free(made);
   return status;
@@ -133,8 +146,6 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   int32_t count = (n + block - 1) / block;
   Blocks blocks = {.smoothing = smoothing, .block = block};
   CwTaskResults results = {0};
-  CW_TRY(cw_scratch_make((int64_t)n * (int64_t)sizeof(Reached), &blocks.reached));
-  CW_TRY(cw_scratch_make((int64_t)n * (int64_t)sizeof(int32_t), &blocks.visited));
   CwSchedule schedule = {.step = "layers: reach of smoothing", .count = count, .run = find_block, .context = &blocks};
   CW_TRY(cw_schedule_gather(smoothing->work->in->context, &schedule, &results));
   for (int32_t b = 0; b < count; b++) {
@@ -144,7 +155,5 @@ CwStatus cw_smoothing_find_reach(CwSmoothing *smoothing) {
   }
 done:
   cw_task_results_free(&results);
-  cw_scratch_free(&blocks.reached);
-  cw_scratch_free(&blocks.visited);
   return status;
 }

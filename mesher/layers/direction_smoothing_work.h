@@ -5,7 +5,6 @@
 
 #include "mesher/layers/layer_columns.h"
 #include "mesher/parallel/schedule.h"
-#include "mesher/parallel/scratch.h"
 #include "pipeline/status.h"
 
 enum { CW_SMOOTHING_BLOCK = 4096 }; // vertices
@@ -39,7 +38,6 @@ typedef struct CwSmoothing {
   int32_t source_count;
   CwSmoothingSource *source; // in order of their vertices
   CwSmoothingReach *reach;
-  CwScratch *local;        // of a block: local number + 1 of every vertex of the domain, else 0, also when given back
   int32_t count;           // vertices in reach that may lean
   int32_t *member, *place; // these, block by block; the place of each vertex among them, -1: none of them
   CwTaskResults lean; // the CwLean of the members of each block, as the last smoothing left them; none before the first

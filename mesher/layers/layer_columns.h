@@ -25,7 +25,8 @@ typedef struct {
   double *t;                        // thickness, m
   double *most;                     // the target, or less in a concave place: no thickness is greater, m
   int32_t *curve;                   // all vertices along a curve through space: near in the list, near in space
-  double *gap, (*gap_column)[3];    // thickness that the gap along a column allows, m, and that column; NULL at first
+  double *gap;                      // thickness that the gap along a column allows, m; NULL at first
+  uint8_t *stale;                   // columns that have changed since then; NULL at first
   struct CwSmoothing *smoothing;    // direction_smoothing.h, whose free it is; NULL before the first
   uint8_t *reason;                  // CwLayerReason
 } CwLayerWork;

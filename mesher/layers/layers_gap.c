@@ -206,17 +206,16 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   double *most = NULL;
   CwBoxTree normals = {0};
   Gaps gaps = {.work = work, .tree = tree, .normals = &normals};
-  int again = work->gap != NULL;
-  if (!again) {
+  if (!work->gap) {
     CW_NEW_UNSET(work->gap, work->n);
-    CW_NEW_UNSET(work->gap_column, work->n);
+    CW_NEW_UNSET(work->stale, work->n);
+    memset(work->stale, 1, (size_t)work->n);
   }
   CW_NEW_UNSET(gaps.vertex, work->n);
   for (int32_t v = 0; v < work->n; v++) {
-    if (again && memcmp(work->gap_column[v], work->column[v], sizeof *work->column) == 0) continue;
-    memcpy(work->gap_column[v], work->column[v], sizeof *work->column);
-    gaps.vertex[gaps.count++] = v;
+    if (work->stale[v]) gaps.vertex[gaps.count++] = v;
   }
+  memset(work->stale, 0, (size_t)work->n);
   CW_NEW_UNSET(most, gaps.count);
   CW_TRY(cw_box_tree_alike(work->in->context, tree, normal_of, work->in, &normals));
   CW_TRY(cw_parallel_for(work->in->context, "layers: gaps", gaps.count, sizeof *most, free_thickness, &gaps, most));

@@ -87,6 +87,8 @@ static CwStatus lists(CwLayerWork *work) {
     for (int32_t k = start[v]; k < start[v + 1] && work->near[k] >= 0; k++) work->near[count++] = work->near[k];
   }
   work->near_start[work->n] = count;
+  int32_t *fitted = realloc(work->near, (size_t)count * sizeof *fitted); // half of it is left over
+  if (fitted) work->near = fitted;
 done:
   free(start);
   return status;
@@ -200,7 +202,7 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->most);
   free(work->reason);
   free(work->gap);
-  free(work->gap_column);
+  free(work->stale);
   free(work->curve);
   memset(work, 0, sizeof *work);
 }
