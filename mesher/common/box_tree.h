@@ -13,11 +13,18 @@
 extern "C" {
 #endif
 
+// A box in half the memory, not smaller than the box it is made from: what is visited is looked at anyway.
 typedef struct {
-  int32_t count;  // items
-  int32_t leaves; // slots of leaves, a power of two; node k has the children 2k and 2k + 1, the root is 1
-  int32_t *item;  // in the order of the curve
-  CwBox *node;    // 2 * leaves; those without items hold nothing
+  float low[3], high[3];
+} CwTreeBox;
+
+typedef struct {
+  int32_t count;       // items
+  int32_t leaves;      // slots of leaves, a power of two; node k has the children 2k and 2k + 1, the root is 1
+  int32_t node_count;  // those beyond hold nothing
+  const int32_t *item; // in the order of the curve
+  int32_t *own_item;   // the same; NULL: another tree's
+  CwTreeBox *node;
 } CwBoxTree;
 
 // What is called for an item whose leaf is met; a result other than 0 ends the walk.
@@ -29,7 +36,7 @@ typedef CwBox (*CwBoxOf)(const void *context, int32_t item);
 // Orders the items by the middles of their boxes, all of which lie in `within`. Deterministic. given: to box_of.
 CwStatus cw_box_tree_make(const CwContext *context, int32_t count, const CwBox *within, CwBoxOf box_of,
                           const void *given, CwBoxTree *tree);
-// A tree of other boxes of the same items, in the order of `like`.
+// A tree of other boxes of the same items, in the order of `like`, which must outlive it.
 CwStatus cw_box_tree_alike(const CwContext *context, const CwBoxTree *like, CwBoxOf box_of, const void *given,
                            CwBoxTree *tree);
 // Takes up new boxes where only some of the first `moved_count` items, those with moved[item], have new ones.

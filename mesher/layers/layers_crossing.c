@@ -18,12 +18,23 @@ enum { BLOCK = 2048, GROUP = 16 };      // triangles of a task; neighbours that 
 static const double LEAST_SHARE = 0.01; // of its target: a column this thin that still crosses will not get clear
 static const double CLEAR = 1e-9;       // way between plane and triangle, over the longest edge, beyond any rounding
 
-// Corners of triangle f of the kind: 0 layer top, 1 wall, 2 open patches. Points are numbered through: layer top, wall,
-// open patches.
-static void corners(const CwLayerWork *work, int kind, int32_t f, int32_t corner[3]) {
-  const CwLayerInput *in = work->in;
+// A triangle of the kind: 0 layer top, 1 wall, 2 open patches. Points are numbered through: layer top, wall, open
+// patches.
+typedef struct {
+  int32_t corner[3];
+  const double *x[3];
+} Triangle;
+
+static Triangle triangle_of(const CwLayerCrossing *crossing, int kind, int32_t f) {
+  Triangle triangle;
+  const CwLayerInput *in = crossing->work->in;
   const int32_t *given = kind == 2 ? in->obstacle_triangle[f] : in->triangle[f];
-  for (int i = 0; i < 3; i++) corner[i] = given[i] + kind * in->point_count;
+  const double(*x)[3] = kind == 0 ? crossing->moved_to : kind == 1 ? in->x : in->obstacle_x;
+  for (int i = 0; i < 3; i++) {
+    triangle.corner[i] = given[i] + kind * in->point_count;
+    triangle.x[i] = x[given[i]];
+  }
+  return triangle;
 }
 
 // Whether a plane normal to m leaves a on one side and b on the other, strictly but for the point they may share.
@@ -73,12 +84,15 @@ static int kept_apart(const double *const a[3], const double *const b[3], int sh
   return 0;
 }
 
-static int cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
-  const double *p[3] = {x[a[0]], x[a[1]], x[a[2]]}, *q[3] = {x[b[0]], x[b[1]], x[b[2]]};
+static int cross(const Triangle *a, const Triangle *b) {
+  const double *const *p = a->x, *const *q = b->x;
+  static const int32_t of_a[3] = {0, 1, 2};
+  int32_t of_b[3] = {3, 4, 5};
+  double x[6][3];
   int shared = 0, in_a = -1, in_b = -1;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      if (a[i] == b[j]) shared++, in_a = i, in_b = j;
+      if (a->corner[i] == b->corner[j]) shared++, in_a = i, in_b = j, of_b[j] = i;
   if (shared == 2) { // they overlap only where folded flat onto each other, and then their normals are opposite
     double n[3], m[3];
     cw_normal(p[0], p[1], p[2], n);
@@ -87,48 +101,44 @@ static int cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
   } else if (shared < 2 && kept_apart(p, q, in_a, in_b)) {
     return 0;
   }
-  return cw_triangles_cross(x, a, b);
+  for (int i = 0; i < 3; i++) {
+    cw_copy(p[i], x[i]);
+    cw_copy(q[i], x[3 + i]);
+  }
+  return cw_triangles_cross((const double(*)[3])x, of_a, of_b);
 }
 
-static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int32_t f) {
-  int32_t corner[3];
-  corners(work, kind, f, corner);
-  return cw_box_of_triangle(x[corner[0]], x[corner[1]], x[corner[2]]);
+static CwBox box_of(const CwLayerCrossing *crossing, int kind, int32_t f) {
+  const Triangle triangle = triangle_of(crossing, kind, f);
+  return cw_box_of_triangle(triangle.x[0], triangle.x[1], triangle.x[2]);
 }
 
 // The box of a triangle of the wall or of an open patch.
 static CwBox box_of_fixed(const void *context, int32_t item) {
   const CwLayerCrossing *crossing = context;
-  const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t walls = crossing->work->in->triangle_count;
-  return item < walls ? box_of(crossing->work, x, 1, item) : box_of(crossing->work, x, 2, item - walls);
+  return item < walls ? box_of(crossing, 1, item) : box_of(crossing, 2, item - walls);
 }
 
 // The box of a triangle of the layer top; an open patch has none.
 static CwBox box_of_top(const void *context, int32_t item) {
   const CwLayerCrossing *crossing = context;
   if (item >= crossing->work->in->triangle_count) return cw_box_empty();
-  return box_of(crossing->work, (const double(*)[3])crossing->x, 0, item);
+  return box_of(crossing, 0, item);
 }
 
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
-  int32_t n = in->point_count;
   crossing->work = work;
   crossing->item_count = in->triangle_count + in->obstacle_triangle_count;
-  CW_NEW(crossing->x, 2 * (size_t)n + in->obstacle_point_count);
   CW_NEW(crossing->active, in->triangle_count);
   CW_NEW(crossing->list, in->triangle_count);
-  memcpy(crossing->x + n, in->x, n * sizeof *in->x);
-  for (int32_t v = 0; v < in->obstacle_point_count; v++)
-    memcpy(crossing->x + 2 * n + v, in->obstacle_x[v], sizeof *crossing->x);
 done:
   return status;
 }
 
 void cw_layers_crossing_free(CwLayerCrossing *crossing) {
-  free(crossing->x);
   free(crossing->active);
   free(crossing->list);
   free(crossing->pair);
@@ -144,8 +154,8 @@ static CwStatus make_trees(CwLayerCrossing *crossing) {
   const CwContext *context = in->context;
   if (crossing->fixed.count == 0) {
     CwBox within = cw_box_empty();
-    for (int32_t i = in->point_count; i < 2 * in->point_count + in->obstacle_point_count; i++)
-      cw_box_add_point(&within, crossing->x[i]);
+    for (int32_t v = 0; v < in->point_count; v++) cw_box_add_point(&within, in->x[v]);
+    for (int32_t v = 0; v < in->obstacle_point_count; v++) cw_box_add_point(&within, in->obstacle_x[v]);
     CW_TRY(cw_box_tree_make(context, crossing->item_count, &within, box_of_fixed, crossing, &crossing->fixed));
   }
   CW_TRY(cw_box_tree_alike(context, &crossing->fixed, box_of_top, crossing, &crossing->top));
@@ -175,14 +185,11 @@ done:
 // Tries triangle f of one kind against g of another.
 static CwStatus try_pair(Finder *finder, int kind_f, int kind_g, int32_t g) {
   CwStatus status = CW_OK;
-  const CwLayerCrossing *crossing = finder->crossing;
-  const double(*x)[3] = (const double(*)[3])crossing->x;
-  int32_t a[3], b[3];
-  CwBox box = box_of(crossing->work, x, kind_g, g);
+  const Triangle b = triangle_of(finder->crossing, kind_g, g);
+  const CwBox box = cw_box_of_triangle(b.x[0], b.x[1], b.x[2]);
   if (!cw_boxes_meet(kind_f ? &finder->wall : &finder->top, &box)) goto done;
-  corners(crossing->work, kind_f, finder->f, a);
-  corners(crossing->work, kind_g, g, b);
-  if (cross(x, a, b)) CW_TRY(add_pair(finder, kind_f, kind_g, g));
+  const Triangle a = triangle_of(finder->crossing, kind_f, finder->f);
+  if (cross(&a, &b)) CW_TRY(add_pair(finder, kind_f, kind_g, g));
 done:
   return status;
 }
@@ -241,15 +248,13 @@ static int is_constrained(const CwLayerInput *in, int32_t f) {
 static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwLayerCrossing *crossing = context;
-  const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t first = block * BLOCK, last = crossing->list_count - first < BLOCK ? crossing->list_count : first + BLOCK;
   Finder finder = {.crossing = crossing};
   for (int32_t from = first; from < last; from += GROUP) {
     int32_t to = last - from < GROUP ? last : from + GROUP;
     CwBox top = cw_box_empty(), wall = cw_box_empty();
     for (int32_t i = from; i < to; i++) {
-      CwBox one = box_of(crossing->work, x, 0, crossing->list[i]),
-            below = box_of(crossing->work, x, 1, crossing->list[i]);
+      CwBox one = box_of(crossing, 0, crossing->list[i]), below = box_of(crossing, 1, crossing->list[i]);
       cw_box_add(&top, &one);
       cw_box_add(&wall, &below);
     }
@@ -259,8 +264,8 @@ static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t
     for (int32_t i = from; i < to; i++) {
       int32_t f = finder.f = crossing->list[i];
       finder.constrained = is_constrained(crossing->work->in, f);
-      finder.top = box_of(crossing->work, x, 0, f);
-      finder.wall = box_of(crossing->work, x, 1, f);
+      finder.top = box_of(crossing, 0, f);
+      finder.wall = box_of(crossing, 1, f);
       cw_box_tree_overlaps_from(&crossing->top, &tops, &finder.top, visit_top, &finder);
       CW_TRY(finder.status);
       cw_box_tree_overlaps_from(&crossing->fixed, &fixed, &finder.top, visit_fixed, &finder);
@@ -290,11 +295,10 @@ static void drop_active(CwLayerCrossing *crossing) {
 
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*top)[3], const uint8_t *moved) {
   CwStatus status = CW_OK;
-  const CwLayerWork *work = crossing->work;
-  const CwLayerInput *in = work->in;
+  const CwLayerInput *in = crossing->work->in;
   CwTaskResults results = {0};
   int32_t blocks = 0;
-  memcpy(crossing->x, top, (size_t)work->n * sizeof *top);
+  crossing->moved_to = top;
   crossing->list_count = 0;
   for (int32_t f = 0; f < in->triangle_count; f++) {
     const int32_t *v = in->triangle[f];

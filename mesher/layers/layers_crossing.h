@@ -15,10 +15,10 @@ typedef struct {
 typedef struct {
   const CwLayerWork *work;
   int32_t item_count;
-  double (*x)[3];  // layer top, wall, open patches
-  CwBoxTree fixed; // of the triangles of wall and open patches; may be given
-  CwBoxTree top;   // of those of the layer top
-  uint8_t *active; // triangles that moved
+  const double (*moved_to)[3]; // the layer top, that of the last search
+  CwBoxTree fixed;             // of the triangles of wall and open patches; may be given
+  CwBoxTree top;               // of those of the layer top, in the order of `fixed`
+  uint8_t *active;             // triangles that moved
   int32_t *list, list_count;
   int searched; // a first time
   int32_t pair_count, pair_capacity;
