@@ -127,32 +127,39 @@ done:
   return status;
 }
 
+// Neighbours are found for each of two steps anew, so that they take no memory while layers are made.
 static CwStatus unfold_wall(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
-                            const int64_t *group, CwFlipMesh *mesh) {
+                            CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
+  int64_t *group = NULL;
   int32_t flips, folded;
+  CW_TRY(make_groups(in, surface, &group));
   CW_TRY(cw_flip_neighbours(context, surface->vertex_count, surface->triangle_count, group, mesh));
   CW_TRY(cw_wall_unfold(context, surface->vertex_count, (const double(*)[3])surface->x, surface->triangle_count, mesh,
                         group, &flips, &folded));
   cw_image_copy_triangles(in->images, surface, mesh->triangle);
-  if (flips && in->images->symmetry) { // copies have followed
-    CW_TRY(cw_flip_neighbours(context, surface->vertex_count, surface->triangle_count, group, mesh));
-  }
   if (flips || folded)
     cw_log_debug(cw_log_of(context), "%d edges flipped where the wall was folded; %d vertices with sharp faces", flips,
                  folded);
 done:
+  free(group);
+  free(mesh->near);
+  mesh->near = NULL;
   return status;
 }
 
 static CwStatus flip_top(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
-                         const double (*top)[3], const int64_t *group, CwFlipMesh *mesh) {
+                         const double (*top)[3], CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
+  int64_t *group = NULL;
   int32_t flips;
+  CW_TRY(make_groups(in, surface, &group));
+  CW_TRY(cw_flip_neighbours(context, surface->vertex_count, surface->triangle_count, group, mesh));
   CW_TRY(cw_layer_top_flip(context, (const double(*)[3])surface->x, top, surface->triangle_count, mesh, group, &flips));
   cw_image_copy_triangles(in->images, surface, mesh->triangle);
   cw_log_debug(cw_log_of(context), "%d edges of wall and layer top flipped", flips);
 done:
+  free(group);
   return status;
 }
 
@@ -203,13 +210,11 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   Snap snapping = {in, surface, NULL, &lock};
   CwFlipMesh mesh = {0};
-  int64_t *group = NULL;
   *layers = (CwLayers){0};
   cw_profiler_part(context, "layers: wall unfolded");
   CW_NEW_UNSET(mesh.triangle, triangles);
   memcpy(mesh.triangle, surface->triangle, (size_t)triangles * sizeof *mesh.triangle);
-  CW_TRY(make_groups(in, surface, &group));
-  CW_TRY(unfold_wall(context, in, surface, group, &mesh));
+  CW_TRY(unfold_wall(context, in, surface, &mesh));
   CW_NEW(constraint_count, n);
   CW_NEW(constraint_normal, n);
   CW_NEW(constraint_stays, n);
@@ -242,7 +247,7 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
                                     : cw_layers_make(&input, layers, outcome),
                outcome);
   cw_profiler_part(context, "layers: layer top flipped");
-  CW_TRY(flip_top(context, in, surface, (const double(*)[3])layers->top, group, &mesh));
+  CW_TRY(flip_top(context, in, surface, (const double(*)[3])layers->top, &mesh));
   cw_profiler_part(context, "layers: narrow concave edges");
   CW_TRY(cw_open_concave_edges(in->images, surface, &input, layers, &opened));
   layers->triangle_count = triangles;
@@ -251,7 +256,6 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
 done:
   free(mesh.triangle);
   free(mesh.near);
-  free(group);
   if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_layers_free(layers);
   free(constraint_count);
   free(constraint_normal);

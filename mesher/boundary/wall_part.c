@@ -62,7 +62,7 @@ CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWal
     part->target[i] = whole->target[v];
     if (part->least) part->least[i] = whole->least[v];
     if (part->constraint_stays) part->constraint_stays[i] = whole->constraint_stays[v];
-    if (!part->constraint_count) continue;
+    if (!part->constraint_count || !whole->constraint_count[v]) continue; // most pages stay zero, and take no memory
     part->constraint_count[i] = whole->constraint_count[v];
     memcpy(part->constraint_normal[i], whole->constraint_normal[v], sizeof *part->constraint_normal);
   }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/common/box_tree.h"
+#include "mesher/common/give_back.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/common/vtk.h"
@@ -56,6 +57,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     CW_TRY(cw_layers_limit_by_gap(&work, &tree));
     CW_TRY(cw_layers_grade(&work, NULL));
   }
+  cw_give_back(); // the blocks of the smoothing lie in the memory of each thread
   cw_profiler_part(input->context, "layers: repair");
   CW_TRY_STAGE(cw_layers_repair(&work, &tree, layers->top, &layers->repair_rounds, outcome), outcome);
   CW_TRY(cw_parallel_for(input->context, "layers: thicknesses", work.n, sizeof *layers->thickness, find_thickness,

@@ -39,10 +39,14 @@ typedef struct {
   CwLayerCrossing crossing;
 } Repair;
 
-static CwStatus judge_stale(void *context, int32_t i, void *out) {
+static CwStatus judge(void *context, int32_t f, void *out) {
   const Repair *repair = context;
-  *(double *)out = cw_layers_judge(repair->work, repair->stale[i], (const double(*)[3])repair->top);
+  *(double *)out = cw_layers_judge(repair->work, f, (const double(*)[3])repair->top);
   return CW_OK;
+}
+
+static CwStatus judge_stale(void *context, int32_t i, void *out) {
+  return judge(context, ((const Repair *)context)->stale[i], out);
 }
 
 static void set_moved(Repair *repair, int32_t v) {
@@ -367,8 +371,7 @@ static CwStatus start(Repair *repair, CwBoxTree *tree) {
   memset(tree, 0, sizeof *tree);
   CW_TRY(cw_parallel_for(work->in->context, "layers: ends", n, sizeof *repair->top, find_end, work, repair->top));
   memcpy(repair->thickness, work->t, (size_t)n * sizeof *repair->thickness);
-  for (int32_t f = 0; f < triangles; f++) repair->stale[f] = f;
-  CW_TRY(cw_parallel_for(work->in->context, "layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair,
+  CW_TRY(cw_parallel_for(work->in->context, "layers: prisms", triangles, sizeof *repair->quality, judge, repair,
                          repair->quality));
   for (int32_t f = 0; f < triangles; f++) {
     if (repair->quality[f] < cw_policy.prism_good) repair->bad[repair->bad_count++] = f;
