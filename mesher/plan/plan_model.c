@@ -366,7 +366,7 @@ static void visit_samples(const Places *places, double even, CwPlanModel *model)
 static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   Places places = {.size = model->size};
-  double even = 0, *outside = NULL;
+  double even = 0;
   CW_TRY(cw_size_samples(model->size, &places.count, &places.x, &places.volume));
   CW_NEW(places.work, places.count);
   CW_TRY(cw_parallel_for(model->context, "decomposition", places.count, sizeof *places.work, find_work, &places,
@@ -374,19 +374,27 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   for (int32_t i = 0; i < places.count; i++) even += places.work[i] / SAMPLES_OF_REGION / options->region_count;
   visit_samples(&places, even, model);
   CW_NEW(model->sample, model->sample_count);
-  CW_NEW(outside, model->sample_count);
   visit_samples(&places, even, model);
   for (int32_t i = 0; i < model->sample_count; i++) {
     model->sample_spacing = fmax(model->sample_spacing, model->sample[i].volume);
   }
   model->sample_spacing = cbrt(model->sample_spacing);
-  CW_TRY(cw_parallel_for(model->context, "decomposition", model->sample_count, sizeof *outside,
-                         find_work_outside_layers, model, outside));
-  for (int32_t i = 0; i < model->sample_count; i++) model->sample[i].work = outside[i];
 done:
   free(places.x);
   free(places.volume);
   free(places.work);
+  return status;
+}
+
+// Takes the layers out of the work of the samples. Collective.
+static CwStatus leave_layers_out(CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  double *outside = NULL;
+  CW_NEW(outside, model->sample_count);
+  CW_TRY(cw_parallel_for(model->context, "decomposition", model->sample_count, sizeof *outside,
+                         find_work_outside_layers, model, outside));
+  for (int32_t i = 0; i < model->sample_count; i++) model->sample[i].work = outside[i];
+done:
   free(outside);
   return status;
 }
@@ -403,8 +411,9 @@ CwStatus cw_plan_model_make(const CwContext *context, const CwCad *cad, const Cw
   model->region_count = options->region_count;
   model->base_size = options->base_size;
   CW_TRY(measure_walls(cad, options, model));
+  CW_TRY(sample_volume(options, model)); // first: the places of the size field need room for a while
   CW_TRY(sample_walls(model));
-  CW_TRY(sample_volume(options, model));
+  CW_TRY(leave_layers_out(model));
   CW_TRY(sample_edges(cad, options, model));
 done:
   if (status != CW_OK) cw_plan_model_free(model);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "mesher/common/give_back.h"
 #include "mesher/parallel/groups.h"
 #include "mesher/parallel/profiler.h"
 #include "mesher/thickness/even_columns.h"
@@ -86,6 +87,7 @@ CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
   *outcome = cw_outcomes_first(run->model.domain_count, of_domain);
   if (outcome->kind == CW_OUTCOME_DONE) cw_progress(run->context.log, faces);
   cw_progress_end(run->context.log);
+  cw_give_back(); // the columns' work is the most that a rank ever holds
   if (outcome->kind != CW_OUTCOME_DONE) goto done;
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->model.domain_count, "domains"));
