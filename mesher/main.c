@@ -63,6 +63,9 @@ int main(int argc, char **argv) {
   CW_TRY(cw_record_json(run.record, "side_by_side", sides));
   long long mine = cw_host_memory_peak(run.context.team), all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
+  // Together: the last rank that has them holds all that the ranks of a host share.
+  CW_TRY(cw_team_agree(team, status));
+  cw_mesh_run_free(&run);
   if (run.rank == 0 && !run.stopped) { // else there is no mesh to vouch for
     CW_TRY(cw_stage_path(&args, "mesh/record.json", &record_path));
     cw_record_set_peak_memory(run.record, all);
@@ -71,7 +74,6 @@ int main(int argc, char **argv) {
   }
 done:
   if (status != CW_OK) return cw_mpi_fail(args.log, status);
-  cw_mesh_run_free(&run);
   cw_profiler_free(&run.context.profiler);
   cw_record_free(run.record);
   free(record_path);
