@@ -146,7 +146,10 @@ NUMBER(double, size_least_share, 0.15, 1, "1",
        "of the wanted size: what is smaller is no feature of its own, resolved by its edges alone; breaks of two "
        "domains that are nearer share one place")
 NUMBER(double, region_cells, 270e3, none, "cells", "of a region at least, where the number of regions is automatic")
-NUMBER(double, regions_most, 140, none, "1", "of the whole mesh, where their size is automatic")
+NUMBER(double, regions_most, 140, none, "1",
+       "of the whole mesh, where their size is automatic and region_cells_most does not ask for more")
+NUMBER(double, region_cells_most, 2e6, none, "cells",
+       "of a region at most, where their size is automatic: 0.2 GB of the rank that fills it")
 NUMBER(double, region_cells_fewest, 5000, none, "cells",
        "of a region beyond these: planes through fewer meet in too few edges")
 NUMBER(double, prism_longest_open, 16, none, "first heights",

@@ -228,7 +228,7 @@ const CwCaseKey cw_case_keys[] = {
            "what another number of cells (--cells) does to the layers: they stay, or become similar: more and thinner "
            "ones of the same whole thickness"),
     {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_COMPUTED, "", 5000, 4e6, 0, NULL, AT(mesh.cells_per_region),
-     "about this many cells a region; computed: 270,000, above 38 million a 140th of all"},
+     "about this many cells a region; computed: 270,000, above 38 million a 140th of all, at most 2 million"},
     {"mesh", "least_regions", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 1000, 4, NULL, AT(mesh.least_regions),
      "least number of regions of a domain; beyond 4 no more than one for 5000 cells, and a warning says how many; with "
      "1 and few cells a domain is not divided"},

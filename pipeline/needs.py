@@ -25,7 +25,8 @@ SOLVED_BYTES_A_CELL = 500              # the case, in parts and whole, with the 
 # Bytes of memory of the mesher. Of a host, whatever its ranks: at least, and by cells to the power 2/3, for the
 # surfaces. Of a rank: at least, and by cells of the region that it fills.
 HOST_MEMORY, RANK_MEMORY = (170e6, 2700), (68e6, 100)
-REGION_CELLS, REGIONS_MOST = 270e3, 140  # of a region at least, and of a mesh at most (mesher/policy_table.h)
+# mesher/policy_table.h: cells of a region at least, regions of a mesh at most, until a region would have so many cells.
+REGION_CELLS, REGIONS_MOST, REGION_CELLS_MOST = 270e3, 140, 2e6
 SOLVE_MEMORY, SOLVE_MEMORY_A_CELL = 0.3e9, 2000
 UNITS = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 SMALL = 10**9  # bytes of disk below which a run says nothing
@@ -57,7 +58,7 @@ def host_memory(cells):
 
 def rank_memory(cells, of_region=None):
     """of_region: cells that a case asks for in one."""
-    region = min(of_region, cells) if of_region else max(REGION_CELLS, cells / REGIONS_MOST)
+    region = min(of_region, cells) if of_region else min(max(REGION_CELLS, cells / REGIONS_MOST), REGION_CELLS_MOST)
     return RANK_MEMORY[0] + RANK_MEMORY[1] * region
 
 

@@ -130,11 +130,10 @@ double cw_domain_longest_edge(const CwDomain *domain, int patch) {
   return cw_policy.prism_longest * layers->growth * layers->first_height;
 }
 
-// Cells a region. With more than some 140 regions in all a partition plane finds no good place in narrow parts, such as
-// beside the tongue, while memory never asks for so many.
-static double cells_per_region(const CwCase *table) {
-  if (table->mesh.cells_per_region > 0) return (double)table->mesh.cells_per_region;
-  return fmax(cw_policy.region_cells, (double)table->mesh.cells / cw_policy.regions_most);
+double cw_domain_region_cells(const CwMeshTable *mesh) {
+  if (mesh->cells_per_region > 0) return (double)mesh->cells_per_region;
+  double cells = fmax(cw_policy.region_cells, (double)mesh->cells / cw_policy.regions_most);
+  return fmin(cells, cw_policy.region_cells_most);
 }
 
 // True where all faces that turns bring to themselves lie on the side of the pipe: regions of the sectors are copied
@@ -158,7 +157,7 @@ CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase
                         double prism_factor, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
-  double regions = fmax(ceil(cells / cells_per_region(table)), cw_domain_least_regions(table, cells));
+  double regions = fmax(ceil(cells / cw_domain_region_cells(&table->mesh)), cw_domain_least_regions(table, cells));
   double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
   CW_NEW(least, cw_cad_patch_count(domain->cad));

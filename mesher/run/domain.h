@@ -97,6 +97,11 @@ double cw_domain_first_height(const CwDomain *domain, int face);
 // Longest edge on walls of a patch, m: longer edges make prisms of small determinant.
 double cw_domain_longest_edge(const CwDomain *domain, int patch);
 
+// Cells of a region: what the case asks for; else region_cells, or more where that were more than regions_most regions,
+// and never more than region_cells_most. So regions are as few as the planes find good places for, until the memory of
+// the rank that fills one asks for more.
+double cw_domain_region_cells(const CwMeshTable *mesh);
+
 // What `least_regions` of the case comes to in a domain of so many predicted cells.
 int cw_domain_least_regions(const CwCase *table, double cells);
 

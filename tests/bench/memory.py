@@ -17,7 +17,7 @@ n: cells. A: the program, CAD, plan, curves; B: the region in its hands; C: what
 it works on walls and layers; D: what they share when it is made. Coefficients are those of the least
 squares of relative errors; one below 0 is left out. The sizes but --held-out are fitted, three at least, and what the
 model says there stands beside what was measured. It then tells what 1,000 million cells need on 64 ranks of one
-machine, in as many regions as the largest size has; 1 GiB a rank is asked."""
+machine, in the regions that the mesher makes of them; 1 GiB a rank is asked."""
 import math
 import os
 import shutil
@@ -123,7 +123,7 @@ def print_less(points):
 def print_model(points, held_out):
     """Fitted to all sizes but one, which is modelled; then the large run."""
     known = [point for point in points if point not in held_out]
-    large = Point(LARGE, max(points, key=lambda point: point.cells).regions, LARGE_RANKS, None, None)
+    large = Point(LARGE, math.ceil(LARGE / needs.REGION_CELLS_MOST), LARGE_RANKS, None, None)
     for stage, title in STAGES.items():
         made = {figure: fit(known, figure, stage) for figure in TERMS}
         for point in held_out:

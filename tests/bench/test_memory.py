@@ -56,7 +56,9 @@ class Model(unittest.TestCase):
     def test_the_large_run_is_judged(self):
         few = [one._replace(largest={stage: 2e8 for stage in memory.STAGES}) for one in KNOWN]
         self.assertIn("asked 1 GiB a rank: met", said(print_model, few, []))
-        self.assertIn("asked 1 GiB a rank: missed", said(print_model, points(8e6, 2) + points(145e6, 2), []))
+        much = [one._replace(largest={stage: 3 * one.largest[stage] for stage in memory.STAGES}) for one in KNOWN]
+        self.assertIn("in 500 regions on 64 ranks", said(print_model, much, []))
+        self.assertIn("asked 1 GiB a rank: missed", said(print_model, much, []))
 
 
 class Less(unittest.TestCase):

@@ -143,8 +143,9 @@ class Sweep(unittest.TestCase):
         self.assertEqual(needs.rank_memory(3e6, 4e6), needs.rank_memory(3e6, 3e6))
         table = (SOURCE / "mesher/policy_table.h").read_text()
         policy = dict(re.findall(r"^NUMBER\(double, (\w+), ([\d.e]+)", table, re.M))
-        self.assertEqual([needs.REGION_CELLS, needs.REGIONS_MOST],
-                         [float(policy[name]) for name in ("region_cells", "regions_most")])
+        self.assertEqual([needs.REGION_CELLS, needs.REGIONS_MOST, needs.REGION_CELLS_MOST],
+                         [float(policy[name]) for name in ("region_cells", "regions_most", "region_cells_most")])
+        self.assertEqual(needs.rank_memory(1e9), needs.rank_memory(1e9, 2e6))
 
     def test_formats_and_cells_are_found_however_yaml_has_them(self):
         case = fresh("needs_case") / "case.yaml"
