@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Planes that touch a face or an edge where they ought to cross it: they are refused, so that others may be tried.
-// Modules without a test of their own that it runs: network_parallel, network_trace, network_make.
 #include <cstring>
 
 #include <BRepPrimAPI_MakeCylinder.hxx>

@@ -165,6 +165,7 @@ static void ellipses_of_a_bar(void **) {
   }
   bar.divide({{{{1, 0, 0}, 0.012}, -1, 0}});
   trace(bar, 0);
+  check_points(bar);
   double length = 0;
   for (int c = 0; c < bar.network.curve_count; c++)
     length += bar.network.curve[c].fine_length[bar.network.curve[c].fine_count - 1];

@@ -170,6 +170,66 @@ static void boxes_by_hand(void **) {
   check_prism(bent, 2e-3, &seed);
 }
 
+// A prism with the seeds of its edges.
+struct SeededPrism {
+  Prism prism;
+  CwCad *cad;
+  CwSizeGrid grid = {};
+
+  SeededPrism(const Prism &given, double base) : prism(given), cad(open_solid(prism.shape())) {
+    const double low[3] = {-0.04, -0.04, 0}, high[3] = {0.04, 0.04, prism.height * 1e-3};
+    CwSizeInput input = {};
+    input.cad = cad;
+    input.base_size = base;
+    check(cw_size_grid_make(low, high, 1e-3, 4000000, &grid));
+    check(cw_size_seed_edges(&input, &grid));
+  }
+  ~SeededPrism() {
+    cw_size_grid_free(&grid);
+    cw_cad_close(&cad);
+  }
+  void point(int edge, double s, double x[3]) const {
+    double a[3], b[3];
+    prism.ends(edge, a, b);
+    cw_lerp(a, b, s, x);
+  }
+};
+
+// Seeds lie so near to one another that the field along straight edges is what they ask for; an edge that is no crease
+// has none.
+static void edges_are_seeded_all_along(void **) {
+  const SeededPrism box({4, {{-15, -10}, {15, -10}, {15, 10}, {-15, 10}}, 10}, 2e-3);
+  const SeededPrism bent({5, {{-15, -10}, {0, -11.3}, {15, -10}, {15, 10}, {-15, 10}}, 30}, 2e-3);
+  double x[3];
+  for (int edge = 0; edge < 12; edge++) {
+    for (double s = 0; s <= 1; s += 0.01) {
+      box.point(edge, s, x);
+      assert_near(cw_size_grid_at(&box.grid, x), 10e-3, 1e-6);
+    }
+  }
+  for (double s = 0.1; s < 0.9; s += 0.01) {
+    bent.point(11, s, x);
+    assert_true(value_about(bent.grid, x) == cw_size_unset);
+  }
+}
+
+// Along two edges that draw near one another, to the one end or the other, no place is asked for more than the width
+// there.
+static void widths_of_a_taper(void **) {
+  for (int side = -1; side <= 1; side += 2) {
+    const double wide = side > 0 ? 6 : 4, narrow = side > 0 ? 4 : 6;
+    const SeededPrism taper({4, {{-30, -narrow}, {30, -wide}, {30, wide}, {-30, narrow}}, 70}, 24e-3);
+    for (int edge = 0; edge < 8; edge += 2) {
+      for (double s = 0.02; s < 0.98; s += 0.01) {
+        double x[3];
+        taper.point(edge, s, x);
+        const double width = asked_at(taper.prism, edge, x, 3.6e-3);
+        assert_true(value_about(taper.grid, x) <= width + 1e-6 && value_about(taper.grid, x) > width - 2e-3);
+      }
+    }
+  }
+}
+
 // The top of a cube of 20 mm is open; the sides are two patches.
 static std::string open_top(const TopoDS_Face &face) {
   gp_Pln plane = BRepAdaptor_Surface(face).Plane();
@@ -241,7 +301,10 @@ static void open_edges_ask_for_their_mean(void **) {
 }
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(creases_of_prisms), cmocka_unit_test(boxes_by_hand),
+  const CMUnitTest tests[] = {cmocka_unit_test(creases_of_prisms),
+                              cmocka_unit_test(boxes_by_hand),
+                              cmocka_unit_test(edges_are_seeded_all_along),
+                              cmocka_unit_test(widths_of_a_taper),
                               cmocka_unit_test(open_edges_seed_what_they_allow),
                               cmocka_unit_test(open_edges_ask_for_their_mean)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
