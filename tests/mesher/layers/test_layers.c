@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The envelope on solids whose layer top is known by hand, and what it refuses.
-// Modules without a test of their own that it runs: direction_smoothing_block, direction_smoothing_reach,
-// layers_crossing.
 #include <unistd.h>
 
 #include "layers_case.h"

@@ -198,7 +198,7 @@ struct SeededPrism {
 // Seeds lie so near to one another that the field along straight edges is what they ask for; an edge that is no crease
 // has none.
 static void edges_are_seeded_all_along(void **) {
-  const SeededPrism box({4, {{-15, -10}, {15, -10}, {15, 10}, {-15, 10}}, 10}, 2e-3);
+  const SeededPrism box({4, {{-15, -10}, {15, -10}, {15, 10}, {-15, 10}}, 10}, 40e-3);
   const SeededPrism bent({5, {{-15, -10}, {0, -11.3}, {15, -10}, {15, 10}, {-15, 10}}, 30}, 2e-3);
   double x[3];
   for (int edge = 0; edge < 12; edge++) {
