@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Root fillets, and a shaft through the inlet.
-// Modules without a test of their own that it runs: root_fillet, root_fillet_size.
+// Modules without a test of their own that it runs: root_fillet.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
