@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -26,9 +27,10 @@
 
 namespace {
 
-const double BEYOND = 2;  // of the greatest coordinate: how far the meridians reach
-const double SAME = 1e-7; // model units: curves that are periodic images already
-const double DISC = 0.5;  // of the way from the axis to the outline of a face: the disc that meridians leave out
+const double BEYOND = 2;    // of the greatest coordinate: how far the meridians reach
+const double SAME = 1e-7;   // model units: curves that are periodic images already
+const double EXACT = 1e-10; // model units: images that differ by the rounding of a file's numbers
+const double DISC = 0.5;    // of the way from the axis to the outline of a face: the disc that meridians leave out
 enum { SAMPLES = 5, OUTLINE_STEPS = 40, ANGLES = 48, BESIDE = 2 };
 
 // Whether the axis goes through a plane face, at right angles.
@@ -188,6 +190,7 @@ public:
   TopoDS_Shape make(double unit);
 
 private:
+  using Loops = std::vector<std::vector<CwEdgeUse>>;
   const CwImagesOfSolid &images;
   CwShellBuilder builder;
   std::vector<std::vector<int>> vertex, edge; // in the builder: of the first of a set, by turns
@@ -206,7 +209,8 @@ private:
   void add_vertices();
   void add_edges();
   CwEdgeUse use_of(const TopoDS_Edge &used, const TopoDS_Face &face) const;
-  void add_face(int f);
+  Loops loops_of(int f) const;
+  void add_face(int f, const Loops &loops);
 };
 
 Handle(Geom_Curve) Copies::copied_curve(int first, int turns, double range[2]) const {
@@ -288,34 +292,42 @@ CwEdgeUse Copies::use_of(const TopoDS_Edge &used, const TopoDS_Face &face) const
   return {e, forward, made};
 }
 
-void Copies::add_face(int f) {
+// The loops of a first face, with the numbers of its edges.
+Copies::Loops Copies::loops_of(int f) const {
   const TopoDS_Face face = TopoDS::Face(images.faces(f + 1).Oriented(TopAbs_FORWARD));
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  std::vector<std::vector<CwEdgeUse>> loops;
+  Loops loops;
   for (TopExp_Explorer wire(face, TopAbs_WIRE); wire.More(); wire.Next()) {
     loops.emplace_back();
     for (BRepTools_WireExplorer at(TopoDS::Wire(wire.Current()), face); at.More(); at.Next())
       loops.back().push_back(use_of(at.Current(), face));
   }
-  for (int k = 0; k < (images.is_fixed(f) ? 1 : images.count); k++) {
-    std::vector<std::vector<CwEdgeUse>> turned = loops;
-    for (std::vector<CwEdgeUse> &loop : turned)
-      for (CwEdgeUse &use : loop) use.edge = copy_of(edge, images.edge, use.edge, k);
-    builder.face(Handle(Geom_Surface)::DownCast(surface->Transformed(images.turn(k))), turned,
-                 images.faces(f + 1).Orientation() == TopAbs_FORWARD, "", CW_PATCH_WALL, std::to_string(f + 1));
-  }
+  return loops;
 }
 
+// `loops`: of the first face of its set.
+void Copies::add_face(int f, const Loops &loops) {
+  const int first = images.face.first[f], turns = images.face.turns[f];
+  const TopoDS_Face face = TopoDS::Face(images.faces(first + 1));
+  Loops turned = loops;
+  for (std::vector<CwEdgeUse> &loop : turned)
+    for (CwEdgeUse &use : loop) use.edge = copy_of(edge, images.edge, use.edge, turns);
+  builder.face(Handle(Geom_Surface)::DownCast(BRep_Tool::Surface(face)->Transformed(images.turn(turns))), turned,
+               face.Orientation() == TopAbs_FORWARD, "", CW_PATCH_WALL, std::to_string(f + 1));
+}
+
+// Faces stay in the order of the given solid.
 TopoDS_Shape Copies::make(double unit) {
+  std::map<int, Loops> loops;
   add_vertices();
   add_edges();
   for (int f = 0; f < images.faces.Extent(); f++)
-    if (images.face.first[f] == f) add_face(f);
+    if (images.face.first[f] == f) loops[f] = loops_of(f);
+  for (int f = 0; f < images.faces.Extent(); f++) add_face(f, loops[images.face.first[f]]);
   const std::unique_ptr<CwSolid> solid(builder.finish("", unit));
   return solid->solid;
 }
 
-// Why the part stays as it is, "" where it became symmetric; *off: by how much its faces moved, at most.
+// Why the part stays as it is, "" where it is symmetric now; *off: by how much its faces moved, at most.
 std::string make_symmetric(int count, double tolerance, double unit, CwCadPart &part, double *off) {
   CwImagesOfSolid images;
   CwCadPart made = part;
@@ -326,6 +338,7 @@ std::string make_symmetric(int count, double tolerance, double unit, CwCadPart &
     why = "";
   }
   const std::vector<TopoDS_Face> faces = faces_to_cut(images);
+  if (faces.empty() && images.off <= EXACT && made.solid.IsSame(part.solid)) return "";
   if (!faces.empty()) {
     cut_meridians(faces, images, made);
     why = images.find(made.solid, count, tolerance, unit);

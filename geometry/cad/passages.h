@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Makes a wheel of z equal passages exactly z-fold symmetric, so that the mesher meshes one and turns it: CAD draws a
 // hub in one piece, and its blades are alike within its tolerance alone. Faces of revolution are cut along z meridians;
-// then all faces, edges and vertices are made anew as periodic images of those of one passage.
+// then all faces, edges and vertices are made anew as periodic images of those of one passage, in the order of the
+// file's. A wheel whose passages are that already, but for rounding, keeps its bits.
 #pragma once
 
 #include "geometry/cad/cad_parts.h"

@@ -104,6 +104,42 @@ static void what_is_not_symmetric_stays(void **) {
   if (why.find("is 0.1 mm off its image") == std::string::npos) fail_msg("%s", why.c_str());
 }
 
+// The faces of a wheel of images in another order, all of it pushed aside by less than the tolerance.
+static TopoDS_Shape reordered_and_moved(const TopoDS_Shape &solid, double aside) {
+  const TopTools_IndexedMapOfShape faces = cw_cad_faces(solid);
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  TopoDS_Solid made;
+  gp_Trsf move;
+  move.SetTranslation(gp_Vec(aside, 0, 0));
+  builder.MakeShell(shell);
+  for (int f = 0; f < faces.Extent(); f++) builder.Add(shell, faces(1 + (11 * f + 3) % faces.Extent()));
+  shell.Closed(Standard_True);
+  builder.MakeSolid(made);
+  builder.Add(made, shell);
+  return BRepBuilderAPI_Transform(made, move, Standard_True).Shape();
+}
+
+static void faces_keep_their_order(void **) {
+  const CwCadPart wheel = made_of(ring_less(small_box(40, -2, -1, 30, 4, 12), 5), 5);
+  const TopoDS_Shape given = reordered_and_moved(wheel.solid, 1e-6);
+  const CwCadPart made = made_of(given, 5);
+  const TopTools_IndexedMapOfShape before = cw_cad_faces(given), after = cw_cad_faces(made.solid);
+  assert_int_equal(before.Extent(), 35);
+  assert_int_equal(after.Extent(), before.Extent());
+  for (int f = 1; f <= before.Extent(); f++) {
+    GProp_GProps old, fresh;
+    BRepGProp::SurfaceProperties(before(f), old);
+    BRepGProp::SurfaceProperties(after(f), fresh);
+    assert_true(old.CentreOfMass().Distance(fresh.CentreOfMass()) < tolerance);
+  }
+}
+
+static void images_keep_their_bits(void **) {
+  const CwCadPart wheel = made_of(ring_less(small_box(40, -2, -1, 30, 4, 12), 5), 5);
+  assert_true(made_of(wheel.solid, 5).solid.IsSame(wheel.solid));
+}
+
 // Why a wheel stays as it is: an exception without text is a reason too.
 static void failures_have_a_text(void **) {
   assert_string_equal(cw_solid_failure_text(Standard_Failure()).c_str(), "failed without a word");
@@ -118,6 +154,8 @@ int main(void) {
       cmocka_unit_test(a_seam_that_ends_at_a_blade),
       cmocka_unit_test(a_nose_that_ends_on_the_axis),
       cmocka_unit_test(what_is_not_symmetric_stays),
+      cmocka_unit_test(faces_keep_their_order),
+      cmocka_unit_test(images_keep_their_bits),
       cmocka_unit_test(failures_have_a_text),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
