@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/step_file.h"
 
+#include <fstream>
+
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRep_Builder.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDataStd_Name.hxx>
 #include <TopoDS_Shell.hxx>
+#include <XSControl_WorkSession.hxx>
 
 #include "geometry/solid.hpp"
 #include "geometry/solid_scale.hpp"
@@ -34,9 +40,20 @@ void add_faces(const Handle(XCAFDoc_ShapeTool) & shapes, const CwSolid &solid) {
   }
 }
 
+// With all digits of each number: whoever reads the file has the very solids that were meshed. The library's own way
+// leaves twelve decimals.
+bool write_exactly(STEPControl_Writer &writer, const char *path) {
+  StepData_StepWriter text(writer.Model());
+  text.FloatWriter().SetFormat("%.16E");
+  text.FloatWriter().SetFormatForRange("0.", 0, 1e-99); // the library has no room for an exponent of three digits
+  text.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
+  std::ofstream stream(path, std::ios::binary);
+  return text.Print(stream) && stream.flush().good();
+}
+
 CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const CwAtomicFile &file) {
   CwStepDocument document;
-  const Handle(XCAFDoc_ShapeTool) & shapes = document.shapes;
+  const Handle(XCAFDoc_ShapeTool) &shapes = document.shapes;
   for (int i = 0; i < count; i++) {
     const CwSolid solid = cw_solid_scaled(*solids[i], solids[i]->unit / millimetre);
     const TDF_Label label = shapes->AddShape(solid.solid, Standard_False);
@@ -58,7 +75,7 @@ CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const C
   header.SetName(new TCollection_HAsciiString("pump"));
   header.SetTimeStamp(new TCollection_HAsciiString("2000-01-01T00:00:00"));
   header.SetOriginatingSystem(new TCollection_HAsciiString("Cutwater"));
-  if (writer.Write(file.temporary_path) != IFSelect_RetDone)
+  if (!write_exactly(writer.ChangeWriter(), file.temporary_path))
     return CW_FAIL(CW_ERR_IO, "%s: cannot be written (is the disk full?)", file.final_path);
   return CW_OK;
 }

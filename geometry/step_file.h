@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// STEP AP214 in mm: one product a solid, named by its domain; each face named by its patch.
+// STEP AP214 in mm: one product a solid, named by its domain; each face named by its patch; numbers with all digits.
 #pragma once
 
 #include "geometry/beside.h"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// pump.step as the reader of CAD files finds it: the names of products and faces, and the volumes, are those written.
+// pump.step as the reader of CAD files finds it: the names of products and faces, and the corners to the last bit, are
+// those written.
 #include <map>
 #include <string>
 
+#include <BRep_Tool.hxx>
 #include <TopoDS.hxx>
 
 #include "geometry/cad/cad_file.h"
@@ -17,7 +19,16 @@
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
-static void names_and_volumes_survive(void **) {
+static void assert_same_corners(const TopoDS_Shape &before, const TopoDS_Shape &after) {
+  TopTools_IndexedMapOfShape old, read;
+  TopExp::MapShapes(before, TopAbs_VERTEX, old);
+  TopExp::MapShapes(after, TopAbs_VERTEX, read);
+  assert_int_equal(read.Extent(), old.Extent());
+  for (int v = 1; v <= old.Extent(); v++)
+    assert_near(BRep_Tool::Pnt(TopoDS::Vertex(read(v))).Distance(BRep_Tool::Pnt(TopoDS::Vertex(old(v)))), 0, 0);
+}
+
+static void names_and_corners_survive(void **) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
   CwSolid *solids[2];
@@ -46,12 +57,13 @@ static void names_and_volumes_survive(void **) {
     assert_int_equal(cw_measure_solid(&again, &after), CW_OK);
     assert_true(after.valid);
     assert_near(after.volume / before.volume, 1, 1e-6);
+    assert_same_corners(solids[i]->solid, body.solid); // the paper's model unit is 1 mm
     cw_solid_free(&solids[i]);
   }
   cw_cad_bodies_free(&bodies);
 }
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(names_and_volumes_survive)};
+  const CMUnitTest tests[] = {cmocka_unit_test(names_and_corners_survive)};
   return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
