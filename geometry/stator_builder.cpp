@@ -6,6 +6,8 @@
 #include <map>
 #include <stdexcept>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRep_Tool.hxx>
 #include <ElSLib.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_Circle.hxx>
@@ -17,13 +19,16 @@
 
 namespace {
 
-// (u,v) of a point on a plane, cylinder or cone; u of the latter two lies in [0, 2 pi).
+// A curve in a plane, line for line and circle for circle, as OpenCASCADE has it of an edge without one.
+Handle(Geom2d_Curve)
+    curve_in_plane(const Handle(Geom_Curve) & curve, double a, double b, const Handle(Geom_Surface) & plane) {
+  return BRep_Tool::CurveOnPlane(BRepBuilderAPI_MakeEdge(curve, a, b).Edge(), plane, TopLoc_Location(), a, b);
+}
+
+// (u,v) of a point on a cylinder or cone; u lies in [0, 2 pi).
 gp_Pnt2d parameters(const GeomAdaptor_Surface &surface, const gp_Pnt &p) {
   double u = 0, v = 0;
   switch (surface.GetType()) {
-  case GeomAbs_Plane:
-    ElSLib::Parameters(surface.Plane(), p, u, v);
-    break;
   case GeomAbs_Cylinder:
     ElSLib::Parameters(surface.Cylinder(), p, u, v);
     break;
@@ -128,9 +133,11 @@ CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool firs
     for (size_t i = 0; i < face.loop.size(); i++) {
       const LoopEdge &use = face.loop[i];
       const Edge &edge = edges_[use.edge];
-      Handle(Geom2d_BSplineCurve) curve;
+      Handle(Geom2d_Curve) curve;
       if (use.border)
         curve = cw_bspline_line_2d(edge.a, edge.b, use.border->first, use.border->second);
+      else if (adaptor.GetType() == GeomAbs_Plane)
+        curve = curve_in_plane(edge.curve, edge.a, edge.b, face.surface);
       else
         curve = cw_bspline_curve_2d(curve_points_, edge.a, edge.b,
                                     [&](double t) { return parameters(adaptor, edge.curve->Value(t)); });

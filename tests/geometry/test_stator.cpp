@@ -14,7 +14,9 @@
 #include <GProp_GProps.hxx>
 #include <GeomLProp_SLProps.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_Surface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -53,6 +55,23 @@ static void valid_and_closed(void **) {
   assert_true(measured.closed);
   assert_int_equal(measured.face_count, 51);
   assert_true(measured.largest_tolerance < 1e-7); // 1e-4 mm, far below the 1e-3 mm allowed
+}
+
+// Lines and circles in planes are that in the parameters too, so that a STEP file, which has no such curves of planes,
+// loses nothing.
+static void curves_in_planes(void **) {
+  int count = 0;
+  for (const CwSolidFace &face : stator->faces) {
+    if (BRep_Tool::Surface(face.face)->DynamicType() != STANDARD_TYPE(Geom_Plane)) continue;
+    for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next(), count++) {
+      double first, last;
+      const TopoDS_Edge edge = TopoDS::Edge(at.Current());
+      const std::string in_space = BRep_Tool::Curve(edge, first, last)->DynamicType()->Name();
+      const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(edge, face.face, first, last);
+      assert_string_equal(flat->DynamicType()->Name() + strlen("Geom2d_"), in_space.c_str() + strlen("Geom_"));
+    }
+  }
+  assert_true(count > 0);
 }
 
 static void dimensions(void **) {
@@ -337,10 +356,10 @@ static void same_bits(void **) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(valid_and_closed), cmocka_unit_test(dimensions), cmocka_unit_test(patches),
-      cmocka_unit_test(outlet),           cmocka_unit_test(volume),     cmocka_unit_test(creases),
-      cmocka_unit_test(parameter_sets),   cmocka_unit_test(same_bits),  cmocka_unit_test(curvature),
-      cmocka_unit_test(families),
+      cmocka_unit_test(valid_and_closed), cmocka_unit_test(curves_in_planes), cmocka_unit_test(dimensions),
+      cmocka_unit_test(patches),          cmocka_unit_test(outlet),           cmocka_unit_test(volume),
+      cmocka_unit_test(creases),          cmocka_unit_test(parameter_sets),   cmocka_unit_test(same_bits),
+      cmocka_unit_test(curvature),        cmocka_unit_test(families),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
