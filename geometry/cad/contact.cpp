@@ -14,8 +14,9 @@
 
 namespace {
 
-const double NEAR = 0.2;    // of the model unit, of which the wheel has 128 to 256: a gap up to it is meant to be none
-const double MOST = 0.5;    // of a face's points: it can be one part alone that so many touch
+const double NEAR = 0.2; // of the model unit, of which the wheel has 128 to 256: a gap up to it is meant to be none
+const double MOST = 0.5; // of a face's points: it can be one part alone that so many touch
+const double EDGES = 2;  // tolerances that edges may be apart where each of their faces is off by one: 1 / sin(30 deg)
 const double FACING = -0.7; // cosine of the normals of faces that face one another, by their triangles
 
 double squared_distance(const double a[3], const double b[3]) {
@@ -191,7 +192,7 @@ CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, do
         tools.push_back(cw_cad_faces(before[face.part].solid)(face.face + 1));
       }
       if (tools.empty()) continue;
-      const CwStatus status = cut_part(tools, tolerance / parts->unit, parts->part[p]);
+      const CwStatus status = cut_part(tools, EDGES * tolerance / parts->unit, parts->part[p]);
       if (status != CW_OK) return status;
       cw_log(log, "%s: cut along the faces of its neighbours where they touch in part", before[p].domain.c_str());
     }

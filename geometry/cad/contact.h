@@ -29,7 +29,8 @@ CwStatus cw_contact_find(const CwCadParts *parts, const CwSurvey *survey, const 
 int cw_contact_faces(const CwSurvey *survey, const CwSurveySample *sample, int other);
 
 // Cuts the faces that touch another part with a share of theirs along the outline of the other's faces, so that each
-// touches wholly or not at all. *cut: how many there were. Faces are counted anew after it.
+// touches wholly or not at all. Edges of both that lie within two tolerances are one: that far apart are those of faces
+// which meet at 60 degrees or more, each off by one. *cut: how many there were. Faces are counted anew after it.
 CwStatus cw_contact_imprint(const CwSurvey *survey, const CwContact *contact, double tolerance, CwLog *log,
                             CwCadParts *parts, int *cut);
 

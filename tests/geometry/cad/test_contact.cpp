@@ -2,6 +2,8 @@
 // Boxes side by side: which faces touch, with what share, at what gap; and what is cut.
 #include "cad/small_parts.hpp"
 
+#include <BRepPrimAPI_MakeCone.hxx>
+
 // Faces of a part that touch another, and the least share of any.
 static int touching(const SmallParts &small, int part, double *least) {
   int count = 0;
@@ -42,6 +44,39 @@ static void faces_that_touch_in_part_are_cut(void **) {
   for (int f = 0; f < small.survey.face_count; f++)
     if (small.contact[f].part == 1) area += small.survey.face[f].area;
   assert_near(area, 25e-6, 1e-12);
+}
+
+// The water in a wheel and a ring about it that goes on above: both ends of the contact, at its neck and along it, are
+// off by 0.8 of the tolerance at once, in any directions. The ring's faces must be cut to what they touch.
+static void contacts_off_in_two_directions_are_cut(void **) {
+  enum { CYLINDER, CONE, PLANE_AND_CYLINDER, FORMS };
+  const double off = 0.8 * small_tolerance / 1e-3, slope = 0.3, reach = 101;
+  const auto widening = [&](double z, double wider, double height) {
+    const double from = reach + wider + slope * (z + 90);
+    return BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(0, 0, z), gp::DZ()), from, from + slope * height, height).Shape();
+  };
+  for (int form = 0; form < FORMS; form++)
+    for (int radial = -1; radial <= 1; radial++)
+      for (int axial = -1; axial <= 1; axial++) {
+        const double below = -90 - axial * off, wider = radial * off;
+        TopoDS_Shape wheel = small_cylinder(below, reach + wider, 40 - below), ring;
+        if (form == CONE) {
+          wheel = widening(below, wider, 40 - below);
+          ring = BRepAlgoAPI_Cut(small_cylinder(-90, 200, 180), widening(-91, 0, 182)).Shape();
+        } else if (form == CYLINDER) {
+          ring = BRepAlgoAPI_Cut(small_cylinder(-90, 200, 180), small_cylinder(-91, reach, 182)).Shape();
+        } else {
+          ring = BRepAlgoAPI_Cut(small_cylinder(-110, 200, 200), small_cylinder(-90, reach, 182)).Shape();
+          ring = BRepAlgoAPI_Cut(ring, small_cylinder(-120, 60, 240)).Shape();
+        }
+        SmallParts small({{"wheel", wheel}, {"ring", ring}});
+        double share;
+        if (small.look_imprinted()) fail_msg("%s", cw_fail_message());
+        for (int part = 0; part < 2; part++) {
+          assert_int_equal(touching(small, part, &share), form == PLANE_AND_CYLINDER ? 2 : 1);
+          assert_near(share, 1, 0);
+        }
+      }
 }
 
 static void gaps_are_told_with_their_size(void **) {
@@ -118,6 +153,7 @@ int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(equal_faces_touch_wholly),
                                      cmocka_unit_test(faces_that_touch_in_part_are_cut),
                                      cmocka_unit_test(the_gap_beside_a_contact_is_measured),
+                                     cmocka_unit_test(contacts_off_in_two_directions_are_cut),
                                      cmocka_unit_test(gaps_are_told_with_their_size),
                                      cmocka_unit_test(faces_that_touch_two_parts_are_told),
                                      cmocka_unit_test(far_parts_do_not_touch),
