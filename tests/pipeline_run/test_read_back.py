@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Generated pumps, read back from their STEP file as somebody's CAD: by names alone the same domains and patches,
-groups of walls, what turns, and passages, and nearly the same mesh, through all stages. CUTWATER_READ_BACK names cases
-of cases/; without it the pump is that of the shared run."""
+groups of walls, what turns, and passages; with the speeds along the walls, which only the design knows, nearly the same
+mesh, through all stages. CUTWATER_READ_BACK names cases of cases/; without it the pump is that of the shared run."""
 import os
 import re
 import shutil
@@ -24,6 +24,13 @@ def as_cad(case, model):
         "\ncad:\n  files: [pump.step]\n  domains:\n" + domains)
 
 
+def speeds(model):
+    """The end of that text: the speeds that the first layers follow from."""
+    return "  patches:\n" + "".join(
+        f"    {of['name']}: {{faces: [{of['name']}], velocity_m_per_s: {of['flow']['speed_m_per_s']!r}}}\n"
+        for domain in model["domains"] for of in domain["patches"] if "flow" in of)
+
+
 def parts(run):
     """What has to be the same whether a design or a file made the pump."""
     model = read_json(run, "geometry/model.json")
@@ -42,14 +49,17 @@ def meshed(run):
 class ReadBack(unittest.TestCase):
     def read_back(self, name, case, made):
         run = fresh(f"read-back-{name}")
-        read = run / "case.yaml"
-        read.write_text(as_cad(case.read_text(), read_json(made, "geometry/model.json")))
+        read, model = run / "case.yaml", read_json(made, "geometry/model.json")
+        read.write_text(as_cad(case.read_text(), model))
         shutil.copy(made / "geometry/pump.step", run)
         done(self, "geometry", run, case=read)
         self.assertEqual(parts(run), parts(made))
         rows = (run / "geometry/faces_sheet.csv").read_text().splitlines()
         faces = (run / "geometry/faces.csv").read_text().splitlines()
         self.assertEqual(len(rows), len(faces))
+        read.write_text(read.read_text() + speeds(model))
+        done(self, "geometry", run, case=read)
+        self.assertEqual(parts(run), parts(made))
         for stage in ("mesh", "export", "report"):
             done(self, stage, run, case=read, cells=CELLS, ranks=2)
         cells, angles = meshed(run)
