@@ -6,6 +6,6 @@
 #include "pipeline/status.h"
 
 // Tilts the columns beside concave creases and tilted constraints for the thicknesses t. The first time it sets every
-// column, later those that the change of thicknesses concerns. Collective.
+// column that they reach, later those that the change of thicknesses concerns. Collective.
 CwStatus cw_smooth_directions(CwLayerWork *work);
 void cw_smoothing_free(struct CwSmoothing **smoothing);

@@ -282,13 +282,13 @@ done:
   return status;
 }
 
-// Forgets the pairs of what moved: it is looked at anew.
+// Forgets the pairs of what moved, which is looked at anew; the wall's own stay.
 static void drop_active(CwLayerCrossing *crossing) {
   int32_t kept = 0;
   for (int32_t i = 0; i < crossing->pair_count; i++) {
     const CwLayerPair *pair = &crossing->pair[i];
-    int stale = crossing->active[pair->f] || (pair->kind_g == 0 && crossing->active[pair->g]);
-    if (!stale) crossing->pair[kept++] = *pair;
+    int moved = crossing->active[pair->f] || (pair->kind_g == 0 && crossing->active[pair->g]);
+    if (pair->kind_f != 0 || !moved) crossing->pair[kept++] = *pair;
   }
   crossing->pair_count = kept;
 }

@@ -112,11 +112,11 @@ done:
   return status;
 }
 
-// Walks along the open edges: seeds `grid`, and returns the mean share of what is allowed in `wanted`; either may be
-// NULL.
+// Walks along the open edges: seeds `grid`, and returns the share of what is allowed in `wanted`, its mean over their
+// length; either may be NULL.
 static double walk_open_edges(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
   const CwCad *cad = input->cad;
-  double shares = 0, count = 0;
+  double shares = 0, length = 0;
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     int face[2];
     double t[2], from[3], to[3];
@@ -127,18 +127,19 @@ static double walk_open_edges(const CwSizeInput *input, const CwSizeGrid *wanted
     cw_cad_edge_point(cad, e, t[0], from, NULL);
     for (int i = 1; i <= MOST_PARTS; i++) {
       cw_cad_edge_point(cad, e, t[0] + (t[1] - t[0]) * i / MOST_PARTS, to, NULL);
-      int parts = (int)ceil(cw_distance(from, to) / (grid ? grid : wanted)->spacing);
+      const double part = cw_distance(from, to);
+      int parts = (int)ceil(part / (grid ? grid : wanted)->spacing);
       for (int j = 0; j <= parts; j++) {
         double x[3];
         cw_lerp(from, to, parts > 0 ? (double)j / parts : 0, x);
         if (grid) cw_size_grid_seed(grid, x, size);
-        if (wanted) shares += size / cw_size_grid_at(wanted, x);
-        count++;
+        if (wanted) shares += size / cw_size_grid_at(wanted, x) * part / (parts + 1);
       }
+      length += part;
       cw_copy(to, from);
     }
   }
-  return count > 0 ? shares / count : 0;
+  return length > 0 ? shares / length : 0;
 }
 
 void cw_size_seed_open_edges(const CwSizeInput *input, CwSizeGrid *grid) {

@@ -237,14 +237,15 @@ static std::string open_top(const TopoDS_Face &face) {
   return std::fabs(plane.Axis().Direction().X()) > 0.5 ? "ends,wall" : "sides,wall";
 }
 
-struct OpenCube {
-  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(20, 20, 20).Shape(), open_top);
+struct OpenBox {
+  CwCad *cad;
   CwSizeInput input = {};
   CwSizeGrid grid = {};
   double allowed[4] = {};
 
-  explicit OpenCube(double spacing) {
-    const double low[3] = {0, 0, 0}, high[3] = {0.02, 0.02, 0.02};
+  explicit OpenBox(double spacing, double length = 20, double width = 20)
+      : cad(open_solid(BRepPrimAPI_MakeBox(length, width, 20).Shape(), open_top)) {
+    const double low[3] = {0, 0, 0}, high[3] = {1e-3 * length, 1e-3 * width, 0.02};
     for (int p = 0; p < 4; p++) {
       const std::string name = cw_cad_patch_name(cad, p);
       allowed[p] = name == "ends" ? 1e-3 : name == "sides" ? 3e-3 : 1e-6; // those of floor and top do not count
@@ -254,14 +255,14 @@ struct OpenCube {
     input.open_edge_size = allowed;
     check(cw_size_grid_make(low, high, spacing, 4000000, &grid));
   }
-  ~OpenCube() {
+  ~OpenBox() {
     cw_size_grid_free(&grid);
     cw_cad_close(&cad);
   }
 };
 
 static void open_edges_seed_what_they_allow(void **) {
-  OpenCube cube(0.7e-3);
+  OpenBox cube(0.7e-3);
   cw_size_seed_open_edges(&cube.input, &cube.grid);
   for (double s = 0; s <= 1; s += 0.01) {
     const double end[3] = {0.02, 0.02 * s, 0.02}, side[3] = {0.02 * s, 0, 0.02};
@@ -282,7 +283,7 @@ static void open_edges_seed_what_they_allow(void **) {
 // The mean of what is allowed over what is wanted: of even sizes, and of sizes that rise along x.
 static void open_edges_ask_for_their_mean(void **) {
   for (double spacing : {0.7e-3, 0.4e-3}) {
-    OpenCube cube(spacing);
+    OpenBox cube(spacing);
     for (double rise : {0.0, 0.2}) {
       for (int64_t node = 0; node < (int64_t)cw_size_grid_nodes(&cube.grid); node++) {
         double x = cube.grid.low[0] + cube.grid.spacing * (double)(node % cube.grid.count[0]);
@@ -293,7 +294,12 @@ static void open_edges_ask_for_their_mean(void **) {
       assert_near(cw_size_open_edges_ask(&cube.input, &cube.grid), wanted, 1e-4);
     }
   }
-  OpenCube closed(0.7e-3);
+  for (double spacing : {1.8e-3, 0.2e-3}) { // long edges count by their length, however finely they are looked at
+    OpenBox bar(spacing, 60, 6);
+    for (int64_t node = 0; node < (int64_t)cw_size_grid_nodes(&bar.grid); node++) bar.grid.value[node] = 4e-3F;
+    assert_near(cw_size_open_edges_ask(&bar.input, &bar.grid), (60 * 3.0 / 4 + 6 * 1.0 / 4) / 66, 1e-6);
+  }
+  OpenBox closed(0.7e-3);
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(20, 20, 20).Shape());
   closed.input.cad = cad;
   assert_near(cw_size_open_edges_ask(&closed.input, &closed.grid), 0, 0);
