@@ -60,7 +60,6 @@ static void begin(Flat *flat, int nu, int nv, double shake, uint64_t *seed) {
                                   .reach = malloc((size_t)n * sizeof *flat->smoothing.reach),
                                   .member = malloc((size_t)n * sizeof *flat->smoothing.member),
                                   .place = malloc((size_t)n * sizeof *flat->smoothing.place)};
-  assert_int_equal(cw_scratch_make((int64_t)n * (int64_t)sizeof(int32_t), &flat->smoothing.local), CW_OK);
 }
 
 static void add_source(Flat *flat, int32_t v, double opening, double ux, double uy) {
@@ -106,7 +105,6 @@ static void end(Flat *flat) {
   free(flat->smoothing.reach);
   free(flat->smoothing.member);
   free(flat->smoothing.place);
-  cw_scratch_free(&flat->smoothing.local);
   cw_layers_work_free(&flat->work);
   free(flat->target);
   free(flat->constraint_count);
