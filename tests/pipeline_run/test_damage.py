@@ -19,8 +19,7 @@ READERS = {"geometry": ("mesh", "export", "report"), "mesh": ("export", "report"
 
 
 def make_run(folder, case):
-    for name, options in (("geometry", {}), ("mesh", {"cells": CELLS, "ranks": 2}), ("export", {"ranks": 2}),
-                          ("report", {})):
+    for name, options in (("geometry", {}), ("mesh", {"cells": CELLS, "ranks": 2}), ("export", {"ranks": 2})):
         done(unittest.TestCase(), name, folder, case=case, **options)
 
 

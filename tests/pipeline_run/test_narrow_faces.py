@@ -2,23 +2,31 @@
 """The paper's pump with root fillets, at few cells: fillets narrower than half an edge are left out, which log, record
 and headline tell, and the mesh is as sound as without them. Cells enough show them."""
 import re
+import shutil
 import unittest
 
 from cutwater import changed_case, command, done, execute, fresh, read_json, record, said
 
-COARSE = 120000
+COARSE = 150000
 RADIUS = 0.5  # mm
 
 
 class NarrowFaces(unittest.TestCase):
-    def pump(self, name):
+    @classmethod
+    def setUpClass(cls):
+        cls.pump = fresh("fillets")
+        fillets = f"  root_fillet_radius_mm: {RADIUS}\n"
+        cls.case = changed_case(cls.pump, ("  blade_count: 6 ", f"{fillets}  blade_count: 6 "))
+        done(cls(), "geometry", cls.pump, case=cls.case)
+
+    def copy(self, name):
+        """A run folder with the geometry of the pump."""
         folder = fresh(name)
-        case = changed_case(folder, ("  blade_count: 6 ", f"  root_fillet_radius_mm: {RADIUS}\n  blade_count: 6 "))
-        done(self, "geometry", folder, case=case)
-        return folder, case
+        shutil.copytree(self.pump / "geometry", folder / "geometry")
+        return folder, self.case
 
     def test_few_cells_leave_fillets_out(self):
-        folder, case = self.pump("narrow-faces")
+        folder, case = self.copy("narrow-faces")
         told = done(self, "mesh", folder, case=case, cells=COARSE).stdout
         results = record(folder, "mesh")["results"]
         rotor, stator = results["domains"]
@@ -39,12 +47,12 @@ class NarrowFaces(unittest.TestCase):
             self.assertLess(abs(domain["volume_error"]), 0.03)
         done(self, "export", folder, case=case)
 
-        other, _ = self.pump("narrow-faces-ranks")
+        other, _ = self.copy("narrow-faces-ranks")
         done(self, "mesh", other, case=case, cells=COARSE, ranks=2)
         self.assertEqual(*(read_json(run, "mesh/manifest.json")["domains"] for run in (folder, other)))
 
     def test_as_many_cells_as_told_show_them(self):
-        folder, case = self.pump("shown-faces")
+        folder, case = self.copy("shown-faces")
         told = execute(command("mesh", folder, case=case, cells=COARSE) + ["--stop-after", "size"]).stdout
         enough = int(re.search(r"left out.* mesh.cells (\d+) shows them", told).group(1))
         self.assertGreater(enough, COARSE)
