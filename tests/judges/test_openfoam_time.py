@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The turning rotor in time before OpenFOAM: the transient case from the steady one, and the large eddy simulation from
-that with either subgrid model, on a small mesh, for CUTWATER_STEPS steps of one degree each."""
+that with either subgrid model, on the mesh of the shared run, for CUTWATER_STEPS steps of one degree each."""
 import cmath
 import math
 import os
@@ -8,14 +8,13 @@ import re
 import sys
 import unittest
 
-from cutwater import SOURCE, done, execute, fresh
+from cutwater import SOURCE, execute, with_stages
 from judges import SOLVER_FAILED, reports
 
 sys.path.insert(0, str(SOURCE / "tests/bench"))
 import foam_read  # noqa: E402
 
 STEPS = int(os.environ.get("CUTWATER_STEPS", 4))
-CELLS = 40000
 TURN = 60 / 1450  # s
 BLADES = 6
 
@@ -23,10 +22,7 @@ BLADES = 6
 class InTime(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        run = fresh(f"openfoam-time-{STEPS}") / "run"
-        for stage in ("geometry", "mesh", "export"):
-            done(cls(), stage, run, cells=CELLS)
-        cls.case = run / "export/openfoam"
+        cls.case = with_stages(f"openfoam-time-{STEPS}", "export") / "export/openfoam"
 
     def set(self, folder, **entries):
         """Not by foamDictionary, which would write the time step anew, to six digits."""

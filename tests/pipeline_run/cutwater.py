@@ -116,11 +116,16 @@ def fresh(name):
     return folder
 
 
-def with_geometry(name):
-    """A run folder with the geometry of the shared run and nothing else."""
+def with_stages(name, *stages):
+    """A run folder with what these stages made in the shared run and nothing else."""
     folder = fresh(name)
-    shutil.copytree(RUN / "geometry", folder / "geometry")
+    for made in stages:
+        shutil.copytree(RUN / made, folder / made, symlinks=True)
     return folder
+
+
+def with_geometry(name):
+    return with_stages(name, "geometry")
 
 
 def changed_case(folder, *changes):

@@ -9,7 +9,7 @@ from unittest import mock
 
 from cutwater import BIN, CELLS, ENVIRONMENT, RUN, WORK, done, record, said
 
-ORDER = WORK / "sync_order.txt"  # what the stages brought to the disk and renamed: tests/sync_order.c
+ORDER = WORK / f"sync_order-{CELLS}.txt"  # what the stages brought to the disk and renamed: tests/sync_order.c
 SYNC_LIBRARY = os.environ.get("CUTWATER_SYNC_LIBRARY")  # none where sanitizers must be the first library
 
 
