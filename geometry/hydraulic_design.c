@@ -131,15 +131,14 @@ static CwStatus fit_root_fillets(const CwMeridian *meridian, double room, CwDesi
   CwFilletFit fit;
   const double asked = design->root_fillet_radius;
   if (asked == 0) goto done;
-  if (room < 1)
+  if (room <= 1)
     GIVE_WAY(root_fillet_radius, FILLETS_LEFT * room * asked, asked,
              "root_fillet_radius_mm gives way to a quarter of the blade's thickness left between fillets");
   CW_TRY(cw_root_fillet_fit(design, meridian, &fit));
   if (fit.height_share > CW_ROOT_FILLETS_MOST)
     GIVE_WAY(root_fillet_radius, FILLETS_LEFT * CW_ROOT_FILLETS_MOST / fit.height_share * design->root_fillet_radius,
              asked, "root_fillet_radius_mm gives way to the blade's height between fillets");
-  CW_TRY(cw_root_fillet_fit(design, meridian, &fit));
-  if (fit.narrowest < CW_PUMP_LEAST_FACE * design->outlet_diameter)
+  if (fit.chord * design->root_fillet_radius < CW_PUMP_LEAST_FACE * design->outlet_diameter)
     GIVE_WAY(root_fillet_radius, 0, asked, "root_fillet_radius_mm gives way to none: fillets that fit are too narrow");
 done:
   return status;

@@ -58,7 +58,7 @@ static void add_wall(const CwDesign *design, const CwMeridian *meridian, const C
       const double tangent = cw_root_fillet_length(design, on, q, alpha);
       taken[i][k] += tangent * sin(alpha) / place.height;
       fit->height_share = fmax(fit->height_share, taken[i][k]);
-      fit->narrowest = fmin(fit->narrowest, 2 * design->root_fillet_radius * cos(alpha / 2));
+      fit->chord = fmin(fit->chord, 2 * cos(alpha / 2));
     }
   }
 }

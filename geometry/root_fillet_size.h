@@ -36,7 +36,7 @@ double cw_root_fillet_length(const CwDesign *design, const CwBladeSection *on, d
 // Of the fillets on both sides of the blade's mean surface and before its leading edge.
 typedef struct {
   double height_share; // of the blade's height that those on hub and shroud take together, at most
-  double narrowest;    // chord, m, but for the narrowing towards the trailing edge
+  double chord;        // of the narrowest, over R, but for the narrowing towards the trailing edge
 } CwFilletFit;
 
 // Fails as cw_blade_section().

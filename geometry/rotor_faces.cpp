@@ -37,7 +37,7 @@ Handle(Geom2d_Curve) moved(const Handle(Geom2d_BSplineCurve) & curve, double du)
 // A line between (r, theta) in the parameters of a plane, in which both are linear.
 Handle(Geom2d_Curve) slanted_line_in_plane(double r, double theta, double to_r, double to_theta) {
   const auto in_plane = [&](double f) {
-    const double at_r = (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
+    const double at_r = r + f * (to_r - r), angle = theta + f * (to_theta - theta);
     return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
   };
   if (theta == to_theta) return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));

@@ -186,8 +186,8 @@ private:
       // u = 0 lies on the outer wall's border exactly.
       double z = contact[2] * (1 + (u > 0 ? height / v_.side_level - 1 : 0));
       double beta = direction(psi(v)) * (1 - u);
-      return gp_Pnt((v_.inner_wall_x - radius + radius * std::cos(beta)),
-                    (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), z);
+      return gp_Pnt(v_.inner_wall_x - radius + radius * std::cos(beta),
+                    cw_volute_nose_y(&v_, z) + radius * std::sin(beta), z);
     });
     for (int side : {BOTTOM, TOP}) {
       flank_vertex_[side] = b_.vertex(surface->Value(1, side));

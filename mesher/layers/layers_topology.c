@@ -87,7 +87,7 @@ static CwStatus lists(CwLayerWork *work) {
     for (int32_t k = start[v]; k < start[v + 1] && work->near[k] >= 0; k++) work->near[count++] = work->near[k];
   }
   work->near_start[work->n] = count;
-  int32_t *fitted = realloc(work->near, (size_t)count * sizeof *fitted); // half of it is left over
+  int32_t *fitted = realloc(work->near, (size_t)(count ? count : 1) * sizeof *fitted); // half is left; of 0 it frees
   if (fitted) work->near = fitted;
 done:
   free(start);
