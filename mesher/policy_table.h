@@ -7,9 +7,9 @@
 // switches off what the number rules; `none` where no value does. Units: `1` of ratios and counts, `h` the wanted edge
 // length at the place, `edge` that of the triangle or tetrahedron, `quality` that of cw_tet_quality, mostly the sine of
 // the least dihedral angle. What is not here is mathematics, a constant of physics or of a format, a bound of rounding,
-// a resolution that only costs time, or one of those that still stand in their sources: the weights in the score of
-// planes (plan/), what the first pass counts cells by (run/cell_count.c), predicted times of tasks (run/), and factors
-// in the expressions of surface/ and layers/. tests/bench/ablate.py measures what each number of the table does.
+// a resolution or a bound of tries that only costs time, or one of those that still stand in their sources: what the
+// first pass counts cells by (run/cell_count.c), predicted times of tasks (run/), and factors in the expressions of
+// surface/. tests/bench/ablate.py measures what each number of the table does.
 
 // What several rooms share.
 NUMBER(double, flat_angle, 12, 0, "degrees",
@@ -50,11 +50,6 @@ NUMBER(double, missed_share, 0.01, 0, "1",
        "of the wall faces that may miss a first height for which there is room, and of the area that may be nearer to "
        "the wall opposite than its layers have room for: what counts as good")
 
-// Recovery of the boundary by flips.
-NUMBER(int64_t, recover_tries, 8, none, "1",
-       "of an edge or facet from its ends in turn, each two of a depth, and rounds over all: what one facet could not "
-       "have may be free after others have theirs; half of the flips that only prepare others")
-
 // Single changes.
 NUMBER(int64_t, improve_passes, 5, 0, "1", "over the list, at most")
 NUMBER(double, least_gain, 2e-3, 0, "quality",
@@ -65,7 +60,6 @@ NUMBER(double, usual_aspect, 1.5, none, "1",
        "quarter more or less: aspect 1 %")
 
 // Moves of all points at once.
-NUMBER(double, regular_quality, 0.8, 1, "quality", "points stay where all is above: 0.866 in a lattice; time alone")
 NUMBER(double, even_pull, 0.3, 0, "edge",
        "that the first step towards even edges goes; without any the aspect is 1.3 % greater")
 NUMBER(int64_t, even_steps, 5, 0, "1", "each shorter by the same")
@@ -84,7 +78,11 @@ NUMBER(int64_t, search_any, 40, 0, "1",
        "(pumps of nq 8 at 150,000 cells, regions of 1200 tetrahedra)")
 
 // Decomposition (plan/).
-NUMBER(double, plan_line_beside, 0.3, 1, "1", "of a line that may run beside another")
+NUMBER(double, plan_uneven, 0.15, none, "1",
+       "of the mean, that a region's work may be off: a fault; with 0.1 angles beside planes are 1 degree less")
+NUMBER(double, plan_area, 0.125, 0, "1",
+       "faults of a section as large as the face of a cube of the part's volume; without, planes along a pipe, a tenth "
+       "more interfaces")
 NUMBER(double, plan_room, 2, 1, "1",
        "times the least room, beside lines and edges of two planes, layers of walls and other lines: from there on "
        "nothing is cramped")
@@ -108,7 +106,7 @@ NUMBER(double, poor_rare, 5e7, none, "cells",
 NUMBER(double, thin_reach, 4, none, "h", "about a failure in which layers are thinned; doubled each time")
 
 // Layers (layers/, boundary/).
-NUMBER(double, wall_concave_rise, 0.25, none, "1", "least rise of an edge over its length at a bend that is concave")
+NUMBER(double, concave_rise, 0.3, none, "1", "of an edge of the wall over its length: a bend is concave, at the latest")
 NUMBER(double, gap_share, 0.35, none, "1", "of the gap to another wall, the most that a column takes")
 NUMBER(double, fit_share, 0.2, none, "1",
        "of a passage's width, what even layers take whose asked first height does not fit: with gap_share ten pumps of "
@@ -116,6 +114,16 @@ NUMBER(double, fit_share, 0.2, none, "1",
        "53 to 99 %, from 6.4 degrees")
 NUMBER(double, core_ratio, 4, none, "1",
        "volume of a tetrahedron across that over the last prism, at most: what counts as even")
+NUMBER(
+    double, convex_cosine, 0.92, none, "cosine",
+    "23 degrees from the most normal direction to a face: along sharper convex edges columns slide; with crease_cosine "
+    "layers at blunt trailing edges are 2 % thinner (test_layers_pump)")
+NUMBER(double, lean_share, 0.6, none, "1",
+       "of the best cosine to the wall's normals, that columns and prisms keep which lean; with 0.5 columns at knife "
+       "edges are thinned (test_layers_pump)")
+NUMBER(double, free_share, 0.6, 1, "1",
+       "of the way to an open patch, which has no layers, and of the thickness at which columns that lean to each "
+       "other would meet: what a column takes; with 1 least angles are 3 degrees less (9 pumps, 150,000 cells)")
 NUMBER(double, prism_good, 0.12, 0, "quality", "of prisms and their layer tops that is asked for")
 NUMBER(double, top_flip_gain, 1.1, none, "1", "least factor by which a flip raises the least angle of the layer top")
 NUMBER(double, smoothing_reach, 6, 0, "layers",

@@ -145,7 +145,7 @@ static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *fac
   int64_t flips = 0;
   CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
   recovery->missing = facets->missing_count;
-  for (int round = 0; round < cw_policy.recover_tries && facets->missing_count; round++)
+  for (int round = 0; round < CW_RECOVER_TRIES && facets->missing_count; round++)
     CW_TRY(cw_kernel_recover(mesh, facets, round, input->log, source_count, &flips));
   recovery->flips = (int32_t)(flips < INT32_MAX ? flips : INT32_MAX);
   if (facets->missing_count) {

@@ -6,7 +6,6 @@
 #include "mesher/common/predicates.h"
 #include "mesher/common/tet.h"
 #include "mesher/fill/kernel_flips.h"
-#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 // What is to be recovered: the edge of the first two points, or the face of all three.
@@ -165,8 +164,8 @@ static CwStatus recover_edge(Recovery *r, int32_t a, int32_t b, int *found) {
   r->goal.point[1] = b;
   r->flips.crossing = face_crosses_edge;
   r->flips.slack = 0;
-  for (int stuck = 0; stuck < cw_policy.recover_tries; stuck++) {
-    for (int held = 0, moved = 1; held < 2 * cw_policy.recover_tries && moved; held += moved == 1) {
+  for (int stuck = 0; stuck < CW_RECOVER_TRIES; stuck++) {
+    for (int held = 0, moved = 1; held < 2 * CW_RECOVER_TRIES && moved; held += moved == 1) {
       CW_TRY(clear_towards(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
       if (*found) goto done;
     }
@@ -183,10 +182,10 @@ static CwStatus recover_face(Recovery *r, const int32_t corner[3], int *found) {
   flips->crossing = edge_crosses_face;
   flips->slack = 0;
   *found = 0;
-  for (int stuck = 0; stuck < cw_policy.recover_tries; stuck++) {
+  for (int stuck = 0; stuck < CW_RECOVER_TRIES; stuck++) {
     int32_t a = corner[stuck % 3], b = corner[(stuck + 1) % 3], c = corner[(stuck + 2) % 3], t;
     int32_t tet[CW_RING], ring[CW_RING];
-    for (int held = 0, moved = 1; held < 2 * cw_policy.recover_tries && moved; held += moved == 1) {
+    for (int held = 0, moved = 1; held < 2 * CW_RECOVER_TRIES && moved; held += moved == 1) {
       moved = 0;
       CW_TRY(cw_flips_find_edge(flips, a, b, &t));
       int n = t < 0 ? 0 : cw_tet_ring(flips->mesh, t, a, b, CW_RING, tet, ring);
@@ -226,7 +225,7 @@ done:
 // 1991, whose points are moved from there later): the improvement moves these, too, or takes them away.
 static CwStatus recover_edge_by_points(Recovery *r, int32_t a, int32_t b, int *found) {
   CwStatus status = CW_OK;
-  for (int put = 1, points = 0; put && !*found && points < cw_policy.recover_tries; points++) {
+  for (int put = 1, points = 0; put && !*found && points < CW_RECOVER_TRIES; points++) {
     CW_TRY(put_point_between(r, points % 2 ? b : a, points % 2 ? a : b, &put));
     if (put) CW_TRY(recover_edge(r, a, b, found));
   }

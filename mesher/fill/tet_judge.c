@@ -11,6 +11,7 @@
 
 static const double unsure = 1e-3;  // of a quality in single precision, by far
 static const double blurred = 1e-4; // of the extent of all: edges for which single precision will not do
+static const float regular = 0.8f;  // least quality of a lattice is 0.866: points stay where all is above; saves time
 enum { BLOCK = 128 };               // tetrahedra that are looked for together
 _Static_assert(CW_TET_PAD >= CW_TET_GROUP - 1, "a group reads behind its list");
 
@@ -73,8 +74,7 @@ static inline void note_shapes(const CwTetMesh *mesh, CwTetShapes *shapes, const
                                const float *quality, const int32_t *slender) {
   for (int k = 0; k < count && shapes->irregular; k++) {
     const int32_t *c = mesh->tet[list[k]].corner;
-    for (int i = 0; i < 4; i++)
-      shapes->irregular[c[i]] |= (uint8_t)cw_branchless(quality[k] < (float)cw_policy.regular_quality);
+    for (int i = 0; i < 4; i++) shapes->irregular[c[i]] |= (uint8_t)cw_branchless(quality[k] < regular);
   }
   for (int k = 0; k < count; k++) {
     shapes->slender.tet[shapes->slender.count] = list[k];

@@ -330,7 +330,7 @@ static void set_end(Part *part, int32_t i) {
 static void lean(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   int32_t v = vertex_of(part, i);
-  double least = fmin(cw_policy.column_least_cosine, CW_LAYERS_LEAN * work->base_cos[v]), scale = 1, upright[3];
+  double least = fmin(cw_policy.column_least_cosine, cw_policy.lean_share * work->base_cos[v]), scale = 1, upright[3];
   cw_layers_upright(work, v, upright);
   memcpy(part->column[i], upright, sizeof upright);
   double thickness = cw_layers_least_cosine(work, v, upright);

@@ -17,6 +17,7 @@
 #include "mesher/layers/prism_quality.h"
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/parallel/profiler.h"
+#include "mesher/policy.h"
 
 // The columns as they came out.
 typedef struct {
@@ -68,7 +69,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     layers->thinned_count++;
     // The offset stops at its floor (cw_layers_floor): alone, or whatever else thins it; and the neighbours follow.
     int32_t foot = cw_layers_slope_foot(&work, v);
-    int sharp = work.crease[foot] != CW_CREASE_CONCAVE && work.normal_cos[foot] < 0.99 * CW_CONVEX_FLOOR;
+    int sharp = work.crease[foot] != CW_CREASE_CONCAVE && work.normal_cos[foot] < cw_policy.upright_cosine;
     if (sharp || work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_SHARPNESS;
   }
 done:

@@ -14,11 +14,7 @@
 #include "mesher/policy.h"
 
 enum { BISECTIONS = 20 };
-// Least cosine between a ray and the normal of what stands opposite: less is grazed. A column on an open edge runs
-// inside its own open patch and must not take that for an obstacle.
-static const double FACING = 0.05, FACING_OF_CONSTRAINED = 0.3;
-static const double START = 1e-3;       // of the shortest edge of the wall: what a ray meets nearer is its own wall
-static const double ALONG_CREASE = 0.7; // cosine of an edge that lies along a crease
+static const double START = 1e-3; // of the shortest edge of the wall: what a ray meets nearer is its own wall
 
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
@@ -108,9 +104,9 @@ static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
 typedef struct {
   const CwLayerWork *work;
   int32_t v;
-  int constrained;
   double x[3], g[3], stretch, offset, best, far;
-  double core; // between two layer tops, that a tetrahedron fits in, m
+  double facing; // least cosine to the normal of what stands opposite: less is grazed
+  double core;   // between two layer tops, that a tetrahedron fits in, m
 } Ray;
 
 // The mean length of the wall's edges at v, m.
@@ -149,16 +145,14 @@ double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double cor
 static int meet(void *context, int32_t f) {
   Ray *ray = context;
   const CwLayerInput *in = ray->work->in;
-  int wall = f < in->triangle_count;
   double facing = 0, way = hit(in, f, ray->x, ray->g, &facing);
-  if (way <= ray->offset || way > ray->far) return 0;
-  if (wall) {
-    if (facing < FACING || belongs_to_crease(ray->work, ray->v, f)) return 0;
+  if (way <= ray->offset || way > ray->far || facing < ray->facing) return 0;
+  if (f < in->triangle_count) {
+    if (belongs_to_crease(ray->work, ray->v, f)) return 0;
     double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
     ray->best = fmin(ray->best, cw_layers_room(ray->work, ray->v, way / ray->stretch, core / ray->stretch));
   } else {
-    if (facing < (ray->constrained ? FACING_OF_CONSTRAINED : FACING)) return 0;
-    ray->best = fmin(ray->best, CW_OPEN_SHARE * way / ray->stretch);
+    ray->best = fmin(ray->best, cw_policy.free_share * way / ray->stretch);
   }
   return 0;
 }
@@ -188,7 +182,9 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   const CwLayerWork *work = gaps->work;
   const CwLayerInput *in = work->in;
   int32_t v = gaps->vertex[i];
-  Ray ray = {.work = work, .v = v, .constrained = cw_layer_constraints(in, v) > 0, .best = INFINITY};
+  Ray ray = {.work = work, .v = v, .best = INFINITY};
+  // A column on an open edge runs inside its own open patch and must not take that for an obstacle.
+  ray.facing = cw_layer_constraints(in, v) > 0 ? cw_policy.column_least_cosine : CW_LAYERS_LEAST_COSINE;
   ray_start(work, v, ray.x);
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
@@ -235,7 +231,8 @@ done:
 static int smoothing_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
   int at_v = work->crease[v] == CW_CREASE_CONCAVE, at_w = work->crease[w] == CW_CREASE_CONCAVE;
   if (!at_v || !at_w) return at_v || at_w;
-  double along_v = cw_dot(work->along[v], e), along_w = cw_dot(work->along[w], e), least = ALONG_CREASE * cw_norm(e);
+  double along_v = cw_dot(work->along[v], e), along_w = cw_dot(work->along[w], e);
+  double least = 0.7 * cw_norm(e); // by 45 degrees, as the diagonals of squares do, and a little more
   int corner = cw_norm(work->along[v]) == 0 || cw_norm(work->along[w]) == 0;
   return corner || fabs(along_v) > least || fabs(along_w) > least;
 }
@@ -252,7 +249,7 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
     // Without constraints: the smoothing sees to what those tilt. Of the edge's length squared, by the thickness:
     double closing = cw_dot(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
                      cw_dot(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
-    if (closing > 0) most = fmin(most, CW_CLOSING_SHARE * cw_dot(e, e) / closing);
+    if (closing > 0) most = fmin(most, cw_policy.free_share * cw_dot(e, e) / closing);
   }
   *(double *)out = most;
   return CW_OK;

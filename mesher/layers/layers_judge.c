@@ -15,7 +15,7 @@ static const double GAIN = 1e-6; // of quality: less is none
 static double prism_quality(const CwLayerWork *work, int32_t f, const double (*top)[3]) {
   double prism = cw_layers_prism_quality(work, f, top), least = INFINITY;
   for (int k = 0; k < 3; k++) least = fmin(least, work->base_cos[work->in->triangle[f][k]]);
-  return prism >= CW_LAYERS_LEAN * least ? fmax(prism, cw_policy.prism_good) : prism;
+  return prism >= cw_policy.lean_share * least ? fmax(prism, cw_policy.prism_good) : prism;
 }
 
 double cw_layers_judge(const CwLayerWork *work, int32_t f, const double (*top)[3]) {

@@ -8,11 +8,11 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/parallel_for.h"
+#include "mesher/policy.h"
 
-static const double BENT = 0.98;             // least cosine of the normals about a vertex of a wall as good as flat
-static const double SHARP = 0.92;            // the same of a convex edge that columns need not slide along
-static const double RISE = 0.3, FOLD = 0.75; // of an edge against the normal where the bend is concave
-static const double ALONG = 0.3;             // greatest cosine of the normals about a crease to its edge
+static double square(double x) {
+  return x * x;
+}
 
 // What keeps the best candidate direction.
 typedef struct {
@@ -142,7 +142,7 @@ double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double d
 }
 
 double cw_layers_floor(const CwLayerWork *work, int32_t v) {
-  return work->crease[v] == CW_CREASE_CONCAVE ? CW_CONCAVE_FLOOR : CW_CONVEX_FLOOR;
+  return work->crease[v] == CW_CREASE_CONCAVE ? cw_policy.column_least_cosine : cw_policy.upright_cosine;
 }
 
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
@@ -170,7 +170,8 @@ static void edge_direction(int count, double (*normal)[3], double along[3]) {
     }
   cw_unit(along);
   for (int i = 0; i < count; i++)
-    if (fabs(cw_dot(normal[i], along)) > ALONG) memset(along, 0, 3 * sizeof *along);
+    if (fabs(cw_dot(normal[i], along)) > sqrt(1 - square(cw_policy.crease_cosine)))
+      memset(along, 0, 3 * sizeof *along); // more than a crease off: a corner
 }
 
 typedef struct {
@@ -187,20 +188,18 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   int count = distinct_normals(work, v, normal);
   double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g), most = -1;
   made->normal_cos = c;
-  if (c >= BENT) return CW_OK;
+  if (c >= sqrt((1 + cw_policy.crease_cosine) / 2)) return CW_OK; // half the angle of a crease to either side
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     double e[3];
     cw_sub(in->x[work->near[k]], x, e);
     most = fmax(most, cw_dot(e, g) / cw_norm(e));
   }
-  // At the fold of two planes the edges of the wall rise by the sine of what its normals lean by, and more or less
-  // along it where the fold is no straight one.
-  if (most > fmin(RISE, FOLD * sqrt(1 - c * c))) {
-    made->crease = CW_CREASE_CONCAVE;
+  // At the fold of two planes the edges of the wall rise by the sine of what its normals lean by where they lie
+  // straight across; some lie within 45 degrees of that.
+  const double least = fmin(cw_policy.concave_rise, M_SQRT1_2 * sqrt(1 - c * c));
+  made->crease = most > least ? CW_CREASE_CONCAVE : c < cw_policy.convex_cosine ? CW_CREASE_CONVEX : CW_CREASE_NONE;
+  if (made->crease == CW_CREASE_CONCAVE)
     made->normal_cos = cw_layers_fair_normal(count, (const double(*)[3])normal, 0, none, g);
-  } else if (c < SHARP) {
-    made->crease = CW_CREASE_CONVEX;
-  }
   return CW_OK;
 }
 

@@ -8,8 +8,6 @@
 
 #define CW_LAYERS_LEAST_COSINE 0.05 // of a column to the normals of the faces around
 
-#define CW_LAYERS_LEAN 0.6 // of the best such cosine, that columns and prisms keep which lean
-
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the best of the
 // single normals, the bisectors of pairs and the circumcentres of triples. With one constraint g is held in the plane
 // normal to it, with two on the line of both. Returns the least cosine; negative where no direction sees all faces.
@@ -29,9 +27,7 @@ CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v);
 CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
 enum { CW_LAYER_NORMALS = 48 }; // distinct ones around a vertex, at most
 // Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor), of concave
-// edges and of all others: sharper convex ones leave thinner layers.
-#define CW_CONCAVE_FLOOR 0.3
-#define CW_CONVEX_FLOOR 0.55
+// edges column_least_cosine, of all others upright_cosine: sharper convex ones leave thinner layers.
 double cw_layers_floor(const CwLayerWork *work, int32_t v);
 // The column of v without any smoothing.
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);

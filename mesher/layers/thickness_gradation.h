@@ -8,9 +8,6 @@
 #include "mesher/parallel/context.h"
 #include "pipeline/status.h"
 
-#define CW_OPEN_SHARE 0.6    // of the way to an open patch, which has no layers
-#define CW_CLOSING_SHARE 0.6 // of the thickness at which columns that lean to each other would meet
-
 typedef struct {
   const CwContext *context;
   const char *step;                                        // in the profiler

@@ -11,7 +11,6 @@
 #include "mesher/policy.h"
 
 enum { SWEEPS = 8 };
-static const double GAIN = 0.02;     // in the cosine, that is worth a flip
 static const double FLATTEST = 0.02; // thickness over base of a triangle that a flip may make
 
 typedef struct {
@@ -109,7 +108,7 @@ static int try_side(Wall *wall, const int64_t *group, int32_t t, int k) {
     around[i] = wall->around[corner[i]];
   }
   turn_side(wall, t, k, u);
-  if (least_openness(wall, corner) > before + GAIN) {
+  if (least_openness(wall, corner) > before + cw_policy.least_gain) {
     for (int i = 0; i < 4; i++) wall->stale[corner[i]] = 1;
     return 1;
   }

@@ -11,6 +11,7 @@
 #include "mesher/plan/plan_directions.h"
 #include "mesher/plan/plan_improve.h"
 #include "mesher/plan/plan_lines.h"
+#include "mesher/policy.h"
 
 enum {
   COARSE = 3, // of so many upright directions one is looked along at first
@@ -30,9 +31,6 @@ enum {
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                        // shifts until they are twice as wide
-static const double WELL = 3;                         // score of a plane that will do
-static const double BAD = 5;                          // score of a plane for which others are tried
-static const double WHOLE = 20;                       // what a part costs that has to stay whole
 static const double LIKE = 0.97;                      // cosine between planes that are tried in vain alike
 
 typedef struct {
@@ -58,7 +56,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   // Against the mean of the whole domain: what one plane leaves uneven the next ones do not hide.
   double uneven = fmax(cw_plan_unevenness(cells, below * model->mean_work, below),
                        cw_plan_unevenness(all - cells, (regions - below) * model->mean_work, regions - below));
-  return uneven + 0.5 * fabs(2.0 * below / regions - 1) + 0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) +
+  return uneven + cw_policy.plan_area * profile->area[bin] / pow(part->volume, 2.0 / 3) +
          cw_plan_place_cost(cw_profile_at(profile, bin));
 }
 
@@ -181,7 +179,7 @@ static CwStatus find_best(const Choice *choice, Best *best) {
     if (!candidate->judged) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
-      double touch = cw_plan_touch_cost(cw_plan_touch(choice->model, choice->part, &plane, NULL));
+      double touch = cw_plan_touch(choice->model, choice->part, &plane, NULL);
       CwPlanLines lines;
       CW_TRY(cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch, &lines));
       candidate->further = touch + lines.cost;
@@ -245,14 +243,14 @@ static CwStatus next_best(Choice *choice, double limit, Best *best) {
   add_direction(choice, CW_ALONG_AXIS, &upright);
   CW_TRY(look_further(choice, &upright, best));
   CW_TRY(climb(choice, 1, 0, best));
-  if (best->score > WELL) {
+  if (best->score > CW_PLAN_FAULT) {
     for (int32_t tilt = -LEANING * COARSE_TILT; tilt <= LEANING * COARSE_TILT; tilt += COARSE_TILT) {
       for (int32_t turn = 0; turn < CW_TURNS && tilt != 0; turn += COARSE_TURN) {
         add_direction(choice, cw_direction_at(turn, tilt), &leaning);
       }
     }
     CW_TRY(look_further(choice, &leaning, best));
-    for (int32_t step = STEP; step > 0 && best->score > WELL; step /= 2) CW_TRY(climb(choice, step, 1, best));
+    for (int32_t step = STEP; step > 0 && best->score > CW_PLAN_FAULT; step /= 2) CW_TRY(climb(choice, step, 1, best));
   }
   choice->tried[choice->tried_count++] = *best;
 done:
@@ -303,7 +301,7 @@ static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPa
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
   int32_t node = plan->node_count++, first[2] = {by->below, regions - by->below};
-  *bad = fmax(by->score - BAD, 0);
+  *bad = fmax(by->score - CW_PLAN_FAULT, 0);
   plan->node[node].plane = by->plane;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
   plan->node[node].worst = cw_plan_place(model, part, &by->plane, NULL).worst;
@@ -339,7 +337,7 @@ static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart 
     plan->node_count = node;
     plan->region_count = region;
     plan->node[node].parent = parent;
-    CW_TRY(next_best(&choice, BAD + least, &best));
+    CW_TRY(next_best(&choice, CW_PLAN_FAULT + least, &best));
     last = 0;
     if (best.below == 0) break;
     CW_TRY(divide_by(model, plan, part, regions, &best, least, &further));
@@ -353,7 +351,7 @@ static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart 
     *bad = least;
     goto done;
   }
-  if (regions > 1) *bad = limit < INFINITY ? fmax(limit, WHOLE) : WHOLE;
+  if (regions > 1) *bad = cw_plan_unevenness(part->work, model->mean_work, 1);
   plan->node_count = node;
   plan->region_count = region;
   if (parent >= 0) plan->node[parent].child[side] = -1 - region;

@@ -12,10 +12,8 @@ enum {
   REGIONS_MOST = 12, // of a subtree whose plane is moved: all below it is weighed for each move
   MOVES = 27         // each of shift and two turns forth, not at all and back; the first is no move
 };
-static const double UPRIGHT = 0.55;                      // cosine from which on nothing is gained
-static const double LEANING_COST = 20;                   // of a cosine less by 1 than the second
 static const double FIRST_STEP = 0.08, LAST_STEP = 0.01; // of a plane, over the cube root of its cell's volume
-static const double WORTH = 0.05;                        // least gain of a step
+static const double WORTH = 0.01;                        // least gain of a step
 
 // What a subtree of the plan is worth.
 typedef struct {
@@ -43,10 +41,9 @@ static CwStatus weigh_plane(const CwPlanModel *model, CwPlan *plan, const CwPlan
   const CwPlane *plane = &plan->node[node].plane;
   CwPlanPlace place = cw_plan_place(model, part, plane, NULL);
   plan->node[node].worst = place.worst;
-  double cost = cw_plan_place_cost(place) + cw_plan_touch_cost(cw_plan_touch(model, part, plane, NULL));
+  double cost = cw_plan_place_cost(place) + cw_plan_touch(model, part, plane, NULL);
   if (cost < most) CW_TRY(cw_plan_lines(model, plan, node, part, plane, most - cost, &lines));
-  *worth = (Worth){cost + lines.cost + LEANING_COST * fmax(0, UPRIGHT - lines.cosine),
-                   lines.cosine <= cw_policy.upright_cosine || cw_plan_is_sharp(place.worst)};
+  *worth = (Worth){cost + lines.cost, lines.cosine <= cw_policy.upright_cosine || cw_plan_is_sharp(place.worst)};
 done:
   return status;
 }

@@ -7,22 +7,18 @@
 #include "mesher/cad/rays.h"
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
-#include "mesher/plan/plan_profile.h"
+#include "mesher/plan/plan_cost.h"
 #include "mesher/policy.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, HITS_MOST = 64 };
 static const double LINE_STEP = 0.5; // base sizes between samples of a line
 static const double SAME_LINE = 1;   // edge length between two lines on one interface: nearer than that they are one
-static const double NEIGHBOUR_REACH = 5;         // base sizes: planes farther from a line do not matter to it
-static const double SAME_POINT = 1e-9;           // of the model's unit
-static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 and of 50 degrees
-static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one with hardly any besides
-static const double HARDLY = 0.8;                // shortage of room from which on a line has hardly any
+static const double NEIGHBOUR_REACH = 5; // base sizes: planes farther from a line do not matter to it
+static const double SAME_POINT = 1e-9;   // of the model's unit
 
 typedef struct {
   int impossible;
-  double cramped; // sum over the lines: 0 where a line has room, 1 where it has none
-  int blocked;    // lines that have hardly any
+  double cramped; // sum over the lines of the squares of their shortage of room
   double sharp;   // least sine of the angle between the planes along a line in the domain; 1 without lines
   double cosine;  // least of a line to a wall's normal; 1 without lines
 } Lines;
@@ -139,8 +135,7 @@ static int samples_along(const Line *line, double run) {
 }
 
 static void add_cramped(double cramped, Lines *lines) {
-  lines->cramped += cramped;
-  lines->blocked += cramped >= HARDLY;
+  lines->cramped += cramped * cramped;
 }
 
 static double near_an_edge(const Line *line, const CwPlanPart *part, const double x[3]) {
@@ -208,7 +203,7 @@ static int is_at_end(const Line *line, const End *end, double place, int32_t tri
 // A run of the line through the domain.
 static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *to, Lines *lines) {
   const CwPlanModel *model = line->model;
-  double run = to->place - from->place, beside = 0;
+  double run = to->place - from->place;
   double cramped = judge_end(line, part, from, lines);
   cramped = fmax(cramped, judge_end(line, part, to, lines));
   double taken = from->layers + to->layers;
@@ -216,13 +211,13 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   if (lines->impossible) return;
   cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, cw_policy.plan_room * taken));
-  int samples = samples_along(line, run);
+  int samples = samples_along(line, run), beside = 0;
   double step = run / samples;
   for (int i = 0; i < samples && !lines->impossible; i++) {
     double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
     double h = cw_size_at(model->size, x), near = plane_near(line, x, cw_policy.plan_room * h);
-    if (near < SAME_LINE * h) beside += step;
+    beside += near < SAME_LINE * h;
     cramped = fmax(cramped, shortage(near, SAME_LINE * h, cw_policy.plan_room * h));
     if (s - from->place < from->layers || to->place - s < to->layers) continue;
     CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * model->thickest);
@@ -231,7 +226,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
     cramped = fmax(cramped, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));
     if (wall.distance < wall.thickness) lines->impossible = 1;
   }
-  if (beside > cw_policy.plan_line_beside * run && beside > 2 * step) lines->impossible = 1;
+  if (beside == samples) lines->impossible = 1;
   add_cramped(cramped, lines);
 }
 
@@ -307,17 +302,8 @@ static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlan
   return fabs(apart) > 2 * model->sample_spacing;
 }
 
-double cw_plan_sharpness(double sine) {
-  return (1 - sine) + (sine < FAIR ? 1 : 0) + (cw_plan_is_sharp(sine) ? 4 + 30 * (SHARP - sine) : 0);
-}
-
-int cw_plan_is_sharp(double sine) {
-  return sine < SHARP;
-}
-
 static double cost_of(const Lines *lines) {
-  if (lines->impossible) return INFINITY;
-  return CRAMPED * lines->cramped + BLOCKED * lines->blocked + cw_plan_sharpness(lines->sharp);
+  return lines->impossible ? INFINITY : lines->cramped + cw_plan_sharpness(lines->sharp);
 }
 
 CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,

@@ -5,13 +5,9 @@
 
 #include "mesher/plan/plan_model.h"
 
-// What an angle of this sine, to a wall or to another plane, costs.
-double cw_plan_sharpness(double sine);
-// Whether it is one that is hardly wanted: under 40.5 degrees, so that none is just under 40.
-int cw_plan_is_sharp(double sine);
-
 typedef struct {
-  double cost;   // for each line as much as it lacks room, for all the sharpest angle
+  double
+      cost; // in faults (plan_cost.h): of each line without room, as the square of what it lacks; of the sharpest angle
   double cosine; // least between a line and the normal of a wall where it ends; 1 without lines
 } CwPlanLines;
 

@@ -11,9 +11,6 @@
 #include "mesher/plan/plan.h"
 #include "mesher/size/size.h"
 
-// Layers as the planner sees them reach so much farther than they will: what stands close behind them is pinched.
-#define CW_LAYER_ROOM 1.2
-
 // What a plan is asked to be.
 typedef struct {
   int32_t region_count; // at least 1; the plan has fewer where no plane divides a part of the domain any more

@@ -27,8 +27,6 @@ double cw_profile_place(const CwPlanProfile *profile, double cells) {
   return profile->low + (low + part) * profile->width;
 }
 
-static const double NO_CORNER = 25; // touches: a plane that does not do, unless no other is there either
-
 typedef struct {
   double low, high;
 } Extent;
@@ -70,7 +68,7 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
     }
     const CwPlanTriangle *wall = &model->triangle[pieces->triangle[i]];
     double dot = cw_dot(n, wall->normal), square = dot * dot;
-    double layers = CW_LAYER_ROOM * wall->thickness * dot * scale; // the layer top lies behind the wall by so much
+    double layers = wall->thickness * dot * scale; // the layer top lies behind the wall by so much
     low = layers > 0 ? fmax(low - layers, 0) : low;
     high = layers < 0 ? fmin(high - layers, end) : high;
     for (int b = (int)low; b <= (int)high; b++) {
@@ -99,8 +97,7 @@ static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const do
     int last = cw_profile_bin(profile, place + room);
     for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
       double near = nearness(fabs(profile->low + (b + 0.5) * profile->width - place), room);
-      profile->grazed[b] += near;
-      if (near > profile->cut[b]) profile->cut[b] = near;
+      profile->cut[b] = fmax(profile->cut[b], near);
     }
   }
 }
@@ -156,7 +153,7 @@ void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const dou
 }
 
 CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin) {
-  return (CwPlanPlace){profile->worst[bin], profile->grazed[bin], profile->cut[bin]};
+  return (CwPlanPlace){profile->worst[bin], profile->cut[bin]};
 }
 
 CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
@@ -166,7 +163,7 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   for (int32_t i = 0; i < pieces->count; i++) {
     Extent extent = extent_of(pieces, i, plane->normal);
     const CwPlanTriangle *wall = &model->triangle[pieces->triangle[i]];
-    double dot = cw_dot(plane->normal, wall->normal), layers = CW_LAYER_ROOM * wall->thickness * dot;
+    double dot = cw_dot(plane->normal, wall->normal), layers = wall->thickness * dot;
     double low = extent.low - plane->offset, high = extent.high - plane->offset;
     if (low - fmax(layers, 0) > 0 || high - fmin(layers, 0) <= 0 || dot * dot <= steepest) continue;
     int within = end == NULL;
@@ -181,7 +178,6 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
     double room = model->edge[e].room, near = nearness(fabs(cw_plane_distance(plane, model->edge[e].x)), room);
     if (near == 0 || !may_graze(model, e, plane->normal)) continue;
     if (end && cw_plane_distance(end, model->edge[e].x) < -room) continue;
-    place.grazed += near;
     place.cut = fmax(place.cut, near);
   }
   return place;
@@ -215,7 +211,7 @@ double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwP
     int32_t e = part->edge[i];
     double room = model->edge[e].touch, near = nearness(fabs(cw_plane_distance(plane, model->edge[e].x)), room);
     if (end && cw_plane_distance(end, model->edge[e].x) < -room) continue;
-    if (most < NO_CORNER && has_no_corner(model, e, plane)) most = NO_CORNER;
+    if (most < CW_PLAN_UNFIT && has_no_corner(model, e, plane)) most = CW_PLAN_UNFIT;
     if (near > most) most = fmax(most, near * cw_plan_along_edge(model, e, plane->normal));
   }
   return most;
@@ -233,7 +229,7 @@ void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const dou
     for (int32_t p = first; p < count && low + step * p <= place + room; p++) {
       CwPlane plane = {{n[0], n[1], n[2]}, low + step * p};
       double near = nearness(fabs(plane.offset - place), model->edge[e].touch);
-      touch[p] = fmax(touch[p], has_no_corner(model, e, &plane) ? NO_CORNER : along * near);
+      touch[p] = fmax(touch[p], has_no_corner(model, e, &plane) ? CW_PLAN_UNFIT : along * near);
     }
   }
 }

@@ -21,10 +21,9 @@ enum {
   ANGLES = 120,  // places tried for half-planes in one pitch
   TOUCHES = 4096 // places along the axis where planes across it are known to touch edges
 };
-// Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
+// Numbers of regions in a pitch that are weighed, and tried where a plan has more than a fault.
 enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
-static const double EVEN = 0.15, SHARP = 0.643; // sine of 40 degrees
-static const double OTHER_NUMBER = 12;          // what an e-th of the asked number of regions costs, or e times of it
+static const double OTHER_NUMBER = M_LN2; // log of what times the asked number of regions, or part, is a fault
 
 typedef struct {
   double cost, worst;
@@ -53,7 +52,7 @@ static double judge_across(const Sectors *sectors, double place, double *worst) 
   CwPlanPlace found = cw_profile_at(&sectors->along, cw_profile_bin(&sectors->along, place));
   double touch = round((place - sectors->axis.low) / sectors->touch_step);
   *worst = found.worst;
-  return cw_plan_place_cost(found) + cw_plan_touch_cost(sectors->touch[(int)fmin(fmax(touch, 0), TOUCHES - 1)]);
+  return cw_plan_place_cost(found) + sectors->touch[(int)fmin(fmax(touch, 0), TOUCHES - 1)];
 }
 
 static CwPlane half_plane(double angle) {
@@ -70,7 +69,7 @@ static CwStatus judge_half_plane(const Sectors *sectors, const CwPlanPart *wheel
   CwPlanPlace place = cw_plan_place(sectors->model, wheel, &plane, &end);
   CwPlanLines lines;
   CW_TRY(cw_plan_lines(sectors->model, plan, plan->sector_first, wheel, &plane, INFINITY, &lines));
-  double touch = cw_plan_touch_cost(cw_plan_touch(sectors->model, wheel, &plane, &end));
+  double touch = cw_plan_touch(sectors->model, wheel, &plane, &end);
   *judged = (Judged){cw_plan_place_cost(place) + touch + lines.cost, place.worst};
 done:
   return status;
@@ -145,7 +144,7 @@ static CwStatus place_root(Sectors *sectors, int32_t regions, int32_t *slices, C
     for (int32_t count = few; count <= few + 1 && count <= sectors->slices_most && regions && alone < best; count++) {
       double mean = all / (count + sectors->count * regions);
       CW_TRY(place_slices(sectors, count, mean, &cost));
-      cost += alone + CW_PLAN_SLICES * cw_plan_unevenness(pitch, regions * mean, regions);
+      cost += alone + cw_plan_unevenness(pitch, regions * mean, regions);
       if (cost < best) best = cost, chosen = place, *slices = count, sectors->station = i;
     }
   }
@@ -328,16 +327,16 @@ done:
   return status;
 }
 
-// How far the work of a region is off the mean, at most; more, where a plane within the wedges is sharp on walls.
-static double badness(const CwPlan *plan) {
+// The worst fault of a plan: of its regions' work, and of the angles between planes within the wedges and walls.
+static double worst_fault(const CwPlan *plan) {
   double sum = 0, most = 0, worst = 1;
   for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
   for (int32_t r = 0; r < plan->region_count; r++) {
-    double off = plan->predicted_cells[r] / sum * plan->region_count - 1;
-    most = fmax(most, r < plan->sector_region ? off : fabs(off)); // a small slice keeps nobody waiting
+    double work = plan->predicted_cells[r], mean = sum / plan->region_count;
+    most = fmax(most, r < plan->sector_region ? cw_plan_slice_cost(work, mean) : cw_plan_unevenness(work, mean, 1));
   }
   for (int32_t n = plan->sector_first; n < plan->node_count; n++) worst = fmin(worst, plan->node[n].worst);
-  return most + (worst < SHARP ? EVEN + SHARP - worst : 0);
+  return fmax(most, cw_plan_sharpness(worst));
 }
 
 // A number of regions in one pitch, and what it costs.
@@ -351,15 +350,15 @@ static int by_cost(const void *a, const void *b) {
   return p->cost != q->cost ? (p->cost < q->cost ? -1 : 1) : (p->regions > q->regions) - (p->regions < q->regions);
 }
 
-// What the slices and the planes across the axis that are in the plan cost: nothing where they are even and stand well.
+// What the slices and the planes across the axis that are in the plan cost.
 static double pipe_cost(const Sectors *sectors, int32_t slices, double mean) {
   const CwPlan *plan = sectors->plan;
   double off = 0, worst = 1;
   for (int32_t i = 0; i < slices; i++) {
-    off = fmax(off, plan->predicted_cells[i] / mean - 1);
+    off = fmax(off, cw_plan_slice_cost(plan->predicted_cells[i], mean));
     worst = fmin(worst, plan->node[i].worst);
   }
-  return 30 * fmax(0, off - EVEN) + (worst < SHARP ? 4 + 30 * (SHARP - worst) : 0);
+  return off + cw_plan_sharpness(worst);
 }
 
 // The numbers of regions in one pitch that bring the plan near the asked number, best first: those with which regions
@@ -375,7 +374,7 @@ static CwStatus weigh_numbers(Sectors *sectors, double pipe, double pitch, int32
   for (int32_t n = least; n <= most; n++) {
     double slices = fmax(1, round(pipe / pitch * n)), regions = slices + sectors->count * n, mean = whole / regions;
     double off = fmax(fabs(pipe / slices / mean - 1), fabs(pitch / n / mean - 1));
-    all[found++] = (Number){n, off + 0.3 * fabs(log(regions / asked))};
+    all[found++] = (Number){n, cw_plan_unevenness(off + 1, 1, 1) + fabs(log(regions / asked)) / OTHER_NUMBER};
   }
   qsort(all, (size_t)found, sizeof *all, by_cost);
   *count = found < NUMBERS ? found : NUMBERS;
@@ -384,7 +383,7 @@ static CwStatus weigh_numbers(Sectors *sectors, double pipe, double pitch, int32
     int32_t slices;
     CW_TRY_STAGE(place_root(sectors, all[i].regions, &slices, outcome), outcome);
     int32_t regions = slices + sectors->count * all[i].regions;
-    all[i].cost = pipe_cost(sectors, slices, whole / regions) + OTHER_NUMBER * fabs(log((double)regions / asked));
+    all[i].cost = pipe_cost(sectors, slices, whole / regions) + fabs(log((double)regions / asked)) / OTHER_NUMBER;
   }
   qsort(all, (size_t)*count, sizeof *all, by_cost);
   memcpy(number, all, (size_t)*count * sizeof *number);
@@ -418,9 +417,9 @@ CwStatus cw_sector_plan_make(const CwContext *context, const CwCad *cad, const C
   CW_TRY_STAGE(place_root(&sectors, 0, &slices, outcome), outcome);
   double pipe = cw_profile_below(&sectors.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
   CW_TRY_STAGE(weigh_numbers(&sectors, pipe, pitch, options->region_count, number, &numbers, outcome), outcome);
-  for (int k = 0; k < numbers && k < NUMBERS_TRIED && least > EVEN; k++) {
+  for (int k = 0; k < numbers && k < NUMBERS_TRIED && least > CW_PLAN_FAULT; k++) {
     CW_TRY_STAGE(divide(&sectors, &model, &whole, number[k].regions, outcome), outcome);
-    double bad = badness(&tried);
+    double bad = worst_fault(&tried);
     if (bad >= least) continue;
     CwPlan better = tried;
     tried = *plan;

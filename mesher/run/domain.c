@@ -8,7 +8,6 @@
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
 #include "mesher/common/model_unit.h"
-#include "mesher/layers/thickness_gradation.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
 #include "mesher/policy.h"
@@ -121,7 +120,7 @@ double cw_domain_first_height(const CwDomain *domain, int face) {
   const double *radius = domain->face_radius[face];
   // Round a lesser radius the first layer would be more than twice as long on its outer side; inside of one, the layers
   // would be higher than where their columns meet.
-  double inside = CW_CLOSING_SHARE * radius[CW_CONCAVE] / cw_layer_lowest(domain->layer_count);
+  double inside = cw_policy.free_share * radius[CW_CONCAVE] / cw_layer_lowest(domain->layer_count);
   return fmin(domain->patch_layers[cw_cad_face_patch(domain->cad, face)].first_height, fmin(radius[CW_CONVEX], inside));
 }
 

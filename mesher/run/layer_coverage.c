@@ -6,6 +6,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers_normal.h"
 #include "mesher/layers/thin_prism.h"
+#include "mesher/policy.h"
 #include "mesher/thickness/even_columns.h"
 #include "mesher/thickness/layer_thickness.h"
 
@@ -35,7 +36,7 @@ int cw_domain_first_is_met(const CwDomain *domain, int32_t vertex) {
 }
 
 int cw_domain_is_sharp(const CwDomain *domain) {
-  return sin(domain->sharp.angle / 2 * CW_DEGREE) < (1 - CW_FIRST_HEIGHT_TOLERANCE) * CW_CONVEX_FLOOR;
+  return sin(domain->sharp.angle / 2 * CW_DEGREE) < (1 - CW_FIRST_HEIGHT_TOLERANCE) * cw_policy.upright_cosine;
 }
 
 void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage *coverage) {

@@ -7,7 +7,7 @@
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/model_unit.h"
-#include "mesher/layers/thickness_gradation.h"
+#include "mesher/policy.h"
 #include "mesher/run/layer_coverage.h"
 #include "mesher/thickness/layer_count.h"
 #include "pipeline/log.h"
@@ -196,7 +196,7 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
     tell(log, headlines,
          "%s: round faces have no room for their first heights: on noses those become the radius, in fillets so small "
          "that all layers end at %g of the radius, and grow from there: %s",
-         domain->name, CW_CLOSING_SHARE, rounded.text);
+         domain->name, cw_policy.free_share, rounded.text);
 }
 
 void cw_warn_of_bare(CwLog *log, const CwDomain *domain, const CwBareFaces *bare, json_t *headlines) {

@@ -14,8 +14,6 @@
 #include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
 
-static const double LITTLE_GROWTH = 1.1;
-
 // How the wall lies about a vertex.
 typedef struct {
   double normal[3]; // mean of the triangles, out of the domain
@@ -93,7 +91,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   Bend bend = bend_at(surface, columns->around, v);
   double size = size_at(in, x), thickness = 0, last = columns->asked[v].last;
   // In a concave place tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
-  if (bend.cosine < cw_policy.crease_cosine && bend.rise > cw_policy.wall_concave_rise) last *= bend.cosine;
+  if (bend.cosine < cw_policy.crease_cosine && bend.rise > cw_policy.concave_rise) last *= bend.cosine;
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * bend.normal[k];
@@ -168,8 +166,7 @@ static CwStatus take_asked(const CwContext *context, const CwSurfaceMesh *surfac
     targets->growth[v] = asked[v].growth;
   }
   int count = targets->layer_count > 1 ? targets->layer_count : 2;
-  CW_TRY(grade(context, surface, around, cw_policy.slope / cw_layer_thickness(1, count, LITTLE_GROWTH),
-               targets->first_height));
+  CW_TRY(grade(context, surface, around, cw_policy.slope / count, targets->first_height));
 done:
   return status;
 }

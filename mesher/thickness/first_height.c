@@ -3,13 +3,12 @@
 
 #include <math.h>
 
-#include "mesher/layers/thickness_gradation.h"
 #include "mesher/policy.h"
 #include "mesher/thickness/layer_thickness.h"
 
 double cw_column_room(const CwWallFlow *flow) {
   double across = cw_policy.gap_share * flow->width;
-  return flow->before > 0 ? fmin(across, CW_OPEN_SHARE * flow->before) : across;
+  return flow->before > 0 ? fmin(across, cw_policy.free_share * flow->before) : across;
 }
 
 // The greatest first height that fits: of as many even layers as the case has at least, in fit_share of the passage;
@@ -17,7 +16,7 @@ double cw_column_room(const CwWallFlow *flow) {
 static double greatest_fitting(const CwWallFlow *flow, const CwWalls *walls, int count) {
   double across = cw_policy.fit_share * flow->width / (walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
   if (flow->before == 0) return across;
-  return fmin(across, CW_OPEN_SHARE * flow->before / cw_layer_lowest(count));
+  return fmin(across, cw_policy.free_share * flow->before / cw_layer_lowest(count));
 }
 
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,

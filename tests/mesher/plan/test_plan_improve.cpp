@@ -4,6 +4,7 @@
 
 extern "C" {
 #include "mesher/common/vec.h"
+#include "mesher/plan/plan_cost.h"
 #include "mesher/plan/plan_improve.h"
 #include "mesher/plan/plan_lines.h"
 #include "mesher/policy.h"

@@ -91,9 +91,9 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   CwColumnTargets targets = {0};
   make_wall(&wall, 100, 8, x, 6, triangle, face);
   assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, layers, 3, &targets), CW_OK);
-  // Three layers that grow by 1.1 are 3.31 times the first, and thicknesses rise by 0.3.
+  // Three layers are three times the first where they do not grow, and thicknesses rise by 0.3.
   for (int v = 0; v < 4; v++) assert_near(targets.first_height[v], 0.1, 1e-9);
-  for (int v = 4; v < 8; v++) assert_near(targets.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1), 1e-9);
+  for (int v = 4; v < 8; v++) assert_near(targets.first_height[v], 0.1 + 0.3 / 3 * (x[v][0] - 1), 1e-9);
   for (int v = 0; v < 8; v++) assert_near(targets.growth[v], v < 4 ? 2 : 1.5, 1e-9);
   // Growth of the face that has most, thickness of the one that has least.
   for (int v = 0; v < 4; v++) assert_near(targets.target[v], 0.7, 1e-9);
