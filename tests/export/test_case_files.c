@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "export/case_values.h"
 #include "export/cfx_case.h"
 #include "export/fluent_case.h"
 #include "export/foam_case.h"
@@ -319,14 +318,6 @@ static void outlets_have_their_shares(void **state) {
   expect("code_saturne/SRC/pump.h", " = {{\"outlet\", 0.25}};");
 }
 
-// 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 7 % of 1/7 m = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
-static void turbulence_follows_the_textbook(void **state) {
-  CwTurbulence t = cw_turbulence(2, 1.0 / 7);
-  assert_near(t.k, 0.015, 1e-15);
-  assert_near(t.epsilon, 0.164316767 * 0.00183711731 / 0.01, 1e-9);
-  assert_near(t.omega, t.epsilon / (0.09 * 0.015), 1e-11);
-}
-
 static void a_wrong_number_of_ranks_is_told(void **state) {
   static const char *const scripts[] = {"Allrun", "transient/Allrun"};
   export_with("");
@@ -422,7 +413,6 @@ int main(void) {
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(frames_are_told_where_zones_rotate),
       cmocka_unit_test(outlets_have_their_shares),
-      cmocka_unit_test(turbulence_follows_the_textbook),
       cmocka_unit_test(a_wrong_number_of_ranks_is_told),
       cmocka_unit_test(a_stopped_run_goes_on_where_all_parts_are_whole),
       cmocka_unit_test(a_clean_case_is_as_it_was_exported),
