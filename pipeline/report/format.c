@@ -127,9 +127,9 @@ char *cw_format_percent(double share, char text[CW_FORMAT_SIZE]) {
   } else if (share == 1 || share == 0) {
     snprintf(text, CW_FORMAT_SIZE, "%.0f %%", percent);
   } else {
-    int decimals = fabs(percent) < 1 || (percent > 99.5 && percent < 100) ? 2 : 1;
     // Rounding must not say that all or nothing is meant.
-    if (share < 1) percent = fmin(percent, 99.99);
+    if (share > 0 && share < 1) percent = fmin(fmax(percent, 0.01), 99.99);
+    int decimals = fabs(percent) < 1 || (percent > 99.5 && percent < 100) ? 2 : 1;
     snprintf(text, CW_FORMAT_SIZE, "%.*f %%", decimals, percent);
   }
   return text;

@@ -16,4 +16,4 @@ char *cw_format_si(double value, int significant,
 char *cw_format_seconds(double seconds, char text[CW_FORMAT_SIZE]); // "12.3 s", "4 min 05 s", "3 h 07 min"
 char *cw_format_bytes(double bytes, char text[CW_FORMAT_SIZE]);     // "1.24 GB"
 char *cw_format_percent(double share,
-                        char text[CW_FORMAT_SIZE]); // of a share 0 to 1; 100 % only where it is all
+                        char text[CW_FORMAT_SIZE]); // of a share 0 to 1; 0 and 100 % only of none and all
