@@ -2,6 +2,7 @@
 #include "pipeline/case_value.h"
 
 #include <ctype.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -66,8 +67,9 @@ const char *cw_count_text_read(const char *text, double *count) {
   double factor = last == 'k' || last == 'K' ? 1e3 : last == 'M' ? 1e6 : last == 'G' ? 1e9 : 1;
   if (factor > 1) digits[length - 1] = '\0';
   if (cw_number_text_read(digits, count)) return wrong;
-  *count = round(*count * factor * 1e3) / 1e3; // 1.1 M is 1100000 and not its neighbour
-  return *count == floor(*count) ? NULL : wrong;
+  const double product = *count * factor;
+  *count = round(product); // 1.1 M is 1100000 and not its neighbour: two roundings are forgiven
+  return fabs(product - *count) <= 2 * DBL_EPSILON * product ? NULL : wrong;
 }
 
 static int is_name(const char *text, double most) {
