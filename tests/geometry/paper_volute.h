@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "geometry/volute_design.h"
+#include "tests/unit_test.h"
 
 static inline CwVoluteInput volute_of_paper(void) {
   CwVoluteInput input;
@@ -30,4 +31,10 @@ static inline CwVoluteInput volute_of_paper(void) {
   input.outlet_diameter = 0.05;
   input.discharge_pipe_length = 0.1;
   return input;
+}
+
+static inline CwVolute designed_volute(const CwVoluteInput *input) {
+  CwVolute volute;
+  if (cw_volute_design(input, &volute) != CW_OK) fail_msg("%s", cw_fail_message());
+  return volute;
 }
