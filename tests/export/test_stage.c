@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The whole stage through its executable: the same bytes for any number of ranks, and what bad input does.
-// Modules without a test of their own that it runs: assembly, cgns_fill, cgns_sections, cgns_tree, division,
-// fluent_case, foam_files, foam_layout, foam_region, folder, interface_near, manifest, saturne_case.
+// Modules without a test of their own that it runs: assembly, cgns_fill, cgns_tree, division, fluent_case, foam_region,
+// manifest, saturne_case.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
