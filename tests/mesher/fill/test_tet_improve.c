@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: tet_insert.
 
 #include "closed_surfaces.h"
 #include "mesher/fill/tet_improve.h"
