@@ -49,7 +49,7 @@ static void a_lattice_is_filled_by_its_points(void **state) {
       const double turned = 0.4 * n;
       Plan *plan = lattice(maps[m].shape, n, h, maps[m].scale, turned);
       CwPatchWork work;
-      int32_t triangles = 0;
+      int32_t triangles = 0, before = 0;
       make_front(plan, maps[m].scale, &work);
       assert_int_equal(work.point_count, 4 * n + (n - 1) * (n - 1));
       for (int32_t p = 4 * n; p < work.point_count; p++) {
@@ -59,6 +59,10 @@ static void a_lattice_is_filled_by_its_points(void **state) {
         assert_near(a, rint(a), 1e-6);
         assert_near(b, rint(b), 1e-6);
         assert_near(work.size[p], h, 1e-12);
+        // A row is whole before the next one starts.
+        const int row = (int)rint(fmin(fmin(a, b), fmin(n - a, n - b)));
+        assert_true(row >= before);
+        before = row;
       }
       for (int32_t t = 0; t < work.triangle_count; t++) {
         const int32_t *c = work.corner[t];
