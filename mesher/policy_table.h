@@ -9,7 +9,7 @@
 // the least dihedral angle. What is not here is mathematics, a constant of physics or of a format, a bound of rounding,
 // a resolution or a bound of tries that only costs time, or one of those that still stand in their sources: what the
 // first pass counts cells by (run/cell_count.c), predicted times of tasks (run/), and factors in the expressions of
-// surface/. tests/bench/ablate.py measures what each number of the table does.
+// surface/ and boundary/. tests/bench/ablate.py measures what each number of the table does.
 
 // What several rooms share.
 NUMBER(double, flat_angle, 12, 0, "degrees",

@@ -11,8 +11,8 @@
 #include "mesher/parallel/schedule.h"
 
 enum { MOST_FOR_BENDS = 12 };
-// Of the length of an edge, how far its curve may lie beside it: as that of a fifth of a circle, tan(18 degrees) / 2.
-static const double MOST_BESIDE = 0.1625;
+// Of the length of an edge, how far its curve may lie beside it: a circle's edges turn by 62 degrees.
+static const double MOST_BESIDE = 0.14;
 
 // What holds the columns along a wall curve: the partition plane of a cut, the open patch at an open edge, nothing
 // else.

@@ -99,9 +99,9 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   for (int v = 0; v < 4; v++) assert_near(targets.target[v], 0.7, 1e-9);
   assert_near(targets.target[4], targets.first_height[4] * 4.75, 1e-9);
   cw_column_targets_free(&targets);
-  // A single layer rises as the first of two, which are 2.1 times as thick.
+  // A single layer rises as the first of two, which are twice as thick.
   assert_int_equal(cw_column_targets_make(NULL, &wall.in, &wall.surface, &wall.around, layers, 1, &targets), CW_OK);
-  for (int v = 4; v < 8; v++) assert_near(targets.first_height[v], 0.1 + 0.3 / 2.1 * (x[v][0] - 1), 1e-9);
+  for (int v = 4; v < 8; v++) assert_near(targets.first_height[v], 0.1 + 0.3 / 2 * (x[v][0] - 1), 1e-9);
   free_wall(&wall, &targets);
 }
 
