@@ -114,10 +114,9 @@ NUMBER(double, fit_share, 0.2, none, "1",
        "53 to 99 %, from 6.4 degrees")
 NUMBER(double, core_ratio, 4, none, "1",
        "volume of a tetrahedron across that over the last prism, at most: what counts as even")
-NUMBER(
-    double, convex_cosine, 0.92, none, "cosine",
-    "23 degrees from the most normal direction to a face: along sharper convex edges columns slide; with crease_cosine "
-    "layers at blunt trailing edges are 2 % thinner (test_layers_pump)")
+NUMBER(double, convex_cosine, 0.92, none, "cosine",
+       "23 degrees from the most normal direction to a face: columns slide along convex edges that are sharper; with "
+       "crease_cosine layers at blunt trailing edges are 2 % thinner (test_layers_pump)")
 NUMBER(double, lean_share, 0.6, none, "1",
        "of the best cosine to the wall's normals, that columns and prisms keep which lean; with 0.5 columns at knife "
        "edges are thinned (test_layers_pump)")
