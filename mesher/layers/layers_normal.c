@@ -10,10 +10,6 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
-static double square(double x) {
-  return x * x;
-}
-
 // What keeps the best candidate direction.
 typedef struct {
   int count;
@@ -159,6 +155,7 @@ void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
 // Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
 static void edge_direction(int count, double (*normal)[3], double along[3]) {
   double largest = 0;
+  const double crease = cw_policy.crease_cosine, most = sqrt(1 - crease * crease); // more off is a corner
   for (int i = 0; i < count; i++)
     for (int j = i + 1; j < count; j++) {
       double c[3];
@@ -170,8 +167,7 @@ static void edge_direction(int count, double (*normal)[3], double along[3]) {
     }
   cw_unit(along);
   for (int i = 0; i < count; i++)
-    if (fabs(cw_dot(normal[i], along)) > sqrt(1 - square(cw_policy.crease_cosine)))
-      memset(along, 0, 3 * sizeof *along); // more than a crease off: a corner
+    if (fabs(cw_dot(normal[i], along)) > most) memset(along, 0, 3 * sizeof *along);
 }
 
 typedef struct {

@@ -23,7 +23,6 @@ enum {
 };
 // Numbers of regions in a pitch that are weighed, and tried where a plan has more than a fault.
 enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
-static const double OTHER_NUMBER = M_LN2; // log of what times the asked number of regions, or part, is a fault
 
 typedef struct {
   double cost, worst;
@@ -361,6 +360,11 @@ static double pipe_cost(const Sectors *sectors, int32_t slices, double mean) {
   return off + cw_plan_sharpness(worst);
 }
 
+// What another number of regions than the asked one costs: a fault where it is twice or half as many.
+static double other_number(double regions, int32_t asked) {
+  return fabs(log(regions / asked)) / M_LN2;
+}
+
 // The numbers of regions in one pitch that bring the plan near the asked number, best first: those with which regions
 // and slices would be about as large if `pipe` were the work of the slices, and of these, those with the best slices.
 static CwStatus weigh_numbers(Sectors *sectors, double pipe, double pitch, int32_t asked, Number number[NUMBERS],
@@ -374,7 +378,7 @@ static CwStatus weigh_numbers(Sectors *sectors, double pipe, double pitch, int32
   for (int32_t n = least; n <= most; n++) {
     double slices = fmax(1, round(pipe / pitch * n)), regions = slices + sectors->count * n, mean = whole / regions;
     double off = fmax(fabs(pipe / slices / mean - 1), fabs(pitch / n / mean - 1));
-    all[found++] = (Number){n, cw_plan_unevenness(off + 1, 1, 1) + fabs(log(regions / asked)) / OTHER_NUMBER};
+    all[found++] = (Number){n, cw_plan_unevenness(off + 1, 1, 1) + other_number(regions, asked)};
   }
   qsort(all, (size_t)found, sizeof *all, by_cost);
   *count = found < NUMBERS ? found : NUMBERS;
@@ -383,7 +387,7 @@ static CwStatus weigh_numbers(Sectors *sectors, double pipe, double pitch, int32
     int32_t slices;
     CW_TRY_STAGE(place_root(sectors, all[i].regions, &slices, outcome), outcome);
     int32_t regions = slices + sectors->count * all[i].regions;
-    all[i].cost = pipe_cost(sectors, slices, whole / regions) + fabs(log((double)regions / asked)) / OTHER_NUMBER;
+    all[i].cost = pipe_cost(sectors, slices, whole / regions) + other_number(regions, asked);
   }
   qsort(all, (size_t)*count, sizeof *all, by_cost);
   memcpy(number, all, (size_t)*count * sizeof *number);
