@@ -66,6 +66,14 @@ SyntheticPump synthetic_pump(void) {
                          .blades = 6};
 }
 
+SyntheticPump synthetic_pump_of_all_cells(void) {
+  SyntheticPump pump = synthetic_pump();
+  pump.rotor.around = 36;
+  pump.stator.around = 45;
+  pump.pyramids = 1;
+  return pump;
+}
+
 static int node_at(const Domain *d, int i, int j, int k) {
   const SyntheticAnnulus *a = d->annulus;
   int around = (j % a->around + a->around) % a->around;
@@ -280,15 +288,20 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
     }
 }
 
-// In a unit of 2 m, so that who reads it must bring it to metres.
-static int write_region_file(const char *path, const Domain *d, int region, CwRegionData *data) {
-  char digest[CW_HASH_TEXT];
+static void region_name(const char *domain, int number, char name[40]) {
+  snprintf(name, 40, "%s-%04d.h5", domain, number);
+}
+
+int synthetic_region_write(const char *run, const char *domain, int number, CwRegionData *data) {
+  char path[4000], name[40], digest[CW_HASH_TEXT];
+  region_name(domain, number, name);
+  snprintf(path, sizeof path, "%s/mesh/%s", run, name);
   hid_t file = cw_region_items_create(path);
   if (file < 0) return -1;
   int failed = cw_region_items_put_integer(file, "format", CW_REGION_FORMAT) != CW_OK;
-  failed |= cw_region_items_put_integer(file, "region", region + 1) != CW_OK;
-  failed |= cw_region_items_put_integer(file, "number", region + 1) != CW_OK;
-  failed |= cw_region_items_put_text(file, "domain", d->name) != CW_OK;
+  failed |= cw_region_items_put_integer(file, "region", number) != CW_OK;
+  failed |= cw_region_items_put_integer(file, "number", number) != CW_OK;
+  failed |= cw_region_items_put_text(file, "domain", domain) != CW_OK;
   failed |= cw_region_items_put_number(file, "unit_m", 2) != CW_OK;
   cw_region_items_scale(data, 0.5);
   failed |= cw_region_items_write(file, data, digest) != CW_OK;
@@ -356,17 +369,16 @@ static json_t *write_region(const char *run, Domain *d, int region) {
   }
   for (int t = 0; t < r.data.triangle_count; ++t) r.data.triangle_cell[t] = cell_number(&r, r.data.triangle_cell[t]);
   for (int q = 0; q < r.data.quad_count; ++q) r.data.quad_cell[q] = cell_number(&r, r.data.quad_cell[q]);
-  char path[4000], name[40];
-  snprintf(name, sizeof name, "%s-%04d.h5", d->name, region + 1);
-  snprintf(path, sizeof path, "%s/mesh/%s", run, name);
+  char name[40];
+  region_name(d->name, region + 1, name);
   json_t *line = NULL;
-  if (write_region_file(path, d, region, &r.data) == 0)
+  if (synthetic_region_write(run, d->name, region + 1, &r.data) == 0)
     line = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1, "number",
                      region + 1, "points", r.data.point_count, "own_points", r.data.point_count - r.data.shared_count,
                      "tetrahedra", r.data.tetrahedron_count, "pyramids", r.data.pyramid_count, "prisms",
                      r.data.prism_count, "triangles", r.data.triangle_count, "quads", r.data.quad_count);
   else
-    fprintf(stderr, "%s: cannot be written\n", path);
+    fprintf(stderr, "%s: %s cannot be written\n", run, name);
   cw_mesh_region_free(&r.data);
   free(r.local);
   return line;
