@@ -16,7 +16,7 @@ Every run is removed before the next one begins. With --mesh-only nothing is exp
 import tempfile
 from pathlib import Path
 
-from programs import execute, options_of
+from programs import execute, made_folder, options_of
 from runs import BIN, cases_named, failed_checks, quality, record, stage_line
 
 
@@ -46,7 +46,7 @@ def main():
     parser = options_of(__doc__, ranks=2, bin=BIN, mesh_only=False)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--cells", nargs="*", default=[None])
-    parser.add_argument("--work", type=Path)
+    parser.add_argument("--work", type=made_folder)
     options = parser.parse_args()
     print(f"{'case':10}{'asked':>12}{'made':>12}{'passes':>7}{'layers':>7}  {'first':>6}  {'even':>15}  {'worst':22} "
           f"{'dihedral':>12} {'aspect':>12} {'beside':>12}  checkMesh", flush=True)

@@ -11,14 +11,14 @@ import sys
 import tempfile
 from pathlib import Path
 
-from programs import execute, options_of
+from programs import execute, made_folder, options_of
 from runs import BIN
 
 
 def main():
     parser = options_of(__doc__, bin=BIN)
     parser.add_argument("file", type=Path)
-    parser.add_argument("--work", type=Path)
+    parser.add_argument("--work", type=made_folder)
     options = parser.parse_args()
     names = re.findall(r"^    \+-(\w+)\n    [| ] \+-ZoneType", execute("cgnslist", options.file).text, re.M)
     if not names:

@@ -28,7 +28,7 @@ import time
 from collections import namedtuple
 from pathlib import Path
 
-from programs import ENVIRONMENT, execute, options_of
+from programs import ENVIRONMENT, execute, made_folder, options_of
 from runs import BIN, PAPER_CASE, needs, record, stage_line, with_key
 
 LARGE, LARGE_RANKS, LARGE_ASKED = 1e9, 64, 2**30  # bytes a rank
@@ -161,7 +161,7 @@ def main():
     parser = options_of(__doc__, held_out="100M", bin=BIN, case=PAPER_CASE)
     parser.add_argument("cells", nargs="*", default=["8M", "38M", "100M", "145M"])
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4, 8, 16, 32])
-    parser.add_argument("--work", type=Path)
+    parser.add_argument("--work", type=made_folder)
     options = parser.parse_args()
     print("MB; peaks of the mesher | of the exporter (CGNS alone)")
     print(f"{'cells':>12} {'ranks':>6}" + 2 * f" {'all ranks':>10} {'largest':>8} {'a rank':>8}")

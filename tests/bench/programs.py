@@ -22,6 +22,13 @@ Run = namedtuple("Run", "text wall processor peak status")
 Gmsh = namedtuple("Gmsh", "wall processor steps peak triangles tetrahedra")
 
 
+def made_folder(text):
+    """The type of an option: a folder, which is made where there is none."""
+    path = Path(text)
+    path.mkdir(parents=True, exist_ok=True)
+    return path
+
+
 def options_of(text, **defaults):
     """The parser of a benchmark: --KEY for each default, of its type; a default of False makes a switch."""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -25,7 +25,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from programs import ENVIRONMENT, execute, options_of
+from programs import ENVIRONMENT, execute, made_folder, options_of
 from runs import BIN, PAPER_CASE, needs, record, seconds_by_step, stage_line, with_key
 
 
@@ -109,7 +109,7 @@ def main():
     parser = options_of(__doc__, ranks=2, kill=False, judge=False, audit=False, report=False, bin=BIN, case=PAPER_CASE)
     parser.add_argument("cells", nargs="*", default=["8M", "20M"])
     parser.add_argument("--formats", nargs="+")
-    parser.add_argument("--work", type=Path)
+    parser.add_argument("--work", type=made_folder)
     options = parser.parse_args()
     print(f"{options.ranks} ranks on {os.cpu_count()} cores; seconds of the mesher and the exporter, peak memory of "
           "all ranks in GiB; regions, cells of a region over their mean, least dihedral angle in degrees, mean aspect: "
