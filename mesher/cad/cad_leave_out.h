@@ -28,7 +28,7 @@ typedef struct {
 } CwCadStrip;
 
 // Lists the strips of all chains that can be left out: walls with walls beyond both sides that go on in one surface, or
-// meet in a concave edge of 45 degrees or more (so that no nose of a blade and no step is one). Chains are numbered
+// meet in a concave edge of 30 degrees or more (so that no nose of a blade and no step is one). Chains are numbered
 // from 0 on without gaps. *strips [out]: malloc'd, by chain. CW_ERR_MEMORY.
 CwStatus cw_cad_strips_find(const CwCad *cad, int *count, CwCadStrip **strips);
 

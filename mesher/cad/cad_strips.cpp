@@ -13,7 +13,7 @@ namespace {
 const int LENGTH_PARTS = 32;        // of an edge, for its length
 const double CORNER_COSINE = 0.866; // 30 degrees: the loop turns by more at the corners of a strip
 const double MOST_CREST = 0.17;     // sine of 10 degrees: of the way across, out of the flow beside either wall
-const double LEAST_COSINE = -0.7;   // 45 degrees of flow between the walls beyond the sides
+const double LEAST_COSINE = -0.866; // 30 degrees of flow between the walls beyond the sides
 const double MOST_UNEVEN = 0.5;     // of the sines of the angles across from either wall: a riser has 0 and 1
 const double ELONGATED = 2;         // sides over ends, from which on they are told apart by their lengths
 const double SAME_LENGTH = 1e-6;    // relative: rows of one length

@@ -27,6 +27,10 @@ double cw_plan_place_cost(CwPlanPlace place) {
   return cw_plan_sharpness(place.worst) + place.cut;
 }
 
+double cw_plan_touch_cost(double touch) {
+  return touch > 1 ? touch : cw_plan_sharpness(1 - touch);
+}
+
 double cw_plan_unevenness(double work, double wanted, int32_t regions) {
   return regions * square((work / wanted - 1) / cw_policy.plan_uneven);
 }

@@ -179,7 +179,7 @@ static CwStatus find_best(const Choice *choice, Best *best) {
     if (!candidate->judged) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
-      double touch = cw_plan_touch(choice->model, choice->part, &plane, NULL);
+      double touch = cw_plan_touch_cost(cw_plan_touch(choice->model, choice->part, &plane, NULL));
       CwPlanLines lines;
       CW_TRY(cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch, &lines));
       candidate->further = touch + lines.cost;

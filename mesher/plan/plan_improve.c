@@ -41,7 +41,7 @@ static CwStatus weigh_plane(const CwPlanModel *model, CwPlan *plan, const CwPlan
   const CwPlane *plane = &plan->node[node].plane;
   CwPlanPlace place = cw_plan_place(model, part, plane, NULL);
   plan->node[node].worst = place.worst;
-  double cost = cw_plan_place_cost(place) + cw_plan_touch(model, part, plane, NULL);
+  double cost = cw_plan_place_cost(place) + cw_plan_touch_cost(cw_plan_touch(model, part, plane, NULL));
   if (cost < most) CW_TRY(cw_plan_lines(model, plan, node, part, plane, most - cost, &lines));
   *worth = (Worth){cost + lines.cost, lines.cosine <= cw_policy.upright_cosine || cw_plan_is_sharp(place.worst)};
 done:

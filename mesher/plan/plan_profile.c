@@ -209,7 +209,7 @@ double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwP
   double most = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double room = model->edge[e].touch, near = nearness(fabs(cw_plane_distance(plane, model->edge[e].x)), room);
+    double room = model->edge[e].touch, near = 1 - fabs(cw_plane_distance(plane, model->edge[e].x)) / room;
     if (end && cw_plane_distance(end, model->edge[e].x) < -room) continue;
     if (most < CW_PLAN_UNFIT && has_no_corner(model, e, plane)) most = CW_PLAN_UNFIT;
     if (near > most) most = fmax(most, near * cw_plan_along_edge(model, e, plane->normal));
@@ -228,7 +228,7 @@ void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const dou
     int32_t first = (int32_t)fmax(ceil((place - room - low) / step), 0);
     for (int32_t p = first; p < count && low + step * p <= place + room; p++) {
       CwPlane plane = {{n[0], n[1], n[2]}, low + step * p};
-      double near = nearness(fabs(plane.offset - place), model->edge[e].touch);
+      double near = fmax(1 - fabs(plane.offset - place) / model->edge[e].touch, 0);
       touch[p] = fmax(touch[p], has_no_corner(model, e, &plane) ? CW_PLAN_UNFIT : along * near);
     }
   }

@@ -41,8 +41,8 @@ double cw_plan_along_edge(const CwPlanModel *model, int32_t e, const double n[3]
 #define CW_PLAN_UNFIT 1e3
 
 // How near one plane, where it lies on the positive side of `end` (NULL: everywhere), comes to an edge that it runs
-// along: 0 where there is room for triangles between both, 1 where there is none; CW_PLAN_UNFIT where it crosses the
-// end of a left-out face.
+// along: 0 where there is room for triangles between both, 1 where both are one; CW_PLAN_UNFIT where it crosses the end
+// of a left-out face.
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
 // The same of all planes with normal n at the places low, low + step, ...
 void cw_plan_touches(const CwPlanModel *model, const CwPlanPart *part, const double n[3], double low, double step,

@@ -51,7 +51,7 @@ static double judge_across(const Sectors *sectors, double place, double *worst) 
   CwPlanPlace found = cw_profile_at(&sectors->along, cw_profile_bin(&sectors->along, place));
   double touch = round((place - sectors->axis.low) / sectors->touch_step);
   *worst = found.worst;
-  return cw_plan_place_cost(found) + sectors->touch[(int)fmin(fmax(touch, 0), TOUCHES - 1)];
+  return cw_plan_place_cost(found) + cw_plan_touch_cost(sectors->touch[(int)fmin(fmax(touch, 0), TOUCHES - 1)]);
 }
 
 static CwPlane half_plane(double angle) {
@@ -68,7 +68,7 @@ static CwStatus judge_half_plane(const Sectors *sectors, const CwPlanPart *wheel
   CwPlanPlace place = cw_plan_place(sectors->model, wheel, &plane, &end);
   CwPlanLines lines;
   CW_TRY(cw_plan_lines(sectors->model, plan, plan->sector_first, wheel, &plane, INFINITY, &lines));
-  double touch = cw_plan_touch(sectors->model, wheel, &plane, &end);
+  double touch = cw_plan_touch_cost(cw_plan_touch(sectors->model, wheel, &plane, &end));
   *judged = (Judged){cw_plan_place_cost(place) + touch + lines.cost, place.worst};
 done:
   return status;

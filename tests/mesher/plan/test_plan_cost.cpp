@@ -23,6 +23,13 @@ static void layers_cut_along_an_edge_are_a_fault(void **) {
   }
 }
 
+// Triangles between a cut and an edge are as flat as they are low for the room that triangles want.
+static void a_cut_beside_an_edge_costs_as_a_sharp_angle(void **) {
+  for (double room : {0.0, 0.1, 0.5, 0.9, 1.0})
+    assert_near(cw_plan_touch_cost(1 - room), cw_plan_sharpness(room), 1e-12);
+  assert_true(cw_plan_touch_cost(CW_PLAN_UNFIT) >= CW_PLAN_UNFIT);
+}
+
 // To either side alike, as the square; a part costs what its regions cost if they share its work evenly.
 static void uneven_work_costs(void **) {
   assert_near(cw_plan_unevenness(3, 3, 1), 0, 1e-12);
@@ -46,6 +53,7 @@ int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_sharp_angle_is_a_fault),
       cmocka_unit_test(layers_cut_along_an_edge_are_a_fault),
+      cmocka_unit_test(a_cut_beside_an_edge_costs_as_a_sharp_angle),
       cmocka_unit_test(uneven_work_costs),
       cmocka_unit_test(only_large_slices_cost),
   };

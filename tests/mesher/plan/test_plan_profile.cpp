@@ -37,9 +37,11 @@ static void planes_beside_a_smooth_edge_touch_it(void **) {
   Ring ring;
   const double x[] = {0, 0.02, 0.01}, h = cw_size_at(ring.size, x);
   CwPlane across = {{0, 0, 1}, 0.01 + 0.1 * h};
-  assert_near(ring.touch(across), 1, 1e-6);
+  assert_near(ring.touch(across), 0.8, 0.04); // h is not the same all along
   across.offset = 0.01 - 0.375 * h;
-  assert_near(ring.touch(across), 0.5, 0.1); // h is not the same all along
+  assert_near(ring.touch(across), 0.25, 0.1);
+  across.offset = 0.01;
+  assert_near(ring.touch(across), 1, 1e-6);
   across.offset = 0.01 + 0.7 * h;
   assert_near(ring.touch(across), 0, 1e-9);
 }
@@ -71,7 +73,7 @@ static void planes_of_one_direction_are_told_together(void **) {
     assert_near(touch[i], ring.touch({{0, 0, 1}, low + step * i}), 1e-9);
     most = std::fmax(most, touch[i]);
   }
-  assert_near(most, 1, 1e-6);
+  assert_in_range((int)(100 * most), 90, 100); // half a step beside the edge, or less
 }
 
 // A border of a left-out face along x, 2 mm long, and chords beside it that stand for it or not.
@@ -113,7 +115,7 @@ static void parts_keep_the_edges_beside_them(void **) {
   const CwPlane above = {{0, 0, 1}, 0.01 - 0.1 * h}, below = {{0, 0, 1}, 0.01 - 0.2 * h};
   CwPlanPart half;
   check(cw_plan_part_clip(&ring.model, &ring.whole, &above, 0, &half));
-  assert_near(cw_plan_touch(&ring.model, &half, &below, nullptr), 1, 1e-6);
+  assert_near(cw_plan_touch(&ring.model, &half, &below, nullptr), 0.6, 0.06);
   cw_plan_part_free(&half);
 }
 
