@@ -36,6 +36,7 @@ typedef struct {
   double solid_volume; // m3, exact
   CwVerticals *inside;
   CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
+  int32_t whole;        // 1: it had a symmetry, which was given up
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
   CwSize *size;
   double base_size;                // edge length at relative size 1 and scale 1; the same for all domains

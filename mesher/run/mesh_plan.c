@@ -107,7 +107,7 @@ done:
 // Looks for equal passages about the axis, anew where a symmetry was found or given up.
 static CwStatus find_symmetry(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  run->whole = 0;
+  for (int d = 0; d < run->model.domain_count; d++) run->domain[d].whole = 0;
   if (!run->table->mesh.periodic_impeller) goto done;
   cw_profiler_part(&run->context, "symmetry");
   for (int d = 0; d < run->model.domain_count; d++) {
@@ -300,11 +300,13 @@ done:
 CwStatus cw_mesh_resize(CwMeshRun *run) {
   CwStatus status = CW_OK;
   run->prisms = run->tets = (CwCellLaw){0}; // as when the sizes were first made
+  int32_t given_up = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
     cw_domain_clear(&run->domain[d]);
     run->domain[d].layer_share = CW_LAYER_SHARE;
+    given_up |= run->domain[d].whole;
   }
-  if (run->whole) CW_TRY(find_symmetry(run));
+  if (given_up) CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:
   return status;
@@ -349,16 +351,16 @@ static CwStatus plan_whole(CwMeshRun *run, int d, const char *reason) {
          reason);
   cw_domain_clear(&run->domain[d]); // what hangs on the symmetry goes first
   cw_symmetry_free(&run->domain[d].symmetry);
-  run->whole = 1;
+  run->domain[d].whole = 1;
   CW_TRY(plan_anew(run, d));
 done:
   return status;
 }
 
-CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason) {
+CwStatus cw_mesh_plan_whole(CwMeshRun *run, const int32_t *whole, const char *reason) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->model.domain_count; d++) {
-    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d, reason));
+    if (whole[d] && run->domain[d].symmetry) CW_TRY(plan_whole(run, d, reason));
   }
 done:
   return status;

@@ -17,8 +17,9 @@ CwStatus cw_mesh_plan(CwMeshRun *run);
 // Warns of domains that have fewer regions than the case asks for.
 void cw_warn_of_few_cells(const CwMeshRun *run);
 
-// Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole. reason: for the log.
-CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason);
+// Gives up the symmetries of the domains with a 1 in `whole`: they are planned anew, to be meshed whole. reason: for
+// the log.
+CwStatus cw_mesh_plan_whole(CwMeshRun *run, const int32_t *whole, const char *reason);
 
 // Another plan for the domain of an outcome. A domain with a symmetry gives it up. Any other, whose plan does not fit
 // (a plane grazes a wall, or leaves no room to layers), gets one region more, so that all planes lie elsewhere;

@@ -94,11 +94,12 @@ done:
 
 // What the next mesh follows from, with as many digits as the file keeps.
 static CwPassStart start_of(const CwMeshRun *run) {
-  CwPassStart start = {.prisms = rounded_law(&run->prisms),
-                       .tets = rounded_law(&run->tets),
-                       .places = run->finer.count,
-                       .whole = run->whole};
-  for (int d = 0; d < run->model.domain_count; d++) start.more_regions[d] = run->domain[d].more_regions;
+  CwPassStart start = {
+      .prisms = rounded_law(&run->prisms), .tets = rounded_law(&run->tets), .places = run->finer.count};
+  for (int d = 0; d < run->model.domain_count; d++) {
+    start.whole[d] = run->domain[d].whole;
+    start.more_regions[d] = run->domain[d].more_regions;
+  }
   return start;
 }
 
@@ -121,9 +122,7 @@ static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
   if (run->stopped) goto done;
   if (state->start.prisms.factor > 0) take_laws(run, &state->start);
-  if (state->start.whole)
-    CW_TRY(
-        cw_mesh_plan_whole(run, state->tried_whole ? "they fall short" : "as in the run that this one goes on from"));
+  CW_TRY(cw_mesh_plan_whole(run, state->start.whole, state->tried_whole ? "they fall short" : "as before"));
 done:
   return status;
 }
@@ -183,7 +182,7 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
   } else {
     take_best(run, state);
     state->poor_rounds = whole ? POOR_MOST : POOR_MOST + 1;
-    if (whole) state->start.whole = state->tried_whole = 1;
+    for (int d = 0; d < run->model.domain_count && whole; d++) state->start.whole[d] = state->tried_whole = 1;
     cw_log(run->context.log, whole ? "the passages fall short; the impeller is meshed whole for once"
                                    : "that did not help; the best mesh is made again");
   }

@@ -103,21 +103,29 @@ static int int_in(const json_t *file, const char *key) {
   return (int)json_integer_value(json_object_get(file, key));
 }
 
+static void by_domain_in(const json_t *list, int32_t of_domain[CW_DOMAINS_MOST]) {
+  for (size_t d = 0; d < CW_DOMAINS_MOST; d++) of_domain[d] = (int32_t)json_integer_value(json_array_get(list, d));
+}
+
+static json_t *by_domain_packed(const int32_t of_domain[CW_DOMAINS_MOST]) {
+  json_t *list = json_array();
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(list, json_integer(of_domain[d]));
+  return list;
+}
+
 static CwPassStart start_in(const json_t *file) {
   CwPassStart start = {.prisms = law_in(json_object_get(file, "prisms")),
                        .tets = law_in(json_object_get(file, "tetrahedra")),
-                       .places = int_in(file, "places"),
-                       .whole = json_is_true(json_object_get(file, "whole"))};
-  for (size_t d = 0; d < CW_DOMAINS_MOST; d++)
-    start.more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
+                       .places = int_in(file, "places")};
+  by_domain_in(json_object_get(file, "whole"), start.whole);
+  by_domain_in(json_object_get(file, "more_regions"), start.more_regions);
   return start;
 }
 
 static json_t *start_packed(const CwPassStart *start) {
-  json_t *more = json_array();
-  for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(start->more_regions[d]));
-  return json_pack("{s:o, s:o, s:i, s:b, s:o}", "prisms", law_packed(&start->prisms), "tetrahedra",
-                   law_packed(&start->tets), "places", start->places, "whole", start->whole, "more_regions", more);
+  return json_pack("{s:o, s:o, s:i, s:o, s:o}", "prisms", law_packed(&start->prisms), "tetrahedra",
+                   law_packed(&start->tets), "places", start->places, "whole", by_domain_packed(start->whole),
+                   "more_regions", by_domain_packed(start->more_regions));
 }
 
 CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {

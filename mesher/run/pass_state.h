@@ -14,7 +14,7 @@
 typedef struct {
   CwCellLaw prisms, tets;                // as learned; factor 0: not yet
   int32_t places;                        // of `finer` that its size fields have
-  int whole;                             // 1: the symmetry of the impeller is given up
+  int32_t whole[CW_DOMAINS_MOST];        // 1: of each domain, the symmetry is given up
   int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
 } CwPassStart;
 

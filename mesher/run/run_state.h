@@ -77,7 +77,6 @@ typedef struct {
   // With which the domains were planned.
   CwCellLaw planned_prisms, planned_tets;
   double planned_scale;
-  int whole;           // 1: a symmetry was given up
   int copies_told;     // 1: a warning says that each rank holds copies of what a host may share
   int passes, retries; // retries: of all passes
   int64_t cells;       // made

@@ -16,6 +16,7 @@ extern "C" {
 enum { VERTICES = 7, TRIANGLES = 3, LAYERS = 3 };
 static const double FIRST = 1, GROWTH = 1.2, FULL = FIRST * (1 + GROWTH + GROWTH * GROWTH), EDGE = 20;
 
+// 18 fields: the arrays of surface, targets and layers that the coverage is counted from, and the domain of them.
 struct Wall {
   CwCad *cad;
   double x[VERTICES][3], top[VERTICES][3], thickness[VERTICES], first[VERTICES];
