@@ -317,6 +317,35 @@ static void plans_that_do_not_fit_give_way(void **state) {
   cw_plan_free(&run.domain[1].plan);
 }
 
+// A domain whose symmetry is given up leaves the others theirs.
+static void each_symmetry_is_given_up_alone(void **state) {
+  const double of_layer = prism_factor / domain[0].layer_count;
+  CwMeshRun run = {.table = &table,
+                   .model = model,
+                   .prisms.factor = of_layer,
+                   .tets.factor = TET_FACTOR,
+                   .planned_prisms.factor = of_layer,
+                   .planned_tets.factor = TET_FACTOR,
+                   .planned_scale = 2};
+  memcpy(run.domain, domain, sizeof domain);
+  check(cw_symmetry_find(domain[0].cad, &domain[0].background, &run.domain[0].symmetry));
+  assert_non_null(run.domain[0].symmetry);
+  cw_mesh_set_scale(&run, 2);
+  const int32_t none[CW_DOMAINS_MOST] = {0}, stator[CW_DOMAINS_MOST] = {0, 1}, both[CW_DOMAINS_MOST] = {1, 1};
+  check(cw_mesh_plan_whole(&run, none, "as asked"));
+  check(cw_mesh_plan_whole(&run, stator, "as asked")); // which has none
+  assert_non_null(run.domain[0].symmetry);
+  assert_int_equal(run.domain[0].whole + run.domain[1].whole, 0);
+  check(cw_mesh_plan_whole(&run, both, "as asked"));
+  assert_null(run.domain[0].symmetry);
+  assert_int_equal(run.domain[0].whole, 1);
+  assert_int_equal(run.domain[1].whole, 0);
+  assert_int_equal(run.domain[0].plan.sector_count, 0);
+  assert_true(run.domain[0].plan.region_count > 0);
+  assert_int_equal(run.domain[1].plan.region_count, 0);
+  cw_plan_free(&run.domain[0].plan);
+}
+
 // The number of layers that enough faces of a domain need at the scale of a run.
 static int layers_needed(const CwMeshRun *run, int d) {
   double needing[CW_LAYERS_MOST + 1] = {0};
@@ -486,7 +515,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(few_regions_are_even_and_cut_cleanly),  cmocka_unit_test(dozens_of_regions_too),
       cmocka_unit_test(planes_keep_clear_of_edges_and_layers), cmocka_unit_test(two_plans_are_the_same),
       cmocka_unit_test(plans_that_do_not_fit_give_way),        cmocka_unit_test(packed_plans_come_back_whole),
-      cmocka_unit_test(layers_grow_in_number_before_y_plus),
+      cmocka_unit_test(layers_grow_in_number_before_y_plus),   cmocka_unit_test(each_symmetry_is_given_up_alone),
   };
   const struct CMUnitTest many[] = {cmocka_unit_test(all_that_are_asked_can_be_had)};
   if (argc < 2) return cmocka_run_group_tests(quick, open_pump, close_pump);
