@@ -7,95 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/cad/background_tessellate.h"
 #include "mesher/common/vec.h"
 #include "mesher/network/network.h"
 #include "mesher/plan/plan_model.h"
-#include "mesher/run/cell_count.h"
-#include "mesher/run/domain_size.h"
-#include "mesher/run/mesh_plan.h"
-#include "mesher/thickness/layer_count.h"
-#include "mesher/thickness/layer_thickness.h"
-#include "pipeline/case_read.h"
-#include "tests/test_folder.h"
-#include "tests/unit_test.h"
+#include "pump_domains.h"
 
 enum { CELLS_PER_REGION = 20000 };
 
-static const char *case_name = "paper";
 static int asked_count;
 static char **asked;
-static CwCase table;
-static CwModel model;
-static CwDomain domain[CW_DOMAINS_MOST];
-static CwSymmetry *symmetry; // of the rotor
-static double prism_factor;
-static const double TET_FACTOR = 11.6;
-
-static void check(CwStatus status) {
-  if (status != CW_OK) fail_msg("%s", cw_fail_message());
-}
-
-static void open_domain(CwDomain *made, int number, const char *folder) {
-  void **part, **seed, **field;
-  int64_t size;
-  check(cw_domain_open(made, &model, number, folder));
-  check(cw_domain_ask(made, &table));
-  cw_domain_set_layers(made, &table, table.walls.layer_count > 0 ? table.walls.layer_count : CW_LAYERS_LEAST,
-                       CW_LOG_LAYER_Y_PLUS);
-  int faces = cw_cad_face_count(made->cad);
-  part = calloc((size_t)faces, sizeof *part);
-  assert_non_null(part);
-  check(cw_domain_start_background(made, 4e-5));
-  made->base_size = 2e-3;
-  for (int f = 0; f < faces; f++) check(cw_tessellation_face(made->tessellation, f, &part[f], &size));
-  check(cw_domain_take_background(NULL, made, part));
-  for (int f = 0; f < faces; f++) free(part[f]);
-  free(part);
-  int seeds = cw_size_seed_parts(made->cad);
-  seed = calloc((size_t)seeds, sizeof *seed);
-  assert_non_null(seed);
-  for (int i = 0; i < seeds; i++) check(cw_domain_seed(made, &table, i, &seed[i], &size));
-  int parts = cw_domain_size_parts(made);
-  field = calloc((size_t)parts, sizeof *field);
-  assert_non_null(field);
-  for (int i = 0; i < parts; i++)
-    check(cw_domain_make_size(made, &table, table.mesh.gradation, 0, 0, NULL, seed, i, &field[i], &size));
-  check(cw_domain_take_size(NULL, made, 0, field));
-  for (int i = 0; i < seeds; i++) free(seed[i]);
-  free(seed);
-  for (int i = 0; i < parts; i++) free(field[i]);
-  free(field);
-}
-
-static int open_pump(void **state) {
-  char command[1024], case_path[512];
-  assert_int_equal(make_test_folder(state), 0);
-  snprintf(case_path, sizeof case_path, "%s/cases/%s/case.yaml", CUTWATER_SOURCE_DIR, case_name);
-  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR,
-           case_path, test_folder);
-  assert_int_equal(system(command), 0);
-  check(cw_case_read(case_path, &table));
-  check(cw_model_read(in_test_folder("geometry/model.json"), &model));
-  for (int d = 0; d < model.domain_count; d++) open_domain(&domain[d], d, in_test_folder("geometry"));
-  prism_factor = 2.45 * domain[0].layer_count;
-  check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
-  assert_true(symmetry || strcmp(case_name, "paper") != 0);
-  assert_int_equal(clear_test_folder(state), 0);
-  return 0;
-}
-
-static int close_pump(void **state) {
-  for (int d = 0; d < model.domain_count; d++) cw_domain_close(&domain[d]);
-  cw_symmetry_free(&symmetry);
-  cw_model_free(&model);
-  return 0;
-}
-
-static double cells_at(const CwDomain *of, double scale) {
-  return prism_factor * of->prism_integral / (scale * scale) +
-         TET_FACTOR * cw_domain_tet_integral(of, scale) / (scale * scale * scale);
-}
 
 // A plan of so many regions, of so many cells each or more.
 static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *plan) {
@@ -274,122 +194,6 @@ static void packed_plans_come_back_whole(void **state) {
   cw_plan_free(&copy);
 }
 
-// Planned anew, a domain has one region more, other planes and the scale of before; three times. Then it is
-// not divided, unless it is too large for a region, and then the run ends.
-static void plans_that_do_not_fit_give_way(void **state) {
-  const double of_layer = prism_factor / domain[1].layer_count;
-  CwMeshRun run = {.table = &table,
-                   .model = model,
-                   .prisms.factor = 2 * of_layer,
-                   .tets.factor = 2 * TET_FACTOR,
-                   .planned_prisms.factor = of_layer,
-                   .planned_tets.factor = TET_FACTOR,
-                   .planned_scale = 2};
-  memcpy(run.domain, domain, sizeof domain);
-  cw_mesh_set_scale(&run, 2);
-  table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
-  cw_mesh_set_scale(&run, 1.7);
-  const double x[3] = {0.05, 0.1, 0.001}, wanted = cw_size_at(domain[1].size, x);
-  CwOutcome why = {.kind = CW_OUTCOME_REPLAN, .domain = 1, .reason = "partition plane 3 grazes a face"};
-  check(cw_mesh_plan_again(&run, &why));
-  CwPlane first = run.domain[1].plan.node[0].plane;
-  assert_int_equal(run.domain[1].plan.region_count, 7);
-  check(cw_mesh_plan_again(&run, &why));
-  assert_int_equal(run.domain[1].plan.region_count, 8);
-  assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
-  check(cw_mesh_plan_again(&run, &why));
-  assert_int_equal(run.domain[1].plan.region_count, 9);
-  assert_true(run.scale == 1.7 && run.prisms.factor == 2 * of_layer && run.tets.factor == 2 * TET_FACTOR);
-  assert_true(cw_size_at(domain[1].size, x) == wanted);
-  run.tets.factor *= 1e6;
-  assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
-  assert_non_null(strstr(cw_fail_message(), "stator: partition plane 3 grazes a face; after 3 other plans, and one "
-                                            "region cannot hold its "));
-  assert_non_null(strstr(cw_fail_message(), "another mesh.cells_per_region (5000 to 4000000)"));
-  cw_fail_clear();
-  run.tets.factor /= 1e6;
-  check(cw_mesh_plan_again(&run, &why));
-  assert_int_equal(run.domain[1].plan.region_count, 1);
-  assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
-  assert_non_null(strstr(cw_fail_message(),
-                         "stator: partition plane 3 grazes a face; after 3 other plans, undivided too; allowed: "));
-  cw_fail_clear();
-  cw_plan_free(&run.domain[1].plan);
-}
-
-// A domain whose symmetry is given up leaves the others theirs.
-static void each_symmetry_is_given_up_alone(void **state) {
-  const double of_layer = prism_factor / domain[0].layer_count;
-  CwMeshRun run = {.table = &table,
-                   .model = model,
-                   .prisms.factor = of_layer,
-                   .tets.factor = TET_FACTOR,
-                   .planned_prisms.factor = of_layer,
-                   .planned_tets.factor = TET_FACTOR,
-                   .planned_scale = 2};
-  memcpy(run.domain, domain, sizeof domain);
-  check(cw_symmetry_find(domain[0].cad, &domain[0].background, &run.domain[0].symmetry));
-  assert_non_null(run.domain[0].symmetry);
-  cw_mesh_set_scale(&run, 2);
-  const int32_t none[CW_DOMAINS_MOST] = {0}, stator[CW_DOMAINS_MOST] = {0, 1}, both[CW_DOMAINS_MOST] = {1, 1};
-  check(cw_mesh_plan_whole(&run, none, "as asked"));
-  check(cw_mesh_plan_whole(&run, stator, "as asked")); // which has none
-  assert_non_null(run.domain[0].symmetry);
-  assert_int_equal(run.domain[0].whole + run.domain[1].whole, 0);
-  check(cw_mesh_plan_whole(&run, both, "as asked"));
-  assert_null(run.domain[0].symmetry);
-  assert_int_equal(run.domain[0].whole, 1);
-  assert_int_equal(run.domain[1].whole, 0);
-  assert_int_equal(run.domain[0].plan.sector_count, 0);
-  assert_true(run.domain[0].plan.region_count > 0);
-  assert_int_equal(run.domain[1].plan.region_count, 0);
-  cw_plan_free(&run.domain[0].plan);
-}
-
-// The number of layers that enough faces of a domain need at the scale of a run.
-static int layers_needed(const CwMeshRun *run, int d) {
-  double needing[CW_LAYERS_MOST + 1] = {0};
-  cw_domain_layers_needed(&run->domain[d], run->scale, needing);
-  return cw_layer_count_for(needing);
-}
-
-// Where y+ is given the number of layers is what the faces of a domain need; with too few cells for that, as many as
-// leave narrow faces their edges, but no fewer than usual, and cells are told that have room. Where y+ is left open
-// that is so up to the usual number; then that is kept, and y+ grows until it is enough.
-static void layers_grow_in_number_before_y_plus(void **state) {
-  static const double cells[] = {1e4, 1e5, 3e5, 2e6};
-  const CwCase paper = table;
-  int most = 0; // where y+ is given
-  for (int i = 0; i < 8; i++) {
-    CwMeshRun run = {.table = &table, .model = model};
-    CwWalls *walls = &table.walls;
-    walls->layer_count = 0;
-    table.mesh.cells = (int64_t)cells[i / 2];
-    if (i % 2) walls->blade.y_plus = walls->hub_shroud.y_plus = walls->volute.y_plus = walls->pipe.y_plus = NAN;
-    memcpy(run.domain, domain, sizeof domain);
-    for (int d = 0; d < model.domain_count; d++) check(cw_domain_ask(&run.domain[d], &table));
-    cw_mesh_solve_layers(&run);
-    assert_int_equal(run.y_plus_auto > CW_LOG_LAYER_Y_PLUS, i % 2 && most > CW_LAYER_COUNT_USUAL);
-    assert_true(fabs(cw_predicted_off(&run)) < 1e-9);
-    if (i % 2 == 0) most = 0;
-    int needed[CW_DOMAINS_MOST], few = run.scale >= cw_size_scale_fine() && i % 2 == 0;
-    double room = cw_layers_short(&run, needed);
-    assert_true(room == 0 || (few && room > cells[i / 2]));
-    for (int d = 0; d < model.domain_count; d++) {
-      int count = run.domain[d].layer_count, need = layers_needed(&run, d);
-      if (room > 0) assert_int_equal(needed[d], need);
-      if (few && need > count) assert_true(count >= CW_LAYER_COUNT_USUAL && room > 0);
-      if (!few) assert_in_range(need, i % 2 ? 1 : count, count);
-      if (i % 2) assert_true(count <= CW_LAYER_COUNT_USUAL);
-      if (i % 2 == 0 && need > most) most = need;
-      free(run.domain[d].patch_target);
-      free(run.domain[d].relative_size);
-      free(run.domain[d].patch_layers);
-    }
-    table = paper;
-  }
-}
-
 static double layers_at_corner(const CwDomain *of, const CwCorner *corner) {
   double most = corner->face >= 0 ? layers_at(of, corner->face, corner->x) : 0;
   int faces[2];
@@ -514,8 +318,7 @@ int main(int argc, char **argv) {
   const struct CMUnitTest quick[] = {
       cmocka_unit_test(few_regions_are_even_and_cut_cleanly),  cmocka_unit_test(dozens_of_regions_too),
       cmocka_unit_test(planes_keep_clear_of_edges_and_layers), cmocka_unit_test(two_plans_are_the_same),
-      cmocka_unit_test(plans_that_do_not_fit_give_way),        cmocka_unit_test(packed_plans_come_back_whole),
-      cmocka_unit_test(layers_grow_in_number_before_y_plus),   cmocka_unit_test(each_symmetry_is_given_up_alone),
+      cmocka_unit_test(packed_plans_come_back_whole),
   };
   const struct CMUnitTest many[] = {cmocka_unit_test(all_that_are_asked_can_be_had)};
   if (argc < 2) return cmocka_run_group_tests(quick, open_pump, close_pump);
