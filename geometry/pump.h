@@ -17,10 +17,10 @@ extern "C" {
 
 enum { CW_PUMP_ROTOR, CW_PUMP_STATOR, CW_PUMP_DOMAINS_MOST = 4 };
 
-// Limits of a sound solid. The sizes are shares of D2: 2 um, 0.1 mm and 0.1 mm on a wheel of 200 mm.
-#define CW_PUMP_LARGEST_TOLERANCE 1e-5        // of D2, a fiftieth of the shortest edge
-#define CW_PUMP_LEAST_EDGE 5e-4               // of D2
-#define CW_PUMP_LEAST_FACE 5e-4               // of D2, width
+// Limits of a sound solid. The sizes are shares of D2: 2 um, 0.04 mm and 0.04 mm on a wheel of 200 mm.
+#define CW_PUMP_LARGEST_TOLERANCE 1e-5        // of D2, a twentieth of the shortest edge
+#define CW_PUMP_LEAST_EDGE 2e-4               // of D2
+#define CW_PUMP_LEAST_FACE 2e-4               // of D2, width
 #define CW_PUMP_VOLUME_TOLERANCE 1e-3         // rotor, to the volume of the sections
 #define CW_PUMP_LARGEST_KINK (3 * M_PI / 180) // rotor, between faces that should be smooth, rad
 

@@ -388,15 +388,15 @@ static void fillets_need_room_on_the_blade(void **state) {
   assert_near(design_of(&table).root_fillet_radius, fits, 1e-12);
 }
 
-// The chord of a fillet in a crease of 90 degrees is 1.41 R, in one of 135 degrees 0.77 R; faces are 0.0005 D2 wide.
+// The chord of a fillet in a crease of 90 degrees is 1.41 R, in one of 135 degrees 0.77 R; faces are 0.0002 D2 wide.
 static void fillets_narrower_than_faces_are_left_out(void **state) {
   CwCase table = paper();
   const double d2 = design_of(&table).outlet_diameter;
-  table.impeller.root_fillet_radius = 5e-4 / 1.42 * d2;
+  table.impeller.root_fillet_radius = 2e-4 / 1.42 * d2;
   assert_near(design_of(&table).root_fillet_radius, 0, 0);
-  assert_near(design_of(&table).asked[CW_DESIGN_root_fillet_radius], 5e-4 / 1.42 * d2, 1e-12);
-  table.impeller.root_fillet_radius = 5e-4 / 0.76 * d2;
-  assert_near(design_of(&table).root_fillet_radius, 5e-4 / 0.76 * d2, 1e-12);
+  assert_near(design_of(&table).asked[CW_DESIGN_root_fillet_radius], 2e-4 / 1.42 * d2, 1e-12);
+  table.impeller.root_fillet_radius = 2e-4 / 0.76 * d2;
+  assert_near(design_of(&table).root_fillet_radius, 2e-4 / 0.76 * d2, 1e-12);
 }
 
 static void rows_are_lines(void **state) {

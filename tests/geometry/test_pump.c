@@ -57,12 +57,12 @@ static void too_short_an_edge_is_named(void **state) {
   CwDesign small = design;
   CwSolid *with_small_flat = NULL;
   assert_int_equal(cw_pump_measure(&design, &pump, &measured), CW_OK);
-  small.nut_disk_radius = 0.085e-3;
+  small.nut_disk_radius = 0.034e-3;
   assert_int_equal(cw_rotor_build(&small, &with_small_flat), CW_OK);
   pump.solid[0] = with_small_flat;
   assert_int_equal(cw_pump_measure(&small, &pump, &measured), CW_ERR_GEOMETRY);
   const char *message = cw_fail_message();
-  if (!strstr(message, "rotor: the shortest edge, of hub_nut_") || !strstr(message, "0.089 mm") ||
+  if (!strstr(message, "rotor: the shortest edge, of hub_nut_") || !strstr(message, "0.0356 mm") ||
       !strstr(message, "raise hub_nut_flat_diameter_mm"))
     fail_msg("unexpected message: %s", message);
   cw_fail_clear();
