@@ -16,8 +16,8 @@ int cw_plan_is_sharp(double sine); // whether that is more than a fault
 // What a plane costs by the sharpest wall that it meets and the edges there.
 double cw_plan_place_cost(CwPlanPlace place);
 
-// What a plane costs that comes so near to an edge (cw_plan_touch): the triangles between both are as flat as an angle
-// of that sine is sharp.
+// What a plane costs that comes so near to an edge (cw_plan_touch): as a sharp angle whose sine is the share of the
+// room for triangles that is left. CW_PLAN_UNFIT stays what it is.
 double cw_plan_touch_cost(double touch);
 
 // What work that is off the wanted one costs in a part that is to become so many regions: what these cost together if

@@ -182,7 +182,8 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
   } else {
     take_best(run, state);
     state->poor_rounds = whole ? POOR_MOST : POOR_MOST + 1;
-    for (int d = 0; d < run->model.domain_count && whole; d++) state->start.whole[d] = state->tried_whole = 1;
+    if (whole) state->tried_whole = 1;
+    for (int d = 0; d < run->model.domain_count; d++) state->start.whole[d] |= whole;
     cw_log(run->context.log, whole ? "the passages fall short; the impeller is meshed whole for once"
                                    : "that did not help; the best mesh is made again");
   }

@@ -19,14 +19,7 @@ static WholeMesh whole;
 static CwAssembly assembly;
 
 static int make(void **state) {
-  if (make_test_folder(state)) return -1;
-  const SyntheticPump written = synthetic_pump_of_all_cells();
-  const char *run = in_test_folder("run");
-  if (synthetic_run_write(run, &written)) return -1;
-  whole_mesh_read(run, &whole);
-  if (cw_assembly_make(&whole.mesh, &ranks, &assembly) == CW_OK) return 0;
-  fprintf(stderr, "%s\n", cw_fail_message());
-  return -1;
+  return make_test_folder(state) || whole_mesh_make(in_test_folder("run"), &ranks, &whole, &assembly) ? -1 : 0;
 }
 
 static int release(void **state) {

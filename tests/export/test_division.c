@@ -6,7 +6,6 @@
 
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mpi_settings.h"
-#include "tests/export/synthetic_run.h"
 #include "tests/export/whole_mesh.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
@@ -16,12 +15,7 @@ static WholeMesh whole;
 static CwAssembly assembly;
 
 static int make(void **state) {
-  if (make_test_folder(state)) return -1;
-  const SyntheticPump pump = synthetic_pump_of_all_cells();
-  const char *run = in_test_folder("run");
-  if (synthetic_run_write(run, &pump)) return -1;
-  whole_mesh_read(run, &whole);
-  return cw_assembly_make(&whole.mesh, &ranks, &assembly) == CW_OK ? 0 : -1;
+  return make_test_folder(state) || whole_mesh_make(in_test_folder("run"), &ranks, &whole, &assembly) ? -1 : 0;
 }
 
 static int release(void **state) {

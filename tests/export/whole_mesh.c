@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tests/export/whole_mesh.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "pipeline/mesh/cell.h"
+#include "tests/export/synthetic_run.h"
 
 static int compare_points(const void *left, const void *right) {
   const WholePoint *a = left, *b = right;
@@ -87,6 +89,15 @@ void whole_mesh_read(const char *run, WholeMesh *whole) {
       fail_msg("%s", cw_fail_message());
   list_points(whole);
   list_faces(whole);
+}
+
+int whole_mesh_make(const char *run, const CwRanks *ranks, WholeMesh *whole, CwAssembly *assembly) {
+  const SyntheticPump pump = synthetic_pump_of_all_cells();
+  if (synthetic_run_write(run, &pump)) return -1;
+  whole_mesh_read(run, whole);
+  if (cw_assembly_make(&whole->mesh, ranks, assembly) == CW_OK) return 0;
+  fprintf(stderr, "%s\n", cw_fail_message());
+  return -1;
 }
 
 void whole_mesh_free(WholeMesh *whole) {

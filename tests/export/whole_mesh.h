@@ -30,6 +30,9 @@ typedef struct {
 void whole_mesh_read(const char *run, WholeMesh *whole);
 void whole_mesh_free(WholeMesh *whole);
 
+// Writes a small pump of all kinds of cells into `run`, reads it, and assembles it. Returns 0, or -1.
+int whole_mesh_make(const char *run, const CwRanks *ranks, WholeMesh *whole, CwAssembly *assembly);
+
 // The place of a node of a region in the list of points.
 int64_t whole_mesh_point(const WholeMesh *whole, int region, int32_t node);
 
