@@ -148,6 +148,6 @@ typedef struct {
   CwTriangle outlet_triangle[CW_TRIANGLE_SPANS]; // behind the blades, with slip
   CwVolute volute;                               // the casing, for cw_stator_build()
   const char *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
-  double asked[CW_DESIGN_COUNT];       // SI: the case's value where it gave way, for the reason in `source`; else NAN
+  double asked[CW_DESIGN_COUNT]; // SI: the case's value, or the same where a word gave way, for `source`; else NAN
 } CwDesign;
 #undef CW_DESIGN_MEMBER

@@ -46,8 +46,10 @@ static void against_correlations(const CwDesign *d, CwDesignRemarks *remarks) {
 static void gave_way(const CwDesign *d, CwDesignRemarks *remarks) {
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     const CwDesignValue value = cw_hydraulic_design_value(d, i);
-    remark(remarks, !isnan(value.asked), "%s: %s is %.4g %s, the case asks for %.4g %s", d->source[i], value.text,
-           value.shown, value.unit, value.asked, value.unit);
+    const int is_choice = value.asked == value.shown; // of a word, beside which the number says nothing
+    remark(remarks, is_choice, "%s", d->source[i]);
+    remark(remarks, !is_choice && !isnan(value.asked), "%s: %s is %.4g %s, the case asks for %.4g %s", d->source[i],
+           value.text, value.shown, value.unit, value.asked, value.unit);
   }
 }
 

@@ -17,7 +17,8 @@
     design->asked[CW_DESIGN_##member] = NAN;                                                                           \
   } while (0)
 
-// A given value that cannot be had gives way to `value`. The text begins with the key.
+// A given value that cannot be had gives way to `value`; a word, by which it is taken, where both are the same. The
+// text begins with the key.
 #define GIVE_WAY(member, value, given, text)                                                                           \
   do {                                                                                                                 \
     const double given_up = (given);                                                                                   \

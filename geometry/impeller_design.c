@@ -381,21 +381,22 @@ done:
   return status;
 }
 
-// Least angle at which a cylindrical blade stands on hub and shroud. It is parallel to the axis, as is the shroud in
-// the eye: there it would leave the shroud at its own blade angle, in a wedge that nobody can cast and no layer can
-// fill.
-static const double LEAST_STANDING = 50 * M_PI / 180;
-// How far out an open leading edge is moved for that: of the way from 0.635 D1 to D2, and its steps.
+// Least angles at which a cylindrical blade stands on hub and shroud, with an open leading edge and with a given one.
+// It is parallel to the axis, as is the shroud in the eye: there it would leave the shroud at its own blade angle, in a
+// wedge that nobody can cast and no layer can fill. 40 degrees are filled by two tetrahedra of 20.
+static const double LEAST_STANDING = 50 * M_PI / 180, LEAST_GIVEN = 40 * M_PI / 180;
+// How far out the leading edge is moved for that: of the way from where it was to D2, and its steps.
 static const double FARTHEST_EDGE = 0.6;
 enum { EDGE_STEPS = 12 };
 
-// Moves an open leading edge of cylindrical blades out until they stand, or as far as there is a wheel.
-static CwStatus stand_steeper(const CwCase *table, CwMeridian *meridian, CwDesign *design, double *angle) {
+// Moves the leading edge of cylindrical blades out until they stand at the least angle, or as far as there is a wheel.
+static CwStatus stand_steeper(const CwCase *table, double least, CwMeridian *meridian, CwDesign *design,
+                              double *angle) {
   CwStatus status = CW_OK;
   CwCase trial = *table;
-  const double first = design->leading_edge_radius_shroud;
+  const double first = design->leading_edge_radius_shroud, given = table->impeller.leading_edge_radius_shroud;
   CW_TRY(cw_blade_wall_angle(design, meridian, angle));
-  for (int i = 1; *angle < LEAST_STANDING && i <= EDGE_STEPS; i++) {
+  for (int i = 1; *angle < least && i <= EDGE_STEPS; i++) {
     trial.impeller.leading_edge_radius_shroud =
         first + FARTHEST_EDGE * i / EDGE_STEPS * (design->outlet_diameter / 2 - first);
     const CwDesign before = *design;
@@ -406,8 +407,12 @@ static CwStatus stand_steeper(const CwCase *table, CwMeridian *meridian, CwDesig
       *meridian = walls;
       break;
     }
-    design->source[CW_DESIGN_leading_edge_radius_shroud] =
-        "as far out as cylindrical blades stand at 50 deg on the walls";
+    const double radius = design->leading_edge_radius_shroud;
+    if (cw_case_given(given))
+      GIVE_WAY(leading_edge_radius_shroud, radius, given,
+               "leading_edge_radius_shroud_mm gives way to cylindrical blades that stand at 40 deg on the walls");
+    else
+      SET(leading_edge_radius_shroud, radius, "as far out as cylindrical blades stand at 50 deg on the walls");
     CW_TRY(cw_blade_wall_angle(design, meridian, angle));
   }
 done:
@@ -416,23 +421,27 @@ done:
 
 CwStatus cw_impeller_design(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
-  double angle;
+  double angle, least = cw_case_given(table->impeller.leading_edge_radius_shroud) ? LEAST_GIVEN : LEAST_STANDING;
   CW_TRY(solve_wheel(table, meridian, design));
-  if (design->blade_form != CW_BLADE_CYLINDRICAL || cw_case_given(table->impeller.leading_edge_radius_shroud))
-    goto done;
-  CW_TRY(stand_steeper(table, meridian, design, &angle));
-  if (angle >= LEAST_STANDING) goto done;
+  if (design->blade_form != CW_BLADE_CYLINDRICAL) goto done;
+  CW_TRY(stand_steeper(table, least, meridian, design, &angle));
+  if (angle >= least) goto done;
   const CwDesign flat = *design;
   const CwMeridian walls = *meridian;
   design->blade_form = CW_BLADE_TWISTED;
   if (solve_wheel(table, meridian, design) == CW_OK) {
-    GIVE_WAY(leading_edge_radius_shroud, design->leading_edge_radius_shroud, flat.leading_edge_radius_shroud,
-             "blade_form cylindrical gives way to twisted, which stands at 50 deg or more on the walls");
+    const double radius = design->leading_edge_radius_shroud;
+    GIVE_WAY(leading_edge_radius_shroud, radius, radius,
+             "blade_form cylindrical gives way to twisted, which stands steeper on the walls");
     goto done;
   }
   cw_fail_clear();
   *design = flat;
   *meridian = walls;
+  CW_REQUIRE(angle >= LEAST_GIVEN, CW_ERR_DESIGN,
+             "cylindrical blades that begin at r = %.4g mm stand at %.0f deg on hub or shroud; allowed: %.0f deg and "
+             "more: raise leading_edge_radius_shroud_mm or change wrap_angle_deg",
+             1e3 * flat.leading_edge_radius_shroud, angle / CW_DEGREE, LEAST_GIVEN / CW_DEGREE);
 done:
   return status;
 }

@@ -165,8 +165,8 @@ CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase
     thickness[p] = domain->patch_layers[p].thickness;
     least[p] = domain->layer_count * domain->patch_layers[p].first_height;
   }
-  CwPlanOptions options = {.region_count =
-                               domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + domain->more_regions,
+  int32_t more = domain->more_regions * (domain->symmetry ? domain->symmetry->count : 1);
+  CwPlanOptions options = {.region_count = domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + more,
                            .thickness = thickness,
                            .least_thickness = least,
                            .tallest = cw_policy.tallest_column,

@@ -52,7 +52,7 @@ typedef struct {
   CwLayerSample *layer_sample; // what the layers take of it
   int32_t layer_sample_count;
   double layer_share;   // of that, what graded columns take; known with the walls
-  int32_t more_regions; // than the number of cells asks for: plans given up; CW_UNDIVIDED: one region
+  int32_t more_regions; // than its cells ask for, of each passage where there are equal ones; CW_UNDIVIDED: one region
   CwPlan plan;
   CwNetwork network;
   CwPeriodicImages images;

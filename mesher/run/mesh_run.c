@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/model_unit.h"
 #include "mesher/parallel/profiler.h"
@@ -22,8 +23,8 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-// Passes with the same places; rounds of shorter edges for layers, and for quality.
-enum { PASSES_MOST = 10, FINER_MOST = 6, POOR_MOST = 4 };
+// Passes with the same places; rounds of shorter edges for layers, and for quality; of other planes after these.
+enum { PASSES_MOST = 10, FINER_MOST = 6, POOR_MOST = 4, PLANES_MOST = 3 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
 // The stages of one attempt, in their order. After the one that the run is to end with it is done.
@@ -122,7 +123,7 @@ static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
   if (run->stopped) goto done;
   if (state->start.prisms.factor > 0) take_laws(run, &state->start);
-  CW_TRY(cw_mesh_plan_whole(run, state->start.whole, state->tried_whole ? "they fall short" : "as before"));
+  CW_TRY(cw_mesh_plan_whole(run, state->start.whole, state->plane_rounds > 0 ? "they fall short" : "as before"));
 done:
   return status;
 }
@@ -145,48 +146,57 @@ done:
   return status;
 }
 
-// Begins anew as the best mesh did.
-static void take_best(CwMeshRun *run, CwPassState *state) {
+// What the next round begins with where shorter edges do not help: the best mesh, in which the domains that fall short
+// get other planes, of more regions each time, and the last time of no symmetry, since fewer planes leave layers more
+// room. 0 where there are no such rounds left: then the best mesh as it was.
+static int take_other_planes(CwMeshRun *run, CwPassState *state) {
+  int other = 0;
   state->start = state->best;
   run->finer.count = state->best.places;
+  state->plane_rounds++;
+  for (int d = 0; d < CW_DOMAINS_MOST && state->plane_rounds <= PLANES_MOST; d++) {
+    if (!state->best_lacks[d] || state->best.more_regions[d] == CW_UNDIVIDED) continue;
+    state->start.more_regions[d] += state->plane_rounds;
+    state->start.whole[d] |= state->plane_rounds == PLANES_MOST;
+    other = 1;
+  }
+  return other;
 }
 
 // Asks for shorter edges about flat tetrahedra and missed first heights, as long as these become fewer: where edges are
-// as long as a passage is wide no filling is better. After a second round that did not help an impeller of periodic
-// images is meshed whole once, if it is there that the best mesh falls short: fewer planes leave layers more room. Then
-// the best mesh is made again. made: whether there is a mesh that may stand, of as many cells as asked or what the
-// first passes came to; *again: 1 where there is anything to make.
+// as long as a passage is wide no filling is better. After a second round that did not help the domains that fall short
+// get other planes. Then the best mesh is made again. made: whether there is a mesh that may stand, of as many cells as
+// asked or what the first passes came to; *again: 1 where there is anything to make.
 static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again) {
   CwStatus status = CW_OK;
   int32_t poor = 0;
   double deficit = made ? cw_poor_deficit(run, &poor) : INFINITY;
   int many = made && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare;
   int best = made && (state->poor_rounds == 0 || deficit < state->least_deficit);
-  int more = many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1);
   if (best) {
     state->best = state->start;
     state->best_round = state->poor_rounds;
     state->least_deficit = deficit;
-    state->best_lacks = many && cw_poor_in_passages(run);
+    memset(state->best_lacks, 0, sizeof state->best_lacks);
+    if (many) cw_poor_domains(run, state->best_lacks);
   }
-  int whole = !more && state->best_lacks && !state->tried_whole && state->poor_rounds <= POOR_MOST;
-  *again = more || whole || (!best && state->poor_rounds <= POOR_MOST);
-  if (!*again) goto done;
-  if (more) {
+  if (many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1)) {
     cw_log(run->context.log,
            "regions with flat tetrahedra, or domains that miss first heights: %d; made again with shorter edges there",
            poor);
     CW_TRY(cw_finer_at_poor(run));
     state->start = start_of(run);
     state->poor_rounds++;
+  } else if (state->poor_rounds <= POOR_MOST && take_other_planes(run, state)) {
+    cw_log(run->context.log, "domains fall short; they are made again with other planes");
+    state->poor_rounds = POOR_MOST;
+  } else if (state->poor_rounds <= POOR_MOST && !best) {
+    cw_log(run->context.log, "that did not help; the best mesh is made again");
+    state->poor_rounds = POOR_MOST + 1;
   } else {
-    take_best(run, state);
-    state->poor_rounds = whole ? POOR_MOST : POOR_MOST + 1;
-    if (whole) state->tried_whole = 1;
-    for (int d = 0; d < run->model.domain_count; d++) state->start.whole[d] |= whole;
-    cw_log(run->context.log, whole ? "the passages fall short; the impeller is meshed whole for once"
-                                   : "that did not help; the best mesh is made again");
+    goto done;
   }
+  *again = 1;
   run->retries++;
 done:
   return status;

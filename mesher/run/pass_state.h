@@ -25,9 +25,9 @@ typedef struct {
   int finer_rounds, poor_rounds; // of shorter edges: for layers, and for quality
   CwPassStart best;              // of the mesh with the least deficit (poor_places)
   double least_deficit;
-  int best_round;  // of poor_rounds
-  int best_lacks;  // 1: passages of the best mesh, periodic images, fall short
-  int tried_whole; // 1: a mesh without symmetry was tried for that
+  int best_round;                      // of poor_rounds
+  int32_t best_lacks[CW_DOMAINS_MOST]; // 1: of each domain, in the best mesh it falls short
+  int plane_rounds;                    // of other planes for these
   CwFinerPlaces finer;
 } CwPassState;
 

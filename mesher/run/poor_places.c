@@ -63,11 +63,11 @@ double cw_poor_deficit(const CwMeshRun *run, int32_t *count) {
   return deficit;
 }
 
-int cw_poor_in_passages(const CwMeshRun *run) {
-  int32_t count = 0;
-  for (int d = 0; d < run->model.domain_count; d++)
-    if (run->domain[d].symmetry) deficit_of(run, d, &count);
-  return count > 0;
+void cw_poor_domains(const CwMeshRun *run, int32_t lacks[CW_DOMAINS_MOST]) {
+  for (int d = 0; d < run->model.domain_count; d++) {
+    int32_t count = 0;
+    lacks[d] = deficit_of(run, d, &count) > 0;
+  }
 }
 
 // Asks for shorter edges at the vertex x unless a place of this round, of which `before` were there, is near.

@@ -10,8 +10,8 @@
 // and domains that miss first heights.
 double cw_poor_deficit(const CwMeshRun *run, int32_t *count);
 
-// Whether domains of periodic images fall short.
-int cw_poor_in_passages(const CwMeshRun *run);
+// lacks[d]: 1 where domain d falls short, 0 elsewhere.
+void cw_poor_domains(const CwMeshRun *run, int32_t lacks[CW_DOMAINS_MOST]);
 
 // Asks for shorter edges there (run->finer).
 CwStatus cw_finer_at_poor(CwMeshRun *run);

@@ -48,6 +48,19 @@ static void far_off_values_are_remarked(void **state) {
   assert_false(remarked(&design, "predicts a head"));
 }
 
+// A number that gave way is told with what was asked, a word by the reason alone.
+static void what_gave_way_is_told(void **state) {
+  const CwCase table = paper();
+  CwDesign design = design_of(&table);
+  design.source[CW_DESIGN_inlet_diameter] = "key gives way";
+  design.asked[CW_DESIGN_inlet_diameter] = 2 * design.inlet_diameter;
+  assert_true(remarked(&design, "key gives way: impeller inlet D1 is "));
+  assert_true(remarked(&design, "the case asks for "));
+  design.asked[CW_DESIGN_inlet_diameter] = design.inlet_diameter;
+  assert_true(remarked(&design, "key gives way"));
+  assert_false(remarked(&design, "the case asks for "));
+}
+
 // 6.5 274/126 sin 34.3 deg = 7.97. Splitters from 0.45 on make 9.3 of six blades and 15.5 of ten, from 0.8 on 4.8 of
 // four, which would be 8.0 as 6.6.
 static void splitters_count_as_blades(void **state) {
@@ -266,6 +279,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks),
                                      cmocka_unit_test(ends_and_reach_are_remarked),
                                      cmocka_unit_test(far_off_values_are_remarked),
+                                     cmocka_unit_test(what_gave_way_is_told),
                                      cmocka_unit_test(splitters_count_as_blades),
                                      cmocka_unit_test(spread_of_the_wrap),
                                      cmocka_unit_test(remarks_name_keys_of_use),

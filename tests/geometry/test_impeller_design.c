@@ -241,6 +241,21 @@ static void cylindrical_blades_stand_on_the_walls(void **state) {
     assert_near(design.leading_edge_radius_hub, design.leading_edge_radius_shroud, 1e-12);
     assert_near(design.predicted_head, duty[i][1], 1e-3 * duty[i][1]);
   }
+  // A leading edge that is given in the eye gives way until they stand at 40 degrees; one outside stays.
+  CwCase drawn_in = duty_point(duty[3][0], duty[3][1], duty[3][2]);
+  drawn_in.impeller.blade_form = CW_BLADE_CYLINDRICAL;
+  const double open = design_of(&drawn_in).leading_edge_radius_shroud;
+  for (int out = 0; out < 2; out++) {
+    CwMeridian meridian;
+    double angle, given = out ? open : 0.6 * open;
+    drawn_in.impeller.leading_edge_radius_shroud = given;
+    const CwDesign design = design_of(&drawn_in);
+    assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+    assert_int_equal(cw_blade_wall_angle(&design, &meridian, &angle), CW_OK);
+    assert_true(angle >= 40 * degree);
+    assert_int_equal(design.leading_edge_radius_shroud > given, !out);
+    if (!out) assert_near(design.asked[CW_DESIGN_leading_edge_radius_shroud], given, 1e-12);
+  }
   // A given wrap with no law for a blade that begins so far out gives way to the nearest step.
   CwCase table = duty_point(1680.3, 12.575, 314.56);
   table.fluid.kinematic_viscosity = 4.8245e-5;

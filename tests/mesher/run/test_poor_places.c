@@ -59,30 +59,31 @@ static void missed_first_heights_count(void **state) {
   assert_int_equal(count, 0);
 }
 
-// Two domains, each of a region with half of its angle: it counts in that which has passages.
-static void what_passages_lack_is_told(void **state) {
+// Two domains, each of a region with half of its angle; then one of them with all of it.
+static void domains_that_lack_are_told(void **state) {
   static CwMeshRun run = {.model.domain_count = 2};
-  CwSymmetry symmetry = {.count = 6};
   CwRegionSummary made[2] = {0};
-  int32_t count;
+  int32_t count, lacks[CW_DOMAINS_MOST];
   for (int d = 0; d < 2; d++) {
     made[d].quality.flattest = 6;
     made[d].dihedral_allowed = 12;
     run.domain[d].plan.region_count = 1;
     run.summary[d] = &made[d];
   }
-  assert_int_equal(cw_poor_in_passages(&run), 0);
-  run.domain[1].symmetry = &symmetry;
-  assert_int_equal(cw_poor_in_passages(&run), 1);
+  cw_poor_domains(&run, lacks);
+  assert_int_equal(lacks[0], 1);
+  assert_int_equal(lacks[1], 1);
   assert_near(cw_poor_deficit(&run, &count), 1, 1e-12);
   assert_int_equal(count, 2);
-  made[1].quality.flattest = 12;
-  assert_int_equal(cw_poor_in_passages(&run), 0);
+  made[0].quality.flattest = 12;
+  cw_poor_domains(&run, lacks);
+  assert_int_equal(lacks[0], 0);
+  assert_int_equal(lacks[1], 1);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_lacks_angle_counts),
                                      cmocka_unit_test(missed_first_heights_count),
-                                     cmocka_unit_test(what_passages_lack_is_told)};
+                                     cmocka_unit_test(domains_that_lack_are_told)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
