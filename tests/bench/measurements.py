@@ -3,8 +3,8 @@
 """measurements.py [SECTION ...] [--list] [--write-only]
 
 Makes docs/measurements.md from the benches' own output. Each section is one command of tests/bench; all of them take
-hours, so sections may be named to be measured anew (--list tells them). The page keeps the other sections as far as
-they were measured on the present sources (page.py). With --write-only nothing is measured."""
+hours, so sections may be named to be measured anew (--list tells them). The page keeps the others, and marks those
+that were measured on older sources (page.py). With --write-only nothing is measured."""
 import argparse
 import os
 import platform

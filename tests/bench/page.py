@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make,
-as far as they were made on the present sources: those of its bench and of the stages that it runs, whose digest stands
-beside each section. A change of docs, of comments in C or of other benches leaves a section as it is; the rest is named
-at the end of the page."""
+"""A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make. The
+digest of the sources that a section follows from, of its bench and of the stages that it runs, stands beside it: where
+they have changed since, a line says so. A change of docs, of comments in C or of other benches does not count."""
 import hashlib
 import re
 import subprocess
@@ -57,6 +56,9 @@ def stamp(command):
     return f"`{command}`, commit {commit}, {time.strftime('%Y-%m-%d')}"
 
 
+OLDER = "*Not made on these sources, but on those of the commit below.*\n\n"
+
+
 class Page:
     """Its file, its text before the sections, the command of each section by name, and the call that makes some."""
 
@@ -64,16 +66,21 @@ class Page:
         self.path, self.head, self.commands, self.again = path, head, commands, again
 
     def section(self, name, title, *paragraphs):
-        """The text of a section that was made on the present sources."""
+        """The text of a section that is made on the present sources."""
         mark = f"<!-- section {name} {sources_digest(self.commands[name])} -->"
         return "\n\n".join([f"{mark}\n## {title}", *filter(None, paragraphs)]) + "\n"
 
     def kept(self):
-        """The sections of the page that were made on the present sources, by name."""
+        """The sections of the page by name, each with the line OLDER where its sources have changed since."""
         text = self.path.read_text() if self.path.exists() else ""
         found = re.findall(r"(<!-- section (\w+) (\w+) -->\n.*?\n)\n*(?=<!-- section |<!-- missing -->|\Z)", text, re.S)
-        return {name: section for section, name, digest in found
-                if name in self.commands and digest == sources_digest(self.commands[name])}
+        sections = {}
+        for section, name, digest in found:
+            if name in self.commands:
+                older = OLDER if digest != sources_digest(self.commands[name]) else ""
+                heading, rest = section.replace(OLDER, "").split("\n\n", 1)
+                sections[name] = f"{heading}\n\n{older}{rest}"
+        return sections
 
     def write(self, made):
         """The page with these sections, by name, and those that it keeps."""
@@ -81,8 +88,9 @@ class Page:
         missing = [name for name in self.commands if name not in sections]
         lines = [self.head, *(sections[name] for name in self.commands if name in sections)]
         if missing:
-            lines.append(f"<!-- missing -->\nNot made on these sources: {', '.join(missing)} (`{self.again}`).\n")
+            lines.append(f"<!-- missing -->\nNot made: {', '.join(missing)} (`{self.again}`).\n")
         part = self.path.with_suffix(".part")
         part.write_text("\n".join(lines))
         part.replace(self.path)
-        print(f"{self.path}: {len(self.commands) - len(missing)} of {len(self.commands)} sections", flush=True)
+        older = sum(OLDER in section for section in sections.values())
+        print(f"{self.path}: {len(sections)} of {len(self.commands)} sections, {older} of older sources", flush=True)

@@ -20,31 +20,33 @@ class Written(unittest.TestCase):
                              for name in names})
         return self.path.read_text()
 
-    def test_sections_stay_while_their_sources_do(self):
+    def test_sections_stay_and_tell_of_older_sources(self):
         text = self.write("1", "c", "a")
         self.assertEqual(text, "# Page\n\n<!-- section a 1a -->\n## Section a\n\nOf 1.\n\n```\nx\n\ny\n```\n\n"
                                "<!-- section c 1c -->\n## Section c\n\nOf 1.\n\n```\nx\n\ny\n```\n\n"
-                               "<!-- missing -->\nNot made on these sources: b (`make page`).\n")
+                               "<!-- missing -->\nNot made: b (`make page`).\n")
         self.assertEqual(self.write("1"), text)
-        self.assertEqual(self.write("1", "b").count("<!-- missing -->"), 0)
+        whole = self.write("1", "b")
+        self.assertEqual(whole.count("<!-- missing -->"), 0)
         text = self.write("2", "b")
-        self.assertEqual(text.count("## Section"), 1)
-        self.assertIn("Of 2.", text)
-        self.assertIn("Not made on these sources: a, c (`make page`).", text)
+        older = "*Not made on these sources, but on those of the commit below.*\n\n"
+        for name in "ac":
+            self.assertIn(f"<!-- section {name} 1{name} -->\n## Section {name}\n\n{older}Of 1.\n", text)
+        self.assertIn("<!-- section b 2b -->\n## Section b\n\nOf 2.\n", text)
+        self.assertEqual(self.write("3"), self.write("3"))  # the line stands there once
+        self.assertEqual(self.write("1", "b"), whole)
 
-    def test_what_is_outdated_goes_and_is_named(self):
+    def test_a_section_of_no_command_goes(self):
         """Also from a page without the mark of its end, whatever stands there."""
-        self.path.write_text("# Old\n\n<!-- section a 1a -->\n## Section a\n\n<!-- section b 2b -->\n## Section b\n\n"
+        self.path.write_text("# Old\n\n<!-- section b 2b -->\n## Section b\n\n"
                              "Kept.\n\n<!-- section gone 2d -->\n## Gone\n\nNot measured on these sources: c.\n")
-        with mock.patch.object(page, "sources_digest", lambda command: f"2{command[-1]}"):
-            self.assertEqual(list(self.page.kept()), ["b"])
         self.assertEqual(self.write("2"), "# Page\n\n<!-- section b 2b -->\n## Section b\n\nKept.\n\n<!-- missing -->\n"
-                                          "Not made on these sources: a, c (`make page`).\n")
+                                          "Not made: a, c (`make page`).\n")
 
     def test_the_page_of_the_measurements_has_or_names_each_section(self):
         text = measurements.PAGE.path.read_text()
         made = re.findall(r"<!-- section (\w+) ", text)
-        missing = re.search(r"<!-- missing -->\nNot made on these sources: (.*) \(", text)
+        missing = re.search(r"<!-- missing -->\nNot made: (.*) \(", text)
         self.assertEqual(sorted(made + (missing[1].split(", ") if missing else [])), sorted(measurements.SECTIONS))
 
     def test_the_sources_of_a_section(self):

@@ -3,7 +3,7 @@
 """verify.py [PART ...] [--runs runs/verify] [--small]
 
 Holds solved flow against what others published, and writes docs/verification.md with its pictures. Each part is a
-section of the page; parts that are not named stay as far as they were made on the present sources (page.py). All take
+section of the page; parts that are not named stay, and those of older sources are marked (page.py). All take
 some hours on two cores; a call that was killed goes on where it was. --small takes tiny meshes and ends early, to try
 the program: its page goes to the folder of runs.
 
