@@ -29,6 +29,9 @@ typedef struct {
 } CwFlatPlace;
 enum { CW_FLAT_PLACES = 12 };
 
+// Tetrahedra below so many times flat_angle count as nearly flat: halfway to wanted_angle.
+double cw_nearly_flat(void);
+
 // The fields are figures of their own: of all cells, of tetrahedra, of open faces and of prisms.
 typedef struct {
   double volume;       // m3, all cells
@@ -39,7 +42,7 @@ typedef struct {
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
   double flattest;                          // of all angles, determinants and weights of faces, degrees
-  CwFlatPlace flat[CW_FLAT_PLACES];         // where there are tetrahedra flatter than flat_angle, the flattest first
+  CwFlatPlace flat[CW_FLAT_PLACES];         // of flat and nearly flat tetrahedra, the flattest first
   int32_t flat_count;
   int64_t dihedral_bin[18];   // of the least angle of each tetrahedron, 10 degrees wide up to 180
   CwTetFigures beside, apart; // those with a corner on a partition plane, and the others

@@ -94,7 +94,7 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
       const CwRegionSummary *made = &run->summary[d][r];
       if (lacks_angle(run, d, r) == 0) continue;
       for (int32_t i = 0; i < made->quality.flat_count; i++)
-        if (made->quality.flat[i].flatness < wanted_of(made))
+        if (made->quality.flat[i].flatness < cw_nearly_flat() * wanted_of(made))
           CW_TRY(add_apart(run, d, made->quality.flat[i].x, before));
     }
     for (int32_t t = 0; heights && t < domain->surface.triangle_count; t++) {

@@ -13,5 +13,5 @@ double cw_poor_deficit(const CwMeshRun *run, int32_t *count);
 // lacks[d]: 1 where domain d falls short, 0 elsewhere.
 void cw_poor_domains(const CwMeshRun *run, int32_t lacks[CW_DOMAINS_MOST]);
 
-// Asks for shorter edges there (run->finer).
+// Asks for shorter edges there (run->finer); in a flat region also where it is nearly flat, which would come next.
 CwStatus cw_finer_at_poor(CwMeshRun *run);

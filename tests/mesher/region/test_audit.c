@@ -165,6 +165,31 @@ static void a_tetrahedron_far_larger_than_the_next_counts_as_flat(void **state) 
   }
 }
 
+// A tetrahedron with its apex straight over a corner of an equilateral triangle: its slope rises at the angle from the
+// opposite edge. Flat and nearly flat ones are listed: below 16 degrees, halfway from 12 to 20.
+static void nearly_flat_tetrahedra_are_listed(void **state) {
+  int32_t cells[1][4] = {{0, 1, 2, 3}};
+  int64_t shared_id[4] = {0, 1, 2, 3};
+  assert_near(cw_nearly_flat() * cw_policy.flat_angle, 16, 1e-12);
+  for (int angle = 11; angle <= 19; angle += 2) {
+    double far = sqrt(0.75), up = far * tan(angle * M_PI / 180);
+    double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, far, 0}, {0.5, far, up}};
+    CwRegionMesh r = {.domain = "rotor",
+                      .region = 3,
+                      .cells = {.points = points,
+                                .tetrahedra = cells,
+                                .shared_id = shared_id,
+                                .point_count = 4,
+                                .shared_count = 4,
+                                .tetrahedron_count = 1}};
+    CwQuality q;
+    passes(&r, &q);
+    assert_near(q.flattest, angle, 1e-9);
+    assert_int_equal(q.flat_count, angle < 16);
+    if (angle < 16) assert_near(q.flat[0].flatness, angle, 1e-9);
+  }
+}
+
 static void two_cells_on_one_side(void **state) {
   CwRegionMesh r = prism_and_tet();
   memcpy(tet[1], (int32_t[4]){3, 4, 5, 7}, sizeof tet[1]);
@@ -377,6 +402,7 @@ int main(void) {
       cmocka_unit_test(inverted_cells_are_named_with_their_place),
       cmocka_unit_test(cells_above_and_below_one_face),
       cmocka_unit_test(a_tetrahedron_far_larger_than_the_next_counts_as_flat),
+      cmocka_unit_test(nearly_flat_tetrahedra_are_listed),
       cmocka_unit_test(two_cells_on_one_side),
       cmocka_unit_test(open_face_is_allowed_only_on_partition_planes),
       cmocka_unit_test(corners_may_be_turned),

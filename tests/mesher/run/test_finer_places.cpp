@@ -6,7 +6,9 @@
 
 extern "C" {
 #include "mesher/cad/symmetry.h"
+#include "mesher/policy.h"
 #include "mesher/run/finer_places.h"
+#include "mesher/run/poor_places.h"
 }
 
 #include "planned_solid.h"
@@ -46,7 +48,35 @@ static void places_ask_for_half(void **) {
   assert_int_equal(places.count, 0);
 }
 
+// Of two regions with places at 11, 15.9 and 17 degrees only the one that is flat asks for shorter edges: at the flat
+// place and at the nearly flat one, below 4/3 of what is wanted. Of places that are near the first alone does.
+static void flat_regions_ask_where_they_are_nearly_flat(void **) {
+  static CwMeshRun run;
+  PlannedSolid solid(filleted_step(false));
+  CwRegionSummary made[2] = {};
+  cw_size_set_scale(solid.size, 0.02);
+  const double apart = 3 * cw_size_at(solid.size, (const double[]){1e-3, 1e-3, 1e-3});
+  for (int r = 0; r < 2; r++) {
+    made[r].dihedral_allowed = 40;
+    made[r].quality.flat_count = 4;
+    for (int i = 0; i < 4; i++) {
+      const double flatness[] = {11, 11.5, 15.9, 17}, at[] = {0, 0.1, 1, 2};
+      made[r].quality.flat[i] = {{1e-3 + at[i] * apart, 1e-3 + 5 * r * apart, 1e-3}, flatness[i]};
+    }
+    made[r].quality.flattest = r == 0 ? 11 : cw_policy.flat_angle;
+  }
+  run.model.domain_count = 1;
+  run.domain[0].size = solid.size;
+  run.domain[0].plan.region_count = 2;
+  run.summary[0] = made;
+  assert_int_equal(cw_finer_at_poor(&run), CW_OK);
+  assert_int_equal(run.finer.count, 2);
+  for (int i = 0; i < 2; i++) assert_near(run.finer.place[i].point.x[0], 1e-3 + i * apart, 1e-15);
+  cw_finer_places_free(&run.finer);
+}
+
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(places_ask_for_half)};
+  const CMUnitTest tests[] = {cmocka_unit_test(places_ask_for_half),
+                              cmocka_unit_test(flat_regions_ask_where_they_are_nearly_flat)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
