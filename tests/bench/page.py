@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make. The
-digest of the sources that a section follows from, of its bench and of the stages that it runs, stands beside it: where
-they have changed since, a line says so. A change of docs, of comments in C or of other benches does not count."""
+"""A page of docs/ that a bench writes, in sections, each by a command. It keeps the sections that a call does not make.
+The digest of the sources that a section follows from, of its bench and of the stages that it runs, stands beside it:
+where they have changed since, a line says so. A change of docs, of comments in C or of other benches does not count.
+"""
 import hashlib
 import re
 import subprocess
