@@ -193,9 +193,11 @@ done:
 
 // The least dihedral angle of a tetrahedron or, where checkMesh may call its determinant small, what it is worth by
 // that (see judge in fill/tet_search.c).
-static double flatness_of(const double *const *x, double dihedral, unsigned on_patches) {
-  static const double DOUBT = 20; // degrees; steeper ones have greater determinants, but with two faces on patches
-  if (dihedral > DOUBT && (on_patches & (on_patches - 1)) == 0) return dihedral;
+static double flatness_of(const double *const *x, double dihedral, double aspect, unsigned on_patches) {
+  // Degrees, and longest over shortest edge: what is steeper and stouter has a greater determinant, but with two faces
+  // on patches. Four points along a line are as steep as can be.
+  static const double DOUBT = 20, SLENDER = 3;
+  if (dihedral > DOUBT && aspect < SLENDER && (on_patches & (on_patches - 1)) == 0) return dihedral;
   double determinant = cw_cell_determinant(4, x, 0xf & ~on_patches);
   return cw_lesser(dihedral, cw_policy.flat_angle * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT)));
 }
@@ -230,7 +232,7 @@ static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality 
       int class = 0;
       while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
-      count_flat(data, c, flatness_of(x, shape.dihedral_least, on_patches[c]), shape.edge_longest, quality);
+      count_flat(data, c, flatness_of(x, shape.dihedral_least, aspect, on_patches[c]), shape.edge_longest, quality);
       quality->dihedral_least = cw_lesser(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = cw_greater(quality->dihedral_greatest, shape.dihedral_greatest);
       quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;

@@ -5,6 +5,7 @@
 
 #include "mesher/region/audit.h"
 #include "mesher/policy.h"
+#include "pipeline/mesh/cell.h"
 #include "tests/unit_test.h"
 
 // A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
@@ -139,6 +140,13 @@ static void cells_above_and_below_one_face(void **state) {
   }
 }
 
+// What the determinant of a tetrahedron with no face on a patch counts as: 12 degrees where checkMesh begins to name
+// it, with the fourth root, as the determinant of a flat one goes with the fourth power of its angle.
+static double angle_of_determinant(const double (*points)[3], const int32_t *cell) {
+  const double *corner[4] = {points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]};
+  return 12 * pow(cw_cell_determinant(4, corner, 0xf) / CW_SMALL_DETERMINANT, 0.25);
+}
+
 // A needle of the given height on a face of a tetrahedron that is 0.8 high: the face parts them as 0.8 to its height.
 static void a_tetrahedron_far_larger_than_the_next_counts_as_flat(void **state) {
   int32_t cells[2][4] = {{0, 1, 2, 3}, {0, 2, 1, 4}};
@@ -156,8 +164,10 @@ static void a_tetrahedron_far_larger_than_the_next_counts_as_flat(void **state) 
     CwQuality q;
     passes(&r, &q);
     assert_int_equal(q.flat_count, !low);
-    if (low) {
-      assert_near(q.flattest, q.dihedral_least, 0);
+    if (low) { // steep, but so long that its determinant is worth less
+      assert_true(q.dihedral_least > 20);
+      assert_near(q.flattest, angle_of_determinant((const double(*)[3])points, cells[0]), 1e-9);
+      assert_true(q.flattest > cw_policy.flat_angle);
     } else {
       assert_near(q.flattest, cw_policy.flat_angle * 0.8 / 16.1 / 0.05, 1e-5);
       for (int k = 0; k < 3; k++) assert_near(q.flat[0].x[k], k == 0 ? 0.5 : k == 1 ? middle : height / 4, 1e-14);
@@ -187,6 +197,31 @@ static void nearly_flat_tetrahedra_are_listed(void **state) {
     assert_near(q.flattest, angle, 1e-9);
     assert_int_equal(q.flat_count, angle < 16);
     if (angle < 16) assert_near(q.flat[0].flatness, angle, 1e-9);
+  }
+}
+
+// A spindle of four points about a line, the outer two so many times farther apart than the inner two: its angles stay
+// steep while its determinant falls with the square of its length (checkMesh names those below 0.001).
+static void spindles_count_by_their_determinant(void **state) {
+  int32_t cells[1][4] = {{0, 1, 2, 3}};
+  int64_t shared_id[4] = {0, 1, 2, 3};
+  for (int length = 3; length <= 30; length *= 10) {
+    double points[4][3] = {{0, 0, 0}, {0.5, 0.5, length / 2.0}, {-0.5, 0.5, length / 2.0}, {0, 0, length}};
+    CwRegionMesh r = {.domain = "rotor",
+                      .region = 3,
+                      .cells = {.points = points,
+                                .tetrahedra = cells,
+                                .shared_id = shared_id,
+                                .point_count = 4,
+                                .shared_count = 4,
+                                .tetrahedron_count = 1}};
+    CwQuality q;
+    passes(&r, &q);
+    assert_true(q.dihedral_least > 20);
+    assert_int_equal(q.flat_count, length == 30);
+    const double worth = angle_of_determinant((const double(*)[3])points, cells[0]);
+    assert_int_equal(worth < 12, length == 30);
+    assert_near(q.flattest, fmin(q.dihedral_least, worth), 1e-9);
   }
 }
 
@@ -403,6 +438,7 @@ int main(void) {
       cmocka_unit_test(cells_above_and_below_one_face),
       cmocka_unit_test(a_tetrahedron_far_larger_than_the_next_counts_as_flat),
       cmocka_unit_test(nearly_flat_tetrahedra_are_listed),
+      cmocka_unit_test(spindles_count_by_their_determinant),
       cmocka_unit_test(two_cells_on_one_side),
       cmocka_unit_test(open_face_is_allowed_only_on_partition_planes),
       cmocka_unit_test(corners_may_be_turned),
