@@ -15,6 +15,7 @@ extern "C" {
 
 #include "domain_surfaces.h"
 #include "solids.h"
+#include "wall_surface.h"
 
 static inline double even_size(const void *, const double *) {
   return 2.5e-3;
@@ -69,21 +70,7 @@ struct Box {
 };
 
 static inline void make_walls(Box &box) {
-  DomainSurfaces &boundary = box.boundary;
-  int faces = cw_cad_face_count(box.cad);
-  std::vector<void *> walls(faces, nullptr);
-  int64_t size;
-  check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
-  check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
-  for (int f = 0; f < faces; f++) {
-    if (cw_cad_face_is_wall(box.cad, f))
-      check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
-  }
-  check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
-                             &box.outcome));
-  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
-  check(cw_surface_mesh_audit(&boundary.surface, box.plan.region_count));
-  for (void *bytes : walls) free(bytes);
+  make_wall_surface(box.boundary, &box.outcome);
 }
 
 // Walls, and layers of 1.5 mm on them.

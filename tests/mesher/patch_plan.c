@@ -109,6 +109,20 @@ void add_rectangle(Plan *plan, double u0, double v0, double u1, double v1) {
   add_loop(plan, 4, corner);
 }
 
+Plan *lattice_plan(int shape, int n, double h, double scale, double turned) {
+  Plan *plan = new_plan(shape, h);
+  const int32_t count = 4 * n;
+  for (int32_t k = 0; k < count; k++) {
+    const int side = k / n, at = k % n;
+    const double a = side == 0 ? at : side == 1 ? n : side == 2 ? n - at : 0;
+    const double b = side == 0 ? 0 : side == 1 ? at : side == 2 ? n : n - at;
+    const double x = h * (a + 0.5 * b), y = h * sqrt(0.75) * b;
+    add_point(plan, (x * cos(turned) - y * sin(turned)) / scale, x * sin(turned) + y * cos(turned));
+  }
+  for (int32_t k = 0; k < count; k++) add_edge(plan, k, (k + 1) % count, 1);
+  return plan;
+}
+
 typedef struct {
   int32_t a, b, triangle;
 } Side;

@@ -43,6 +43,10 @@ void add_loop(Plan *plan, int count, const double (*corner)[2]);
 
 void add_rectangle(Plan *plan, double u0, double v0, double u1, double v1);
 
+// A rhombus of equilateral triangles, n edges a side, on a surface that stretches u by 1 /
+// scale; `turned` by an angle.
+Plan *lattice_plan(int shape, int n, double h, double scale, double turned);
+
 // Meshes the plan and checks its topology and places. Returns the clearance of the free points over the given edges.
 double mesh_plan(Plan *plan, const char *title, double uv_area, int euler, CwPatchMesh *mesh);
 

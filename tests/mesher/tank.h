@@ -26,7 +26,7 @@ extern "C" {
 #include "domain_surfaces.h"
 #include "solids.h"
 
-inline double even_size(const void *, const double *) {
+inline double tank_size(const void *, const double *) {
   return 4e-3;
 }
 
@@ -128,7 +128,7 @@ struct Tank {
     plan = {(int)node.size(), 1 + each * count, node.data(), none.data(), 1, count, 1, n};
     boundary.input.cad = cad;
     boundary.input.plan = &plan;
-    boundary.input.size_at = even_size;
+    boundary.input.size_at = tank_size;
     check(cw_network_make(NULL, cad, &background, inside, &plan, &boundary.network, &outcome));
     assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     boundary.images.symmetry = symmetry;

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The run of the paper's pump at a small size, by all stages in turn: the other tests of whole runs look at it.
-Modules without a test of their own that it runs: mesh_run, mesh_steps, run_step, run_walls, run_layers,
-run_interfaces, run_regions, manifest, coupled_edges."""
+"""The run of the paper's pump at a small size, by all stages in turn: the other tests of whole runs look at it."""
 import os
 import shutil
 import unittest

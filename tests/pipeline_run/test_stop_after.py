@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""A mesher that ends after a stage: what it writes of each product, beside the finished mesh of the shared run.
-Modules without a test of their own that it runs: stage_view."""
+"""A mesher that ends after a stage: what it writes of each product, beside the finished mesh of the shared run."""
 import re
 import shutil
 import unittest

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <vector>
 
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -10,7 +9,7 @@
 #include "mesher/cad/background_make.h"
 #include "mesher/cad/background_tessellate.h"
 
-#include "solids.h"
+#include "closed_background.h"
 
 static const double radius = 0.005, height = 0.012;
 
@@ -18,31 +17,6 @@ static CwBackground make(CwCad *cad, double deflection) {
   CwBackground background;
   if (cw_background_make(cad, deflection, 0.2, &background) != CW_OK) fail_msg("%s", cw_fail_message());
   return background;
-}
-
-// Independent of the check inside: each directed edge once, its opposite once; Euler's number of a ball's
-// surface.
-static void check_closed(const CwBackground *b) {
-  std::map<std::pair<int32_t, int32_t>, int> directed;
-  for (int32_t t = 0; t < b->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) directed[{b->triangle[t][k], b->triangle[t][(k + 1) % 3]}]++;
-  }
-  for (const auto &item : directed) {
-    assert_int_equal(item.second, 1);
-    assert_int_equal(directed.count({item.first.second, item.first.first}), 1);
-  }
-  assert_int_equal(b->point_count - (int)directed.size() / 2 + b->triangle_count, 2);
-}
-
-static void check_corners(const CwCad *cad, const CwBackground *b) {
-  for (int32_t t = 0; t < b->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) {
-      double x[3];
-      cw_cad_face_point(cad, b->face[t], b->uv[t][k], x, nullptr, nullptr);
-      const double *p = b->x[b->triangle[t][k]];
-      assert_true(std::hypot(x[0] - p[0], x[1] - p[1], x[2] - p[2]) < 1e-9);
-    }
-  }
 }
 
 static void box_is_closed_and_exact(void **state) {
@@ -119,15 +93,7 @@ static void faces_of_two_ranks_are_joined(void **state) {
   assert_memory_equal(a.triangle, b.triangle, a.triangle_count * sizeof *a.triangle);
   assert_memory_equal(a.face, b.face, a.triangle_count * sizeof *a.face);
   assert_memory_equal(a.uv, b.uv, a.triangle_count * sizeof *a.uv);
-  for (int32_t t = 0; t < b.triangle_count; t++) {
-    for (int k = 0; k < 3; k++) {
-      const int32_t *other = b.triangle[b.neighbour[t][k]];
-      int shared = 0;
-      for (int j = 0; j < 3; j++)
-        shared += other[j] == b.triangle[t][(k + 1) % 3] && other[(j + 1) % 3] == b.triangle[t][k];
-      assert_int_equal(shared, 1);
-    }
-  }
+  check_neighbours(&b);
   cw_background_free(&a);
   cw_background_free(&b);
   for (void *block : bytes) free(block);

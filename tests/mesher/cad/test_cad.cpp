@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: cad_read, cad_shape.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

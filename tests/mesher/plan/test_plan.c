@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The planner on the solids of the paper's pump: balance, angles, determinism and rooms for few and many regions. With
 // arguments (paper 60 100): of that case's pump, so many regions a domain, which takes its time.
-// Modules without a test of their own that it runs: plan_make.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

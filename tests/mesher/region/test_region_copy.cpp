@@ -2,7 +2,6 @@
 // A tank filled by the regions of one pitch and their periodic images, with the rule of region numbers (interface_rule)
 // and without.
 extern "C" {
-#include "mesher/network/periodic_images.h"
 #include "mesher/region/audit.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_copy.h"
@@ -10,68 +9,7 @@ extern "C" {
 }
 
 #include "shared_points.h"
-#include "tank.h"
-
-// Surfaces of a tank of five sectors: those of the first of each image set are made, the others copied. The layers
-// are periodic.
-static void make_surfaces(Tank &tank, bool divided) {
-  DomainSurfaces &boundary = tank.boundary;
-  const CwPeriodicImages &images = boundary.images;
-  const int faces = cw_cad_face_count(tank.cad);
-  std::vector<void *> walls(faces, nullptr), open_patches(faces, nullptr), interfaces;
-  int64_t size;
-  check(cw_periodic_images_make(&boundary.network, &boundary.images, &tank.outcome));
-  check(cw_wall_curves_make(NULL, &boundary.input, &boundary.open_edges, &boundary.wall_curves));
-  check(cw_wall_curves_audit(&boundary.wall_curves, &boundary.network));
-  for (int f = 0; f < faces; f++) {
-    if (images.symmetry->face.first[f] != f) continue;
-    if (cw_cad_face_is_wall(tank.cad, f))
-      check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &walls[f], &size));
-  }
-  check(cw_surface_mesh_make(NULL, &boundary.input, &boundary.wall_curves, walls.data(), &boundary.surface,
-                             &tank.outcome));
-  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
-  check(cw_surface_mesh_audit(&boundary.surface, tank.plan.region_count));
-  std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &tank.background, target.data(), nullptr, nullptr,
-                         &boundary.layers, &tank.outcome));
-  check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
-                            &boundary.free_curves, &tank.outcome));
-  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
-  check(cw_free_curves_audit(&boundary.free_curves, &boundary.network));
-  for (int f = 0; f < faces; f++) {
-    if (images.symmetry->face.first[f] != f) continue;
-    if (!cw_cad_face_is_wall(tank.cad, f))
-      check(cw_interfaces_open_patch(&boundary.input, &boundary.wall_curves, &boundary.free_curves, f, &open_patches[f],
-                                     &size));
-  }
-  assert_int_equal(boundary.free_curves.outline_count, divided ? 30 : 10);
-  interfaces.resize(boundary.free_curves.outline_count, nullptr);
-  for (int i = 0; i < boundary.free_curves.outline_count; i++) {
-    if (boundary.free_curves.outline_images.first[i] == i)
-      check(cw_interfaces_polygon(&boundary.input, &boundary.free_curves, i, &interfaces[i], &size));
-  }
-  check(cw_interfaces_make(&boundary.input, &boundary.free_curves, open_patches.data(), interfaces.data(),
-                           &boundary.interfaces, &tank.outcome));
-  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
-  check(cw_interfaces_audit(&boundary.interfaces, tank.plan.region_count));
-  for (int v = 0; v < boundary.surface.vertex_count; v++) {
-    const int next = cw_image_node(&boundary.surface.images, v, 1);
-    if (next < 0) continue;
-    double turned[3];
-    cw_symmetry_turn(5, 1, boundary.layers.top[v], turned);
-    for (int k = 0; k < 3; k++) assert_near(turned[k], boundary.layers.top[next][k], 1e-15);
-    assert_int_equal(cw_image_node(&boundary.surface.images, v, 5), v);
-  }
-  for (void *bytes : walls) free(bytes);
-  for (void *bytes : open_patches) free(bytes);
-  for (void *bytes : interfaces) free(bytes);
-}
-
-// Walls and interfaces are meshed for a size of which this is the half.
-static double half_size(const void *context, const double x[3]) {
-  return even_size(context, x) / 2;
-}
+#include "tank_surfaces.h"
 
 // The rule of region numbers on the interfaces of the first regions: turns take what it makes to what the others have.
 static void refine(Tank &tank, const int32_t *number) {

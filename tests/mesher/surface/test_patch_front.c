@@ -21,22 +21,6 @@ static void make_front(const Plan *plan, double scale, CwPatchWork *work) {
   cw_cdt_free(&cdt);
 }
 
-// A rhombus of equilateral triangles, n edges a side, on a surface that stretches u by 1 /
-// scale; `turned` by an angle.
-static Plan *lattice(int shape, int n, double h, double scale, double turned) {
-  Plan *plan = new_plan(shape, h);
-  const int32_t count = 4 * n;
-  for (int32_t k = 0; k < count; k++) {
-    const int side = k / n, at = k % n;
-    const double a = side == 0 ? at : side == 1 ? n : side == 2 ? n - at : 0;
-    const double b = side == 0 ? 0 : side == 1 ? at : side == 2 ? n : n - at;
-    const double x = h * (a + 0.5 * b), y = h * sqrt(0.75) * b;
-    add_point(plan, (x * cos(turned) - y * sin(turned)) / scale, x * sin(turned) + y * cos(turned));
-  }
-  for (int32_t k = 0; k < count; k++) add_edge(plan, k, (k + 1) % count, 1);
-  return plan;
-}
-
 // Where equilateral triangles fit, the fronts meet in them: every point in its place, none lacks, none is too many.
 static void a_lattice_is_filled_by_its_points(void **state) {
   const double h = 0.05;
@@ -47,7 +31,7 @@ static void a_lattice_is_filled_by_its_points(void **state) {
   for (int m = 0; m < 2; m++)
     for (int n = 2; n <= 12; n += 5) {
       const double turned = 0.4 * n;
-      Plan *plan = lattice(maps[m].shape, n, h, maps[m].scale, turned);
+      Plan *plan = lattice_plan(maps[m].shape, n, h, maps[m].scale, turned);
       CwPatchWork work;
       int32_t triangles = 0, before = 0;
       make_front(plan, maps[m].scale, &work);

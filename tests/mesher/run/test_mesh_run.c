@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The order in which a run makes its stages, and when it makes them again. The stages are set by hand here, in place of
+// those of the library: each attempt ends as a test says, and each call leaves letters in a trace,
+//
+//   o open   z sizes anew   f first factors   p plan (more regions of either domain)   h whole (1: of which domain)
+//   w warning of few cells   W walls   L layers   I interfaces   U rule of region numbers   G regions
+//   T thinner layers (attempt)   e end of thinning   A another plan (of domain)   N tetrahedra learnt   S scale solved
+//   F finer place (of domain)   Q finer at poor places   m manifest
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "mesher/parallel/team.h"
+#include "mesher/policy.h"
+#include "mesher/run/cell_count.h"
+#include "mesher/run/manifest.h"
+#include "mesher/run/mesh_plan.h"
+#include "mesher/run/mesh_run.h"
+#include "mesher/run/poor_places.h"
+#include "mesher/run/run_interfaces.h"
+#include "mesher/run/run_layers.h"
+#include "mesher/run/run_regions.h"
+#include "mesher/run/run_walls.h"
+#include "mesher/run/stage_view.h"
+#include "pipeline/case_schema.h"
+#include "tests/test_folder.h"
+#include "tests/unit_test.h"
+#include "tests/whole_file.h"
+
+// How an attempt ends: at a stage (its letter) with an outcome of a domain, or with an error; else with so many cells
+// over the asked number, and poor regions with their deficit.
+typedef struct {
+  char stage;
+  CwOutcomeKind kind;
+  int domain;
+  CwStatus error;
+  double cells, deficit;
+  int32_t poor;
+} Attempt;
+
+enum { ASKED = 100000 };
+
+static CwMeshRun run;
+static CwCase table;
+static const Attempt *script; // the last attempt goes on for ever
+static int script_count, at;
+static char trace[1000];
+static int other_plans; // that each domain still has
+static double factor_at_scale;
+
+static void add(const char *format, ...) {
+  va_list arguments;
+  const size_t used = strlen(trace);
+  va_start(arguments, format);
+  vsnprintf(trace + used, sizeof trace - used, format, arguments);
+  va_end(arguments);
+  assert_true(strlen(trace) < sizeof trace - 1); // else the run has no end
+}
+
+static const Attempt *now(void) {
+  return &script[at < script_count ? at : script_count - 1];
+}
+
+static CwStatus stage(char letter, CwThinPlaces *places, CwOutcome *outcome) {
+  add("%c", letter);
+  if (now()->stage != letter) return CW_OK;
+  if (now()->error != CW_OK) return CW_FAIL(now()->error, "stage %c", letter);
+  const double place[3] = {1, 2, 3};
+  cw_outcome_set(outcome, now()->kind, place, "as the script says");
+  outcome->domain = now()->domain;
+  if (places) places->count++;
+  return CW_OK;
+}
+
+CwStatus cw_mesh_open(CwMeshRun *of) {
+  add("o");
+  of->model.domain_count = 2;
+  strcpy(of->model.domain[0].name, "rotor");
+  strcpy(of->model.domain[1].name, "stator");
+  of->domain[0].name = "rotor";
+  of->domain[1].name = "stator";
+  return CW_OK;
+}
+
+CwStatus cw_mesh_resize(CwMeshRun *of) {
+  add("z");
+  return CW_OK;
+}
+
+void cw_start_factors(CwMeshRun *of) {
+  add("f");
+  of->prisms = (CwCellLaw){.factor = 2};
+  of->tets = (CwCellLaw){.factor = 9};
+}
+
+CwStatus cw_mesh_plan(CwMeshRun *of) {
+  add("p%d%d", of->domain[0].more_regions, of->domain[1].more_regions);
+  return CW_OK;
+}
+
+CwStatus cw_mesh_plan_whole(CwMeshRun *of, const int32_t *whole, const char *reason) {
+  add("h%d%d", whole[0], whole[1]);
+  return CW_OK;
+}
+
+CwStatus cw_mesh_plan_again(CwMeshRun *of, const CwOutcome *why) {
+  add("A%d", why->domain);
+  if (other_plans-- == 0) return CW_FAIL(CW_ERR_MESH, "no plan fits");
+  of->domain[why->domain].more_regions++;
+  return CW_OK;
+}
+
+int cw_mesh_has_other_plan(const CwMeshRun *of, int d) {
+  return other_plans > 0;
+}
+
+void cw_warn_of_few_cells(const CwMeshRun *of) {
+  add("w");
+}
+
+CwStatus cw_run_walls(CwMeshRun *of, CwOutcome *outcome) {
+  at++;
+  of->prisms.factor = 2. / 3;
+  of->stopped = of->stop_after == CW_STAGE_CURVES;
+  return stage('W', NULL, outcome);
+}
+
+CwStatus cw_run_layers(CwMeshRun *of, CwOutcome *outcome) {
+  return stage('L', NULL, outcome);
+}
+
+CwStatus cw_run_interfaces(CwMeshRun *of, CwThinPlaces *places, CwOutcome *outcome) {
+  return stage('I', places, outcome);
+}
+
+CwStatus cw_run_region_rule(CwMeshRun *of) {
+  return stage('U', NULL, &(CwOutcome){0});
+}
+
+CwStatus cw_run_regions(CwMeshRun *of, CwThinPlaces *places, CwOutcome *outcome) {
+  of->cells = llround(now()->cells * ASKED);
+  return stage('G', places, outcome);
+}
+
+CwStatus cw_thin(CwMeshRun *of, const CwThinPlaces *places, int attempt, CwOutcome *outcome) {
+  add("T%d", attempt);
+  assert_int_equal(places->count, 1); // of this attempt alone
+  assert_int_equal(outcome->kind, CW_OUTCOME_DONE);
+  if (attempt == 3) cw_outcome_set(outcome, CW_OUTCOME_REPLAN, NULL, "thin enough");
+  outcome->domain = 1;
+  return CW_OK;
+}
+
+void cw_thin_places_free(CwThinPlaces *places) {}
+
+void cw_end_thinning(CwMeshRun *of) {
+  add("e");
+}
+
+void cw_learn_tets(CwMeshRun *of) {
+  add("N");
+  of->tets = (CwCellLaw){.factor = 1. / 3, .scale = 1};
+}
+
+void cw_mesh_solve_scale(CwMeshRun *of) {
+  add("S");
+  factor_at_scale = of->tets.factor;
+}
+
+double cw_poor_deficit(const CwMeshRun *of, int32_t *count) {
+  *count = now()->poor;
+  return now()->deficit;
+}
+
+void cw_poor_domains(const CwMeshRun *of, int32_t lacks[CW_DOMAINS_MOST]) {
+  lacks[1] = 1;
+}
+
+CwStatus cw_finer_at_poor(CwMeshRun *of) {
+  add("Q");
+  return cw_finer_places_add(&of->domain[1], -1, (const double[3]){0, 0, 0}, &of->finer);
+}
+
+CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const double x[3], CwFinerPlaces *places) {
+  CwStatus status = CW_OK;
+  if (number >= 0) add("F%d", number);
+  CW_GROW(places->place, places->capacity, places->count + 1);
+  places->place[places->count++] = (CwFinerPlace){number, {{x[0], x[1], x[2]}, 1}};
+done:
+  return status;
+}
+
+void cw_finer_places_free(CwFinerPlaces *places) {
+  free(places->place);
+  memset(places, 0, sizeof *places);
+}
+
+CwStatus cw_mesh_manifest(CwMeshRun *of) {
+  add("m");
+  return CW_OK;
+}
+
+CwStatus cw_stage_view(CwMeshRun *of, CwStage seen) {
+  if (of->stop_after == seen) of->stopped = 1;
+  return CW_OK;
+}
+
+void cw_domain_close(CwDomain *domain) {}
+
+static int make_run(void **state) {
+  static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "model.json"};
+  char name[64];
+  if (make_test_folder(state) || mkdir(in_test_folder("geometry"), 0777)) return -1;
+  for (int i = 0; i < 4; i++) {
+    snprintf(name, sizeof name, "geometry/%s", FILES[i]);
+    write_text(in_test_folder(name), FILES[i]);
+  }
+  return 0;
+}
+
+static CwStatus begin(int count, const Attempt *attempts, CwStage stop_after, int rank) {
+  memset(&run, 0, sizeof run);
+  cw_case_defaults(&table);
+  table.mesh.cells = ASKED;
+  run.table = &table;
+  run.run_path = test_folder;
+  run.rank = rank;
+  run.stop_after = stop_after;
+  run.context.team = cw_team_of(NULL);
+  assert_int_equal(cw_log_open("test", NULL, 0, 0, &run.context.log), CW_OK);
+  script = attempts;
+  script_count = count;
+  at = -1;
+  other_plans = 2;
+  trace[0] = '\0';
+  return cw_mesh_run(&run);
+}
+
+static void end(void) {
+  cw_log_close(&run.context.log);
+  cw_mesh_run_free(&run);
+  cw_fail_clear();
+}
+
+// Spaces are for the reader.
+static void expect(const char *wanted) {
+  char text[sizeof trace];
+  size_t used = 0;
+  for (; *wanted; wanted++)
+    if (*wanted != ' ') text[used++] = *wanted;
+  text[used] = '\0';
+  assert_string_equal(trace, text);
+}
+
+#define BEGIN(stop_after, ...)                                                                                         \
+  begin((int)(sizeof((Attempt[]){__VA_ARGS__}) / sizeof(Attempt)), (Attempt[]){__VA_ARGS__}, stop_after, 0)
+
+// A run to its end, with this trace.
+#define MAKE(wanted, ...)                                                                                              \
+  do {                                                                                                                 \
+    if (BEGIN(CW_STAGE_NONE, __VA_ARGS__) != CW_OK) fail_msg("%s", cw_fail_message());                                 \
+    expect(wanted);                                                                                                    \
+  } while (0)
+
+static int kept(void) {
+  return access(in_test_folder("mesh/pass.json"), F_OK) == 0;
+}
+
+static int32_t retries_and_passes(void) {
+  return 10 * run.retries + run.passes;
+}
+
+static void a_mesh_of_enough_cells_is_the_last(void **state) {
+  for (int i = 0; i < 4; i++) {
+    static const double CELLS[] = {0.9801, 1.0199, 0.9799, 1.0201}; // met within 2 %
+    if (i < 2)
+      MAKE("of p00 h00w WLIUGe N m", {.cells = CELLS[i]});
+    else
+      MAKE("of p00 h00w WLIUGe NS WLIUGe N m", {.cells = CELLS[i]}, {.cells = 1});
+    assert_int_equal(retries_and_passes(), i < 2 ? 1 : 2);
+    assert_int_equal(kept(), i >= 2);
+    assert_int_equal(cw_log_warning_count(run.context.log), 0);
+    end();
+    unlink(in_test_folder("mesh/pass.json"));
+  }
+}
+
+// The next pass follows from what was learnt to twelve digits, as the file keeps it. Ten passes, and the rest is told.
+static void passes_have_an_end(void **state) {
+  char wanted[sizeof trace] = "of p00 h00w WLIUGeN";
+  for (int pass = 2; pass <= 10; pass++) strcat(wanted, " S WLIUGeN");
+  strcat(wanted, " m");
+  MAKE(wanted, {.cells = 1.5});
+  assert_int_equal(retries_and_passes(), 10);
+  assert_true(factor_at_scale == 0.333333333333);
+  assert_true(run.domain[1].layer_share == CW_LAYER_SHARE);
+  assert_int_equal(cw_log_warning_count(run.context.log), 1);
+  assert_non_null(
+      strstr(cw_log_warning(run.context.log, 0), "150000 cells made, 50.0 % off the asked 100000 after 10"));
+  end();
+}
+
+static void a_run_ends_after_the_stage_that_is_asked(void **state) {
+  static const char *const TRACES[CW_STAGE_COUNT] = {
+      "", "o", "of p00", "of p00 h00w We", "of p00 h00w We", "of p00 h00w WLe", "of p00 h00w WLIUe"};
+  for (int asked = CW_STAGE_NONE + 1; asked < CW_STAGE_COUNT; asked++) {
+    assert_int_equal(BEGIN((CwStage)asked, {.cells = 1}), CW_OK);
+    expect(TRACES[asked]);
+    assert_int_equal(run.stopped, 1);
+    assert_int_equal(kept(), 0);
+    end();
+  }
+}
+
+static void an_error_ends_the_run(void **state) {
+  static const char STAGES[] = "WLIUG";
+  for (int i = 0; i < 5; i++) {
+    char wanted[100];
+    snprintf(wanted, sizeof wanted, "of p00 h00w %.*se", i + 1, STAGES);
+    assert_int_equal(BEGIN(CW_STAGE_NONE, {.stage = STAGES[i], .error = CW_ERR_IO}), CW_ERR_IO);
+    expect(wanted);
+    end();
+  }
+}
+
+// Thinner layers, from planes or regions, three times on a plan; on another one from the beginning.
+static void thinner_layers_are_tried_before_other_planes(void **state) {
+  MAKE("of p00 h00w WLIUG T0 WLI T1 WLIUGe N m", {.stage = 'G', .kind = CW_OUTCOME_THIN},
+       {.stage = 'I', .kind = CW_OUTCOME_THIN}, {.cells = 1});
+  assert_int_equal(run.passes, 1);
+  end();
+#define THIN {.stage = 'G', .kind = CW_OUTCOME_THIN}
+  MAKE("of p00 h00w WLIUG T0 WLIUG T1 WLIUG T2 WLIUG T3 e A1 WLIUG T0 WLIUGe N m", THIN, THIN, THIN, THIN, THIN,
+       {.cells = 1});
+#undef THIN
+  end();
+}
+
+static void planes_that_do_not_fit_are_others(void **state) {
+  MAKE("of p00 h00w W eA1 WL eA0 WLIUGe N m", {.stage = 'W', .kind = CW_OUTCOME_REPLAN, .domain = 1},
+       {.stage = 'L', .kind = CW_OUTCOME_ASYMMETRIC}, {.cells = 1});
+  end();
+  assert_int_equal(BEGIN(CW_STAGE_NONE, {.stage = 'W', .kind = CW_OUTCOME_REPLAN}), CW_ERR_MESH);
+  expect("of p00 h00w W eA0 W eA0 W eA0 e");
+  assert_string_equal(cw_fail_message(), "no plan fits");
+  end();
+}
+
+// All begins anew, with the laws as they are; a pass does not count. Six times, each with edges half as long.
+static void shorter_edges_make_room_for_layers(void **state) {
+  MAKE("of p00 h00w WLe F1 zf p00 S h00 WLIUGe N m", {.stage = 'L', .kind = CW_OUTCOME_FINER, .domain = 1},
+       {.cells = 1});
+  assert_int_equal(retries_and_passes(), 11);
+  assert_int_equal(run.finer.count, 1);
+  assert_int_equal(cw_log_warning_count(run.context.log), 1);
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+  char wanted[sizeof trace] = "of p00 h00w WLe";
+  for (int i = 0; i < 6; i++) strcat(wanted, " F1 zf p00 S h00 WLe");
+  assert_int_equal(BEGIN(CW_STAGE_NONE, {.stage = 'L', .kind = CW_OUTCOME_FINER, .domain = 1}), CW_ERR_MESH);
+  expect(wanted);
+  assert_non_null(strstr(cw_fail_message(), "stator: as the script says at ("));
+  assert_non_null(strstr(cw_fail_message(), "also with edges 64 times shorter there"));
+  end();
+}
+
+#define POOR(of)                                                                                                       \
+  { .cells = 1, .poor = 1, .deficit = of }
+#define BEFORE "of p00 h00w WLIUGeN "
+
+// Four times where each is better than the one before; then the stator, which lacks angles, gets other planes: of one,
+// two and three regions more than the best had, at last of no symmetry. They are no better: the fifth is made again.
+static void shorter_edges_come_before_other_planes(void **state) {
+  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN "
+              "zf p01 S h00 WLIUGeN zf p02 S h00 WLIUGeN zf p03 S h01 WLIUGeN zf p00 S h00 WLIUGeN m",
+       POOR(9), POOR(8), POOR(7), POOR(6), POOR(5), POOR(5), POOR(6), POOR(7), POOR(5));
+  assert_int_equal(run.finer.count, 4);
+  assert_int_equal(retries_and_passes(), 81);
+  end();
+}
+
+// Twice where the first has not helped. Planes that help are those from which the next ones are counted, and which are
+// made again at the end, without the places of before; from the first factors, for so was the best mesh before them.
+static void what_helps_is_kept(void **state) {
+  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN "
+              "zf p01 h00 WLIUGeN zf p03 h00 WLIUGeN zf p04 h01 WLIUGeN zf p01 h00 WLIUGeN m",
+       POOR(5), POOR(6), POOR(5), POOR(4), POOR(5), POOR(4.5), POOR(4));
+  assert_int_equal(run.finer.count, 0);
+  end();
+}
+
+// Where nothing is poor any more, or what is poor is rare for so many cells, all is well.
+static void a_good_mesh_is_the_last(void **state) {
+  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN m", POOR(5), {.cells = 1});
+  assert_int_equal(run.finer.count, 1);
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN zf p01 h00 WLIUGeN m", POOR(5), POOR(6), POOR(7),
+       {.cells = 1});
+  end();
+}
+
+// A round for quality needs no mesh: where it has none, and no other plan, the next is tried; planes of which there are
+// others are others.
+static void rounds_for_quality_may_fail(void **state) {
+  MAKE(BEFORE "Q zf p00 S h00 WLe zf p01 h00 WLIUGeN zf p02 h00 W eA1 WLIUGeN zf p03 h01 We "
+              "zf p00 h00 WLIUGeN m",
+       POOR(5), {.stage = 'L', .kind = CW_OUTCOME_FINER}, POOR(6),
+       {.stage = 'W', .kind = CW_OUTCOME_REPLAN, .domain = 1}, POOR(6),
+       {.stage = 'W', .kind = CW_OUTCOME_ASYMMETRIC, .domain = 1}, POOR(5));
+  assert_int_equal(run.finer.count, 0);
+  end();
+}
+
+// What a killed run had learnt, its places and its planes.
+static void a_killed_run_goes_on(void **state) {
+  const Attempt killed = {.stage = 'G', .error = CW_ERR_IO}, good = {.cells = 1};
+  assert_int_equal(BEGIN(CW_STAGE_NONE, {.cells = 1.1}, killed), CW_ERR_IO);
+  expect("of p00 h00w WLIUGe NS WLIUGe");
+  end();
+  MAKE("of p00 S h00w WLIUGe N m", good);
+  assert_int_equal(run.passes, 2);
+  assert_true(factor_at_scale == 0.333333333333);
+  end();
+  assert_int_equal(BEGIN(CW_STAGE_NONE, POOR(5), POOR(6), POOR(6), killed), CW_ERR_IO); // from pass 2 on
+  expect("of p00 S h00w WLIUGeN Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN zf p01 S h00 WLIUGe");
+  end();
+  MAKE("of p01 S h00w WLIUGeN zf p02 S h00 WLIUGeN m", POOR(6), good);
+  assert_int_equal(run.passes, 2);
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+  assert_int_equal(BEGIN(CW_STAGE_NONE, {.stage = 'L', .kind = CW_OUTCOME_FINER}, killed), CW_ERR_IO);
+  end();
+  MAKE("oz f p00 S h00w WLIUGe N m", good);
+  assert_int_equal(run.passes, 1);
+  assert_int_equal(run.finer.count, 1);
+  end();
+}
+
+// The first rank writes for all.
+static void other_ranks_write_nothing(void **state) {
+  const Attempt attempts[] = {{.cells = 2}, {.cells = 1}};
+  assert_int_equal(begin(2, attempts, CW_STAGE_NONE, 1), CW_OK);
+  expect("of p00 h00w WLIUGe NS WLIUGe N");
+  assert_int_equal(kept(), 0);
+  end();
+}
+
+int main(void) {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, make_run, clear_test_folder)
+  const struct CMUnitTest tests[] = {
+      TEST(a_mesh_of_enough_cells_is_the_last),
+      TEST(passes_have_an_end),
+      TEST(a_run_ends_after_the_stage_that_is_asked),
+      TEST(an_error_ends_the_run),
+      TEST(thinner_layers_are_tried_before_other_planes),
+      TEST(planes_that_do_not_fit_are_others),
+      TEST(shorter_edges_make_room_for_layers),
+      TEST(shorter_edges_come_before_other_planes),
+      TEST(what_helps_is_kept),
+      TEST(a_good_mesh_is_the_last),
+      TEST(rounds_for_quality_may_fail),
+      TEST(a_killed_run_goes_on),
+      TEST(other_ranks_write_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
