@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/pipeline/surveyed_walls.h"
 #include "tests/unit_test.h"
 
 enum { WIDTH = 100, HEIGHT = 80, WHITE = 0xffffff };
@@ -274,41 +275,9 @@ static void pictures_see_their_zones(void **state) {
   end();
 }
 
-// A hub at z = 0.01 and a shroud at z = -0.02, flat rings from a radius of 0.02 to 0.09, and a trailing edge
-// at azimuth 90 degrees.
-static void survey_pump(void) {
-  enum { RINGS = 48, AROUND = 24, POINTS = (RINGS + 1) * AROUND, FACES = 2 * RINGS * AROUND };
-  static double x[2 * POINTS + 3][3] = {[2 * POINTS] = {0, 0.1, -0.004}, {0.003, 0.1, 0.004}, {-0.003, 0.1, 0.004}};
-  static int32_t triangle[2 * FACES + 1][3] = {[2 * FACES] = {2 * POINTS, 2 * POINTS + 1, 2 * POINTS + 2}},
-                                      patch[2 * FACES + 1] = {[2 * FACES] = 2};
-  static CwModelPatch names[] = {{.name = "hub", .kind = CW_PATCH_WALL},
-                                 {.name = "shroud", .kind = CW_PATCH_WALL},
-                                 {.name = "blade_trailing_edge", .kind = CW_PATCH_WALL}};
-  const CwMesh known = {.patch_count = 3, .patches = names};
-  const CwRegionData surface = {.point_count = 2 * POINTS + 3,
-                                .triangle_count = 2 * FACES + 1,
-                                .points = x,
-                                .triangles = triangle,
-                                .triangle_patch = patch};
-  for (int wall = 0, t = 0; wall < 2; wall++)
-    for (int r = 0; r <= RINGS; r++)
-      for (int a = 0; a < AROUND; a++) {
-        const double radius = 0.02 + 0.07 * r / RINGS, angle = 2 * M_PI * a / AROUND;
-        const int32_t here = wall * POINTS + r * AROUND + a, next = wall * POINTS + r * AROUND + (a + 1) % AROUND;
-        memcpy(x[here], (double[]){radius * cos(angle), radius * sin(angle), wall ? -0.02 : 0.01}, sizeof *x);
-        if (r == RINGS) continue;
-        memcpy(triangle[t], (int32_t[]){here, next, next + AROUND}, sizeof *triangle);
-        memcpy(triangle[t + 1], (int32_t[]){here, next + AROUND, here + AROUND}, sizeof *triangle);
-        patch[t] = patch[t + 1] = wall;
-        t += 2;
-      }
-  cw_survey_start(&survey, &sizes);
-  assert_int_equal(cw_survey_add(&survey, &known, &surface), CW_OK);
-}
-
 // A place stands in the middle, the view turned with it; the picture is as wide as its share of the outlet diameter.
 static void views_stand_at_their_places(void **state) {
-  survey_pump();
+  survey_walls(&sizes, &survey);
   CwPictureSpec spec = along_axis();
   spec.place = CW_PLACE_TRAILING_EDGE;
   spec.span = 0.1;
@@ -380,7 +349,7 @@ static void what_is_not_there_is_lacking(void **state) {
   assert_string_equal(drawing.lacking, "the mesh has no shroud");
   end();
   // The whole meridional plane: both sides of the axis, as far as the boundary goes.
-  survey_pump();
+  survey_walls(&sizes, &survey);
   spec.target = CW_TARGET_ALL;
   start(&spec);
   assert_null(drawing.lacking);
@@ -480,7 +449,7 @@ static void cut_cells_have_the_colours_of_their_speeds(void **state) {
 static void surfaces_of_the_span_cut_cells(void **state) {
   CwPictureSpec spec = cut_at_z0(CW_COLOUR_SPEED);
   CwRegionData cells = three_cells(ROTOR);
-  survey_pump();
+  survey_walls(&sizes, &survey);
   cells.pyramid_count = cells.prism_count = 0;
   for (int k = 0; k < 4; k++) cell_x[k][0] += 0.11, cell_x[k][2] = k == 3 ? -0.001 : -0.02;
   for (int span = 0; span < 2; span++) {
