@@ -55,11 +55,26 @@ static double apart(const CwBladePatch &a, double u, const CwBladePatch &b, doub
   return most;
 }
 
+// The paper's blade whose trailing edge leans by 12 degrees.
+static PaperBlade &leaning_blade() {
+  static std::unique_ptr<PaperBlade> blade;
+  if (!blade) {
+    CwCase table = paper_with(CW_EDGE_BEVELLED);
+    table.impeller.lean_angle = 12 * degree;
+    std::unique_ptr<PaperBlade> made(new PaperBlade(table));
+    made->make();
+    blade = std::move(made);
+  }
+  return *blade;
+}
+
 static void neighbours_share_their_edges(void **) {
-  for (const double fillet : {0.0, 1e-3})
+  enum { BARE, FILLETS, LEANING };
+  for (const int kind : {BARE, FILLETS, LEANING})
     for (const CwTrailingEdge edge : edges) {
-      if (fillet > 0 && edge == CW_EDGE_SHARP) continue; // no design has both
-      PaperBlade &blade = made_blade(edge, fillet);
+      if (kind == FILLETS && edge == CW_EDGE_SHARP) continue; // no design has both
+      if (kind == LEANING && edge != CW_EDGE_BEVELLED) continue;
+      PaperBlade &blade = kind == LEANING ? leaning_blade() : made_blade(edge, kind == FILLETS ? 1e-3 : 0);
       const CwBladeShape &s = blade.shapes[0];
       assert_near(apart(s.leading, 0, s.suction, 0), 0, 1e-9);
       assert_near(apart(s.leading, 1, s.pressure, 0), 0, 1e-9);
@@ -67,7 +82,7 @@ static void neighbours_share_their_edges(void **) {
       if (s.has_bevel && s.has_trailing) assert_near(apart(s.bevel, 1, s.trailing, 0), 0, 1e-9);
       if (!s.has_bevel) assert_near(apart(s.suction, 1, s.trailing, 0), 0, 1e-9);
       assert_near(apart(s.has_trailing ? s.trailing : s.bevel, 1, s.pressure, 1), 0, 1e-9);
-      assert_int_equal(s.pressure.band.size(), fillet > 0 ? 3 : 1);
+      assert_int_equal(s.pressure.band.size(), kind == FILLETS ? 3 : 1);
     }
 }
 
@@ -170,6 +185,24 @@ static void fillets_are_tangent_to_both(void **) {
   }
 }
 
+// A ball of 1 mm between blade and wall touches both at the length L from their crease; the middle of its arc lies
+// sqrt(R^2 + L^2) - R from it.
+static void fillets_are_arcs(void **) {
+  PaperBlade &blade = made_blade(CW_EDGE_BEVELLED, 1e-3), &plain = made_blade(CW_EDGE_BEVELLED);
+  for (const bool pressure : {true, false})
+    for (const int wall : {CW_HUB, CW_SHROUD})
+      for (double u = 0.25; u < 0.75; u += 0.05) {
+        const CwBladeShape &with = blade.shapes[0], &without = plain.shapes[0];
+        const double foot = wall == CW_HUB ? 0 : 1;
+        const gp_Pnt crease = (pressure ? without.pressure : without.suction).band[0]->Value(u, foot);
+        const Handle(Geom_BSplineSurface) &fillet =
+            (pressure ? with.pressure : with.suction).band[wall == CW_HUB ? 0 : 2];
+        const double length = crease.Distance(fillet->Value(u, foot)), up = crease.Distance(fillet->Value(u, 1 - foot));
+        assert_near(up, length, 0.02 * length);
+        assert_near(crease.Distance(fillet->Value(u, 0.5)), std::hypot(1, length) - 1, 0.02 * length);
+      }
+}
+
 // The mean line's angle on a wall at its end, where tan(beta) = dm / (r dtheta).
 static double angle_at(const Handle(Geom_BSplineCurve) & guide, double u) {
   gp_Pnt x;
@@ -211,14 +244,21 @@ static void guide_lines_lead_from_the_eye_to_the_nose(void **) {
   }
 }
 
+// With fillets the line ends at the tip of the nose's foot.
+static void guide_lines_end_at_the_foot(void **) {
+  PaperBlade &blade = made_blade(CW_EDGE_BEVELLED, 1e-3);
+  const CwBladeShape &s = blade.shapes[0];
+  for (const int wall : {CW_HUB, CW_SHROUD}) {
+    const gp_Pnt tip = wall == CW_HUB ? s.leading.band.front()->Value(0.5, 0) : s.leading.band.back()->Value(0.5, 1);
+    assert_near(s.guide[wall]->Value(1).Distance(tip), 0, 1e-6);
+    assert_near(angle_at(s.guide[wall], 0), 90 * degree, 0.02 * degree);
+  }
+}
+
 // The end of the pressure side, by its angle and by where the wall passes D2.
 static void corners_lie_where_they_say(void **) {
-  CwCase table = paper_with(CW_EDGE_BEVELLED);
-  table.impeller.lean_angle = 12 * degree;
-  PaperBlade leaning(table);
-  leaning.make();
   for (int lean = 0; lean < 2; lean++) {
-    const PaperBlade &blade = lean ? leaning : made_blade(CW_EDGE_BEVELLED);
+    const PaperBlade &blade = lean ? leaning_blade() : made_blade(CW_EDGE_BEVELLED);
     const CwBladeShape &s = blade.shapes[0];
     for (const int wall : {CW_HUB, CW_SHROUD}) {
       const CwMeridianCurve &curve = wall == CW_HUB ? blade.meridian.hub : blade.meridian.shroud;
@@ -293,6 +333,8 @@ int main() {
       cmocka_unit_test(patches_end_on_both_walls),
       cmocka_unit_test(fillets_are_tangent_to_both),
       cmocka_unit_test(guide_lines_lead_from_the_eye_to_the_nose),
+      cmocka_unit_test(fillets_are_arcs),
+      cmocka_unit_test(guide_lines_end_at_the_foot),
       cmocka_unit_test(corners_lie_where_they_say),
       cmocka_unit_test(seams_cross_the_whole_passage),
       cmocka_unit_test(trailing_edges_that_do_not_fit),

@@ -91,34 +91,39 @@ static void sides_have_the_balls_feet(void **) {
     }
 }
 
-// Round the nose the feet point out of the blade, from the suction side's over upstream to the pressure side's. Sizes
-// are those of a normal that turns from rest to rest, clockwise as (m, t) is drawn.
-static void noses_have_feet_all_round(void **) {
-  PaperBlade &blade = made_blade(CW_EDGE_BEVELLED, radius);
-  for (const int wall : {CW_HUB, CW_SHROUD}) {
-    const Foot nose = {blade, blade.shapes[0].leading, wall};
-    const Vector first = nose.normal(0, true), end = nose.normal(nose.last(), true);
-    const double half_way = std::atan2(first.m * end.t - first.t * end.m, dot(first, end));
-    const double whole = half_way < 0 ? half_way : half_way - 2 * M_PI;
-    double turn = 0;
-    for (size_t i = 0; i <= nose.last(); i++) {
-      const Vector foot = nose.foot(i), normal = nose.normal(i, true);
-      double alpha;
-      const double length = nose.ball(i, normal, &alpha);
-      assert_true(dot(foot, normal) > 0.95 * size(foot));
-      assert_true(size(foot) > 0.7 * length && size(foot) < 1.4 * length);
-      const double f = nose.patch.u[i], by = whole * cw_smooth_step(f);
-      if (f > 0.2 && f < 0.8) {
-        const Vector turned = {first.m * cos(by) - first.t * sin(by), first.m * sin(by) + first.t * cos(by)};
-        const double tangent = nose.ball(i, turned, &alpha), up = tangent * std::sin(alpha);
-        assert_near(nose.patch.reach[wall][i] * nose.place(i).height, up, 2e-3 * up);
-      }
-      if (i == 0) continue;
-      const Vector before = nose.foot(i - 1);
-      turn += std::atan2(before.m * foot.t - before.t * foot.m, dot(before, foot));
+// Round an edge the feet point out of the blade all the way. Sizes are those of a normal that turns from rest to rest,
+// in the sense of the outline: clockwise as (m, t) is drawn where the fluid lies on its left.
+static void check_round(const Foot &edge, bool left) {
+  const Vector first = edge.normal(0, left), end = edge.normal(edge.last(), left);
+  const double sense = left ? -1 : 1;
+  const double least = std::atan2(first.m * end.t - first.t * end.m, dot(first, end));
+  const double whole = least * sense > 0 ? least : least + sense * 2 * M_PI;
+  double turn = 0, alpha;
+  assert_near(whole, sense * M_PI, 0.35); // but for what the sides of the blade are not parallel
+  for (size_t i = 0; i <= edge.last(); i++) {
+    const Vector foot = edge.foot(i), normal = edge.normal(i, left);
+    const double length = edge.ball(i, normal, &alpha), f = edge.patch.u[i], by = whole * cw_smooth_step(f);
+    assert_true(dot(foot, normal) > 0.95 * size(foot));
+    assert_true(size(foot) > 0.6 * length && size(foot) < 1.4 * length);
+    if (f > 0.2 && f < 0.8) {
+      const Vector turned = {first.m * cos(by) - first.t * sin(by), first.m * sin(by) + first.t * cos(by)};
+      const double tangent = edge.ball(i, turned, &alpha), up = tangent * std::sin(alpha);
+      assert_near(edge.patch.reach[edge.wall][i] * edge.place(i).height, up, 2e-3 * up);
     }
-    assert_near(turn, -M_PI, 0.35); // clockwise, as (m, t) is drawn, by half a turn and the thickness's rate
-    assert_true(nose.foot(nose.last() / 2).m < 0);
+    if (i == 0) continue;
+    const Vector before = edge.foot(i - 1);
+    turn += std::atan2(before.m * foot.t - before.t * foot.m, dot(before, foot));
+  }
+  assert_near(turn, whole, 0.35);
+  const Vector middle = edge.foot(edge.last() / 2);
+  assert_true(left ? middle.m < 0 : middle.m > 0);
+}
+
+static void round_edges_have_feet_all_round(void **) {
+  for (const int wall : {CW_HUB, CW_SHROUD}) {
+    const PaperBlade &blade = made_blade(CW_EDGE_ROUNDED, radius);
+    check_round({blade, blade.shapes[0].leading, wall}, true);
+    check_round({blade, blade.shapes[0].trailing, wall}, false);
   }
 }
 
@@ -247,7 +252,7 @@ static void fillets_before_the_eye_are_refused(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sides_have_the_balls_feet),       cmocka_unit_test(noses_have_feet_all_round),
+      cmocka_unit_test(sides_have_the_balls_feet),       cmocka_unit_test(round_edges_have_feet_all_round),
       cmocka_unit_test(neighbours_have_one_foot),        cmocka_unit_test(corners_have_mitres),
       cmocka_unit_test(sharp_corners_have_short_mitres), cmocka_unit_test(sizes_rest_at_the_ends_of_sides),
       cmocka_unit_test(too_large_fillets_are_refused),   cmocka_unit_test(fillets_before_the_eye_are_refused),

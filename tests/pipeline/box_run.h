@@ -77,12 +77,11 @@ static inline void write_region(const char *domain, double x0, double x1, int co
   "{\"name\":\"" c "\",\"kind\":\"interface\",\"size\":\"interface\"}]"
 #define MESHED(name, turns, patches, file) "{\"name\":\"" name "\",\"rotating\":" turns ",\"shared_points\":0," \
   "\"solid_volume_m3\":1,\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
-#define MANIFEST_OF(rotor_patches, stator_patches) "{\"format\":3,\"domains\":[" \
-  MESHED("rotor", "true", rotor_patches, "rotor-0001.h5") "," \
-  MESHED("stator", "false", stator_patches, "stator-0001.h5") "]," \
+#define FLOW "\"flow\":{\"inlet_speed_m_per_s\":2,\"inlet_diameter_m\":0.07,\"passage_speed_m_per_s\":7," \
+  "\"passage_width_m\":0.01,\"reference_length_m\":0.2,\"blade_count\":6}"
+#define MANIFEST "{\"format\":3,\"domains\":[" \
+  MESHED("rotor", "true", PATCHES("shroud", "hub", "inlet", "rotor_interface"), "rotor-0001.h5") "," \
+  MESHED("stator", "false", PATCHES("volute", "tongue", "outlet", "stator_interface"), "stator-0001.h5") "]," \
   "\"interfaces\":[{\"patches\":[\"rotor_interface\",\"stator_interface\"],\"surface\":\"cylinder\"," \
-  "\"radius_m\":0.101}],\"flow\":{\"inlet_speed_m_per_s\":2,\"inlet_diameter_m\":0.07,\"passage_speed_m_per_s\":7," \
-  "\"passage_width_m\":0.01,\"reference_length_m\":0.2,\"blade_count\":6}}"
-#define MANIFEST MANIFEST_OF(PATCHES("shroud", "hub", "inlet", "rotor_interface"), \
-  PATCHES("volute", "tongue", "outlet", "stator_interface"))
+  "\"radius_m\":0.101}]," FLOW "}"
 // clang-format on

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A box on its way from curve network to audited regions, with partition planes placed by hand.
-// Modules without a test of their own that it runs: boundary_interfaces, boundary_layers, boundary_walls,
-// curve_division, wall_division.
 #include <cmath>
 #include <cstring>
 #include <fstream>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Layers on a flat ring of four equal passages: they are grown over the first and turned.
-// Modules without a test of their own that it runs: periodic_boundary.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

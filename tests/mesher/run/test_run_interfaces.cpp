@@ -174,8 +174,8 @@ static void equal_sectors_are_divided_alike(void **) {
 // Layers 1.5 mm high over a line of two planes 1 mm above the wall: places on the planes of all such domains, in their
 // order, and of no other.
 static void layers_without_room_are_told(void **) {
-  Box low(3, 0.001), high(1), also_low(3, 0.001);
-  for (Box *box : {&low, &high, &also_low}) make_layers(*box);
+  Box low(3, 0.001), high(1), also_low(3, 0.001), also_high(1);
+  for (Box *box : {&low, &high, &also_low, &also_high}) make_layers(*box);
   check(cw_free_curves_make(&low.boundary.input, &low.boundary.wall_curves, &low.boundary.surface, &low.boundary.layers,
                             &low.boundary.free_curves, &low.outcome));
   const int each = low.boundary.free_curves.tight_count;
@@ -184,6 +184,7 @@ static void layers_without_room_are_told(void **) {
   interfaces.add(low, "low");
   interfaces.add(high, "high");
   interfaces.add(also_low, "also_low");
+  interfaces.add(also_high, "also_high");
   interfaces.make();
   assert_int_equal(interfaces.outcome.kind, CW_OUTCOME_THIN);
   assert_int_equal(interfaces.places.count, 2 * each);
@@ -194,7 +195,7 @@ static void layers_without_room_are_told(void **) {
     assert_memory_equal(place.failure.at, low.boundary.free_curves.tight[i % each], sizeof place.failure.at);
     assert_string_equal(place.failure.message, low.outcome.reason);
   }
-  for (int d = 0; d < 3; d++) {
+  for (int d = 0; d < 4; d++) {
     assert_int_equal(interfaces.made.domain(d).interfaces.outline_count, 0);
     assert_null(interfaces.made.domain(d).number);
   }

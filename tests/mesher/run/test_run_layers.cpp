@@ -22,12 +22,12 @@ static const double first_height = 2e-4, growth = 1.5, thickness = 1e-3; // less
 struct Walls {
   Box box[2] = {Box(1), Box(1)};
   DomainRun made;
-  std::vector<CwLayerTarget> asked{3, CwLayerTarget{first_height, growth, thickness, 100}};
+  std::vector<CwLayerTarget> asked;
   std::array<double, CW_BENDS> flat[6];
   CwResults results = {};
   CwOutcome outcome = {};
 
-  Walls() {
+  explicit Walls(double scale = 1) : asked(3, CwLayerTarget{scale * first_height, growth, scale * thickness, 100}) {
     for (auto &radius : flat) radius = {INFINITY, INFINITY};
     const int32_t faces[2] = {6, 6};
     results.shared = 1;
@@ -138,53 +138,53 @@ static void a_domain_without_walls_is_told(void **) {
 }
 
 // Of layers that grow evenly from the first height, or by less than 1 in low columns: the share of the last.
-static double last_share(const void *, int32_t, double height) {
+static double last_share(const void *context, int32_t, double height) {
+  const double first = *(const double *)context;
   double low = cw_layer_growth_least(LAYERS), high = growth;
   const auto sum = [](double ratio) { return 1 + ratio + ratio * ratio + ratio * ratio * ratio; };
   for (int i = 0; i < 100; i++) {
     const double middle = (low + high) / 2;
-    (first_height * sum(middle) < height ? low : high) = middle;
+    (first * sum(middle) < height ? low : high) = middle;
   }
   return low * low * low / sum(low);
 }
 
+// Layers and a tenth of them: prisms so flat that columns are turned by what their last layers are.
 static void layers_are_grown_to_their_targets(void **) {
-  Walls walls;
-  Box by_hand(1);
-  DomainSurfaces &boundary = by_hand.boundary;
-  make_walls(by_hand);
-  walls.merge();
-  std::vector<double> least(boundary.surface.vertex_count, cw_layer_lowest(LAYERS) * first_height);
-  std::vector<double> target(least.size(), thickness), first(least.size(), first_height), most(least.size(), growth);
-  CwLayerDivision division = {LAYERS, last_share, nullptr};
-  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &by_hand.background, target.data(), least.data(),
-                         &division, &boundary.layers, &by_hand.outcome));
-  CwColumnTargets targets = {};
-  targets.layer_count = LAYERS;
-  targets.vertex_count = (int32_t)least.size();
-  targets.first_height = first.data();
-  targets.growth = most.data();
-  targets.target = target.data();
-  targets.least = least.data();
-  check(cw_columns_divide(NULL, &targets, &boundary.surface, &boundary.layers));
-  check(cw_run_layers(walls.made.run.get(), &walls.outcome));
-  assert_int_equal(walls.outcome.kind, CW_OUTCOME_DONE);
-  for (int d = 0; d < 2; d++) {
-    const CwLayers &layers = walls.made.domain(d).layers, &wanted = boundary.layers;
-    int full = 0;
-    check(cw_layers_audit(&layers, walls.made.domain(d).surface.x));
-    assert_int_equal(layers.column_count, wanted.column_count);
-    assert_memory_equal(layers.triangle, wanted.triangle, (size_t)wanted.triangle_count * sizeof *wanted.triangle);
-    for (int v = 0; v < wanted.column_count; v++) {
-      assert_near(cw_distance(layers.top[v], wanted.top[v]), 0, 1e-9);
-      assert_near(layers.first_height[v], wanted.first_height[v], 1e-12);
-      full += layers.thickness[v] > 0.99 * thickness;
+  for (double scale : {1.0, 0.1}) {
+    Walls walls(scale);
+    Box by_hand(1);
+    DomainSurfaces &boundary = by_hand.boundary;
+    make_walls(by_hand);
+    walls.merge();
+    double asked = scale * first_height;
+    std::vector<double> least(boundary.surface.vertex_count, cw_layer_lowest(LAYERS) * asked);
+    std::vector<double> target(least.size(), scale * thickness), first(least.size(), asked), most(least.size(), growth);
+    CwLayerDivision division = {LAYERS, last_share, &asked};
+    check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &by_hand.background, target.data(), least.data(),
+                           &division, &boundary.layers, &by_hand.outcome));
+    const CwColumnTargets targets = {LAYERS,        (int32_t)least.size(), first.data(), most.data(),
+                                     target.data(), least.data(),          nullptr};
+    check(cw_columns_divide(NULL, &targets, &boundary.surface, &boundary.layers));
+    check(cw_run_layers(walls.made.run.get(), &walls.outcome));
+    assert_int_equal(walls.outcome.kind, CW_OUTCOME_DONE);
+    for (int d = 0; d < 2; d++) {
+      const CwLayers &layers = walls.made.domain(d).layers, &wanted = boundary.layers;
+      int full = 0;
+      check(cw_layers_audit(&layers, walls.made.domain(d).surface.x));
+      assert_int_equal(layers.column_count, wanted.column_count);
+      assert_memory_equal(layers.triangle, wanted.triangle, (size_t)wanted.triangle_count * sizeof *wanted.triangle);
+      for (int v = 0; v < wanted.column_count; v++) {
+        assert_near(cw_distance(layers.top[v], wanted.top[v]), 0, 1e-6 * scale * thickness);
+        assert_near(layers.first_height[v], wanted.first_height[v], 1e-6 * asked);
+        full += layers.thickness[v] > 0.99 * scale * thickness;
+      }
+      assert_true(full > 0.9 * wanted.column_count);
     }
-    assert_true(full > 0.9 * wanted.column_count);
+    const std::string record = walls.made.record();
+    assert_true(record.find("\"layers\"") != std::string::npos);
+    assert_true(record.find("\"domains\"") != std::string::npos);
   }
-  const std::string record = walls.made.record();
-  assert_true(record.find("\"layers\"") != std::string::npos);
-  assert_true(record.find("\"domains\"") != std::string::npos);
 }
 
 // A vertex of the upper side of the second box stands 5 mm below its floor: no layers stand there. The step is not

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: patch_improve.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
