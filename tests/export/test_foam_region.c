@@ -340,7 +340,7 @@ static void check_divisions(const int *divisions, int division_count) {
   cw_foam_layout_free(&mesh);
   for (int i = 0; i < division_count; ++i) {
     const int count = divisions[i];
-    Part parts[8];
+    Part parts[8] = {{0}};
     write_mesh(count, CW_INTEGERS_32, &mesh);
     for (int p = 0; p < count; ++p) {
       parts[p] = part_read(&mesh, p);

@@ -19,10 +19,13 @@ extern "C" {
 #include "geometry/rotor_volume.h"
 }
 
-// Three blades: leaning and bevelled; rounded with splitters; blunt with two seams; sharp, round a shaft; with root
-// fillets, round a shaft without a nut.
+// Three blades: leaning and bevelled; sharp, round a shaft; with root fillets, round a shaft without a nut. Or two of
+// them: rounded with splitters; blunt with a seam in each passage.
 enum Kind { LEANING, SPLITTERS, SEAMS, SHAFT, FILLETS, KINDS };
-enum { BLADES = 3 };
+
+static int blades_of(int kind) {
+  return kind == SPLITTERS || kind == SEAMS ? 2 : 3;
+}
 
 struct Rotor {
   PaperBlade of;
@@ -50,7 +53,7 @@ static int make_all(void **) {
                                              CW_EDGE_BEVELLED};
   for (int kind = 0; kind < KINDS; kind++) {
     CwCase table = paper_with(edge[kind], kind == FILLETS ? 1e-3 : 0, kind == SPLITTERS ? 0.4 : 0);
-    table.impeller.blade_count = BLADES;
+    table.impeller.blade_count = blades_of(kind);
     if (kind == SHAFT || kind == FILLETS) {
       table.impeller.hub_diameter = kind == SHAFT ? 0.03 : 0.024;
       table.impeller.through_shaft_diameter = 0.024;
@@ -71,7 +74,7 @@ static bool has_shaft(int kind) {
 }
 
 static int sectors_of(int kind) {
-  return kind == SPLITTERS || kind == SEAMS ? 2 * BLADES : BLADES;
+  return kind == SPLITTERS || kind == SEAMS ? 4 : 3;
 }
 
 static int count_of(const CwSolid &solid, TopAbs_ShapeEnum kind) {
@@ -85,7 +88,7 @@ static int count_of(const CwSolid &solid, TopAbs_ShapeEnum kind) {
 static void the_surface_has_its_holes(void **) {
   for (int kind = 0; kind < KINDS; kind++) {
     const CwSolid &solid = *rotors[kind]->solid;
-    const int holes = (kind == SPLITTERS ? 2 * BLADES : BLADES) + has_shaft(kind);
+    const int holes = (kind == SPLITTERS ? 4 : blades_of(kind)) + has_shaft(kind);
     assert_int_equal(count_of(solid, TopAbs_VERTEX) - count_of(solid, TopAbs_EDGE) + count_of(solid, TopAbs_FACE),
                      2 - 2 * holes);
     assert_string_equal(cw_solid_fault(solid).c_str(), "");
@@ -105,7 +108,7 @@ static void the_volume_is_that_of_the_sections(void **) {
   }
 }
 
-// One face a passage, of three or six; of blades one for each band of each patch.
+// One face a passage, of three or four; of blades one for each band of each patch.
 static void faces_of_each_patch(void **) {
   static const char *const patch[] = {"inlet",
                                       "suction_pipe",
@@ -120,8 +123,8 @@ static void faces_of_each_patch(void **) {
                                       "rotor_interface"};
   static const int wanted[KINDS][11] = {
       {1, 3, 3, 4, 0, 3, 3, 3, 3, 6, 3}, // the nut's disk is the fourth; a bevel and a cut
-      {1, 6, 6, 7, 0, 6, 6, 6, 6, 6, 6},
-      {1, 6, 6, 7, 0, 6, 3, 3, 3, 3, 6},
+      {1, 4, 4, 5, 0, 4, 4, 4, 4, 4, 4},
+      {1, 4, 4, 5, 0, 4, 2, 2, 2, 2, 4},
       {3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3},
       {3, 3, 3, 0, 3, 3, 9, 9, 9, 18, 3}};
   for (int kind = 0; kind < KINDS; kind++) {
@@ -187,7 +190,7 @@ static void walls_are_told_apart(void **) {
 static void passages_are_alike(void **) {
   for (int kind = 0; kind < KINDS; kind++) {
     std::map<std::string, std::vector<gp_Pnt>> middle; // by the name without its number
-    for (int number = 1; number <= 2 * BLADES; number++)
+    for (int number = 1; number <= 4; number++)
       for (size_t f = 0; f < rotors[kind]->middle.size(); f++) {
         const std::string &name = rotors[kind]->solid->faces[f].name;
         const size_t at = name.rfind('_');
@@ -195,10 +198,10 @@ static void passages_are_alike(void **) {
           middle[name.substr(0, at)].push_back(rotors[kind]->middle[f]);
       }
     for (const auto &[name, points] : middle) {
-      const int count = (int)points.size(), step = count / BLADES;
-      assert_int_equal(count % BLADES, 0);
+      const int count = (int)points.size(), blades = blades_of(kind), step = count / blades;
+      assert_int_equal(count % blades, 0);
       for (int i = 0; i < count; i++) {
-        const double off = points[i].Rotated(gp::OZ(), 2 * M_PI / BLADES).Distance(points[(i + step) % count]);
+        const double off = points[i].Rotated(gp::OZ(), 2 * M_PI / blades).Distance(points[(i + step) % count]);
         if (off > 1e-4) fail_msg("%d: %s_%d is off by %g", kind, name.c_str(), i + 1, off);
       }
     }
@@ -220,14 +223,14 @@ static void blades_are_named_as_they_lie(void **) {
       if (!angle.count(of) || !angle.count(than)) fail_msg("no %s or %s", of.c_str(), than.c_str());
       return std::remainder(angle[of] - angle[than], 2 * M_PI) * 180 / M_PI;
     };
-    for (int b = 1; b <= BLADES; b++) {
+    for (int b = 1; b <= blades_of(kind); b++) {
       const std::string n = "_" + std::to_string(b);
       if (kind != SHAFT) assert_true(ahead("blade_pressure" + n, "blade_suction" + n) > 0.5);
       assert_near(ahead("blade_leading_edge" + n, (kind == SHAFT ? "blade_trailing_bevel" : "blade_trailing_edge") + n),
                   71, 8);
       if (kind == FILLETS) assert_true(ahead("blade_pressure_hub_root" + n, "blade_suction_hub_root" + n) > 0.5);
       if (kind != SPLITTERS) continue;
-      assert_near(ahead("splitter_trailing_edge" + n, "blade_trailing_edge" + n), 60, 8);
+      assert_near(ahead("splitter_trailing_edge" + n, "blade_trailing_edge" + n), 90, 8);
       assert_true(ahead("splitter_leading_edge" + n, "splitter_trailing_edge" + n) > 20);
     }
   }
@@ -260,7 +263,7 @@ static void edges_of_the_interface(void **) {
     assert_int_equal(arcs, 2 * sectors_of(kind));
     assert_near(turned, 4 * M_PI, 1e-9);
     assert_int_equal(lines + slanted, 2 * sectors_of(kind));
-    if (kind != SPLITTERS) assert_int_equal(slanted, kind == SHAFT ? 0 : 2 * BLADES);
+    if (kind != SPLITTERS) assert_int_equal(slanted, kind == SHAFT ? 0 : 2 * blades_of(kind));
   }
 }
 
