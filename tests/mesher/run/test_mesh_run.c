@@ -1,212 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The order in which a run makes its stages, and when it makes them again. The stages are set by hand here, in place of
-// those of the library: each attempt ends as a test says, and each call leaves letters in a trace,
-//
-//   o open   z sizes anew   f first factors   p plan (more regions of either domain)   h whole (1: of which domain)
-//   w warning of few cells   W walls   L layers   I interfaces   U rule of region numbers   G regions
-//   T thinner layers (attempt)   e end of thinning   A another plan (of domain)   N tetrahedra learnt   S scale solved
-//   F finer place (of domain)   Q finer at poor places   m manifest
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-
-#include "mesher/parallel/team.h"
-#include "mesher/policy.h"
-#include "mesher/run/cell_count.h"
-#include "mesher/run/manifest.h"
-#include "mesher/run/mesh_plan.h"
-#include "mesher/run/mesh_run.h"
-#include "mesher/run/poor_places.h"
-#include "mesher/run/run_interfaces.h"
-#include "mesher/run/run_layers.h"
-#include "mesher/run/run_regions.h"
-#include "mesher/run/run_walls.h"
-#include "mesher/run/stage_view.h"
-#include "pipeline/case_schema.h"
-#include "tests/test_folder.h"
-#include "tests/unit_test.h"
-#include "tests/whole_file.h"
-
-// How an attempt ends: at a stage (its letter) with an outcome of a domain, or with an error; else with so many cells
-// over the asked number, and poor regions with their deficit.
-typedef struct {
-  char stage;
-  CwOutcomeKind kind;
-  int domain;
-  CwStatus error;
-  double cells, deficit;
-  int32_t poor;
-} Attempt;
-
-enum { ASKED = 100000 };
-
-static CwMeshRun run;
-static CwCase table;
-static const Attempt *script; // the last attempt goes on for ever
-static int script_count, at;
-static char trace[1000];
-static int other_plans; // that each domain still has
-static double factor_at_scale;
-
-static void add(const char *format, ...) {
-  va_list arguments;
-  const size_t used = strlen(trace);
-  va_start(arguments, format);
-  vsnprintf(trace + used, sizeof trace - used, format, arguments);
-  va_end(arguments);
-  assert_true(strlen(trace) < sizeof trace - 1); // else the run has no end
-}
-
-static const Attempt *now(void) {
-  return &script[at < script_count ? at : script_count - 1];
-}
-
-static CwStatus stage(char letter, CwThinPlaces *places, CwOutcome *outcome) {
-  add("%c", letter);
-  if (now()->stage != letter) return CW_OK;
-  if (now()->error != CW_OK) return CW_FAIL(now()->error, "stage %c", letter);
-  const double place[3] = {1, 2, 3};
-  cw_outcome_set(outcome, now()->kind, place, "as the script says");
-  outcome->domain = now()->domain;
-  if (places) places->count++;
-  return CW_OK;
-}
-
-CwStatus cw_mesh_open(CwMeshRun *of) {
-  add("o");
-  of->model.domain_count = 2;
-  strcpy(of->model.domain[0].name, "rotor");
-  strcpy(of->model.domain[1].name, "stator");
-  of->domain[0].name = "rotor";
-  of->domain[1].name = "stator";
-  return CW_OK;
-}
-
-CwStatus cw_mesh_resize(CwMeshRun *of) {
-  add("z");
-  return CW_OK;
-}
-
-void cw_start_factors(CwMeshRun *of) {
-  add("f");
-  of->prisms = (CwCellLaw){.factor = 2};
-  of->tets = (CwCellLaw){.factor = 9};
-}
-
-CwStatus cw_mesh_plan(CwMeshRun *of) {
-  add("p%d%d", of->domain[0].more_regions, of->domain[1].more_regions);
-  return CW_OK;
-}
-
-CwStatus cw_mesh_plan_whole(CwMeshRun *of, const int32_t *whole, const char *reason) {
-  add("h%d%d", whole[0], whole[1]);
-  return CW_OK;
-}
-
-CwStatus cw_mesh_plan_again(CwMeshRun *of, const CwOutcome *why) {
-  add("A%d", why->domain);
-  if (other_plans-- == 0) return CW_FAIL(CW_ERR_MESH, "no plan fits");
-  of->domain[why->domain].more_regions++;
-  return CW_OK;
-}
-
-int cw_mesh_has_other_plan(const CwMeshRun *of, int d) {
-  return other_plans > 0;
-}
-
-void cw_warn_of_few_cells(const CwMeshRun *of) {
-  add("w");
-}
-
-CwStatus cw_run_walls(CwMeshRun *of, CwOutcome *outcome) {
-  at++;
-  of->prisms.factor = 2. / 3;
-  of->stopped = of->stop_after == CW_STAGE_CURVES;
-  return stage('W', NULL, outcome);
-}
-
-CwStatus cw_run_layers(CwMeshRun *of, CwOutcome *outcome) {
-  return stage('L', NULL, outcome);
-}
-
-CwStatus cw_run_interfaces(CwMeshRun *of, CwThinPlaces *places, CwOutcome *outcome) {
-  return stage('I', places, outcome);
-}
-
-CwStatus cw_run_region_rule(CwMeshRun *of) {
-  return stage('U', NULL, &(CwOutcome){0});
-}
-
-CwStatus cw_run_regions(CwMeshRun *of, CwThinPlaces *places, CwOutcome *outcome) {
-  of->cells = llround(now()->cells * ASKED);
-  return stage('G', places, outcome);
-}
-
-CwStatus cw_thin(CwMeshRun *of, const CwThinPlaces *places, int attempt, CwOutcome *outcome) {
-  add("T%d", attempt);
-  assert_int_equal(places->count, 1); // of this attempt alone
-  assert_int_equal(outcome->kind, CW_OUTCOME_DONE);
-  if (attempt == 3) cw_outcome_set(outcome, CW_OUTCOME_REPLAN, NULL, "thin enough");
-  outcome->domain = 1;
-  return CW_OK;
-}
-
-void cw_thin_places_free(CwThinPlaces *places) {}
-
-void cw_end_thinning(CwMeshRun *of) {
-  add("e");
-}
-
-void cw_learn_tets(CwMeshRun *of) {
-  add("N");
-  of->tets = (CwCellLaw){.factor = 1. / 3, .scale = 1};
-}
-
-void cw_mesh_solve_scale(CwMeshRun *of) {
-  add("S");
-  factor_at_scale = of->tets.factor;
-}
-
-double cw_poor_deficit(const CwMeshRun *of, int32_t *count) {
-  *count = now()->poor;
-  return now()->deficit;
-}
-
-void cw_poor_domains(const CwMeshRun *of, int32_t lacks[CW_DOMAINS_MOST]) {
-  lacks[1] = 1;
-}
-
-CwStatus cw_finer_at_poor(CwMeshRun *of) {
-  add("Q");
-  return cw_finer_places_add(&of->domain[1], -1, (const double[3]){0, 0, 0}, &of->finer);
-}
-
-CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const double x[3], CwFinerPlaces *places) {
-  CwStatus status = CW_OK;
-  if (number >= 0) add("F%d", number);
-  CW_GROW(places->place, places->capacity, places->count + 1);
-  places->place[places->count++] = (CwFinerPlace){number, {{x[0], x[1], x[2]}, 1}};
-done:
-  return status;
-}
-
-void cw_finer_places_free(CwFinerPlaces *places) {
-  free(places->place);
-  memset(places, 0, sizeof *places);
-}
-
-CwStatus cw_mesh_manifest(CwMeshRun *of) {
-  add("m");
-  return CW_OK;
-}
-
-CwStatus cw_stage_view(CwMeshRun *of, CwStage seen) {
-  if (of->stop_after == seen) of->stopped = 1;
-  return CW_OK;
-}
-
-void cw_domain_close(CwDomain *domain) {}
+// The order in which a run makes its stages, and when it makes them again (stages_by_hand.h).
+#include "stages_by_hand.h"
 
 static int make_run(void **state) {
   static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "model.json"};
@@ -222,7 +16,7 @@ static int make_run(void **state) {
 static CwStatus begin(int count, const Attempt *attempts, CwStage stop_after, int rank) {
   memset(&run, 0, sizeof run);
   cw_case_defaults(&table);
-  table.mesh.cells = ASKED;
+  table.mesh.cells = asked;
   run.table = &table;
   run.run_path = test_folder;
   run.rank = rank;
@@ -298,6 +92,22 @@ static void passes_have_an_end(void **state) {
   assert_int_equal(cw_log_warning_count(run.context.log), 1);
   assert_non_null(
       strstr(cw_log_warning(run.context.log, 0), "150000 cells made, 50.0 % off the asked 100000 after 10"));
+  end();
+}
+
+// They are counted from where edges became shorter.
+static void passes_begin_anew_with_other_sizes(void **state) {
+  Attempt attempts[10];
+  char wanted[sizeof trace] = "of p00 h00w";
+  for (int i = 0; i < 10; i++) attempts[i] = (Attempt){.cells = 1.5};
+  attempts[8] = (Attempt){.stage = 'L', .kind = CW_OUTCOME_FINER};
+  for (int pass = 1; pass <= 8; pass++) strcat(wanted, "WLIUGeN S ");
+  strcat(wanted, "WLe F0 zf p00 S h00 ");
+  for (int pass = 9; pass <= 17; pass++) strcat(wanted, "WLIUGeN S ");
+  strcat(wanted, "WLIUGeN m");
+  assert_int_equal(begin(10, attempts, CW_STAGE_NONE, 0), CW_OK);
+  expect(wanted);
+  assert_int_equal(retries_and_passes(), 10 + 18);
   end();
 }
 
@@ -382,11 +192,25 @@ static void shorter_edges_come_before_other_planes(void **state) {
 
 // Twice where the first has not helped. Planes that help are those from which the next ones are counted, and which are
 // made again at the end, without the places of before; from the first factors, for so was the best mesh before them.
+// Also twice after a round that has helped.
 static void what_helps_is_kept(void **state) {
   MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN "
               "zf p01 h00 WLIUGeN zf p03 h00 WLIUGeN zf p04 h01 WLIUGeN zf p01 h00 WLIUGeN m",
        POOR(5), POOR(6), POOR(5), POOR(4), POOR(5), POOR(4.5), POOR(4));
   assert_int_equal(run.finer.count, 0);
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN zf p01 S h00 WLIUGeN m", POOR(5),
+       POOR(4), POOR(6), POOR(6), {.cells = 1});
+  assert_int_equal(run.finer.count, 1);
+  end();
+}
+
+// A round for quality has the planes that were found before it, and is as whole.
+static void planes_are_kept_with_shorter_edges(void **state) {
+  MAKE("of p00 h00w W eA1 W eA0 WLIUGeN Q zf p01 S h10 WLIUGeN m",
+       {.stage = 'W', .kind = CW_OUTCOME_REPLAN, .domain = 1}, {.stage = 'W', .kind = CW_OUTCOME_ASYMMETRIC}, POOR(5),
+       {.cells = 1});
   end();
 }
 
@@ -399,10 +223,17 @@ static void a_good_mesh_is_the_last(void **state) {
   MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN zf p01 h00 WLIUGeN m", POOR(5), POOR(6), POOR(7),
        {.cells = 1});
   end();
+  unlink(in_test_folder("mesh/pass.json"));
+  asked = (int64_t)(1.5 * cw_policy.poor_rare);
+  MAKE(BEFORE "m", POOR(5));
+  end();
+  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN m", {.cells = 1, .poor = 2, .deficit = 5}, {.cells = 1});
+  end();
+  asked = 100000;
 }
 
 // A round for quality needs no mesh: where it has none, and no other plan, the next is tried; planes of which there are
-// others are others.
+// others are others. The best mesh, at the end, has to be.
 static void rounds_for_quality_may_fail(void **state) {
   MAKE(BEFORE "Q zf p00 S h00 WLe zf p01 h00 WLIUGeN zf p02 h00 W eA1 WLIUGeN zf p03 h01 We "
               "zf p00 h00 WLIUGeN m",
@@ -410,6 +241,13 @@ static void rounds_for_quality_may_fail(void **state) {
        {.stage = 'W', .kind = CW_OUTCOME_REPLAN, .domain = 1}, POOR(6),
        {.stage = 'W', .kind = CW_OUTCOME_ASYMMETRIC, .domain = 1}, POOR(5));
   assert_int_equal(run.finer.count, 0);
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+#define NONE {.stage = 'L', .kind = CW_OUTCOME_FINER, .domain = 1}
+  MAKE(BEFORE
+       "Q zf p00 S h00 WLe zf p01 h00 WLe zf p02 h00 WLe zf p03 h01 WLe zf p00 h00 WLe F1 zf p00 S h00 WLIUGeN m",
+       POOR(5), NONE, NONE, NONE, NONE, NONE, POOR(5));
+#undef NONE
   end();
 }
 
@@ -452,6 +290,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       TEST(a_mesh_of_enough_cells_is_the_last),
       TEST(passes_have_an_end),
+      TEST(passes_begin_anew_with_other_sizes),
       TEST(a_run_ends_after_the_stage_that_is_asked),
       TEST(an_error_ends_the_run),
       TEST(thinner_layers_are_tried_before_other_planes),
@@ -459,6 +298,7 @@ int main(void) {
       TEST(shorter_edges_make_room_for_layers),
       TEST(shorter_edges_come_before_other_planes),
       TEST(what_helps_is_kept),
+      TEST(planes_are_kept_with_shorter_edges),
       TEST(a_good_mesh_is_the_last),
       TEST(rounds_for_quality_may_fail),
       TEST(a_killed_run_goes_on),
