@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: blade_patches, bspline_fit.
 #include <math.h>
 
 #include "geometry/blade.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-geometry as a user runs it.
-// Modules without a test of their own that it runs: pump_files.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

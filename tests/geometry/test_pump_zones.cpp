@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Suction and discharge pipe as domains of their own: what is cut off is what the others lose, both sides of a
 // disc have the same outline, and the case is told when there is no room for a zone.
-// Modules without a test of their own that it runs: pipe_zone.
 #include <cmath>
 #include <cstring>
 #include <string>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: rotor_edges, rotor_faces, rotor_volume, shell_builder.
 #include <math.h>
 #include <string.h>
 

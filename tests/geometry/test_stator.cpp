@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Modules without a test of their own that it runs: bspline_fit, stator_builder, stator_check.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
