@@ -12,24 +12,43 @@ extern "C" {
 #include "mesher/thickness/layer_thickness.h"
 }
 
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+
 #include "divided_box.h"
 #include "run_domains.h"
 
 enum { LAYERS = 4 };
 static const double first_height = 2e-4, growth = 1.5, thickness = 1e-3; // less than four such layers have
 
+static TopoDS_Shape plain() {
+  return BRepPrimAPI_MakeBox(40, 30, 20).Shape();
+}
+
+// With a blade from floor to lid, whose edge of 60 degrees points along x: columns there lean by as much to its sides.
+static TopoDS_Shape with_blade() {
+  BRepBuilderAPI_MakePolygon wire(gp_Pnt(10, 13, 0), gp_Pnt(10 + 2 * std::sqrt(3), 15, 0), gp_Pnt(10, 17, 0), true);
+  const TopoDS_Shape blade = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, 20)).Shape();
+  return BRepAlgoAPI_Cut(plain(), blade).Shape();
+}
+
 // Boxes of two regions with their wall curves, and the faces of their walls.
 struct Walls {
-  Box box[2] = {Box(1), Box(1)};
+  Box box[2];
   DomainRun made;
   std::vector<CwLayerTarget> asked;
-  std::array<double, CW_BENDS> flat[6];
+  std::array<double, CW_BENDS> flat[10];
   CwResults results = {};
   CwOutcome outcome = {};
 
-  explicit Walls(double scale = 1) : asked(3, CwLayerTarget{scale * first_height, growth, scale * thickness, 100}) {
+  explicit Walls(double scale = 1, const TopoDS_Shape &solid = plain())
+      : box{Box(1, 0.009, solid), Box(1, 0.009, solid)},
+        asked(3, CwLayerTarget{scale * first_height, growth, scale * thickness, 100}) {
     for (auto &radius : flat) radius = {INFINITY, INFINITY};
-    const int32_t faces[2] = {6, 6};
+    const int32_t faces[2] = {cw_cad_face_count(box[0].cad), cw_cad_face_count(box[1].cad)};
+    assert_true(faces[0] <= 10);
     results.shared = 1;
     check(cw_results_make(&results, 2, faces));
     for (int d = 0; d < 2; d++) {
@@ -42,7 +61,7 @@ struct Walls {
       domain.layer_count = LAYERS;
       domain.layer_share = 0.5;
       int64_t size;
-      for (int f = 0; f < 6; f++)
+      for (int f = 0; f < faces[d]; f++)
         if (cw_cad_face_is_wall(box[d].cad, f))
           check(cw_surface_mesh_face(&boundary.input, &boundary.wall_curves, f, 0, &results.bytes[d][f], &size));
     }
@@ -149,11 +168,12 @@ static double last_share(const void *context, int32_t, double height) {
   return low * low * low / sum(low);
 }
 
-// Layers and a tenth of them: prisms so flat that columns are turned by what their last layers are.
+// Layers of a box, and lower ones about a blade, where columns lean.
 static void layers_are_grown_to_their_targets(void **) {
-  for (double scale : {1.0, 0.1}) {
-    Walls walls(scale);
-    Box by_hand(1);
+  for (double scale : {1.0, 0.4}) {
+    const TopoDS_Shape solid = scale < 1 ? with_blade() : plain();
+    Walls walls(scale, solid);
+    Box by_hand(1, 0.009, solid);
     DomainSurfaces &boundary = by_hand.boundary;
     make_walls(by_hand);
     walls.merge();
