@@ -55,15 +55,15 @@ static void add_flat(const CwFlatPlace *place, double apart, CwQuality *quality)
   flat[at] = *place;
 }
 
-double cw_nearly_flat(void) {
-  return 0.5 * (1 + cw_policy.wanted_angle / cw_policy.flat_angle);
+double cw_nearly_flat_angle(void) {
+  return 0.5 * (cw_policy.flat_angle + cw_policy.wanted_angle);
 }
 
 // Counts a tetrahedron of that flatness, its longest edge or about so `length`.
 static void count_flat(const CwRegionData *data, int32_t cell, double flatness, double length, CwQuality *quality) {
   CwFlatPlace place = {.flatness = flatness};
   quality->flattest = cw_lesser(quality->flattest, flatness);
-  if (flatness >= cw_nearly_flat() * cw_policy.flat_angle) return;
+  if (flatness >= cw_nearly_flat_angle()) return;
   cw_cell_centre(data, cell, place.x);
   add_flat(&place, 2 * length, quality);
 }

@@ -29,8 +29,8 @@ typedef struct {
 } CwFlatPlace;
 enum { CW_FLAT_PLACES = 12 };
 
-// Tetrahedra below so many times flat_angle count as nearly flat: halfway to wanted_angle.
-double cw_nearly_flat(void);
+// Below which tetrahedra count as nearly flat, degrees: halfway from flat_angle to wanted_angle.
+double cw_nearly_flat_angle(void);
 
 // The fields are figures of their own: of all cells, of tetrahedra, of open faces and of prisms.
 typedef struct {

@@ -180,6 +180,7 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
     memset(state->best_lacks, 0, sizeof state->best_lacks);
     if (many) cw_poor_domains(run, state->best_lacks);
   }
+  if (state->poor_rounds > POOR_MOST) goto done;
   if (many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1)) {
     cw_log(run->context.log,
            "regions with flat tetrahedra, or domains that miss first heights: %d; made again with shorter edges there",
@@ -187,10 +188,10 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
     CW_TRY(cw_finer_at_poor(run));
     state->start = start_of(run);
     state->poor_rounds++;
-  } else if (state->poor_rounds <= POOR_MOST && take_other_planes(run, state)) {
+  } else if (take_other_planes(run, state)) {
     cw_log(run->context.log, "domains fall short; they are made again with other planes");
     state->poor_rounds = POOR_MOST;
-  } else if (state->poor_rounds <= POOR_MOST && !best) {
+  } else if (!best) {
     cw_log(run->context.log, "that did not help; the best mesh is made again");
     state->poor_rounds = POOR_MOST + 1;
   } else {

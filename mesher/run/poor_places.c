@@ -89,12 +89,13 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
   int32_t before = run->finer.count;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
+    const double near = cw_nearly_flat_angle() / cw_policy.flat_angle; // times what is wanted
     int heights = lacks_first_heights(run, d) > 0, sharp = cw_domain_is_sharp(domain);
     for (int32_t r = 0; r < domain->plan.region_count; r++) {
       const CwRegionSummary *made = &run->summary[d][r];
       if (lacks_angle(run, d, r) == 0) continue;
       for (int32_t i = 0; i < made->quality.flat_count; i++)
-        if (made->quality.flat[i].flatness < cw_nearly_flat() * wanted_of(made))
+        if (made->quality.flat[i].flatness < near * wanted_of(made))
           CW_TRY(add_apart(run, d, made->quality.flat[i].x, before));
     }
     for (int32_t t = 0; heights && t < domain->surface.triangle_count; t++) {

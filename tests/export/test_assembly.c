@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "pipeline/mesh/cell.h"
-#include "pipeline/mpi_settings.h"
 #include "tests/export/synthetic_run.h"
 #include "tests/export/whole_mesh.h"
 #include "tests/seal_run.h"
+#include "tests/mpi_group.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
@@ -240,15 +240,11 @@ static void faults_are_told(void **state) {
 }
 
 int main(int argc, char **argv) {
-  cw_mpi_settings();
-  MPI_Init(&argc, &argv);
-  ranks.comm = MPI_COMM_WORLD;
+  begin_mpi(&argc, &argv, &ranks);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(totals_are_those_of_the_cells),      cmocka_unit_test(every_point_has_one_number),
       cmocka_unit_test(cells_meet_across_partition_planes), cmocka_unit_test(patches_have_their_areas),
       cmocka_unit_test(interface_faces_have_their_places),  cmocka_unit_test(faults_are_told),
   };
-  const int failed = cmocka_run_group_tests(tests, make, release);
-  MPI_Finalize();
-  return failed;
+  return end_mpi(cmocka_run_group_tests(tests, make, release));
 }

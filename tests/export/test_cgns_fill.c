@@ -4,9 +4,9 @@
 
 #include "export/cgns_file.h"
 #include "pipeline/file_digest.h"
-#include "pipeline/mpi_settings.h"
 #include "tests/draw.h"
 #include "tests/export/whole_mesh.h"
+#include "tests/mpi_group.h"
 #include "tests/test_folder.h"
 #include "tests/whole_file.h"
 
@@ -291,16 +291,12 @@ static void files_of_others_are_told(void **state) {
 }
 
 int main(int argc, char **argv) {
-  cw_mpi_settings();
-  MPI_Init(&argc, &argv);
-  ranks.comm = MPI_COMM_WORLD;
+  begin_mpi(&argc, &argv, &ranks);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_cells_and_faces_of_a_pump_are_there),
       cmocka_unit_test(any_order_of_regions_gives_the_same_bytes),
       cmocka_unit_test(long_arrays_are_whole),
       cmocka_unit_test(files_of_others_are_told),
   };
-  const int failed = cmocka_run_group_tests(tests, make, release);
-  MPI_Finalize();
-  return failed;
+  return end_mpi(cmocka_run_group_tests(tests, make, release));
 }

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "pipeline/mesh/cell.h"
-#include "pipeline/mpi_settings.h"
 #include "tests/export/whole_mesh.h"
+#include "tests/mpi_group.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
@@ -225,15 +225,11 @@ static void more_parts_than_cells_are_refused(void **state) {
 }
 
 int main(int argc, char **argv) {
-  cw_mpi_settings();
-  MPI_Init(&argc, &argv);
-  ranks.comm = MPI_COMM_WORLD;
+  begin_mpi(&argc, &argv, &ranks);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(any_number_of_parts_is_the_mesh),
       cmocka_unit_test(a_region_is_cut_by_planes),
       cmocka_unit_test(more_parts_than_cells_are_refused),
   };
-  const int failed = cmocka_run_group_tests(tests, make, release);
-  MPI_Finalize();
-  return failed;
+  return end_mpi(cmocka_run_group_tests(tests, make, release));
 }

@@ -5,9 +5,9 @@
 #include "export/foam_mesh.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/mesh/cell.h"
-#include "pipeline/mpi_settings.h"
 #include "tests/export/synthetic_run.h"
 #include "tests/export/whole_mesh.h"
+#include "tests/mpi_group.h"
 #include "tests/test_folder.h"
 #include "tests/whole_file.h"
 
@@ -387,16 +387,12 @@ static void large_patches_are_whole(void **state) {
 }
 
 int main(int argc, char **argv) {
-  cw_mpi_settings();
-  MPI_Init(&argc, &argv);
-  ranks.comm = MPI_COMM_WORLD;
+  begin_mpi(&argc, &argv, &ranks);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_whole_mesh_has_every_face_once),
       cmocka_unit_test(parts_are_cut_out_of_the_whole_mesh),
       cmocka_unit_test(a_folder_that_is_gone_is_told),
       cmocka_unit_test(large_patches_are_whole),
   };
-  const int failed = cmocka_run_group_tests(tests, make, release);
-  MPI_Finalize();
-  return failed;
+  return end_mpi(cmocka_run_group_tests(tests, make, release));
 }

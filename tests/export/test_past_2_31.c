@@ -8,8 +8,8 @@
 #include "export/foam_mesh.h"
 #include "export/foam_region.h"
 #include "pipeline/mesh/cell.h"
-#include "pipeline/mpi_settings.h"
 #include "tests/export/stage_run.h"
+#include "tests/mpi_group.h"
 #include "tests/test_folder.h"
 #include "tests/unit_test.h"
 
@@ -220,16 +220,12 @@ static void fluent_has_its_lines(void **state) {
 }
 
 int main(int argc, char **argv) {
-  cw_mpi_settings();
-  MPI_Init(&argc, &argv);
-  ranks.comm = MPI_COMM_WORLD;
+  begin_mpi(&argc, &argv, &ranks);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cgns_has_its_integers),
       cmocka_unit_test(openfoam_has_its_labels),
       cmocka_unit_test(a_part_has_its_labels),
       cmocka_unit_test(fluent_has_its_lines),
   };
-  const int failed = cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-  MPI_Finalize();
-  return failed;
+  return end_mpi(cmocka_run_group_tests(tests, make_test_folder, remove_test_folder));
 }

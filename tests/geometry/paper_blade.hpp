@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -86,4 +88,14 @@ inline PaperBlade &made_blade(CwTrailingEdge edge, double fillet_radius = 0, dou
     blade = std::move(made);
   }
   return *blade;
+}
+
+// What a blade is refused with; empty where it is made.
+inline std::string refusal_of(PaperBlade &refused) {
+  try {
+    refused.make();
+  } catch (const std::runtime_error &failure) {
+    return failure.what();
+  }
+  return "";
 }

@@ -299,15 +299,6 @@ static void seams_cross_the_whole_passage(void **) {
   }
 }
 
-static std::string refusal_of(PaperBlade &blade) {
-  try {
-    blade.make();
-  } catch (const std::runtime_error &failure) {
-    return failure.what();
-  }
-  return "";
-}
-
 // Each names the value and what to lower.
 static void trailing_edges_that_do_not_fit(void **) {
   CwCase table = paper_with(CW_EDGE_BEVELLED);

@@ -208,15 +208,6 @@ static void sizes_rest_at_the_ends_of_sides(void **) {
     }
 }
 
-static std::string refusal_of(PaperBlade &blade) {
-  try {
-    blade.make();
-  } catch (const std::runtime_error &failure) {
-    return failure.what();
-  }
-  return "";
-}
-
 // What is advised fits; a little more than what is refused does not either.
 static void too_large_fillets_are_refused(void **) {
   double given, share, advised;

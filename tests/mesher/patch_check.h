@@ -23,7 +23,7 @@ static inline Plan *polygon_plan(int corners, double radius, double size) {
   Plan *plan = new_plan(PLANE, size);
   for (int k = 0; k < corners; k++)
     add_point(plan, radius * cos(2 * M_PI * k / corners), radius * sin(2 * M_PI * k / corners));
-  for (int k = 0; k < corners; k++) add_edge(plan, k, (k + 1) % corners, 1);
+  add_outline(plan);
   return plan;
 }
 
@@ -101,7 +101,7 @@ static inline Plan *divided_rectangle(uint64_t *seed, CwPatchWork *work) {
   const double corner[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
   int inserted;
   for (int p = 0; p < 6; p++) add_point(plan, corner[p][0], corner[p][1]);
-  for (int p = 0; p < 6; p++) add_edge(plan, p, (p + 1) % 6, 1);
+  add_outline(plan);
   add_edge(plan, 1, 4, 0);
   open_patch(plan, work);
   for (int i = 0; i < 40; i++) {

@@ -98,6 +98,11 @@ void add_line(Plan *plan, int32_t a, int32_t b, int boundary) {
   add_edge(plan, from, b, boundary);
 }
 
+void add_outline(Plan *plan) {
+  const int32_t count = plan->input.point_count;
+  for (int32_t k = 0; k < count; k++) add_edge(plan, k, (k + 1) % count, 1);
+}
+
 void add_loop(Plan *plan, int count, const double (*corner)[2]) {
   int32_t first = plan->input.point_count;
   for (int k = 0; k < count; k++) add_point(plan, corner[k][0], corner[k][1]);
@@ -119,7 +124,7 @@ Plan *lattice_plan(int shape, int n, double h, double scale, double turned) {
     const double x = h * (a + 0.5 * b), y = h * sqrt(0.75) * b;
     add_point(plan, (x * cos(turned) - y * sin(turned)) / scale, x * sin(turned) + y * cos(turned));
   }
-  for (int32_t k = 0; k < count; k++) add_edge(plan, k, (k + 1) % count, 1);
+  add_outline(plan);
   return plan;
 }
 

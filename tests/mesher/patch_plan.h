@@ -36,6 +36,9 @@ int32_t add_point(Plan *plan, double u, double v);
 
 void add_edge(Plan *plan, int32_t a, int32_t b, int boundary);
 
+// Joins all points so far, in their order, by undivided edges round the patch.
+void add_outline(Plan *plan);
+
 // Joins points a and b by a straight line in (u,v), cut to the size field.
 void add_line(Plan *plan, int32_t a, int32_t b, int boundary);
 

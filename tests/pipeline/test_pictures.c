@@ -3,13 +3,13 @@
 // that most pictures take off, so that few have to be drawn.
 #include "pipeline/report/pictures.h"
 
-#include <cairo.h>
 #include <math.h>
 #include <string.h>
 
 #include "pipeline/atomic_file.h"
-#include "pipeline/mpi_settings.h"
+#include "tests/mpi_group.h"
 #include "tests/pipeline/box_run.h"
+#include "tests/pipeline/png_surface.h"
 #include "tests/seal_run.h"
 
 static CwRanks ranks = {.size = 1};
@@ -158,19 +158,6 @@ static void solved_values_have_their_scale(void **state) {
     assert_in_range(view.part[0].values[1][p], 127, 128); // y+ 10 is half of the way from 1 to 100
 }
 
-typedef struct {
-  const CwPng *png;
-  size_t at;
-} Stream;
-
-static cairo_status_t take(void *closure, unsigned char *into, unsigned length) {
-  Stream *stream = closure;
-  if (stream->at + length > stream->png->size) return CAIRO_STATUS_READ_ERROR;
-  memcpy(into, stream->png->bytes + stream->at, length);
-  stream->at += length;
-  return CAIRO_STATUS_SUCCESS;
-}
-
 // The pixels of a picture that have the colour, no part of it further off than `off`: their share of all, and the box
 // about them.
 typedef struct {
@@ -179,17 +166,13 @@ typedef struct {
 } Found;
 
 static Found find(const char *title, uint32_t colour, int off) {
-  Stream stream = {&picture_of(title)->png, 0};
   Found found = {.least = {1 << 20, 1 << 20}};
-  cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(take, &stream);
-  assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+  cairo_surface_t *surface = png_surface(&picture_of(title)->png);
   const int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
-  const unsigned char *bytes = cairo_image_surface_get_data(surface);
   for (int j = 0; j < height; j++)
     for (int i = 0; i < width; i++) {
       const int at[2] = {i, j};
-      uint32_t value;
-      memcpy(&value, bytes + j * cairo_image_surface_get_stride(surface) + 4 * i, 4);
+      const uint32_t value = png_pixel(surface, i, j);
       int is_near = 1;
       for (int c = 0; c < 24; c += 8) is_near &= abs((int)(value >> c & 255) - (int)(colour >> c & 255)) <= off;
       if (!is_near) continue;
@@ -233,9 +216,7 @@ static void close_views_are_framed(void **state) {
 }
 
 int main(int argc, char **argv) {
-  cw_mpi_settings();
-  MPI_Init(&argc, &argv);
-  ranks.comm = MPI_COMM_WORLD;
+  begin_mpi(&argc, &argv, &ranks);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(each_picture_is_there_or_says_why),
       cmocka_unit_test(legends_tell_what_is_seen),
@@ -243,7 +224,5 @@ int main(int argc, char **argv) {
       cmocka_unit_test(cuts_show_the_boxes),
       cmocka_unit_test(close_views_are_framed),
   };
-  const int failed = cmocka_run_group_tests(tests, draw_all, free_all);
-  MPI_Finalize();
-  return failed;
+  return end_mpi(cmocka_run_group_tests(tests, draw_all, free_all));
 }

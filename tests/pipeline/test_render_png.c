@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is written over a picture, pixel by pixel as cairo reads it back.
-#include <cairo.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "pipeline/report/render.h"
+#include "tests/pipeline/png_surface.h"
 #include "tests/unit_test.h"
 
 enum { WIDTH = 300, HEIGHT = 200, WHITE = 0xffffff, GREY = 0x707880 };
-
-typedef struct {
-  const CwPng *png;
-  size_t at;
-} Stream;
-
-static cairo_status_t take(void *closure, unsigned char *into, unsigned length) {
-  Stream *stream = closure;
-  if (stream->at + length > stream->png->size) return CAIRO_STATUS_READ_ERROR;
-  memcpy(into, stream->png->bytes + stream->at, length);
-  stream->at += length;
-  return CAIRO_STATUS_SUCCESS;
-}
 
 static uint32_t pixels[HEIGHT][WIDTH];
 
@@ -29,18 +16,11 @@ static uint32_t pixels[HEIGHT][WIDTH];
 static void draw_on(const CwCanvas *canvas, const CwAnnotation *annotation) {
   CwPng png;
   assert_int_equal(cw_render_png(canvas, annotation, &png), CW_OK);
-  Stream stream = {&png, 0};
-  cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(take, &stream);
-  assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+  cairo_surface_t *surface = png_surface(&png);
   assert_int_equal(cairo_image_surface_get_width(surface), WIDTH);
   assert_int_equal(cairo_image_surface_get_height(surface), HEIGHT);
-  const unsigned char *bytes = cairo_image_surface_get_data(surface);
   for (int j = 0; j < HEIGHT; j++)
-    for (int i = 0; i < WIDTH; i++) {
-      uint32_t value;
-      memcpy(&value, bytes + j * cairo_image_surface_get_stride(surface) + 4 * i, 4);
-      pixels[j][i] = value & 0xffffff;
-    }
+    for (int i = 0; i < WIDTH; i++) pixels[j][i] = png_pixel(surface, i, j);
   cairo_surface_destroy(surface);
   cw_png_free(&png);
 }

@@ -8,6 +8,7 @@
 
 #include "pipeline/report/picture_list.h"
 #include "tests/draw.h"
+#include "tests/pipeline/surveyed_walls.h"
 #include "tests/unit_test.h"
 
 // Two blades' trailing edges as one triangle each, on opposite sides; the far corner of a discharge at
@@ -125,7 +126,7 @@ static void the_meridional_plane_leaves_the_discharge(void **state) {
 // A plane hub and a conical shroud, as strips all round: between the middles of bins and between both walls the surface
 // of a share is linear.
 static void shares_of_the_span_are_cones(void **state) {
-  enum { RINGS = 320, AROUND = 24, POINTS = (RINGS + 1) * AROUND, FACES = 2 * RINGS * AROUND };
+  enum { RINGS = 320, POINTS = (RINGS + 1) * WALLS_AROUND, FACES = 2 * RINGS * WALLS_AROUND };
   static double x[2 * POINTS][3];
   static int32_t triangle[2 * FACES][3], patch[2 * FACES];
   CwModelPatch names[] = {{.name = "hub", .kind = CW_PATCH_WALL}, {.name = "shroud", .kind = CW_PATCH_WALL}};
@@ -136,20 +137,7 @@ static void shares_of_the_span_are_cones(void **state) {
                         .triangles = triangle,
                         .triangle_patch = patch};
   const CwPumpSizes sizes = {4, 0.05, 0.1, 0.101, 0.102, -1};
-  int32_t t = 0;
-  for (int wall = 0; wall < 2; wall++)
-    for (int r = 0; r <= RINGS; r++)
-      for (int a = 0; a < AROUND; a++) {
-        const double radius = 0.02 + 0.08 * r / RINGS, angle = 2 * M_PI * a / AROUND;
-        const int32_t here = wall * POINTS + r * AROUND + a, next = wall * POINTS + r * AROUND + (a + 1) % AROUND;
-        memcpy(x[here], (double[]){radius * cos(angle), radius * sin(angle), wall ? -0.03 + 0.2 * radius : 0.01},
-               sizeof *x);
-        if (r == RINGS) continue;
-        memcpy(triangle[t], (int32_t[]){here, next, next + AROUND}, sizeof *triangle);
-        memcpy(triangle[t + 1], (int32_t[]){here, next + AROUND, here + AROUND}, sizeof *triangle);
-        patch[t] = patch[t + 1] = wall;
-        t += 2;
-      }
+  wall_strips(RINGS, 0.08, (const double[2]){-0.03, 0.2}, x, triangle, patch);
   CwSurvey *survey = malloc(sizeof *survey);
   cw_survey_start(survey, &sizes);
   assert_int_equal(cw_survey_add(survey, &mesh, &cells), CW_OK);

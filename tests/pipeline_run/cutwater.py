@@ -4,10 +4,12 @@
 The environment names the folders: CUTWATER_BIN (the programs), CUTWATER_SOURCE (top of the source), CUTWATER_WORK
 (where the tests write) and CUTWATER_CELLS (asked number of cells of the run that they share)."""
 import hashlib
+import importlib.util
 import json
 import os
 import shutil
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -37,6 +39,13 @@ def start(stage, run, **options):
     """Starts a stage in a process group of its own; its standard error can be read."""
     return subprocess.Popen(command(stage, run, **options), env=ENVIRONMENT, stdin=subprocess.DEVNULL,
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+
+def pass_over_without_gmsh():
+    """Ends a test as passed over where gmsh's module for Python is not there."""
+    if importlib.util.find_spec("gmsh") is None:
+        print("gmsh's module for Python is not there")
+        sys.exit(77)
 
 
 def execute(line, folder=None, timeout=1500, environment=ENVIRONMENT):

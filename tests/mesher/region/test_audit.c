@@ -175,25 +175,33 @@ static void a_tetrahedron_far_larger_than_the_next_counts_as_flat(void **state) 
   }
 }
 
+// The figures of a tetrahedron with no face on a patch.
+static CwQuality quality_of_one(const double (*corner)[3]) {
+  double points[4][3];
+  int32_t cells[1][4] = {{0, 1, 2, 3}};
+  int64_t shared_id[4] = {0, 1, 2, 3};
+  memcpy(points, corner, sizeof points);
+  CwRegionMesh r = {.domain = "rotor",
+                    .region = 3,
+                    .cells = {.points = points,
+                              .tetrahedra = cells,
+                              .shared_id = shared_id,
+                              .point_count = 4,
+                              .shared_count = 4,
+                              .tetrahedron_count = 1}};
+  CwQuality q;
+  passes(&r, &q);
+  return q;
+}
+
 // A tetrahedron with its apex straight over a corner of an equilateral triangle: its slope rises at the angle from the
 // opposite edge. Flat and nearly flat ones are listed: below 16 degrees, halfway from 12 to 20.
 static void nearly_flat_tetrahedra_are_listed(void **state) {
-  int32_t cells[1][4] = {{0, 1, 2, 3}};
-  int64_t shared_id[4] = {0, 1, 2, 3};
-  assert_near(cw_nearly_flat() * cw_policy.flat_angle, 16, 1e-12);
+  assert_near(cw_nearly_flat_angle(), 16, 1e-12);
   for (int angle = 11; angle <= 19; angle += 2) {
     double far = sqrt(0.75), up = far * tan(angle * M_PI / 180);
-    double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, far, 0}, {0.5, far, up}};
-    CwRegionMesh r = {.domain = "rotor",
-                      .region = 3,
-                      .cells = {.points = points,
-                                .tetrahedra = cells,
-                                .shared_id = shared_id,
-                                .point_count = 4,
-                                .shared_count = 4,
-                                .tetrahedron_count = 1}};
-    CwQuality q;
-    passes(&r, &q);
+    const double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, far, 0}, {0.5, far, up}};
+    const CwQuality q = quality_of_one(points);
     assert_near(q.flattest, angle, 1e-9);
     assert_int_equal(q.flat_count, angle < 16);
     if (angle < 16) assert_near(q.flat[0].flatness, angle, 1e-9);
@@ -203,23 +211,12 @@ static void nearly_flat_tetrahedra_are_listed(void **state) {
 // A spindle of four points about a line, the outer two so many times farther apart than the inner two: its angles stay
 // steep while its determinant falls with the square of its length (checkMesh names those below 0.001).
 static void spindles_count_by_their_determinant(void **state) {
-  int32_t cells[1][4] = {{0, 1, 2, 3}};
-  int64_t shared_id[4] = {0, 1, 2, 3};
   for (int length = 3; length <= 30; length *= 10) {
-    double points[4][3] = {{0, 0, 0}, {0.5, 0.5, length / 2.0}, {-0.5, 0.5, length / 2.0}, {0, 0, length}};
-    CwRegionMesh r = {.domain = "rotor",
-                      .region = 3,
-                      .cells = {.points = points,
-                                .tetrahedra = cells,
-                                .shared_id = shared_id,
-                                .point_count = 4,
-                                .shared_count = 4,
-                                .tetrahedron_count = 1}};
-    CwQuality q;
-    passes(&r, &q);
+    const double points[4][3] = {{0, 0, 0}, {0.5, 0.5, length / 2.0}, {-0.5, 0.5, length / 2.0}, {0, 0, length}};
+    const CwQuality q = quality_of_one(points);
     assert_true(q.dihedral_least > 20);
     assert_int_equal(q.flat_count, length == 30);
-    const double worth = angle_of_determinant((const double(*)[3])points, cells[0]);
+    const double worth = angle_of_determinant(points, (const int32_t[4]){0, 1, 2, 3});
     assert_int_equal(worth < 12, length == 30);
     assert_near(q.flattest, fmin(q.dihedral_least, worth), 1e-9);
   }

@@ -72,7 +72,7 @@ static void what_is_done_gets_no_points(void **state) {
     Plan *plan = new_plan(PLANE, 0.9);
     CwPatchWork work;
     for (int k = 0; k < 4; k++) add_point(plan, k == 0 || k == 3 ? -half[0] : half[0], k < 2 ? -half[1] : half[1]);
-    for (int k = 0; k < 4; k++) add_edge(plan, k, (k + 1) % 4, 1);
+    add_outline(plan);
     make_front(plan, 1, &work);
     assert_int_equal(work.point_count, 4 + longer);
     if (longer) assert_near(fabs(work.x[4][0]), 0.2 * half[0], 1e-12);

@@ -113,7 +113,7 @@ static void poor_triangles_are_flipped(void **state) {
     const double radius = k == 0 ? 1.001 : 1;
     add_point(plan, radius * cos(angle[k]), radius * sin(angle[k]));
   }
-  for (int k = 0; k < 4; k++) add_edge(plan, k, (k + 1) % 4, 1);
+  add_outline(plan);
   sheared_plan(plan);
   open_patch(plan, &work);
   cw_patch_delaunay(&work, 1);
@@ -354,7 +354,7 @@ static void upright_triangles_are_flipped(void **state) {
   Plan *plan = new_plan(CYLINDER, 0.2);
   CwPatchWork work;
   for (int p = 0; p < 4; p++) add_point(plan, corner[p][0], corner[p][1]);
-  for (int p = 0; p < 4; p++) add_edge(plan, p, (p + 1) % 4, 1);
+  add_outline(plan);
   open_patch(plan, &work);
   int i = 0;
   while (work.given[0] >> i & 1) i++;
@@ -391,7 +391,7 @@ static void upright_triangles_are_divided(void **state) {
     Plan *plan = new_plan(CYLINDER, 0.4);
     CwPatchWork work;
     for (int k = 0; k < 8; k++) add_point(plan, k < 4 ? k * M_PI / 3 : (7 - k) * M_PI / 3, k < 4 ? 0 : length);
-    for (int k = 0; k < 8; k++) add_edge(plan, k, (k + 1) % 8, 1);
+    add_outline(plan);
     open_patch(plan, &work);
     assert_int_equal(cw_patch_improve(&work), CW_OK);
     check_patch(plan, &work, M_PI * length);
@@ -411,7 +411,7 @@ static void no_triangle_lies_in_a_cut(void **state) {
     CwPatchWork work;
     int in_cut = 0;
     for (int p = 0; p < 6; p++) add_point(plan, corner[p][0], corner[p][1]);
-    for (int p = 0; p < 6; p++) add_edge(plan, p, (p + 1) % 6, 1);
+    add_outline(plan);
     add_point(plan, M_PI / 4, 0.06);
     add_edge(plan, 5, 6, 0);
     add_edge(plan, 6, 2, 0);

@@ -177,7 +177,7 @@ static void triangles_follow_a_narrow_nose(void **state) {
     for (int k = 3; k > 0; k--) add_point(plan, k * M_PI / 3, 1.2);
     for (int k = parts; k > 0; k--) add_point(plan, 0, 1.2 * k / parts);
     int32_t count = plan->input.point_count;
-    for (int32_t p = 0; p < count; p++) add_edge(plan, p, (p + 1) % count, 1);
+    add_outline(plan);
     mesh_plan(plan, "narrow nose", 1.2 * M_PI, 1, &mesh);
     check_not_steep(&mesh);
     cw_patch_mesh_free(&mesh);
@@ -194,7 +194,7 @@ static void no_triangle_lies_in_a_cut(void **state) {
     CwPatchMesh mesh;
     for (int k = 0; k <= 6; k++) add_point(plan, M_PI / 2, k / 3.0);
     for (int k = 6; k >= 0; k--) add_point(plan, 0, k / 3.0);
-    for (int32_t p = 0; p < 14; p++) add_edge(plan, p, (p + 1) % 14, 1);
+    add_outline(plan);
     int32_t last = 3;
     for (int k = 1; k < edges; k++) {
       double t = (double)k / edges;

@@ -52,7 +52,7 @@ static void flips_make_no_flat_triangles(void **state) {
     Plan *plan = new_plan(PLANE, 1);
     CwPatchWork work;
     for (int p = 0; p < 4; p++) add_point(plan, corner[p][0], corner[p][1]);
-    for (int p = 0; p < 4; p++) add_edge(plan, p, (p + 1) % 4, 1);
+    add_outline(plan);
     open_patch(plan, &work);
     int i = 0;
     while (work.given[0] >> i & 1) i++;
