@@ -165,6 +165,24 @@ static double on_scale(const Scale *scale, double value) {
   return (at - scale->low) / (scale->high - scale->low);
 }
 
+static const double SPAN_LEAST = 1e-9; // of the values: ticks are numbers of their own
+
+// Where all values are one it stands in the middle, and where there are none 0.
+static void widen(Scale *scale) {
+  if (scale->high - scale->low > SPAN_LEAST * fmax(fabs(scale->low), fabs(scale->high))) return;
+  const double middle = isfinite(scale->low) ? scale->low : 0, half = fmax(0.05 * fabs(middle), 1e-12);
+  scale->low = middle - half;
+  scale->high = middle + half;
+}
+
+// From the first place to the last.
+static Scale across_of(const CwLinePlot *plot) {
+  Scale scale = {plot->x[0], plot->x[plot->count - 1], 1, 0};
+  widen(&scale);
+  scale.step = cw_plot_step(scale.high - scale.low);
+  return scale;
+}
+
 static Scale scale_of(const CwLinePlot *plot) {
   Scale scale = {INFINITY, -INFINITY, 1, plot->logarithmic};
   for (int s = 0; s < plot->series_count; s++) {
@@ -178,21 +196,17 @@ static Scale scale_of(const CwLinePlot *plot) {
   }
   double mark = plot->logarithmic && isfinite(plot->mark) ? log10(plot->mark) : plot->mark;
   if (isfinite(mark)) scale = (Scale){fmin(scale.low, mark), fmax(scale.high, mark), 1, plot->logarithmic};
-  if (!(scale.low < scale.high)) {
-    double middle = isfinite(scale.low) ? scale.low : 0, half = fmax(0.05 * fabs(middle), 1e-12);
-    scale = (Scale){middle - half, middle + half, 1, plot->logarithmic};
-  }
+  widen(&scale);
   scale.step = plot->logarithmic ? fmax(1, ceil((scale.high - scale.low) / 8)) : cw_plot_step(scale.high - scale.low);
   scale.low = floor(scale.low / scale.step + 1e-9) * scale.step;
   scale.high = ceil(scale.high / scale.step - 1e-9) * scale.step;
   return scale;
 }
 
-static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, const CwPlotSeries *series,
-                    const double frame[4]) {
+static void path_of(FILE *page, const CwLinePlot *plot, const Scale *across, const Scale *scale,
+                    const CwPlotSeries *series, const double frame[4]) {
   const double *value = series->value;
   int drawing = 0;
-  double from = plot->x[0], span = fmax(plot->x[plot->count - 1] - from, 1e-300);
   fprintf(page, "<path fill=\"none\" stroke=\"#%06x\" stroke-width=\"1.6\" d=\"", (unsigned)series->colour);
   for (int k = 0; k < plot->count; k++) {
     double up = on_scale(scale, value[k]);
@@ -200,7 +214,7 @@ static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, cons
       drawing = 0;
       continue;
     }
-    fprintf(page, "%c%.1f %.1f", drawing ? 'L' : 'M', frame[0] + frame[2] * (plot->x[k] - from) / span,
+    fprintf(page, "%c%.1f %.1f", drawing ? 'L' : 'M', frame[0] + frame[2] * on_scale(across, plot->x[k]),
             frame[1] + frame[3] * (1 - up));
     drawing = 1;
   }
@@ -209,7 +223,7 @@ static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, cons
     double up = on_scale(scale, value[k]);
     if (isfinite(up))
       fprintf(page, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\" fill=\"#%06x\"/>\n",
-              frame[0] + frame[2] * (plot->x[k] - from) / span, frame[1] + frame[3] * (1 - up),
+              frame[0] + frame[2] * on_scale(across, plot->x[k]), frame[1] + frame[3] * (1 - up),
               (unsigned)series->colour);
   }
 }
@@ -221,7 +235,7 @@ void cw_plot_lines(FILE *page, const CwLinePlot *plot) {
   const double frame[4] = {left, top, width, body};
   char words[40];
   if (plot->count > 0) {
-    Scale scale = scale_of(plot);
+    const Scale scale = scale_of(plot), across = across_of(plot);
     for (double at = scale.low; at <= scale.high + 1e-9 * scale.step; at += scale.step) {
       double y = top + body * (1 - (at - scale.low) / (scale.high - scale.low));
       line(page, left, y, left + width, y, at == scale.low ? "a" : "g");
@@ -231,14 +245,15 @@ void cw_plot_lines(FILE *page, const CwLinePlot *plot) {
         tick_text(at, scale.step, words, sizeof words);
       text(page, left - tick_gap, y + 4, "end", "t", words);
     }
-    double from = plot->x[0], span = fmax(plot->x[plot->count - 1] - from, 1e-300), step = cw_plot_step(span);
-    for (double at = ceil(from / step) * step; at <= from + span * (1 + 1e-9); at += step) {
+    const double step = across.step;
+    for (double at = ceil(across.low / step) * step; at <= across.high + 1e-9 * (across.high - across.low);
+         at += step) {
       tick_text(at, step, words, sizeof words);
-      text(page, left + width * (at - from) / span, top + body + 17, "middle", "t", words);
+      text(page, left + width * on_scale(&across, at), top + body + 17, "middle", "t", words);
     }
     double mark = on_scale(&scale, plot->mark);
     if (isfinite(mark)) line(page, left, top + body * (1 - mark), left + width, top + body * (1 - mark), "m");
-    for (int s = 0; s < plot->series_count; s++) path_of(page, plot, &scale, &plot->series[s], frame);
+    for (int s = 0; s < plot->series_count; s++) path_of(page, plot, &across, &scale, &plot->series[s], frame);
   }
   text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->x_axis);
   upright(page, top + 0.5 * body, plot->axis);

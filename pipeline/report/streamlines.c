@@ -124,7 +124,7 @@ done:
 static CwStatus add_beside(Work *work, int k, CwStreamlines *lines) {
   CwStatus status = CW_OK;
   const int first = k ? lines->end[k - 1] : 0, end = lines->end[k];
-  const double far = 1.01 * work->apart;
+  const double far = work->apart + M_SQRT1_2; // so that the pixel's middle lies beside as well
   for (int i = first; i + 1 < end; i += (int)fmax(0.5 * work->apart, 1)) {
     for (int side = -1; side <= 1; side += 2) {
       const double *x = lines->point[i], *next = lines->point[i + 1];

@@ -183,6 +183,34 @@ static void lines_stand_where_their_values_are(void **state) {
   free(text);
 }
 
+// Also where they differ by rounding alone: one place or one value stands in the middle, between ticks.
+static void one_place_stands_in_the_middle(void **state) {
+  const double x[][2] = {{1, 1}, {1, 1 + 4e-16}, {0, 0}, {2e4, 2e4}}, value[] = {5, 5 + 8e-16};
+  for (int k = 0; k < 4; k++) {
+    for (int count = 1; count <= 2; count++) {
+      const CwPlotSeries series = {"head", 0x112233, value};
+      char *text = drawn_lines(&(CwLinePlot){.axis = "m",
+                                             .x_axis = "iteration",
+                                             .x = x[k],
+                                             .count = count,
+                                             .series = &series,
+                                             .series_count = 1,
+                                             .mark = NAN,
+                                             .width = 400,
+                                             .caption = ""}),
+           command[8];
+      double p[8][2], frame[4];
+      assert_int_equal(path_places(text, command, p), count);
+      assert_int_equal(sscanf(strstr(text, "<line "), "<line x1=\"%lf\" y1=\"%lf\" x2=\"%lf\" y2=\"%lf\"", &frame[0],
+                              &frame[1], &frame[2], &frame[3]),
+                       4);
+      assert_near(p[count - 1][0], 0.5 * (frame[0] + frame[2]), 0.06);
+      assert_true(strlen(text) < 6000);
+      free(text);
+    }
+  }
+}
+
 static void logarithmic_lines_have_a_gap_at_zero(void **state) {
   const double x[] = {1, 2, 3, 4}, value[] = {1, 0, 0.01, 0.0001};
   const CwPlotSeries series = {"p", 0x112233, value};
@@ -241,6 +269,7 @@ int main(void) {
       cmocka_unit_test(bars_are_stacked_and_noted),
       cmocka_unit_test(an_empty_plot_is_a_plot),
       cmocka_unit_test(lines_stand_where_their_values_are),
+      cmocka_unit_test(one_place_stands_in_the_middle),
       cmocka_unit_test(logarithmic_lines_have_a_gap_at_zero),
       cmocka_unit_test(values_that_are_marked_have_a_dot_each),
   };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "pipeline/report/streamlines.h"
 #include "tests/unit_test.h"
@@ -88,6 +90,31 @@ static void lines_are_evenly_spaced(void **state) {
   }
 }
 
+static void along_rows(double x, double y, float *v) {
+  (void)x, (void)y;
+  v[0] = 1;
+  v[1] = 0;
+}
+
+static int from_above(const void *a, const void *b) {
+  const double *first = a, *second = b;
+  return (first[1] > second[1]) - (first[1] < second[1]);
+}
+
+// Where the middles of pixels lie just as far from a line as the next one should.
+static void lines_along_rows_are_no_farther_apart(void **state) {
+  double begin[HEIGHT][2];
+  make(along_rows, all);
+  assert_true(lines.count < HEIGHT);
+  for (int l = 0; l < lines.count; l++) memcpy(begin[l], lines.point[first_of(l)], sizeof *begin);
+  qsort(begin, lines.count, sizeof *begin, from_above);
+  for (int l = 0; l + 1 < lines.count; l++) {
+    const double apart = begin[l + 1][1] - begin[l][1];
+    assert_true(apart > 0.5 * APART && apart < 1.1 * APART);
+  }
+  assert_true(begin[0][1] < APART && begin[lines.count - 1][1] > HEIGHT - APART);
+}
+
 static void lines_are_straight_and_keep_to_their_group(void **state) {
   make(straight, halves);
   for (int l = 0; l < lines.count; l++) {
@@ -121,6 +148,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_teardown(lines_of_a_turning_flow_are_circles, free_lines),
       cmocka_unit_test_teardown(lines_are_evenly_spaced, free_lines),
+      cmocka_unit_test_teardown(lines_along_rows_are_no_farther_apart, free_lines),
       cmocka_unit_test_teardown(lines_are_straight_and_keep_to_their_group, free_lines),
       cmocka_unit_test_teardown(water_that_stands_has_none, free_lines),
   };
