@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""needs.py FOLDER [--solve] [--sweep] [--case FILE]... [--ranks N] CELLS...: tells what runs of so many cells need of
-disk and memory, before they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k or 2M.
-With --case the formats of the export and the cells of a region are those of the case, and its number of cells where
-none is given; what the run in FOLDER has on the disk already counts as free, and a small one says nothing. With --sweep
-a run of each case and each number is meant, in FOLDER/NAME-CELLS with NAME from cases/NAME/case.yaml, and what they
-need is told however small. --ranks: of the mesher on this machine, 2 unless given. --solve: the flow is solved too.
-needs.py --table CELLS...: prints a row of a table for each number.
+"""needs.py FOLDER [--solve | --curve] [--sweep] [--case FILE]... [--ranks N] CELLS...: tells what runs of so many cells
+need of disk and memory, before they start, and ends with 1 where FOLDER's disk does not have it. CELLS as 500000, 500k
+or 2M. With --case the formats of the export, the cells of a region and the points of the curve are those of the case,
+and its number of cells where none is given; what the run in FOLDER has on the disk already counts as free, and a small
+one says nothing. With --sweep a run of each case and each number is meant, in FOLDER/NAME-CELLS with NAME from
+cases/NAME/case.yaml, and what they need is told however small. --ranks: of the mesher on this machine, 2 unless given.
+--solve: the flow is solved too, with its start (solve/coarse.py); --curve: at each point of the curve, of which the
+operating point is taken for one. needs.py --table CELLS...: prints a row of a table for each number.
 
 The figures are those of the paper's pump with 5 and 15 layers, 0.3 to 100 million cells (tests/bench/scale.py prints
 them, tests/bench/memory.py the memory over the ranks); layers and size change them by a third."""
@@ -18,9 +19,13 @@ import sys
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
+sys.path.append(str(Path(__file__).resolve().parent / "solve"))
+from coarse import start_cells  # noqa: E402  (pipeline/solve/coarse.py)
+
 # Bytes on the disk: a cell's, and those that go with the area of the walls, by cells to the power 2/3.
 DISK = {"mesh": (22, 1250), "cgns": (22, 1000), "openfoam": (76, 0), "fluent": (200, 0)}
 FORMATS = ("cgns", "openfoam", "cfx")  # where a case asks for none
+CURVE_POINTS = 4                       # the same
 SOLVED_BYTES_A_CELL = 500              # the case, in parts and whole, with the fields of two times
 # Bytes of memory of the mesher. Of a host, whatever its ranks: at least, and by cells to the power 2/3, for the
 # surfaces. Of a rank: at least, and by cells of the region that it fills.
@@ -52,6 +57,13 @@ def export_disk(cells, formats=FORMATS):
     return sum(disk_of(part, cells) for part in with_cgns if part in DISK)
 
 
+def run_disk(cells, formats=FORMATS, flows=0):
+    """flows: how many of them are solved."""
+    start = start_cells(cells) if flows else 0
+    return (disk_of("mesh", cells) + export_disk(cells, formats) + flows * cells * SOLVED_BYTES_A_CELL +
+            (run_disk(start, formats, 1) if start else 0))
+
+
 def host_memory(cells):
     return HOST_MEMORY[0] + HOST_MEMORY[1] * cells ** (2 / 3)
 
@@ -80,21 +92,23 @@ def size_of(folder):
 def row(text):
     """What a run of so many cells needs, in a row of a table."""
     cells = read_count(text)
-    values = (disk_of("mesh", cells), disk_of("cgns", cells), export_disk(cells), cells * SOLVED_BYTES_A_CELL,
-              host_memory(cells), rank_memory(cells), SOLVE_MEMORY + cells * SOLVE_MEMORY_A_CELL)
+    values = (disk_of("mesh", cells), disk_of("cgns", cells), export_disk(cells),
+              run_disk(cells, flows=1) - run_disk(cells), host_memory(cells), rank_memory(cells), SOLVE_MEMORY + cells * SOLVE_MEMORY_A_CELL)
     return f"| {text} | " + " | ".join(f"{value / 1e9:,.2g}" if value < 1e11 else f"{value / 1e9:,.0f}"
                                        for value in values) + " |"
 
 
 def case_says(path):
-    """Formats, cells and cells of a region of a case file, as far as it has them; the schema has judged or will judge
-    it."""
+    """Formats, cells, cells of a region and number of the curve's points of a case file, as far as it has them; the
+    schema has judged or will judge it."""
     text = re.sub(r"#.*", "", Path(path).read_text(encoding="utf-8"))
     formats = re.search(r"\bformats:\s*(\[[^]]*\]|(?:\s*-\s*[\w\"']+)+|[\w\"']+)", text)
     cells, of_region = (re.search(rf"\b{key}:\s*([\d.]+(?:[kKMG]|e\d+)?)(?=[\s,}}]|$)", text)
                         for key in ("cells", "cells_per_region"))
+    points = re.search(r"\bflow_(?:shares|rates_\w+):\s*(\[[^]]*\]|(?:\s*-\s*[\d.e]+)+)", text)
     return ((re.findall(r"[a-z_]+", formats[1]) if formats else FORMATS), ([cells[1]] if cells else ["1M"]),
-            read_count(of_region[1]) if of_region else None)
+            read_count(of_region[1]) if of_region else None,
+            len(re.findall(r"[\d.e]+", points[1])) if points else CURVE_POINTS)
 
 
 class Run(NamedTuple):
@@ -102,16 +116,17 @@ class Run(NamedTuple):
     cells: int
     formats: Sequence[str] = FORMATS
     of_region: float | None = None  # cells of a region
+    points: int = CURVE_POINTS
     folder: Path | None = None
 
 
 def runs_of(folder, sizes, options):
     """The runs that the words mean."""
     for case in options.case:
-        formats, of_case, of_region = case_says(case)
+        formats, of_case, of_region, points = case_says(case)
         for text in sizes or of_case:
             run = Path(folder, f"{Path(case).parent.name}-{text}") if options.sweep else Path(folder)
-            yield Run(read_count(text), formats, of_region, run)
+            yield Run(read_count(text), formats, of_region, points, run)
     if not options.case:
         yield from (Run(read_count(text)) for text in sizes)
 
@@ -119,7 +134,9 @@ def runs_of(folder, sizes, options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("words", nargs="+")
-    parser.add_argument("--solve", action="store_true")
+    solved = parser.add_mutually_exclusive_group()
+    solved.add_argument("--solve", action="store_true")
+    solved.add_argument("--curve", action="store_true")
     parser.add_argument("--sweep", action="store_true")
     parser.add_argument("--case", action="append", default=[])
     parser.add_argument("--ranks", type=int, default=2)
@@ -136,10 +153,9 @@ def main():
         sys.exit("needs: error: no number of cells and no --case that has one; allowed: 500000, 500k or 2M")
     runs = list(runs_of(folder, sizes, options))
     cells = [run.cells for run in runs]
-    disk = sum(disk_of("mesh", run.cells) + export_disk(run.cells, run.formats) +
-               run.cells * SOLVED_BYTES_A_CELL * options.solve for run in runs)
+    disk = sum(run_disk(run.cells, run.formats, run.points if options.curve else options.solve) for run in runs)
     memory = max(mesher_memory(run.cells, options.ranks, run.of_region) for run in runs)
-    if options.solve:
+    if options.solve or options.curve:
         memory = max(memory, SOLVE_MEMORY + max(cells) * SOLVE_MEMORY_A_CELL)
     if options.case and not options.sweep and disk < SMALL:
         return

@@ -17,6 +17,7 @@ endif
 $(if $(and $(HOSTS),$(LAUNCHER)),$(error HOSTS is for mpirun, and LAUNCHER is given; allowed: one of them))
 $(call cutwater_require,SOLVE,$(SOLVE),1?,1 where a sweep solves its runs too)
 cutwater_solves := $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS))
+cutwater_flows := $(if $(filter curve %-curve,$(MAKECMDGOALS)),--curve,$(if $(cutwater_solves),--solve))
 $(if $(and $(NP),$(LAUNCHER)),$(if $(cutwater_solves),,$\
   $(error NP is for mpirun, and LAUNCHER is given; allowed: the number of ranks in LAUNCHER, as 'srun -n 256')))
 $(call cutwater_require_cells,CELLS,$(CELLS))
@@ -75,7 +76,7 @@ $(3)/log/cells: FORCE
 	@$$(call cutwater_note,$(4))
 
 $(3)/mesh/record.json: $(2) $(3)/log/cells $(3)/geometry/record.json $(BIN)/cutwater-mesh
-	@python3 $(ROOT)/pipeline/needs.py $(3) --case $(2) $(if $(cutwater_solves),--solve) $(cutwater_ranks_here) $(4)
+	@python3 $(ROOT)/pipeline/needs.py $(3) --case $(2) $(cutwater_flows) $(cutwater_ranks_here) $(4)
 	@$(LAUNCHER) $(BIN)/cutwater-mesh --case $(2) --run $(3) $(if $(4),--cells $(4))
 
 $(3)/export/record.json: $(2) $(3)/mesh/record.json $(BIN)/cutwater-export

@@ -36,10 +36,9 @@ import foam
 import reports
 import settling
 import stage_files
+from coarse import start_cells
 from foam import Trouble, say
 
-COARSE_SHARE = 8       # the start has an eighth of the cells: half the resolution along each axis
-COARSE_LEAST = 30000   # cells; meshes of less start from rest
 FINE_WITHIN = 3        # a start need not have settled more closely than this times WITHIN
 RESIDUAL_ASKED = 1e-4  # of p, as the paper has it
 HISTORY = ("iteration", "head_m", "torque_n_m", "residual_p", "residual_u")
@@ -125,8 +124,8 @@ class Run:
 def coarse_start(run):
     """The solved case of the same pump with an eighth of the cells, made anew; None where the mesh is too small, or
     where that cannot be had: a case may allow no such mesh."""
-    asked = run.cells // COARSE_SHARE
-    if asked < COARSE_LEAST:
+    asked = start_cells(run.cells)
+    if not asked:
         return None
     try:
         return solve_coarse(run, asked)

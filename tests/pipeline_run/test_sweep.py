@@ -150,17 +150,21 @@ class Sweep(unittest.TestCase):
     def test_formats_and_cells_are_found_however_yaml_has_them(self):
         case = fresh("needs_case") / "case.yaml"
         both = ["cgns", "fluent"]
-        for text, formats, cells, *of_region in (
+        for text, formats, cells, *more in (
                 ("export:\n  formats: [cgns, fluent]\ncgns:\n  integers: 64\n", both, "1M"),
                 ("export:\n  formats:\n    - cgns\n    - fluent\nopenfoam: {processors: 2}\n", both, "1M"),
                 ("export: {formats: [cgns,\n  fluent]}\nmesh: {cells: 2M, fill: kernel}\n", both, "2M"),
                 ("export:\n  formats: fluent  # alone\nmesh:\n  cells_per_region: 9000\n  cells: 30K # all\n",
                  ["fluent"], "30K", 9000),
                 ("mesh: {cells_per_region: 1.5M, cells: 8M}\n", list(needs.FORMATS), "8M", 1500000),
-                ("mesh:\r\n  cells: 5e7\r\n", list(needs.FORMATS), "5e7")):
+                ("mesh:\r\n  cells: 5e7\r\n", list(needs.FORMATS), "5e7"),
+                ("operating_points: {flow_shares: [1]}\n", list(needs.FORMATS), "1M", None, 1),
+                ("operating_points:\n  flow_rates_m3_per_h: [15,\n    20.5, 3e1]\n", list(needs.FORMATS), "1M", None, 3),
+                ("operating_points:\n  flow_shares:\n  - 0.8\n  - 1  # design\nmesh: {cells: 2M}\n", list(needs.FORMATS),
+                 "2M", None, 2)):
             case.write_bytes(text.encode())
             found = needs.case_says(case)
-            self.assertEqual((list(found[0]), *found[1:]), (formats, [cells], *(of_region or [None])), text)
+            self.assertEqual((list(found[0]), *found[1:]), (formats, [cells], *more, *(None, 4)[len(more):]), text)
 
     def test_the_table_of_the_documents_is_that_of_the_script(self):
         command = re.search(r"`pipeline/(needs.py --table [^`]+)`", (SOURCE / "docs/cluster.md").read_text())[1].split()
@@ -213,7 +217,12 @@ class Sweep(unittest.TestCase):
         self.assertEqual(both[2], each[1][2])
         self.assertGreater(each[1][2], each[0][2] + 0.5)
         solving = told("--solve", "--case", files[1], "8M", "20M")
-        self.assertAlmostEqual(solving[0] - each[1][0], 14, delta=0.1)  # 500 bytes a cell
+        # 500 bytes a cell, and the starts: mesh, pump.cgns and flow of 1M, 2.5M, 125k, 312k and 39k cells.
+        started = [told("--case", files[1], start)[0] for start in ("1M", "2.5M", "125k", "312500", "39062")]
+        self.assertAlmostEqual(solving[0] - each[1][0], 14 + sum(started) + 500 * 3.977e-3, delta=0.1)
+        curve = told("--curve", "--case", files[1], "8M", "20M")
+        self.assertAlmostEqual(curve[0] - solving[0], 3 * 14, delta=0.1)  # of the four points one is the operating point
+        self.assertEqual(curve[2], solving[2])
         self.assertEqual(solving[2], 40)
         few = told("--solve", "--ranks", "64", "--case", files[1], "30k")  # the ranks of the mesher need more
         self.assertAlmostEqual(few[2], needs.mesher_memory(30e3, 64, 4e6) / 1e9, delta=0.06)
