@@ -148,12 +148,14 @@ done:
 
 // What the next round begins with where shorter edges do not help: the best mesh, in which the domains that fall short
 // get other planes, of more regions each time, and the last time of no symmetry, since fewer planes leave layers more
-// room. 0 where there are no such rounds left: then the best mesh as it was.
+// room. 0 where there are no such rounds left, or where more layers are asked than edges have room for, which no planes
+// cure: then the best mesh as it was.
 static int take_other_planes(CwMeshRun *run, CwPassState *state) {
   int other = 0;
   state->start = state->best;
   run->finer.count = state->best.places;
   state->plane_rounds++;
+  if (run->crowded) return 0;
   for (int d = 0; d < CW_DOMAINS_MOST && state->plane_rounds <= PLANES_MOST; d++) {
     if (!state->best_lacks[d] || state->best.more_regions[d] == CW_UNDIVIDED) continue;
     state->start.more_regions[d] += state->plane_rounds;

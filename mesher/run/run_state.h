@@ -77,6 +77,7 @@ typedef struct {
   // With which the domains were planned.
   CwCellLaw planned_prisms, planned_tets;
   double planned_scale;
+  int crowded;         // 1: the case gives more layers than edges have room for, as a headline tells
   int copies_told;     // 1: a warning says that each rank holds copies of what a host may share
   int passes, retries; // retries: of all passes
   int64_t cells;       // made

@@ -122,7 +122,7 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutc
                   "%s; after %d attempts with thinner layers, at last within %.0f edge lengths%s", text, ATTEMPTS,
                   cw_policy.thin_reach * (double)(1 << (ATTEMPTS - 1)), file);
     if (run->rank == 0 && is_told(places, i))
-      cw_log_warn(run->context.log, "%s; tried again with thinner layers there", text);
+      cw_log(run->context.log, "%s; tried again with thinner layers there", text);
     CW_TRY(lower(run, place, cw_policy.thin_reach * (double)(1 << attempt)));
   }
   for (int d = 0; d < run->model.domain_count; d++) {

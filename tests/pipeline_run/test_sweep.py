@@ -159,7 +159,8 @@ class Sweep(unittest.TestCase):
                 ("mesh: {cells_per_region: 1.5M, cells: 8M}\n", list(needs.FORMATS), "8M", 1500000),
                 ("mesh:\r\n  cells: 5e7\r\n", list(needs.FORMATS), "5e7"),
                 ("operating_points: {flow_shares: [1]}\n", list(needs.FORMATS), "1M", None, 1),
-                ("operating_points:\n  flow_rates_m3_per_h: [15,\n    20.5, 3e1]\n", list(needs.FORMATS), "1M", None, 3),
+                ("operating_points:\n  flow_rates_m3_per_h: [15,\n    20.5, 3e1]\n", list(needs.FORMATS), "1M", None,
+                 3),
                 ("operating_points:\n  flow_shares:\n  - 0.8\n  - 1  # design\nmesh: {cells: 2M}\n", list(needs.FORMATS),
                  "2M", None, 2)):
             case.write_bytes(text.encode())
@@ -221,7 +222,7 @@ class Sweep(unittest.TestCase):
         started = [told("--case", files[1], start)[0] for start in ("1M", "2.5M", "125k", "312500", "39062")]
         self.assertAlmostEqual(solving[0] - each[1][0], 14 + sum(started) + 500 * 3.977e-3, delta=0.1)
         curve = told("--curve", "--case", files[1], "8M", "20M")
-        self.assertAlmostEqual(curve[0] - solving[0], 3 * 14, delta=0.1)  # of the four points one is the operating point
+        self.assertAlmostEqual(curve[0] - solving[0], 3 * 14, delta=0.1)  # of four points one is the operating point
         self.assertEqual(curve[2], solving[2])
         self.assertEqual(solving[2], 40)
         few = told("--solve", "--ranks", "64", "--case", files[1], "30k")  # the ranks of the mesher need more

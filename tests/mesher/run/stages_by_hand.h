@@ -46,6 +46,7 @@ static const Attempt *script; // the last attempt goes on for ever
 static int script_count, at;
 static char trace[1000];
 static int other_plans; // that each domain still has
+static int crowded;     // more layers are asked than edges have room for
 static int64_t asked = 100000;
 static double factor_at_scale;
 
@@ -76,6 +77,7 @@ static CwStatus stage(char letter, CwThinPlaces *places, CwOutcome *outcome) {
 CwStatus cw_mesh_open(CwMeshRun *of) {
   add("o");
   of->model.domain_count = 2;
+  of->crowded = crowded;
   strcpy(of->model.domain[0].name, "rotor");
   strcpy(of->model.domain[1].name, "stator");
   of->domain[0].name = "rotor";
