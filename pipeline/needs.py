@@ -93,7 +93,8 @@ def row(text):
     """What a run of so many cells needs, in a row of a table."""
     cells = read_count(text)
     values = (disk_of("mesh", cells), disk_of("cgns", cells), export_disk(cells),
-              run_disk(cells, flows=1) - run_disk(cells), host_memory(cells), rank_memory(cells), SOLVE_MEMORY + cells * SOLVE_MEMORY_A_CELL)
+              run_disk(cells, flows=1) - run_disk(cells), host_memory(cells), rank_memory(cells),
+              SOLVE_MEMORY + cells * SOLVE_MEMORY_A_CELL)
     return f"| {text} | " + " | ".join(f"{value / 1e9:,.2g}" if value < 1e11 else f"{value / 1e9:,.0f}"
                                        for value in values) + " |"
 

@@ -161,8 +161,8 @@ class Sweep(unittest.TestCase):
                 ("operating_points: {flow_shares: [1]}\n", list(needs.FORMATS), "1M", None, 1),
                 ("operating_points:\n  flow_rates_m3_per_h: [15,\n    20.5, 3e1]\n", list(needs.FORMATS), "1M", None,
                  3),
-                ("operating_points:\n  flow_shares:\n  - 0.8\n  - 1  # design\nmesh: {cells: 2M}\n", list(needs.FORMATS),
-                 "2M", None, 2)):
+                ("operating_points:\n  flow_shares:\n  - 0.8\n  - 1  # design\nmesh: {cells: 2M}\n",
+                 list(needs.FORMATS), "2M", None, 2)):
             case.write_bytes(text.encode())
             found = needs.case_says(case)
             self.assertEqual((list(found[0]), *found[1:]), (formats, [cells], *more, *(None, 4)[len(more):]), text)
