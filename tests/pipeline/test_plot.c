@@ -134,6 +134,19 @@ static void an_empty_plot_is_a_plot(void **state) {
   }
 }
 
+// Lines over the iteration, without a mark.
+static CwLinePlot plot_of(const double *x, int count, const CwPlotSeries *series, int series_count) {
+  return (CwLinePlot){.axis = "m",
+                      .x_axis = "iteration",
+                      .x = x,
+                      .count = count,
+                      .series = series,
+                      .series_count = series_count,
+                      .mark = NAN,
+                      .width = 400,
+                      .caption = "a <b>caption</b>"};
+}
+
 static char *drawn_lines(const CwLinePlot *plot) {
   static char *text;
   static size_t size;
@@ -157,15 +170,7 @@ static int path_places(const char *text, char *command, double (*place)[2]) {
 static void lines_stand_where_their_values_are(void **state) {
   const double x[] = {10, 20, 40}, value[] = {11, 12, 14};
   const CwPlotSeries series = {"head", 0x112233, value};
-  CwLinePlot plot = {.axis = "m",
-                     .x_axis = "iteration",
-                     .x = x,
-                     .count = 3,
-                     .series = &series,
-                     .series_count = 1,
-                     .mark = NAN,
-                     .width = 400,
-                     .caption = "a <b>caption</b>"};
+  CwLinePlot plot = plot_of(x, 3, &series, 1);
   char *text = drawn_lines(&plot), command[8];
   double p[8][2];
   assert_int_equal(path_places(text, command, p), 3);
@@ -189,16 +194,8 @@ static void one_place_stands_in_the_middle(void **state) {
   for (int k = 0; k < 4; k++) {
     for (int count = 1; count <= 2; count++) {
       const CwPlotSeries series = {"head", 0x112233, value};
-      char *text = drawn_lines(&(CwLinePlot){.axis = "m",
-                                             .x_axis = "iteration",
-                                             .x = x[k],
-                                             .count = count,
-                                             .series = &series,
-                                             .series_count = 1,
-                                             .mark = NAN,
-                                             .width = 400,
-                                             .caption = ""}),
-           command[8];
+      const CwLinePlot plot = plot_of(x[k], count, &series, 1);
+      char *text = drawn_lines(&plot), command[8];
       double p[8][2], frame[4];
       assert_int_equal(path_places(text, command, p), count);
       assert_int_equal(sscanf(strstr(text, "<line "), "<line x1=\"%lf\" y1=\"%lf\" x2=\"%lf\" y2=\"%lf\"", &frame[0],
@@ -214,16 +211,8 @@ static void one_place_stands_in_the_middle(void **state) {
 static void logarithmic_lines_have_a_gap_at_zero(void **state) {
   const double x[] = {1, 2, 3, 4}, value[] = {1, 0, 0.01, 0.0001};
   const CwPlotSeries series = {"p", 0x112233, value};
-  CwLinePlot plot = {.axis = "residual",
-                     .x_axis = "iteration",
-                     .x = x,
-                     .count = 4,
-                     .series = &series,
-                     .series_count = 1,
-                     .logarithmic = 1,
-                     .mark = NAN,
-                     .width = 400,
-                     .caption = "a <b>caption</b>"};
+  CwLinePlot plot = plot_of(x, 4, &series, 1);
+  plot.logarithmic = 1;
   char *text = drawn_lines(&plot), command[8];
   double p[8][2];
   assert_int_equal(path_places(text, command, p), 3);
@@ -238,16 +227,8 @@ static void logarithmic_lines_have_a_gap_at_zero(void **state) {
 static void values_that_are_marked_have_a_dot_each(void **state) {
   const double x[] = {10, 20, 40}, value[] = {11, 12, 14}, alone[] = {NAN, 14, NAN};
   const CwPlotSeries series[] = {{"solved", 0x112233, value}, {"design", 0x445566, alone}};
-  CwLinePlot plot = {.axis = "m",
-                     .x_axis = "flow",
-                     .x = x,
-                     .count = 3,
-                     .series = series,
-                     .series_count = 2,
-                     .dots = 1,
-                     .mark = NAN,
-                     .width = 400,
-                     .caption = "a <b>caption</b>"};
+  CwLinePlot plot = plot_of(x, 3, series, 2);
+  plot.dots = 1;
   char *text = drawn_lines(&plot), command[8], *at = text;
   double p[8][2], dot[4][2];
   assert_int_equal(path_places(text, command, p), 3);
