@@ -28,7 +28,7 @@ static void axes(CwPicture *picture, double bottom, double step, const char *tit
   }
 }
 
-// A curve, with its name at the right end.
+// A curve, with its name, if any, at the right end.
 static void curve(CwPicture *picture, CwStroke stroke, const double *y, double bottom, double top, const char *name,
                   double name_shift) {
   double line[POINTS + 1][2];
@@ -37,7 +37,7 @@ static void curve(CwPicture *picture, CwStroke stroke, const double *y, double b
     line[i][1] = bottom - height * y[i] / top;
   }
   cw_picture_line(picture, stroke, (const double(*)[2])line, POINTS + 1, 0);
-  cw_picture_text(picture, CW_TEXT_LEFT, left + width + 8, line[POINTS][1] + 4 + name_shift, "%s", name);
+  if (name) cw_picture_text(picture, CW_TEXT_LEFT, left + width + 8, line[POINTS][1] + 4 + name_shift, "%s", name);
 }
 
 CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path) {
@@ -71,7 +71,7 @@ CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path) {
   const double beta_step = round_step(1.1 * most_beta), area_step = round_step(1.05 * most_area);
   axes(&picture, first, beta_step, "Blade angle beta from the tangential direction, deg");
   for (int j = 0; j < 3; j++) {
-    curve(&picture, stroke[j], beta[j], first, 5 * beta_step, "", 0);
+    curve(&picture, stroke[j], beta[j], first, 5 * beta_step, NULL, 0);
     const double x = left + 140 * j + 20, y = first - 16;
     cw_picture_segment(&picture, stroke[j], x, y, x + 30, y);
     cw_picture_text(&picture, CW_TEXT_LEFT, x + 38, y + 4, "%s", where[j]);

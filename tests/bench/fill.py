@@ -20,24 +20,13 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from programs import SOURCE, execute, gmsh_steps, options_of
+from programs import execute, gmsh_steps, options_of
 
 LIMIT = 600  # seconds
 NEAR = 0.05  # of as many tetrahedra
 TRIES = 6  # of a scale that gives them
 HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} "
         f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
-
-
-def compile_program(build, folder, name="fill"):
-    """Compiles tests/bench/NAME.c with the libraries of a build; the program."""
-    program = folder / name
-    flags = execute("pkg-config", "--cflags", "--libs", "hdf5", "libfyaml", "jansson").text.split()
-    execute("mpicc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", f"-I{SOURCE}",
-            SOURCE / f"tests/bench/{name}.c", "-o", program, build / "mesher/libcutwater_mesher_room.a",
-            build / "pipeline/mesh/libcutwater_mesh_files.a", build / "pipeline/libcutwater_pipeline.a", "-ltet",
-            *flags, "-lgmp", "-lmpfr", "-lstdc++", "-lm")
-    return program
 
 
 def run_ours(program, way, surface, growth):
@@ -149,7 +138,7 @@ def main():
     words = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        program = compile_program(words.build, folder)
+        program = words.build / "bin/fill"
         print(HEAD, flush=True)
         surface = folder / "surface.msh"
         kernel = []

@@ -7,7 +7,6 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from fill import compile_program
 from programs import SOURCE, execute, gmsh_steps, options_of
 from surface import least_angles
 
@@ -38,7 +37,7 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        program = compile_program(options.build, folder, "patch_mesh")
+        program = options.build / "bin/patch_mesh"
         for graded in (0, 1):
             for length in options.lengths:
                 print(f"{'graded' if graded else 'uniform'} square, edge length {length}\n"

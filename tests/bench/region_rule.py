@@ -20,9 +20,8 @@ import tempfile
 from pathlib import Path
 
 from ablate import policy_of
-from fill import compile_program
 from programs import SOURCE, execute, options_of
-from runs import cases_named, record, stage_line
+from runs import BIN, cases_named, record, stage_line
 from table1 import regions_of, shapes
 
 # The numbers of mesher/policy_table.h that make each way.
@@ -51,7 +50,7 @@ def main():
     parser.add_argument("--cells", nargs="*", default=["300k", "1M"])
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="cutwater-rule-") as folder:
-        program = compile_program(options.build, Path(folder))
+        program = BIN / "fill"
         for cells in options.cells:
             print(f"{cells:10} {'domain':10} {'way':8}{'regions':>8}{'triangles':>10}{'spheres':>8}{'centres':>8}"
                   f"{'left':>5}{'missing':>8}{'beside':>8}{'aspect':>8}{'>2':>7}{'most':>6}{'angle':>7}{'ratio':>8}"

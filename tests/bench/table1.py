@@ -33,7 +33,7 @@ import tempfile
 from collections import namedtuple
 from pathlib import Path
 
-from fill import compile_program, run_gmsh
+from fill import run_gmsh
 from programs import MPIRUN, SOURCE, execute, gmsh_steps, options_of
 from runs import PAPER_CASE, domain_alone, needs, with_key
 
@@ -207,7 +207,7 @@ def main():
     failures = []
     with tempfile.TemporaryDirectory(prefix="cutwater-table1-") as name:
         folder = Path(name)
-        program = compile_program(options.build, folder)
+        program = options.build / "bin/fill"
         execute(options.build / "bin/cutwater-geometry", "--case", options.case, "--run", folder / "first")
         case = folder / "case.yaml"
         text = options.case.read_text()
