@@ -22,6 +22,7 @@ from whole_file import write_whole  # noqa: E402  (what the scripts of pipeline/
 LOOK_EVERY = 2.0  # s between looks at the solver's reports
 TELL_EVERY = 10.0  # s between lines of progress
 WRITTEN, REPORTED = 100, 10  # iterations between fields and between reports, as the case is exported
+END = b"***** //\n"  # of each file that OpenFOAM has written whole
 LIBC = ctypes.CDLL(None)
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 PROGRAMS = ("simpleFoam", "decomposePar", "reconstructPar", "mapFields", "foamDictionary", "renumberMesh", "mpirun")
@@ -95,20 +96,37 @@ def times(folder):
     return sorted((int(path.parent.name) for path in folder.glob("[1-9]*/U")), reverse=True)
 
 
+def is_whole(path):
+    with open(path, "rb") as file:
+        file.seek(max(path.stat().st_size - len(END), 0))
+        return file.read() == END
+
+
+def whole_fields(folder):
+    """The names of the files of a time, or None where one ends early."""
+    files = [path for path in folder.rglob("*") if path.is_file()]
+    return {str(path.relative_to(folder)) for path in files} if all(map(is_whole, files)) else None
+
+
+def drop_unfinished(case):
+    """Removes the latest times that a killed program has not finished: where a part has files that end early, lacks
+    some of the others', or all lack some of the first fields. Of epsilon and omega a turbulence model has one."""
+    first = {path.name for path in case.glob("0/*") if path.is_file()}
+    for parts in ([case], sorted(case.glob("processor*"))):
+        for iteration in sorted({time for part in parts for time in times(part)}, reverse=True):
+            found = [whole_fields(part / str(iteration)) for part in parts]
+            if found[0] and found.count(found[0]) == len(parts) and first - found[0] < {"epsilon", "omega"}:
+                break
+            say(f"{case}: the fields of iteration {iteration} were not finished; goes on from those before")
+            for part in parts:
+                shutil.rmtree(part / str(iteration), ignore_errors=True)
+
+
 def rejoin(case):
-    """Puts the latest fields of all parts together in the case folder. Those of the very latest time may be unfinished
-    in a part, where the solver was stopped; then it takes the time before."""
-    whole = max(times(case), default=0)
-    for number, iteration in enumerate(times(case / "processor0")):
-        if iteration <= whole:
-            return
-        try:
-            call(case, "log.reconstructPar", "reconstructPar", "-time", iteration)
-            return
-        except Trouble:
-            shutil.rmtree(case / str(iteration), ignore_errors=True)
-            if number:
-                raise
+    """Puts the latest fields of all parts together in the case folder."""
+    latest = max(times(case / "processor0"), default=0)
+    if latest > max(times(case), default=0):
+        call(case, "log.reconstructPar", "reconstructPar", "-time", latest)
 
 
 def divide(case, ranks):
@@ -142,6 +160,8 @@ def prepare(source, case, ranks, mesh, start):
     mark = {"source": digest_of(source, mesh), "ranks": ranks}
     kept = case / "made_from.json"
     before = json.loads(kept.read_text()) if kept.exists() else {}
+    if before.get("source") == mark["source"]:
+        drop_unfinished(case)
     if before == mark:
         return
     if before.get("source") != mark["source"]:

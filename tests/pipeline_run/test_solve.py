@@ -103,23 +103,26 @@ class Case(unittest.TestCase):
         moved = run.rename(run.with_name("moved"))
         self.assertEqual((moved / "solve/steady/constant/polyMesh/points").read_text(), "here")
 
-    def prepared(self, run, ranks, start, unfinished=()):
-        """Prepares a case for the ranks; the programs that were called. reconstructPar fails at unfinished times."""
+    @staticmethod
+    def fields(folder, iteration, names=("U", "p", "omega")):
+        """Written as OpenFOAM writes them."""
+        (folder / str(iteration) / "uniform").mkdir(parents=True, exist_ok=True)
+        for name in (*names, "uniform/time"):
+            (folder / str(iteration) / name).write_bytes(b"as many as cells\n\n// " + 73 * b"*" + b" //\n")
+
+    def prepared(self, run, ranks, start, failing=False):
+        """Prepares a case for the ranks; the programs that were called."""
         called = []
 
         def call(folder, log, *line):
             called.append(" ".join(map(str, line)))
-            if line[0] == "reconstructPar" and line[2] in unfinished:
-                raise foam.Trouble("a field ends early")
+            if line[0] == "reconstructPar" and failing:
+                raise foam.Trouble("as the test has it")
             if line[0] == "reconstructPar":
-                fields(folder, line[2])
+                self.fields(folder, line[2])
             if line[0] == "decomposePar":
                 for part in range(ranks):
-                    fields(folder / f"processor{part}", max(foam.times(folder), default=0))
-
-        def fields(folder, iteration):
-            (folder / str(iteration)).mkdir(parents=True, exist_ok=True)
-            (folder / str(iteration) / "U").write_text("")
+                    self.fields(folder / f"processor{part}", max(foam.times(folder), default=0))
 
         with mock.patch.multiple(foam, call=call, set_entry=lambda *_: None):
             foam.prepare(run / "export/openfoam", run / "solve/steady", ranks, {}, start)
@@ -132,32 +135,60 @@ class Case(unittest.TestCase):
         for folder in ("0", "system", "constant/polyMesh"):
             (run / "export/openfoam" / folder).mkdir(parents=True)
         (run / "export/openfoam/system/decomposeParDict").write_text("method hierarchical;")
+        self.fields(run / "export/openfoam", 0, ("U", "p", "epsilon", "omega"))
         case, divided = run / "solve/steady", "decomposePar -force -latestTime -copyUniform"
         start = mock.Mock(return_value=None)
         self.assertEqual(self.prepared(run, 2, start), [divided])
         self.assertEqual(self.prepared(run, 2, start), [])
         for part in (0, 1):
-            for iteration in ("100", "200", "300"):
-                (case / f"processor{part}" / iteration).mkdir()
-                (case / f"processor{part}" / iteration / "U").write_text("")
-        self.assertEqual(self.prepared(run, 3, start, unfinished=[300]),
-                         ["reconstructPar -time 300", "reconstructPar -time 200", divided])
+            for iteration in (100, 200, 300):
+                self.fields(case / f"processor{part}", iteration)
+        os.truncate(case / "processor1/300/p", 50)
+        self.assertEqual(self.prepared(run, 3, start), ["reconstructPar -time 200", divided])
         self.assertEqual(foam.times(case / "processor2"), [200])
         self.assertEqual(self.prepared(run, 1, start), [])  # they are together already
         self.assertEqual(foam.times(case), [200])
         self.assertEqual(self.prepared(run, 2, start), [divided])
         start.assert_called_once_with()
         # What fails for another reason leaves the fields where they are.
-        (case / "processor0/400").mkdir()
-        (case / "processor0/500").mkdir()
-        for iteration in ("400", "500"):
-            (case / "processor0" / iteration / "U").write_text("")
+        for part in (0, 1):
+            for iteration in (400, 500):
+                self.fields(case / f"processor{part}", iteration)
         with self.assertRaises(foam.Trouble):
-            self.prepared(run, 1, start, unfinished=[400, 500])
+            self.prepared(run, 1, start, failing=True)
         self.assertEqual(foam.times(case / "processor0"), [500, 400, 200])
         (run / "export/openfoam/system/fvSchemes").write_text("other")
         self.assertEqual(self.prepared(run, 2, start), [divided])
         self.assertEqual((start.call_count, foam.times(case)), (2, []))
+
+    def test_fields_that_a_killed_solver_has_not_finished_are_dropped(self):
+        run = fresh("solve_unfinished") / "run"
+        for folder in ("0", "system", "constant/polyMesh"):
+            (run / "export/openfoam" / folder).mkdir(parents=True)
+        (run / "export/openfoam/system/decomposeParDict").write_text("method scotch;")
+        self.fields(run / "export/openfoam", 0, ("U", "p", "epsilon", "omega"))
+        case, start = run / "solve/steady", mock.Mock(return_value=None)
+        for ranks in (1, 2):
+            self.prepared(run, ranks, start)
+            parts = [case / f"processor{part}" for part in range(ranks)] if ranks > 1 else [case]
+            last = parts[-1] / "300"
+            for unfinished in (lambda: os.truncate(last / "omega", 90), lambda: os.truncate(last / "U", 0),
+                               lambda: (last / "p").unlink(), lambda: shutil.rmtree(last),
+                               lambda: [(part / "300/p").unlink() for part in parts],
+                               lambda: [(part / "300/omega").unlink() for part in parts]):
+                for part in parts:
+                    for iteration in (100, 200, 300):
+                        self.fields(part, iteration)
+                self.assertEqual(self.prepared(run, ranks, start), [])
+                self.assertEqual([max(foam.times(part)) for part in parts], [300] * ranks)
+                unfinished()
+                self.assertEqual(self.prepared(run, ranks, start), [])
+                self.assertEqual([max(foam.times(part)) for part in parts], [200] * ranks)
+            for part in parts:
+                (part / "100/p").unlink()  # not looked at: the solver goes on from 200
+            self.prepared(run, ranks, start)
+            self.assertEqual([foam.times(part)[:2] for part in parts], [[200, 100]] * ranks)
+        start.assert_called_once_with()
 
     def test_a_coarse_start_finds_its_geometry(self):
         folder = fresh("solve_coarse") / "run"
