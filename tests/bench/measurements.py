@@ -74,8 +74,8 @@ SECTIONS = {
         "rule."),
     "table2": Section(
         "Table 2 of the paper: speed-up over ranks", "tests/bench/speedup.py --cells 21M --repeat 3",
-        "1 and 2 ranks by the clock, in turn, the least of three; all further rows are a model, marked so, with messages of "
-        "2 us and 10 GB/s."),
+        "1 and 2 ranks by the clock, in turn, the least of three; all further rows are a model, marked so, with "
+        "messages of 2 us and 10 GB/s."),
     "table2_145M": Section(
         "Speed-up over ranks at 145 and 1,000 million cells", "tests/bench/speedup.py --cells 145M --scaled 1G",
         "The same; the table of 1,000 million cells is a model of task times that are scaled, not measured."),
