@@ -94,10 +94,17 @@ class Reports(unittest.TestCase):
 
 
 class Case(unittest.TestCase):
-    def test_a_run_that_is_moved_keeps_its_mesh(self):
-        run = fresh("solve_moved") / "run"
-        for folder in ("0", "system", "constant/polyMesh"):
+    def exported(self, name, method="scotch"):
+        """A run with an exported case."""
+        run = fresh(name) / "run"
+        for folder in ("system", "constant/polyMesh"):
             (run / "export/openfoam" / folder).mkdir(parents=True)
+        (run / "export/openfoam/system/decomposeParDict").write_text(f"method {method};")
+        self.fields(run / "export/openfoam", 0, ("U", "p", "epsilon", "omega"))
+        return run
+
+    def test_a_run_that_is_moved_keeps_its_mesh(self):
+        run = self.exported("solve_moved")
         (run / "export/openfoam/constant/polyMesh/points").write_text("here")
         foam.prepare(run / "export/openfoam", run / "solve/steady", 1, {}, lambda: None)
         moved = run.rename(run.with_name("moved"))
@@ -131,11 +138,7 @@ class Case(unittest.TestCase):
         return [line for line in called if "foamDictionary" not in line and "renumberMesh" not in line]
 
     def test_other_ranks_go_on_from_the_latest_fields(self):
-        run = fresh("solve_ranks") / "run"
-        for folder in ("0", "system", "constant/polyMesh"):
-            (run / "export/openfoam" / folder).mkdir(parents=True)
-        (run / "export/openfoam/system/decomposeParDict").write_text("method hierarchical;")
-        self.fields(run / "export/openfoam", 0, ("U", "p", "epsilon", "omega"))
+        run = self.exported("solve_ranks", "hierarchical")
         case, divided = run / "solve/steady", "decomposePar -force -latestTime -copyUniform"
         start = mock.Mock(return_value=None)
         self.assertEqual(self.prepared(run, 2, start), [divided])
@@ -162,11 +165,7 @@ class Case(unittest.TestCase):
         self.assertEqual((start.call_count, foam.times(case)), (2, []))
 
     def test_fields_that_a_killed_solver_has_not_finished_are_dropped(self):
-        run = fresh("solve_unfinished") / "run"
-        for folder in ("0", "system", "constant/polyMesh"):
-            (run / "export/openfoam" / folder).mkdir(parents=True)
-        (run / "export/openfoam/system/decomposeParDict").write_text("method scotch;")
-        self.fields(run / "export/openfoam", 0, ("U", "p", "epsilon", "omega"))
+        run = self.exported("solve_unfinished")
         case, start = run / "solve/steady", mock.Mock(return_value=None)
         for ranks in (1, 2):
             self.prepared(run, ranks, start)
