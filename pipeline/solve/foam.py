@@ -113,7 +113,8 @@ def drop_unfinished(case):
     some of the others', or all lack some of the first fields. Of epsilon and omega a turbulence model has one."""
     first = {path.name for path in case.glob("0/*") if path.is_file()}
     for parts in ([case], sorted(case.glob("processor*"))):
-        for iteration in sorted({time for part in parts for time in times(part)}, reverse=True):
+        written = {int(path.name) for part in parts for path in part.glob("[1-9]*") if path.name.isdigit()}
+        for iteration in sorted(written, reverse=True):
             found = [whole_fields(part / str(iteration)) for part in parts]
             if found[0] and found.count(found[0]) == len(parts) and first - found[0] < {"epsilon", "omega"}:
                 break

@@ -174,7 +174,8 @@ class Case(unittest.TestCase):
             for unfinished in (lambda: os.truncate(last / "omega", 90), lambda: os.truncate(last / "U", 0),
                                lambda: (last / "p").unlink(), lambda: shutil.rmtree(last),
                                lambda: [(part / "300/p").unlink() for part in parts],
-                               lambda: [(part / "300/omega").unlink() for part in parts]):
+                               lambda: [(part / "300/omega").unlink() for part in parts],
+                               lambda: [(part / f"300/{name}").unlink() for part in parts for name in ("U", "p")]):
                 for part in parts:
                     for iteration in (100, 200, 300):
                         self.fields(part, iteration)
@@ -183,6 +184,7 @@ class Case(unittest.TestCase):
                 unfinished()
                 self.assertEqual(self.prepared(run, ranks, start), [])
                 self.assertEqual([max(foam.times(part)) for part in parts], [200] * ranks)
+                self.assertFalse(any((part / "300").exists() for part in parts))
             for part in parts:
                 (part / "100/p").unlink()  # not looked at: the solver goes on from 200
             self.prepared(run, ranks, start)
