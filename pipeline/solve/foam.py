@@ -156,18 +156,17 @@ def begin(source, case, solved):
 def prepare(source, case, ranks, mesh, start):
     """The case folder `case` made from the exported case `source`, decomposed for the ranks, with its start from what
     the call start() gives: a solved case folder, or None for rest. As an earlier call left it where that was of the
-    same source and mesh (any value that tells it); then start is not called, and for other ranks the latest fields are
-    put together and decomposed again."""
+    same source and mesh (any value that tells it), without what that had not finished; then start is not called, and
+    for other ranks the latest fields are put together and decomposed again."""
     mark = {"source": digest_of(source, mesh), "ranks": ranks}
     kept = case / "made_from.json"
     before = json.loads(kept.read_text()) if kept.exists() else {}
-    if before.get("source") == mark["source"]:
-        drop_unfinished(case)
-    if before == mark:
-        return
     if before.get("source") != mark["source"]:
         begin(source, case, start())
     else:
+        drop_unfinished(case)
+        if before == mark:
+            return
         say(f"{case}: ranks: {ranks} in the place of {before['ranks']}; goes on from the latest fields")
         if before["ranks"] > 1:
             rejoin(case)

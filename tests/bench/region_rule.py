@@ -4,7 +4,7 @@
 
 The rule of region numbers in all pumps of cases/, or those named, at each number of cells: what it does to the
 interfaces of each domain, and the tetrahedra beside them with it and without. BUILD is configured with
--DCUTWATER_EXPERIMENT=ON.
+-DCUTWATER_EXPERIMENT=ON; build/bin has the program that judges the meshes (`fill`).
 
 rule       the mesher as it is
 without    planned interfaces without new points, and no candidate dropped in their spheres. They keep the planned
