@@ -24,7 +24,9 @@ double cw_plan_sharpness(double sine) {
 }
 
 double cw_plan_place_cost(CwPlanPlace place) {
-  return cw_plan_sharpness(place.worst) + place.cut;
+  // No column leans so much that it could stand on that wall and in the plane.
+  double unfit = place.worst < cw_policy.column_least_cosine ? CW_PLAN_UNFIT : 0;
+  return cw_plan_sharpness(place.worst) + place.cut + unfit;
 }
 
 double cw_plan_touch_cost(double touch) {

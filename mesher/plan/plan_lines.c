@@ -160,7 +160,7 @@ static double judge_crossings(const Line *line, double from, double to, Lines *l
     if ((before > 0) == (after > 0)) continue;
     cw_lerp(a, b, before / (before - after), x);
     if (!in_its_cell(line, near, x, 2 * SAME_POINT)) continue;
-    CwPlanWall wall = cw_plan_wall_near(line->model, x, cw_policy.plan_room * line->model->thickest);
+    CwPlanWall wall = cw_plan_wall_near(line->model, x, cw_policy.plan_room * line->model->thickest, -1);
     if (wall.thickness > 0)
       worst = fmax(worst, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));
     if (wall.distance < wall.thickness) lines->impossible = 1;
@@ -213,6 +213,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, cw_policy.plan_room * taken));
   int samples = samples_along(line, run), beside = 0;
   double step = run / samples;
+  CwPlanWall wall = {.point = -1};
   for (int i = 0; i < samples && !lines->impossible; i++) {
     double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
@@ -220,7 +221,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
     beside += near < SAME_LINE * h;
     cramped = fmax(cramped, shortage(near, SAME_LINE * h, cw_policy.plan_room * h));
     if (s - from->place < from->layers || to->place - s < to->layers) continue;
-    CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * model->thickest);
+    wall = cw_plan_wall_near(model, x, cw_policy.plan_room * model->thickest, wall.point);
     if (wall.thickness == 0) continue;
     if (is_at_end(line, from, s, wall.triangle) || is_at_end(line, to, s, wall.triangle)) continue;
     cramped = fmax(cramped, shortage(wall.distance, wall.thickness, cw_policy.plan_room * wall.thickness));
@@ -251,11 +252,12 @@ static double judge_outside(const Line *line, const CwPlanPart *part, double fro
     cramped = fmax(cramped, shortage(cw_distance(model->edge[e].x, x), least, cw_policy.plan_room * least));
   }
   int samples = samples_along(line, run);
+  CwPlanWall wall = {.point = -1};
   for (int i = 0; i < samples && cramped < 1; i++) {
     double x[3];
     at(line, from + run * (i + 0.5) / samples, x);
     double h = cw_size_at(model->size, x);
-    CwPlanWall wall = cw_plan_wall_near(model, x, cw_policy.plan_room * h);
+    wall = cw_plan_wall_near(model, x, cw_policy.plan_room * h, wall.point);
     if (wall.triangle < 0) continue;
     if (fabs(cw_dot(line->direction, model->triangle[wall.triangle].normal)) > cw_policy.column_least_cosine) continue;
     cramped = fmax(cramped, shortage(wall.distance, SAME_LINE * h, cw_policy.plan_room * h));

@@ -125,7 +125,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), made->x, made->tangent);
       cw_unit(made->tangent);
       made->touch = cw_policy.boundary_distance * cw_size_at(model->size, made->x);
-      CwPlanWall wall = cw_plan_wall_near(model, made->x, thickness);
+      CwPlanWall wall = cw_plan_wall_near(model, made->x, thickness, -1);
       made->room = layers * (wall.thickness > 0 ? wall.thickness : thickness);
       made->end = i == 0 || i == points - 1;
     }
@@ -239,12 +239,13 @@ static int take_nearer(void *context, int32_t point) {
   return 0;
 }
 
-CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach) {
+CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, int32_t beside) {
   double step = WALL_STEP * model->base_size, d[3];
   Nearest nearest = {model, x, hypot(reach, 0.5 * step), INFINITY, -1};
+  if (beside >= 0 && cw_distance(model->wall_x[beside], x) < nearest.reach) take_nearer(&nearest, beside);
   cw_box_tree_near(&model->walls, x, &nearest.reach, take_nearer, &nearest);
-  if (nearest.point < 0) return (CwPlanWall){-1, INFINITY, 0};
-  CwPlanWall wall = {model->wall_triangle[nearest.point], nearest.reach, 0};
+  if (nearest.point < 0) return (CwPlanWall){-1, -1, INFINITY, 0};
+  CwPlanWall wall = {model->wall_triangle[nearest.point], nearest.point, nearest.reach, 0};
   wall.thickness = model->triangle[wall.triangle].thickness;
   // Beside a point the wall goes on: then its plane is what counts.
   cw_sub(x, model->wall_x[nearest.point], d);
@@ -324,7 +325,7 @@ static CwStatus find_work(void *context, int32_t i, void *out) {
 static CwStatus find_work_outside_layers(void *context, int32_t i, void *out) {
   const CwPlanModel *model = context;
   double side = cbrt(model->sample[i].volume);
-  CwPlanWall wall = cw_plan_wall_near(model, model->sample[i].x, model->thickest + side / 2);
+  CwPlanWall wall = cw_plan_wall_near(model, model->sample[i].x, model->thickest + side / 2, -1);
   double outside = fmin(fmax((wall.distance - wall.thickness) / side + 0.5, 0), 1);
   *(double *)out = outside * model->sample[i].work;
   return CW_OK;

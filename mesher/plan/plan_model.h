@@ -106,9 +106,10 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
 void cw_plan_part_free(CwPlanPart *part);
 
 typedef struct {
-  int32_t triangle;           // of the background; -1: none
+  int32_t triangle, point;    // of the background, of the points all over the walls; -1: none
   double distance, thickness; // m; of its layers
 } CwPlanWall;
 
 // The wall nearest to x; none, infinitely far and with no layers, where none is within `reach` m or a little more.
-CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach);
+// beside: the point found at a place beside it, from which the search goes the shorter way; -1: none.
+CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, int32_t beside);

@@ -12,7 +12,7 @@ extern "C" {
 
 enum {
   CW_SLICE_STEPS = 36, // of equal work in an even slice, where planes between slices may stand
-  CW_SLICE_MOST = 54   // steps of a slice: half to one and a half of an even one
+  CW_SLICE_MOST = 108  // steps of a slice: half to three times an even one
 };
 
 // The places, as steps, of the planes between `slices` slices that cost least together; each plane stands within three

@@ -23,6 +23,13 @@ static void layers_cut_along_an_edge_are_a_fault(void **) {
   }
 }
 
+// The cosine of a column to the normals of its wall is at least 0.3: along a wall that the plane grazes at less none
+// can stand in it.
+static void a_plane_that_holds_no_column_is_unfit(void **) {
+  assert_true(cw_plan_place_cost({0.31, 0}) < CW_PLAN_UNFIT);
+  for (double sine : {0.0, 0.1, 0.29}) assert_true(cw_plan_place_cost({sine, 0}) >= CW_PLAN_UNFIT);
+}
+
 // Triangles between a cut and an edge are as flat as they are low for the room that triangles want.
 static void a_cut_beside_an_edge_costs_as_a_sharp_angle(void **) {
   for (double room : {0.0, 0.1, 0.5, 0.9, 1.0})
@@ -53,6 +60,7 @@ int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_sharp_angle_is_a_fault),
       cmocka_unit_test(layers_cut_along_an_edge_are_a_fault),
+      cmocka_unit_test(a_plane_that_holds_no_column_is_unfit),
       cmocka_unit_test(a_cut_beside_an_edge_costs_as_a_sharp_angle),
       cmocka_unit_test(uneven_work_costs),
       cmocka_unit_test(only_large_slices_cost),

@@ -82,14 +82,19 @@ static void layers_give_way_to_a_wall_opposite(void **) {
 static void the_nearest_wall_is_found(void **) {
   Box box;
   const double x[] = {0.0215, 0.003, 0.0112};
-  CwPlanWall wall = cw_plan_wall_near(&box.model, x, 0.02);
+  CwPlanWall wall = cw_plan_wall_near(&box.model, x, 0.02, -1);
   assert_true(wall.triangle >= 0);
   assert_near(wall.distance, 0.003, 1e-9);
   assert_near(wall.thickness, layers, 1e-12);
   assert_near(box.model.triangle[wall.triangle].normal[1], -1, 1e-9);
+  for (int32_t beside = 0; beside < box.model.wall_count; beside++) {
+    CwPlanWall same = cw_plan_wall_near(&box.model, x, 0.02, beside);
+    assert_int_equal(same.point, wall.point);
+    assert_near(same.distance, wall.distance, 0);
+  }
   // None so near.
   const double middle[] = {0.02, 0.015, 0.01};
-  wall = cw_plan_wall_near(&box.model, middle, 0.005);
+  wall = cw_plan_wall_near(&box.model, middle, 0.005, wall.point);
   assert_int_equal(wall.triangle, -1);
   assert_true(std::isinf(wall.distance));
 }

@@ -26,6 +26,19 @@ static void a_plane_moves_off_a_place_that_costs(void **state) {
   assert_int_equal(step[3], 3 * STEPS);
 }
 
+// No plane fits within the two slices in the middle of four: one as long as both reaches over them.
+static void a_slice_reaches_over_what_no_plane_fits(void **state) {
+  double slice_cost[CW_SLICE_MOST + 1], place_cost[4 * STEPS + 1] = {0}, cost;
+  int32_t step[5];
+  cost_of_lengths(slice_cost);
+  for (int s = STEPS + 1; s < 3 * STEPS; s++) place_cost[s] = 1e6;
+  assert_int_equal(cw_slices_place(4, slice_cost, place_cost, step, &cost), CW_OK);
+  assert_true(cost < 1e6);
+  int longest = 0;
+  for (int i = 1; i <= 4; i++) longest = step[i] - step[i - 1] > longest ? step[i] - step[i - 1] : longest;
+  assert_int_equal(longest, 2 * STEPS);
+}
+
 static void one_slice_is_all(void **state) {
   double slice_cost[CW_SLICE_MOST + 1], place_cost[STEPS + 1] = {0}, cost;
   int32_t step[2];
@@ -59,7 +72,7 @@ static double least_of_all(int32_t slices, const double *slice_cost, const doubl
       least[i][s] = i == 0 && s == 0 ? 0 : INFINITY;
       if (i == 0 || (i == slices ? s < slices * STEPS : abs(s - i * STEPS) > 3 * STEPS)) continue;
       for (int32_t b = 0; b <= s; b++) {
-        if (s - b < STEPS / 2 || s - b > STEPS + STEPS / 2) continue;
+        if (s - b < STEPS / 2 || s - b > 3 * STEPS) continue;
         least[i][s] = fmin(least[i][s], least[i - 1][b] + slice_cost[s - b] + place_cost[s]);
       }
     }
@@ -97,6 +110,7 @@ static void planes_cost_as_little_as_can_be(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_plane_moves_off_a_place_that_costs),
+      cmocka_unit_test(a_slice_reaches_over_what_no_plane_fits),
       cmocka_unit_test(one_slice_is_all),
       cmocka_unit_test(thousands_of_slices_are_even_where_that_costs_least),
       cmocka_unit_test(planes_cost_as_little_as_can_be),
