@@ -14,8 +14,9 @@
 
 namespace {
 
-const int STEPS = 256;        // of an edge, between the places that are told
-const double BY_LENGTH = 0.1; // of a place, by its share of the length: two never fall together
+const int STEPS = 256;          // of an edge, between the places that are told
+const double BY_LENGTH = 0.1;   // of a place, by its share of the length: two never fall together
+const double SAME_PLACE = 1e-6; // of the distance of two vertices
 typedef std::array<double, 3> Point;
 
 // What leaving out a chain does to the solid.
@@ -108,40 +109,130 @@ void replace_side(CwCad *cad, const CwCadChainStrip &strip, Change &change) {
   change.edges.insert(goes.edge);
 }
 
-// Whether the chain can go beside what went before; fills what goes with it but for its sides.
-bool plan_change(const CwCad *cad, const CwCadChain &chain, std::set<int> &touched, std::vector<int> &left_in_patch,
-                 Change &change) {
-  std::set<int> faces, own;
+// A face that goes with the strips about it, all its edges being ends of theirs, as where three fillets meet. Its
+// vertices become one.
+struct Corner {
+  int face;
+  std::set<int> vertices;
+};
+
+// By their faces, where all these chains go.
+std::map<int, Corner> corners_between(const CwCad *cad, const std::vector<const CwCadChain *> &chains) {
+  std::vector<int> edges(cad->face.size(), 0);
+  std::map<int, int> ends;
+  std::map<int, Corner> corners;
+  for (const CwCadEdge &edge : cad->edge)
+    for (int f : edge.face) edges[f]++;
+  for (const CwCadChain *chain : chains)
+    for (const CwCadChainStrip &strip : *chain)
+      for (const CwCadUse &end : strip.end) ends[cw_cad_beyond(cad, end.edge, strip.face)]++;
+  for (const auto &end : ends)
+    if (end.second == edges[end.first] && cw_cad_face_is_wall(cad, end.first))
+      corners[end.first] = Corner{end.first, {}};
+  for (const CwCadEdge &edge : cad->edge)
+    for (int f : edge.face)
+      if (corners.count(f)) corners[f].vertices.insert(edge.vertex, edge.vertex + 2);
+  return corners;
+}
+
+// What has been planned for.
+struct Taken {
+  std::set<int> strips;            // faces
+  std::set<int> touched, cornered; // vertices of chains: at sides and ends, at corners
+  std::vector<int> left_in_patch;  // faces
+};
+
+// Takes these faces, unless no other is left in one of their patches.
+bool take_faces(const CwCad *cad, const std::set<int> &faces, Taken &taken) {
+  std::map<int, int> of_patch;
+  for (int f : faces) of_patch[cw_cad_face_patch(cad, f)]++;
+  for (auto &patch : of_patch)
+    if (patch.second >= taken.left_in_patch[patch.first]) return false;
+  for (auto &patch : of_patch) taken.left_in_patch[patch.first] -= patch.second;
+  return true;
+}
+
+// Whether the chain can go beside what went before; adds what goes with it but for its sides.
+bool plan_chain(const CwCad *cad, const CwCadChain &chain, const std::map<int, Corner> &corners, Taken &taken,
+                Change &change) {
+  std::set<int> faces, own, cornered;
+  Change made;
   for (const CwCadChainStrip &strip : chain) faces.insert(strip.face);
   for (const CwCadChainStrip &strip : chain) {
     for (const CwCadUse &end : strip.end) {
       int a = cw_cad_use_vertex(cad, end, 0), b = cw_cad_use_vertex(cad, end, 1),
           other = cw_cad_beyond(cad, end.edge, strip.face);
       if (!cw_cad_side_ends_at(cad, strip.side[strip.stays], a)) std::swap(a, b);
-      if (change.vertex.count(b) && change.vertex[b] != a) return false;
-      change.vertex[b] = a;
-      change.edges.insert(end.edge);
-      if (!faces.count(other)) change.slides[b].insert(other);
+      made.edges.insert(end.edge);
+      if (corners.count(other)) {
+        cornered.insert({a, b});
+        continue;
+      }
+      if (made.vertex.count(b) && made.vertex[b] != a) return false;
+      made.vertex[b] = a;
+      if (!faces.count(other)) made.slides[b].insert(other);
     }
     for (const auto &side : strip.side) {
       for (const CwCadUse &use : side) {
         own.insert(cad->edge[use.edge].vertex[0]);
         own.insert(cad->edge[use.edge].vertex[1]);
         int other = cw_cad_beyond(cad, use.edge, strip.face);
-        if (faces.count(other) || cad->face[other].left_out > 0) return false;
+        if (faces.count(other) || taken.strips.count(other)) return false;
       }
     }
   }
-  for (auto &moved : change.vertex)
-    if (change.vertex.count(moved.second)) return false;
+  for (auto &moved : made.vertex)
+    if (made.vertex.count(moved.second) || cornered.count(moved.first) || cornered.count(moved.second)) return false;
   for (int v : own)
-    if (touched.count(v)) return false;
-  std::map<int, int> of_patch;
-  for (int f : faces) of_patch[cw_cad_face_patch(cad, f)]++;
-  for (auto &patch : of_patch)
-    if (patch.second >= left_in_patch[patch.first]) return false;
-  for (auto &patch : of_patch) left_in_patch[patch.first] -= patch.second;
-  touched.insert(own.begin(), own.end());
+    if (taken.touched.count(v) || (taken.cornered.count(v) && !cornered.count(v))) return false;
+  if (!take_faces(cad, faces, taken)) return false;
+  for (int v : own) (cornered.count(v) ? taken.cornered : taken.touched).insert(v);
+  taken.strips.insert(faces.begin(), faces.end());
+  change.vertex.insert(made.vertex.begin(), made.vertex.end());
+  change.slides.insert(made.slides.begin(), made.slides.end());
+  change.edges.insert(made.edges.begin(), made.edges.end());
+  return true;
+}
+
+// Of the vertices of a corner the one that stays: with the least z, of these the one nearest the axis. A turn takes it
+// to that of the image.
+int vertex_of(const CwCad *cad, const Corner &corner) {
+  auto before = [&](int a, int b) {
+    const gp_Pnt &p = cad->vertex[a], &q = cad->vertex[b];
+    double same = SAME_PLACE * p.Distance(q), nearer = std::hypot(q.X(), q.Y()) - std::hypot(p.X(), p.Y());
+    return std::fabs(p.Z() - q.Z()) > same ? p.Z() < q.Z() : std::fabs(nearer) > same ? nearer > 0 : a < b;
+  };
+  return *std::min_element(corner.vertices.begin(), corner.vertices.end(), before);
+}
+
+// Brings the vertices of a corner to one of them. Returns how far, in the unit of the B-rep.
+double close_corner(const CwCad *cad, const Corner &corner, Change &change) {
+  int stays = vertex_of(cad, corner);
+  double width = 0;
+  for (int v : corner.vertices) {
+    if (v != stays) change.vertex[v] = stays;
+    width = std::max(width, cad->vertex[v].Distance(cad->vertex[stays]));
+  }
+  return width;
+}
+
+// Plans for all these chains and the corners between them. False: that one cannot go, *fails, for which no room is
+// left.
+bool plan_change(const CwCad *cad, const std::vector<const CwCadChain *> &chains, const std::map<int, Corner> &corners,
+                 Change &change, size_t *fails) {
+  Taken taken = {{}, {}, {}, std::vector<int>(cw_cad_patch_count(cad), 0)};
+  std::map<int, size_t> last; // of the chains at a corner
+  for (int f = 0; f < cw_cad_face_count(cad); f++) taken.left_in_patch[cw_cad_face_patch(cad, f)]++;
+  for (size_t i = 0; i < chains.size(); i++) {
+    *fails = i;
+    if (!plan_chain(cad, *chains[i], corners, taken, change)) return false;
+    for (const CwCadChainStrip &strip : *chains[i])
+      for (const CwCadUse &end : strip.end) last[cw_cad_beyond(cad, end.edge, strip.face)] = i;
+  }
+  for (const auto &corner : corners) {
+    *fails = last[corner.first];
+    if (!take_faces(cad, {corner.first}, taken)) return false;
+  }
   return true;
 }
 
@@ -186,24 +277,31 @@ void number_anew(CwCad *cad, const std::set<int> &edges, const std::set<int> &ve
 
 int leave_out(CwCad *cad, int chain_count, const int *number) {
   const std::vector<CwCadChain> chains = cw_cad_chains(cad);
-  std::vector<int> left_in_patch(cw_cad_patch_count(cad), 0);
-  std::set<int> touched, edges, vertices;
+  std::vector<const CwCadChain *> going;
+  std::map<int, Corner> corners;
+  std::set<int> vertices;
+  Change change;
   int faces = 0;
-  for (int f = 0; f < cw_cad_face_count(cad); f++) left_in_patch[cw_cad_face_patch(cad, f)]++;
-  for (int i = 0; i < chain_count; i++) {
-    const CwCadChain &chain = chains[number[i]];
-    Change change;
-    if (!plan_change(cad, chain, touched, left_in_patch, change)) continue;
-    for (const CwCadChainStrip &strip : chain) {
+  for (int i = 0; i < chain_count; i++) going.push_back(&chains[number[i]]);
+  for (size_t fails = 0;; going.erase(going.begin() + (std::ptrdiff_t)fails)) {
+    change = Change();
+    corners = corners_between(cad, going);
+    if (plan_change(cad, going, corners, change, &fails)) break;
+  }
+  for (const CwCadChain *chain : going) {
+    for (const CwCadChainStrip &strip : *chain) {
       replace_side(cad, strip, change);
       cad->face[strip.face].left_out = *std::max_element(strip.width, strip.width + CW_CAD_STRIP_SAMPLES) / cad->unit;
     }
-    move_ends(cad, change);
-    edges.insert(change.edges.begin(), change.edges.end());
-    for (auto &moved : change.vertex) vertices.insert(moved.first);
-    faces += (int)chain.size();
+    faces += (int)chain->size();
   }
-  number_anew(cad, edges, vertices);
+  for (const auto &corner : corners) {
+    cad->face[corner.first].left_out = close_corner(cad, corner.second, change);
+    faces++;
+  }
+  move_ends(cad, change);
+  for (auto &moved : change.vertex) vertices.insert(moved.first);
+  number_anew(cad, change.edges, vertices);
   return faces;
 }
 

@@ -9,7 +9,9 @@
 //     -----+---------+- A
 //      P       P     |              P     P   |
 //
-// The row that stays is the longer one. On Q, the edge A has the (u,v) of B; edges that ended at B end at A.
+// The row that stays is the longer one. On Q, the edge A has the (u,v) of B; edges that ended at B end at A. A face
+// whose edges are all ends of strips that go, a corner in which three fillets meet, goes with them to one of its
+// vertices.
 #pragma once
 
 #include "mesher/cad/cad.h"
@@ -32,9 +34,10 @@ typedef struct {
 // from 0 on without gaps. *strips [out]: malloc'd, by chain. CW_ERR_MEMORY.
 CwStatus cw_cad_strips_find(const CwCad *cad, int *count, CwCadStrip **strips);
 
-// Leaves out chains, numbered as cw_cad_strips_find does, in this order; one that touches an earlier one, or takes the
-// last face of a patch, stays. Edges and vertices are numbered anew, faces are not: one that is left out keeps its
-// number, but bounds no edge. Returns the number of faces left out in *faces. Once for a solid, after cw_cad_rescale.
+// Leaves out chains, numbered as cw_cad_strips_find does, and the corners between them, in this order; one that touches
+// an earlier one elsewhere, or takes the last face of a patch, stays. Edges and vertices are numbered anew, faces are
+// not: one that is left out keeps its number, but bounds no edge. Returns the number of faces left out in *faces. Once
+// for a solid, after cw_cad_rescale.
 CwStatus cw_cad_leave_out(CwCad *cad, int chain_count, const int *chain, int *faces);
 
 // Whether a face was left out: it is a wall still, but is not meshed.

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A tank with a filleted step in its floor: the fillet is the one strip that cad_strips finds, and is left out. A prism
-// and a frustum with narrow faces between wide ones, all of which go alike.
+// and a frustum with narrow faces between wide ones, all of which go alike. A box with fillets along its edges, which
+// meet in its corners.
 #include <cmath>
 #include <cstdlib>
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <Bnd_Box.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 
 #include "mesher/cad/cad_leave_out.h"
 #include "mesher/common/vec.h"
@@ -160,9 +165,81 @@ static void images_go_alike(void **) {
   }
 }
 
+static const double fillet_mm = 0.2, fillet_width = std::sqrt(2) * fillet_mm * 1e-3; // m
+
+// Twelve fillets, and in each corner an eighth of a sphere.
+static TopoDS_Shape filleted_box() {
+  TopoDS_Shape box = BRepPrimAPI_MakeBox(40, 30, 20).Shape();
+  BRepFilletAPI_MakeFillet made(box);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(box, TopAbs_EDGE, edges);
+  for (int e = 1; e <= edges.Extent(); e++) made.Add(fillet_mm, TopoDS::Edge(edges(e)));
+  return made.Shape();
+}
+
+static int meshed_faces(const CwCad *cad) {
+  int count = 0;
+  for (int f = 0; f < cw_cad_face_count(cad); f++) count += cw_cad_face_is_meshed_wall(cad, f);
+  return count;
+}
+
+// The box without fillets is left, its vertices off by their radius.
+static void fillets_go_with_their_corners(void **) {
+  CwCad *cad = open_solid(filleted_box(), all_wall);
+  int faces, chain[12], of_vertex[8] = {0};
+  for (int c = 0; c < 12; c++) chain[c] = c;
+  assert_int_equal(cw_cad_face_count(cad), 26);
+  assert_int_equal(cw_cad_leave_out(cad, 12, chain, &faces), CW_OK);
+  assert_int_equal(faces, 20);
+  assert_int_equal(meshed_faces(cad), 6);
+  assert_int_equal(cw_cad_edge_count(cad), 12);
+  assert_int_equal(cw_cad_vertex_count(cad), 8);
+  check_edges(cad, fillet_width);
+  for (int e = 0; e < 12; e++) {
+    int vertex[2];
+    cw_cad_edge_vertices(cad, e, vertex);
+    for (int v : vertex) of_vertex[v]++;
+    assert_true(cw_cad_edge_stands_for(cad, e, nullptr) >= 0);
+  }
+  for (int edges : of_vertex) assert_int_equal(edges, 3);
+  for (int f = 0; f < cw_cad_face_count(cad); f++)
+    if (!cw_cad_face_is_meshed_wall(cad, f)) assert_near(cw_cad_face_left_out_width(cad, f), fillet_width, 1e-9);
+  cw_cad_close(&cad);
+}
+
+// Whatever fillets are to go, a solid without holes is left (Euler: V - E + F = 2), and where a corner has lost all
+// three it has gone too.
+static void some_fillets_go(void **) {
+  uint32_t seed = 1;
+  for (int k = 0; k < 30; k++) {
+    CwCad *cad = open_solid(filleted_box(), all_wall);
+    int faces, count = 0, chain[12];
+    for (int c = 0; c < 12; c++) {
+      seed = seed * 1664525 + 1013904223;
+      if (seed >> 30) chain[count++] = c; // three of four
+    }
+    assert_int_equal(cw_cad_leave_out(cad, count, chain, &faces), CW_OK);
+    assert_true(faces > 0);
+    assert_int_equal(meshed_faces(cad), 26 - faces);
+    assert_int_equal(cw_cad_vertex_count(cad) - cw_cad_edge_count(cad) + meshed_faces(cad), 2);
+    check_edges(cad, fillet_width);
+    for (int f = 0; f < cw_cad_face_count(cad); f++) {
+      int edges = 0;
+      for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+        int face[2];
+        cw_cad_edge_faces(cad, e, face);
+        edges += (face[0] == f) + (face[1] == f);
+      }
+      assert_true(cw_cad_face_is_left_out(cad, f) ? edges == 0 : edges >= 2);
+    }
+    cw_cad_close(&cad);
+  }
+}
+
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(finds_the_fillet), cmocka_unit_test(crest_is_no_strip),
+  const CMUnitTest tests[] = {cmocka_unit_test(finds_the_fillet),   cmocka_unit_test(crest_is_no_strip),
                               cmocka_unit_test(patch_keeps_a_face), cmocka_unit_test(leaves_out_the_fillet),
-                              cmocka_unit_test(images_go_alike)};
+                              cmocka_unit_test(images_go_alike),    cmocka_unit_test(fillets_go_with_their_corners),
+                              cmocka_unit_test(some_fillets_go)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
