@@ -174,7 +174,7 @@ CwStatus sew(const char *path, const std::vector<TopoDS_Shape> &shapes, double t
   if (!sewn.open.empty()) {
     const CwOpening opening = cw_cad_opening(sewn.open[0], sewn.open);
     char by[40] = "";
-    if (opening.gap >= 0) snprintf(by, sizeof by, ", by %.3g mm", opening.gap);
+    if (opening.gap > gap) snprintf(by, sizeof by, ", by %.3g mm", opening.gap);
     return CW_FAIL(
         CW_ERR_INPUT,
         "%s: holds no solid, and its %d faces do not close within %.3g mm: %d edges stay open, one at (%.3f, "

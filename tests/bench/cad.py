@@ -149,7 +149,7 @@ def plain_files(path, work):
             return
         with zipfile.ZipFile(path) as archive:
             for part in sorted(archive.namelist()):
-                if part.endswith((".brp", ".brep")):
+                if part.endswith((".brp", ".brep")) and archive.getinfo(part).file_size > 0:  # FreeCAD keeps empty ones
                     plain = work / f"{name}.{pathlib.Path(part).stem}.brep"
                     plain.write_bytes(archive.read(part))
                     yield plain

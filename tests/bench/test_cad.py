@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 
 import cad
@@ -39,6 +40,16 @@ class Solids(unittest.TestCase):
     def test_a_file_without_a_face_holds_no_solid(self):
         for said in ("holds no solid and no face; allowed: solids", "holds no shape; allowed: solids"):
             self.assertEqual(rows_of(f"cutwater: error: a.stp: {said}\n\nended 3\n"), [])
+
+    def test_shapes_of_a_freecad_file_that_are_empty_are_none(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = Path(name, "drawing.FCStd")
+            with zipfile.ZipFile(path, "w") as archive:
+                archive.writestr("PartShape.brp", "DBRep_DrawableShape")
+                archive.writestr("PartShape1.brp", "")
+                archive.writestr("Document.xml", "<xml/>")
+            self.assertEqual([plain.name for plain in cad.plain_files(path, Path(name))],
+                             ["drawing.FCStd.PartShape.brep"])
 
     def test_what_all_had_stands_beside_what_is_asked(self):
         rows = [meshed(), meshed(dihedral=9, allowed=14), meshed(dihedral=9, allowed=16), meshed(bare=1.5),

@@ -38,12 +38,12 @@ static const CwCadFrame FRAME = {{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1
 // IGES files go through a B-rep file: the stage reads none.
 static CwStatus read(const std::string &path, const std::string &folder, CwCadBodies **bodies) {
   const std::string ending = path.substr(path.rfind('.') + 1), brep = folder + "/iges.brep";
-  if (ending != "iges" && ending != "igs") return cw_cad_file_read(path.c_str(), 0, 1e-5, bodies);
+  if (ending != "iges" && ending != "igs") return cw_cad_file_read(path.c_str(), 0, 0, bodies);
   IGESControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return CW_FAIL(CW_ERR_INPUT, "%s: no IGES", path.c_str());
   reader.TransferRoots();
   BRepTools::Write(reader.OneShape(), brep.c_str());
-  return cw_cad_file_read(brep.c_str(), 0, 1e-5, bodies);
+  return cw_cad_file_read(brep.c_str(), 0, 0, bodies);
 }
 
 static TopoDS_Shape brought_to_size(const TopoDS_Shape &solid) {
