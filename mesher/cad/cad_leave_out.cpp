@@ -109,29 +109,25 @@ void replace_side(CwCad *cad, const CwCadChainStrip &strip, Change &change) {
   change.edges.insert(goes.edge);
 }
 
-// A face that goes with the strips about it, all its edges being ends of theirs, as where three fillets meet. Its
-// vertices become one.
-struct Corner {
-  int face;
-  std::set<int> vertices;
-};
+// Faces that go with the strips about them, all their edges being ends of theirs, as where three fillets meet, and
+// their vertices, which become one.
+typedef std::map<int, std::set<int>> Corners;
 
-// By their faces, where all these chains go.
-std::map<int, Corner> corners_between(const CwCad *cad, const std::vector<const CwCadChain *> &chains) {
+// Where all these chains go.
+Corners corners_between(const CwCad *cad, const std::vector<const CwCadChain *> &chains) {
   std::vector<int> edges(cad->face.size(), 0);
   std::map<int, int> ends;
-  std::map<int, Corner> corners;
+  Corners corners;
   for (const CwCadEdge &edge : cad->edge)
     for (int f : edge.face) edges[f]++;
   for (const CwCadChain *chain : chains)
     for (const CwCadChainStrip &strip : *chain)
       for (const CwCadUse &end : strip.end) ends[cw_cad_beyond(cad, end.edge, strip.face)]++;
   for (const auto &end : ends)
-    if (end.second == edges[end.first] && cw_cad_face_is_wall(cad, end.first))
-      corners[end.first] = Corner{end.first, {}};
+    if (end.second == edges[end.first] && cw_cad_face_is_wall(cad, end.first)) corners[end.first] = {};
   for (const CwCadEdge &edge : cad->edge)
     for (int f : edge.face)
-      if (corners.count(f)) corners[f].vertices.insert(edge.vertex, edge.vertex + 2);
+      if (corners.count(f)) corners[f].insert(edge.vertex, edge.vertex + 2);
   return corners;
 }
 
@@ -153,8 +149,7 @@ bool take_faces(const CwCad *cad, const std::set<int> &faces, Taken &taken) {
 }
 
 // Whether the chain can go beside what went before; adds what goes with it but for its sides.
-bool plan_chain(const CwCad *cad, const CwCadChain &chain, const std::map<int, Corner> &corners, Taken &taken,
-                Change &change) {
+bool plan_chain(const CwCad *cad, const CwCadChain &chain, const Corners &corners, Taken &taken, Change &change) {
   std::set<int> faces, own, cornered;
   Change made;
   for (const CwCadChainStrip &strip : chain) faces.insert(strip.face);
@@ -194,22 +189,22 @@ bool plan_chain(const CwCad *cad, const CwCadChain &chain, const std::map<int, C
   return true;
 }
 
-// Of the vertices of a corner the one that stays: with the least z, of these the one nearest the axis. A turn takes it
+// Of the vertices of a corner the one that stays: with the least z, of these the one nearest the axis; a turn takes it
 // to that of the image.
-int vertex_of(const CwCad *cad, const Corner &corner) {
+int vertex_of(const CwCad *cad, const std::set<int> &corner) {
   auto before = [&](int a, int b) {
     const gp_Pnt &p = cad->vertex[a], &q = cad->vertex[b];
     double same = SAME_PLACE * p.Distance(q), nearer = std::hypot(q.X(), q.Y()) - std::hypot(p.X(), p.Y());
     return std::fabs(p.Z() - q.Z()) > same ? p.Z() < q.Z() : std::fabs(nearer) > same ? nearer > 0 : a < b;
   };
-  return *std::min_element(corner.vertices.begin(), corner.vertices.end(), before);
+  return *std::min_element(corner.begin(), corner.end(), before);
 }
 
 // Brings the vertices of a corner to one of them. Returns how far, in the unit of the B-rep.
-double close_corner(const CwCad *cad, const Corner &corner, Change &change) {
+double close_corner(const CwCad *cad, const std::set<int> &corner, Change &change) {
   int stays = vertex_of(cad, corner);
   double width = 0;
-  for (int v : corner.vertices) {
+  for (int v : corner) {
     if (v != stays) change.vertex[v] = stays;
     width = std::max(width, cad->vertex[v].Distance(cad->vertex[stays]));
   }
@@ -218,7 +213,7 @@ double close_corner(const CwCad *cad, const Corner &corner, Change &change) {
 
 // Plans for all these chains and the corners between them. False: that one cannot go, *fails, for which no room is
 // left.
-bool plan_change(const CwCad *cad, const std::vector<const CwCadChain *> &chains, const std::map<int, Corner> &corners,
+bool plan_change(const CwCad *cad, const std::vector<const CwCadChain *> &chains, const Corners &corners,
                  Change &change, size_t *fails) {
   Taken taken = {{}, {}, {}, std::vector<int>(cw_cad_patch_count(cad), 0)};
   std::map<int, size_t> last; // of the chains at a corner
@@ -278,7 +273,7 @@ void number_anew(CwCad *cad, const std::set<int> &edges, const std::set<int> &ve
 int leave_out(CwCad *cad, int chain_count, const int *number) {
   const std::vector<CwCadChain> chains = cw_cad_chains(cad);
   std::vector<const CwCadChain *> going;
-  std::map<int, Corner> corners;
+  Corners corners;
   std::set<int> vertices;
   Change change;
   int faces = 0;
