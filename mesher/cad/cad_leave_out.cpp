@@ -250,17 +250,17 @@ void move_ends(CwCad *cad, const Change &change) {
 }
 
 // Takes out the edges and vertices that went, and numbers the others anew.
-void number_anew(CwCad *cad, const std::set<int> &edges, const std::set<int> &vertices) {
+void number_anew(CwCad *cad, const Change &change) {
   std::vector<CwCadEdge> edge;
   std::vector<gp_Pnt> vertex;
   std::vector<int> number(cad->vertex.size(), -1);
   for (size_t v = 0; v < cad->vertex.size(); v++) {
-    if (vertices.count((int)v)) continue;
+    if (change.vertex.count((int)v)) continue;
     number[v] = (int)vertex.size();
     vertex.push_back(cad->vertex[v]);
   }
   for (size_t e = 0; e < cad->edge.size(); e++) {
-    if (edges.count((int)e)) continue;
+    if (change.edges.count((int)e)) continue;
     edge.push_back(cad->edge[e]);
     for (int &v : edge.back().vertex) v = number[v];
   }
@@ -274,7 +274,6 @@ int leave_out(CwCad *cad, int chain_count, const int *number) {
   const std::vector<CwCadChain> chains = cw_cad_chains(cad);
   std::vector<const CwCadChain *> going;
   Corners corners;
-  std::set<int> vertices;
   Change change;
   int faces = 0;
   for (int i = 0; i < chain_count; i++) going.push_back(&chains[number[i]]);
@@ -295,8 +294,7 @@ int leave_out(CwCad *cad, int chain_count, const int *number) {
     faces++;
   }
   move_ends(cad, change);
-  for (auto &moved : change.vertex) vertices.insert(moved.first);
-  number_anew(cad, change.edges, vertices);
+  number_anew(cad, change);
   return faces;
 }
 

@@ -8,7 +8,9 @@ import sys
 
 import gmsh
 
-OCC = gmsh.model.occ
+import draw
+
+OCC = draw.OCC
 SMALL = 0.15  # mm
 
 
@@ -16,44 +18,48 @@ def prism(sides, top=1.0):
     """On a regular polygon; at the top so many times as wide."""
     loops = []
     for z, radius in ((0, 40), (50, 40 * top)):
-        turns = [2 * math.pi * i / sides for i in range(sides)]
-        points = [OCC.addPoint(radius * math.cos(turn), radius * math.sin(turn), z) for turn in turns]
+        points = [OCC.addPoint(*draw.polar(radius, 2 * math.pi * i / sides, z)) for i in range(sides)]
         loops.append(OCC.addCurveLoop([OCC.addLine(a, b) for a, b in zip(points, points[1:] + points[:1])]))
-    return OCC.addThruSections(loops, makeSolid=True, makeRuled=True)[0][1]
+    return OCC.addThruSections(loops, makeSolid=True, makeRuled=True)
 
 
-def block(*more):
-    """A box, less or with another body: the name of the operation, what makes that body, and its sizes."""
-    box = OCC.addBox(0, 0, 0, 100, 60, 40)
-    for operation, make, *sizes in more:
-        box = operation([(3, box)], [(3, make(*sizes))])[0][0][1]
-    return box
+def box(x, y, z, *sizes):
+    return [(3, OCC.addBox(x, y, z, *sizes))]
 
 
-def edges():
+def block():
+    return box(0, 0, 0, 100, 60, 40)
+
+
+def filleted(body, chosen=lambda kinds, at: True, radius=SMALL):
+    return draw.filleted(body, radius, chosen)
+
+
+def chamfered(body):
     OCC.synchronize()
-    return [tag for _, tag in gmsh.model.getEntities(1)]
+    edges = [tag for _, tag in gmsh.model.getEntities(1)]
+    beside = [gmsh.model.getAdjacencies(1, edge)[0][0] for edge in edges]
+    return OCC.chamfer([tag for _, tag in body], edges, beside, [SMALL])
 
 
-def filleted(solid, which=slice(None), radius=SMALL):
-    return OCC.fillet([solid], edges()[which], [radius])[0][1]
+def above(kinds, at):
+    return at[1] > 10
 
 
-def chamfered(solid):
-    beside = [gmsh.model.getAdjacencies(1, edge)[0][0] for edge in edges()]
-    OCC.chamfer([solid], edges(), beside, [SMALL])
+def upright_at_the_origin(kinds, at):
+    return at[0] < 1 and 10 < at[1] < 30
 
 
 SOLIDS = {
     "prism_3": lambda: filleted(prism(3)),
     "prism_5": lambda: filleted(prism(5)),
     "frustum": lambda: filleted(prism(4, 0.5)),
-    "notched": lambda: filleted(block((OCC.cut, OCC.addBox, 50, 30, -1, 60, 60, 60))),
-    "corner": lambda: filleted(block((OCC.cut, OCC.addBox, 50, 30, 20, 60, 60, 60))),
-    "pocket": lambda: filleted(block((OCC.cut, OCC.addBox, 30, 20, 20, 40, 20, 40))),
-    "boss": lambda: filleted(block((OCC.fuse, OCC.addCylinder, 50, 30, 20, 0, 0, 40, 12))),
-    "some_edges": lambda: filleted(block(), slice(7)),
-    "one_wide": lambda: filleted(filleted(block(), slice(1), 8)),
+    "notched": lambda: filleted(draw.cut(block(), box(50, 30, -1, 60, 60, 60))),
+    "corner": lambda: filleted(draw.cut(block(), box(50, 30, 20, 60, 60, 60))),
+    "pocket": lambda: filleted(draw.cut(block(), box(30, 20, 20, 40, 20, 40))),
+    "boss": lambda: filleted(draw.fused(block(), [(3, OCC.addCylinder(50, 30, 20, 0, 0, 40, 12))])),
+    "some_edges": lambda: filleted(block(), above),
+    "one_wide": lambda: filleted(filleted(block(), upright_at_the_origin, 8)),
     "chamfered": lambda: chamfered(block()),
 }
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "mesher/plan/plan_slices.h"
+#include "tests/draw.h"
 #include "tests/unit_test.h"
 
 enum { STEPS = CW_SLICE_STEPS, FEW = 9, STEPS_FEW = FEW * STEPS };
@@ -80,20 +81,15 @@ static double least_of_all(int32_t slices, const double *slice_cost, const doubl
   return least[slices][slices * STEPS];
 }
 
-static double random_cost(uint32_t *seed) {
-  *seed = *seed * 1664525 + 1013904223;
-  return *seed / 4294967296.0;
-}
-
 // The planes that are found cost what is told, and as little as can be.
 static void planes_cost_as_little_as_can_be(void **state) {
-  uint32_t seed = 1;
+  uint64_t random = 1;
   for (int32_t slices = 1; slices <= FEW; slices++) {
     for (int k = 0; k < 5; k++) {
       double slice_cost[CW_SLICE_MOST + 1], place_cost[STEPS_FEW + 1], cost, sum = 0;
       int32_t step[FEW + 1];
-      for (int n = 0; n <= CW_SLICE_MOST; n++) slice_cost[n] = (k % 2 ? 1 : 0.01 * n) * random_cost(&seed);
-      for (int32_t s = 0; s <= slices * STEPS; s++) place_cost[s] = 3 * random_cost(&seed);
+      for (int n = 0; n <= CW_SLICE_MOST; n++) slice_cost[n] = (k % 2 ? 1 : 0.01 * n) * draw(&random);
+      for (int32_t s = 0; s <= slices * STEPS; s++) place_cost[s] = 3 * draw(&random);
       assert_int_equal(cw_slices_place(slices, slice_cost, place_cost, step, &cost), CW_OK);
       assert_near(cost, least_of_all(slices, slice_cost, place_cost), 0);
       assert_int_equal(step[0], 0);
