@@ -273,30 +273,34 @@ static CwStatus pump_of_nearest_wrap(const CwCase *table, CwDesign *design) {
 }
 
 // A wrap that follows from the blade angles, with which a passage would wind round the axis by more than a solid can
-// have, becomes the greatest with which none does; the blade angles follow it. Where no pump of that wrap meets the
-// head the first one stays, for the geometry to refuse.
+// have, becomes the greatest with which none does, whatever the priority; the blade angles follow it. Where no pump of
+// that wrap meets the head the first one stays, for the geometry to refuse.
 static CwStatus pump_within_a_revolution(const CwCase *table, CwDesign *design) {
   enum { STEPS = 8 };
   const double closeness = 0.99;
   const CwDesign before = *design;
   const CwStatus status = pump_of_nearest_wrap(table, design);
-  if (status != CW_OK || table->impeller.priority != CW_PRIORITY_AUTO || before.priority != CW_PRIORITY_HEAD)
-    return status;
+  if (status != CW_OK || before.priority != CW_PRIORITY_HEAD) return status;
   const CwDesign wound = *design;
   CwCase trial = *table;
-  for (int i = 0; i < STEPS && cw_design_meets_head(design); i++) {
+  for (int i = 0, made = 1; i < STEPS && (!made || cw_design_meets_head(design)); i++) {
     CwMeridian meridian;
     CwBladeSeams seams;
-    if (cw_meridian_make(design, &meridian) != CW_OK || cw_blade_seams(design, &meridian, &seams) != CW_OK) break;
-    if (seams.reach <= CW_SEAM_REACH_MOST) {
-      if (i > 0) design->source[CW_DESIGN_wrap_angle] = CW_WRAP_WITHIN_A_REVOLUTION;
-      return CW_OK;
+    if (made) {
+      if (cw_meridian_make(design, &meridian) != CW_OK || cw_blade_seams(design, &meridian, &seams) != CW_OK) break;
+      if (seams.reach <= CW_SEAM_REACH_MOST) {
+        if (i > 0) design->source[CW_DESIGN_wrap_angle] = CW_WRAP_WITHIN_A_REVOLUTION;
+        return CW_OK;
+      }
+      trial.impeller.wrap_angle =
+          closeness * design->wrap_angle * (1 - (seams.reach - CW_SEAM_REACH_MOST) / seams.foremost);
+    } else { // no blade angles lead to so great a wrap
+      trial.impeller.wrap_angle *= closeness;
     }
-    trial.impeller.wrap_angle =
-        closeness * design->wrap_angle * (1 - (seams.reach - CW_SEAM_REACH_MOST) / seams.foremost);
     *design = before;
     design->priority = CW_PRIORITY_WRAP;
-    if (pump_of_any_base(&trial, design) != CW_OK) break;
+    made = pump_of_any_base(&trial, design) == CW_OK;
+    if (!made) cw_fail_clear();
   }
   cw_fail_clear();
   *design = wound;

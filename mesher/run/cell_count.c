@@ -110,6 +110,12 @@ static void set_layers(CwMeshRun *run, const int *count, double y_plus_auto) {
     cw_domain_set_layers(&run->domain[d], run->table, count[d], y_plus_auto);
 }
 
+static void set_same_layers(CwMeshRun *run, int layers) {
+  int count[CW_DOMAINS_MOST];
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) count[d] = layers;
+  set_layers(run, count, run->y_plus_auto);
+}
+
 // The least y+ of those that the case gives; INFINITY where it gives none, and for walls in laminar flow.
 static double least_given(const CwMeshRun *run) {
   double least = INFINITY;
@@ -143,7 +149,8 @@ static void find_needed(const CwMeshRun *run, int *needed) {
   }
 }
 
-// More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. From below the
+// More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. Given ones beyond
+// the usual number go where they would leave flat triangles on narrow faces: from there on walls fold. From below the
 // rounds therefore end at the least numbers that are enough, or, beyond the usual number, where edges have become too
 // long for narrow faces: the shape of the pump comes first.
 void cw_mesh_solve_layers(CwMeshRun *run) {
@@ -152,6 +159,10 @@ void cw_mesh_solve_layers(CwMeshRun *run) {
   cw_start_layers(run);
   int in_log_layer = cw_walls_auto(walls) && isinf(least_given(run));
   cw_mesh_solve_scale(run);
+  for (int made = walls->layer_count; made > CW_LAYER_COUNT_USUAL && run->scale > cw_size_scale_flat();) {
+    set_same_layers(run, --made);
+    cw_mesh_solve_scale(run);
+  }
   for (int more = walls->layer_count == 0; more;) {
     double y_plus = run->y_plus_auto;
     int count[CW_DOMAINS_MOST], needed[CW_DOMAINS_MOST], before[CW_DOMAINS_MOST], most = 0;
@@ -196,11 +207,14 @@ double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]) {
   return cells;
 }
 
-double cw_layers_crowd(CwMeshRun *run) {
+double cw_cells_crowded(CwMeshRun *run) {
   double scale = run->scale, fine = cw_size_scale_fine();
-  if (run->table->walls.layer_count == 0 || scale <= fine) return 0;
+  int given = run->table->walls.layer_count, made = run->domain[0].layer_count;
+  if (scale <= fine) return 0;
   cw_mesh_set_scale(run, fine);
+  if (given > made) set_same_layers(run, given);
   double cells = all_cells_at(run, fine);
+  if (given > made) set_same_layers(run, made);
   cw_mesh_set_scale(run, scale);
   return cells;
 }

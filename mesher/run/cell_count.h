@@ -24,9 +24,9 @@ void cw_mesh_solve_layers(CwMeshRun *run);
 // The number of layers of each domain that leads to the size of its tetrahedra, where the case leaves it open and the
 // cells have no room for it. Returns about how many cells have room for all, or 0 where these have.
 double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]);
-// Where the case gives so many layers that the scale is beyond cw_size_scale_fine(): about how many cells have room for
-// them, or more where walls are limited; else returns 0.
-double cw_layers_crowd(CwMeshRun *run);
+// Where the scale is beyond cw_size_scale_fine(), as with few cells or more layers given than these have room for:
+// about how many cells have room, or more where walls are limited; else returns 0.
+double cw_cells_crowded(CwMeshRun *run);
 
 // Cells of all domains at the present scale, over the asked number, less one.
 double cw_predicted_off(const CwMeshRun *run);

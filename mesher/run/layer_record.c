@@ -145,12 +145,18 @@ void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, doubl
        domain->name, domain->layer_count, needed, round_up(cells));
 }
 
-void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, json_t *headlines) {
+void cw_warn_of_long_edges(CwLog *log, const CwCase *table, int made, double scale, double cells, json_t *headlines) {
+  char layers[64] = "";
+  int given = table->walls.layer_count;
+  if (given > made)
+    snprintf(layers, sizeof layers, " for walls.layer_count %d (%d are made)", given, made);
+  else if (given > 0)
+    snprintf(layers, sizeof layers, " for walls.layer_count %d", given);
   tell(log, headlines,
-       "walls.layer_count %d leaves edges %.2g times as long as the shape of the walls asks, between which tetrahedra "
-       "are flat and columns short; mesh.cells %.0f has room for it, and walls.layer_count auto takes as many as there "
-       "is room for",
-       given, scale, round_up(cells));
+       "mesh.cells %lld%s leaves edges %.2g times as long as the shape of the walls asks, between which tetrahedra are "
+       "flat and columns short; mesh.cells %.0f has room%s",
+       (long long)table->mesh.cells, layers, scale, round_up(cells),
+       given > 0 ? " for it, and walls.layer_count auto takes as many as there is room for" : "");
 }
 
 // Where faces of a patch are too round for its first height, that of the roundest.

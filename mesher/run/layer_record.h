@@ -29,9 +29,9 @@ void cw_put_sharp_edge(const CwDomain *domain, json_t *result);
 // And, where the number of layers is open, of a domain that has fewer than `needed`, for which about `cells` have room.
 void cw_warn_of_few_layers(CwLog *log, const CwDomain *domain, int needed, double cells, json_t *headlines);
 
-// And, where the case gives it, of a number of layers that leaves edges of walls too long: what cw_layers_crowd()
-// finds.
-void cw_warn_of_many_layers(CwLog *log, int given, double scale, double cells, json_t *headlines);
+// And of too few cells, for the layers that the case may give, which leave edges of walls too long: of what
+// cw_cells_crowded() finds. `made`: the layers that there are, where the case gives more.
+void cw_warn_of_long_edges(CwLog *log, const CwCase *table, int made, double scale, double cells, json_t *headlines);
 
 // And of faces of a domain that are left out of it: edges there are `edge` long, and about `cells` show them.
 void cw_warn_of_left_out(CwLog *log, const CwDomain *domain, double edge, double cells, json_t *headlines);

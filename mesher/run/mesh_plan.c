@@ -227,9 +227,10 @@ done:
 static void tell_layers(CwMeshRun *run) {
   char y_plus[64] = "";
   int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count;
-  double cells = cw_layers_crowd(run);
-  run->crowded = cells > 0;
-  if (run->crowded) cw_warn_of_many_layers(run->context.log, given, run->scale, cells, run->headlines);
+  double cells = cw_cells_crowded(run);
+  run->crowded = given > 0 && cells > 0;
+  if (cells > 0)
+    cw_warn_of_long_edges(run->context.log, run->table, run->domain[0].layer_count, run->scale, cells, run->headlines);
   cells = cw_layers_short(run, needed);
   if (cw_walls_auto(&run->table->walls))
     snprintf(y_plus, sizeof y_plus, "; y+ %.3g where it is open", run->y_plus_auto);

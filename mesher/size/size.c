@@ -309,6 +309,10 @@ double cw_size_scale_fine(void) {
   return WIDTHS / cw_policy.size_least;
 }
 
+double cw_size_scale_flat(void) {
+  return 1 / (tan(cw_policy.flat_angle * CW_DEGREE) * cw_policy.size_least);
+}
+
 void cw_size_set_scale(CwSize *size, double scale) {
   size->scale = scale;
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/nose.h"
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
 #include "mesher/size/size_sources.h"
@@ -12,9 +13,10 @@ enum { LEAST_PARTS = 4, MOST_PARTS = 200 };
 typedef struct {
   int count; // points
   double (*x)[3];
-  char *crease; // whether the faces meet at an angle there, by point
+  double (*normal[2])[3]; // of its two faces, by point
+  char *crease;           // whether they meet at an angle there, by point
   double length;
-  double *width; // least distance to an opposite crease of one of the two faces, by point
+  double *width; // least distance to an opposite side of one of the two faces, where it is narrow, by point
   int vertex[2], face[2];
 } Polyline;
 
@@ -38,14 +40,14 @@ static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
   int parts = (int)fmin(fmax(ceil(line->length / step), LEAST_PARTS), MOST_PARTS);
   line->count = parts + 1;
   CW_NEW(line->x, line->count);
+  for (int side = 0; side < 2; side++) CW_NEW(line->normal[side], line->count);
   CW_NEW(line->crease, line->count);
   CW_NEW(line->width, line->count);
   for (int i = 0; i <= parts; i++) {
-    double at = t[0] + (t[1] - t[0]) * i / parts, n[3], m[3];
+    double at = t[0] + (t[1] - t[0]) * i / parts;
     cw_cad_edge_point(cad, edge, at, line->x[i], NULL);
-    face_normal(cad, edge, line->face[0], at, n);
-    face_normal(cad, edge, line->face[1], at, m);
-    line->crease[i] = cw_dot(n, m) < cw_policy.crease_cosine;
+    for (int side = 0; side < 2; side++) face_normal(cad, edge, line->face[side], at, line->normal[side][i]);
+    line->crease[i] = cw_dot(line->normal[0][i], line->normal[1][i]) < cw_policy.crease_cosine;
     line->width[i] = INFINITY;
   }
 done:
@@ -58,18 +60,23 @@ static double distance_to_part(const double p[3], const double a[3], const doubl
   return cw_distance(p, nearest);
 }
 
-// Two edges of one face without a common vertex are its two sides; widths go to `line`.
+// Two edges of one face without a common vertex are its two sides; widths between creases, and over noses, go to
+// `line`.
 static void measure_between(Polyline *line, const Polyline *other) {
   for (int i = 0; i < 2; i++) {
     for (int j = 0; j < 2; j++) {
       if (line->vertex[i] == other->vertex[j]) return;
     }
   }
-  for (int i = 0; i < line->count; i++) {
-    if (!line->crease[i]) continue;
-    for (int j = 0; j + 1 < other->count; j++) {
-      if (!other->crease[j] && !other->crease[j + 1]) continue;
-      line->width[i] = fmin(line->width[i], distance_to_part(line->x[i], other->x[j], other->x[j + 1]));
+  for (int side = 0; side < 4; side++) {
+    const int own = side / 2, across = side % 2;
+    if (line->face[own] != other->face[across]) continue;
+    for (int i = 0; i < line->count; i++) {
+      for (int j = 0; j + 1 < other->count; j++) {
+        int creases = line->crease[i] && (other->crease[j] || other->crease[j + 1]);
+        if (!creases && !cw_nose_between(line->normal[own][i], other->normal[across][j])) continue;
+        line->width[i] = fmin(line->width[i], distance_to_part(line->x[i], other->x[j], other->x[j + 1]));
+      }
     }
   }
 }
@@ -77,8 +84,9 @@ static void measure_between(Polyline *line, const Polyline *other) {
 static void seed_line(const CwSizeInput *input, const Polyline *line, CwSizeGrid *grid) {
   double floor_size = cw_policy.size_least_share * input->base_size;
   for (int i = 0; i + 1 < line->count; i++) {
-    if (!line->crease[i] && !line->crease[i + 1]) continue;
-    double size = fmax(fmin(line->length, fmin(line->width[i], line->width[i + 1])), floor_size);
+    double width = fmin(line->width[i], line->width[i + 1]);
+    if (!line->crease[i] && !line->crease[i + 1] && isinf(width)) continue;
+    double size = fmax(fmin(line->length, width), floor_size);
     int parts = (int)ceil(cw_distance(line->x[i], line->x[i + 1]) / grid->spacing) + 1;
     for (int j = 0; j <= parts; j++) {
       double x[3];
@@ -96,15 +104,14 @@ CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid) {
   for (int e = 0; e < count; e++) CW_TRY(trace(input->cad, e, 0.5 * input->base_size, &line[e]));
   for (int e = 0; e < count; e++) {
     for (int o = 0; o < count; o++) {
-      int common = line[e].face[0] == line[o].face[0] || line[e].face[0] == line[o].face[1] ||
-                   line[e].face[1] == line[o].face[0] || line[e].face[1] == line[o].face[1];
-      if (o != e && common) measure_between(&line[e], &line[o]);
+      if (o != e) measure_between(&line[e], &line[o]);
     }
   }
   for (int e = 0; e < count; e++) seed_line(input, &line[e], grid);
 done:
   for (int e = 0; line && e < count; e++) {
     free(line[e].x);
+    for (int side = 0; side < 2; side++) free(line[e].normal[side]);
     free(line[e].crease);
     free(line[e].width);
   }

@@ -298,16 +298,19 @@ static double fit_of(const CwPatchWork *work, const CwPatchCuts *cuts, int32_t a
   return cw_patch_cuts_hold(cuts, (const int32_t[3]){a, b, c}) ? -2 : cosine_of(work, a, b, c);
 }
 
-// Flips the edge of an unfit triangle after which the worse of the two fits best, and better than it does.
+// Flips the edge of an unfit triangle after which the worse of the two fits best, and better than it does; none for a
+// needle.
 static int flip_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int32_t t) {
   int best = -1;
   const int32_t *c = work->corner[t];
+  double own = triangle_quality(work, t);
   double least = fit_of(work, cuts, c[0], c[1], c[2]) + 1e-3;
   for (int i = 0; i < 3; i++) {
     if (work->given[t] >> i & 1) continue;
     Flip flip = flip_of(work, t, i);
     double then = fmin(fit_of(work, cuts, flip.a, flip.b, flip.d), fit_of(work, cuts, flip.a, flip.d, flip.c));
-    if (then <= least) continue;
+    if (then <= least || flipped_quality(work, &flip) < 0.5 * fmin(own, triangle_quality(work, work->neighbour[t][i])))
+      continue;
     least = then;
     best = i;
   }
@@ -325,9 +328,77 @@ static int is_too_large(const CwPatchWork *work, int32_t t) {
   return cw_norm(n) > 0.5 * sqrt(3) * most * most;
 }
 
-// Halves the longest free edge of triangles that are too large, and of those that lie in a cut or stand steeply on the
-// surface and that no flip lays down: on a nose narrower than the wanted edges one may span half of it, and its corners
-// see no direction in common with the faces beside it.
+// What the free edge from a to b is halved before others for: its length or, for a steep triangle, how far the surface
+// turns along it for its length, so that new points on a narrow nose stand beside those of its sides.
+static double halving_worth(const CwPatchWork *work, int steep, int32_t a, int32_t b) {
+  double n[3], m[3], length = sqrt(cw_patch_distance2(work->x[a], work->x[b]));
+  cw_patch_normal(work, a, n);
+  cw_patch_normal(work, b, m);
+  return steep && cw_unit(n) > 0 && cw_unit(m) > 0 ? (1 - cw_dot(n, m)) / length : length;
+}
+
+// Halves edge i of t.
+static CwStatus halve_edge(CwPatchWork *work, int32_t t, int i, int *halved) {
+  int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
+  const double *from = work->uv[a], *to = work->uv[b], uv[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
+  return cw_patch_insert(work, uv, t, 0, 0.5 * sqrt(cw_patch_distance2(work->x[a], work->x[b])), halved);
+}
+
+// The free edge of t that is worth most; -1: none.
+static int edge_to_halve(const CwPatchWork *work, int32_t t, int steep) {
+  int best = -1;
+  double most = 0;
+  for (int i = 0; i < 3; i++) {
+    double worth = halving_worth(work, steep, work->corner[t][(i + 1) % 3], work->corner[t][(i + 2) % 3]);
+    if (work->given[t] >> i & 1 || worth <= most) continue;
+    most = worth;
+    best = i;
+  }
+  return best;
+}
+
+static int is_steep(const CwPatchWork *work, int32_t t) {
+  const int32_t *c = work->corner[t];
+  return cosine_of(work, c[0], c[1], c[2]) < cw_policy.upright_cosine;
+}
+
+// The shortest free edge of a triangle that leads over a nose; -1: none.
+static int edge_over_nose(const CwPatchWork *work, int32_t t) {
+  double shortest = INFINITY;
+  int best = -1;
+  for (int i = 0; i < 3; i++) {
+    int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
+    double square = cw_patch_distance2(work->x[a], work->x[b]);
+    if (work->given[t] >> i & 1 || square >= shortest || !cw_patch_over_nose(work, a, b)) continue;
+    shortest = square;
+    best = i;
+  }
+  return best;
+}
+
+CwStatus cw_patch_divide_noses(CwPatchWork *work) {
+  CwStatus status = CW_OK;
+  for (int flips = 0; flips < 2; flips++) { // between the new points there are edges once all are in
+    for (int changes = 1, changed; changes > 0;) {
+      changes = 0;
+      for (int32_t t = 0; t < work->triangle_count; t++) {
+        int i = work->corner[t][0] < 0 ? -1 : edge_over_nose(work, t);
+        if (i < 0) continue;
+        Flip flip = flip_of(work, t, i);
+        if (flips)
+          changed = !cw_patch_over_nose(work, flip.a, flip.d) && cw_patch_flip(work, t, i);
+        else
+          CW_TRY(halve_edge(work, t, i, &changed));
+        changes += changed;
+      }
+    }
+  }
+done:
+  return status;
+}
+
+// Halves a free edge of triangles that are too large, and of those that lie in a cut or stand steeply on the surface
+// and that no flip lays down: their corners see no direction in common with the faces beside it.
 static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *changes) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
@@ -335,22 +406,15 @@ static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *
   for (int32_t t = 0; t < count; t++) {
     const int32_t *c = work->corner[t];
     if (c[0] < 0) continue;
-    int steep = cw_patch_cuts_hold(cuts, c) || cosine_of(work, c[0], c[1], c[2]) < cw_policy.upright_cosine;
+    int steep = cw_patch_cuts_hold(cuts, c) || is_steep(work, t);
     if (steep && flip_unfit(work, cuts, t)) {
       ++*changes;
       continue;
     }
     if (!steep && !is_too_large(work, t)) continue;
-    double most = 0, uv[2];
-    for (int i = 0; i < 3; i++) {
-      int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
-      double d = cw_patch_distance2(work->x[a], work->x[b]);
-      if (work->given[t] >> i & 1 || d <= most) continue;
-      most = d;
-      for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);
-    }
-    if (most == 0) continue;
-    CW_TRY(cw_patch_insert(work, uv, t, 0, 0.5 * sqrt(most), &inserted));
+    int i = edge_to_halve(work, t, steep);
+    if (i < 0) continue;
+    CW_TRY(halve_edge(work, t, i, &inserted));
     *changes += inserted;
   }
 done:

@@ -63,6 +63,7 @@ CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh, CwOutcome *
   CW_TRY_STAGE(cw_cdt_make(input, scale, &cdt, outcome), outcome);
   CW_TRY(cw_patch_work_open(input, &cdt, &work));
   cw_patch_delaunay(&work, 0);
+  CW_TRY(cw_patch_divide_noses(&work));
   CW_TRY(cw_patch_front(&work));
   CW_TRY(cw_patch_improve(&work));
   CW_TRY(take_result(&work, cdt.component_count, mesh));

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/nose.h"
+
 // Grows an array to `capacity` items; the old one stays valid when memory is out.
 #define GROW(pointer, capacity)                                                                                        \
   do {                                                                                                                 \
@@ -339,6 +341,14 @@ done:
   return status;
 }
 
+int cw_patch_over_nose(const CwPatchWork *work, int32_t a, int32_t b) {
+  double n[3], m[3], most = cw_policy.surface_long_edge * 0.5 * (work->size[a] + work->size[b]);
+  if (cw_patch_distance2(work->x[a], work->x[b]) > most * most) return 0;
+  cw_patch_normal(work, a, n);
+  cw_patch_normal(work, b, m);
+  return cw_unit(n) > 0 && cw_unit(m) > 0 && cw_nose_between(n, m);
+}
+
 int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   if (work->given[t] >> i & 1) return 0;
   int32_t n = work->neighbour[t][i];
@@ -348,6 +358,7 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   double left = cw_twice_area(work->uv[a], work->uv[b], work->uv[d]);
   double right = cw_twice_area(work->uv[a], work->uv[d], work->uv[c]);
   if (!(left > 1e-9 * (left + right)) || !(right > 1e-9 * (left + right))) return 0;
+  if (cw_patch_over_nose(work, a, d) && !cw_patch_over_nose(work, b, c)) return 0;
   // Corners a b c and d c b become a b d and a d c.
   int32_t ab = work->neighbour[t][(i + 2) % 3], ca = work->neighbour[t][(i + 1) % 3];
   int32_t bd = work->neighbour[n][(j + 1) % 3], dc = work->neighbour[n][(j + 2) % 3];
@@ -398,13 +409,22 @@ static double quality_drawn(const CwPatchWork *work, int count, const int32_t *r
   return worst;
 }
 
+// Whether p drawn into ring[w] makes an edge over a nose.
+static int leads_over_nose(const CwPatchWork *work, int32_t p, int count, const int32_t *ring, int w) {
+  for (int k = 2; k + 1 < count; k++) {
+    int32_t to = ring[(w + k) % count];
+    if (cw_patch_over_nose(work, ring[w], to) && !cw_patch_over_nose(work, p, to)) return 1;
+  }
+  return 0;
+}
+
 int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double most) {
   int32_t triangles[CW_PATCH_RING], ring[CW_PATCH_RING];
   int count = cw_patch_ring(work, p, triangles, ring), best = -1;
   if (count < 3) return 0;
   for (int w = 0; w < count; w++) {
     double quality = quality_drawn(work, count, ring, w, most);
-    if (quality > least_quality) {
+    if (quality > least_quality && !leads_over_nose(work, p, count, ring, w)) {
       least_quality = quality;
       best = w;
     }

@@ -60,8 +60,12 @@ int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t from)
 CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap,
                          int *inserted);
 
-// Turns edge i of triangle t; refuses (returns 0) where the edge is given or a triangle would not be
-// counter-clockwise in (u,v).
+// Whether a line from point a to b leads over a nose of the surface (mesher/common/nose.h) and is no longer than wanted
+// edges may be.
+int cw_patch_over_nose(const CwPatchWork *work, int32_t a, int32_t b);
+
+// Turns edge i of triangle t; refuses (returns 0) where the edge is given, a triangle would not be counter-clockwise in
+// (u,v), or it alone would lead over a nose.
 int cw_patch_flip(CwPatchWork *work, int32_t t, int i);
 
 // Triangles and neighbours around a free point, counter-clockwise: triangle k has the corners p, ring[k],
@@ -69,8 +73,8 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i);
 int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING], int32_t ring[CW_PATCH_RING]);
 
 // Draws free point p into a neighbour, the one that leaves the best worst triangle, if that is better than
-// `least_quality` and no new edge is longer than `most` times the mean size of its ends. Returns whether it
-// did.
+// `least_quality`, no new edge is longer than `most` times the mean size of its ends and none leads over a nose.
+// Returns whether it did.
 int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double most);
 
 // Quality of a triangle of given points in space: 1 for equilateral, 0 for flat, negative when its normal is

@@ -11,10 +11,10 @@ double cw_column_room(const CwWallFlow *flow) {
   return flow->before > 0 ? fmin(across, cw_policy.free_share * flow->before) : across;
 }
 
-// The greatest first height that fits: of as many even layers as the case has at least, in fit_share of the passage;
+// The greatest first height that fits: of as many even layers as there are at least, in fit_share of the passage;
 // before an open patch, where one end of a wall is short of room, of the lowest column of all layers.
 static double greatest_fitting(const CwWallFlow *flow, const CwWalls *walls, int count) {
-  double across = cw_policy.fit_share * flow->width / (walls->layer_count > 0 ? walls->layer_count : CW_LAYERS_LEAST);
+  double across = cw_policy.fit_share * flow->width / (walls->layer_count > 0 ? count : CW_LAYERS_LEAST);
   if (flow->before == 0) return across;
   return fmin(across, cw_policy.free_share * flow->before / cw_layer_lowest(count));
 }

@@ -332,20 +332,25 @@ static double reach_of(const CwDesign *design) {
   return seams.reach;
 }
 
-// Two blades and two splitters: half a revolution of pitch, and a wrap that leaves no room for it; as a given one it is
-// left for the geometry to refuse. A D2 that would miss the head with another wrap leaves it too.
+// Two blades and two splitters: half a revolution of pitch, and a wrap that leaves no room for it; that of a given
+// blade angle is left for the geometry to refuse. A D2 that would miss the head with another wrap leaves it too.
 static void wraps_stay_within_a_revolution(void **state) {
   CwCase table = duty_point(25, 40, 1450);
   table.impeller.blade_count = 2;
-  table.impeller.priority = CW_PRIORITY_HEAD;
   table.impeller.splitter_start = 0.4;
+  table.impeller.outlet_blade_angle = 18 * M_PI / 180;
   const CwDesign wound = design_of(&table);
+  assert_int_equal(wound.priority, CW_PRIORITY_BETA);
   assert_true(reach_of(&wound) > CW_SEAM_REACH_MOST);
-  table.impeller.priority = CW_PRIORITY_AUTO;
-  CwDesign design = design_of(&table);
-  assert_string_equal(design.source[CW_DESIGN_wrap_angle], CW_WRAP_WITHIN_A_REVOLUTION);
-  assert_true(reach_of(&design) > 0.9 * CW_SEAM_REACH_MOST && reach_of(&design) <= CW_SEAM_REACH_MOST);
-  assert_near(design.predicted_head, 40, 1e-6);
+  table.impeller.outlet_blade_angle = NAN;
+  CwDesign design;
+  for (int strict = 0; strict < 2; strict++) {
+    table.impeller.priority = strict ? CW_PRIORITY_HEAD : CW_PRIORITY_AUTO;
+    design = design_of(&table);
+    assert_string_equal(design.source[CW_DESIGN_wrap_angle], CW_WRAP_WITHIN_A_REVOLUTION);
+    assert_true(reach_of(&design) > 0.9 * CW_SEAM_REACH_MOST && reach_of(&design) <= CW_SEAM_REACH_MOST);
+    assert_near(design.predicted_head, 40, 1e-6);
+  }
   table.impeller.outlet_diameter = wound.outlet_diameter;
   design = design_of(&table);
   assert_near(design.wrap_angle, wound.wrap_angle, 1e-6);

@@ -161,3 +161,21 @@ static inline double uv_area_of_sheared(double area) {
   cw_cross(XU, XV, cross);
   return area / cw_norm(cross);
 }
+
+// The least cosine between a triangle on the cylinder and the normals at its corners.
+static inline double cosine_on_cylinder(const CwPatchWork *work, const int32_t c[3]) {
+  double n[3], least = 1;
+  cw_normal(work->x[c[0]], work->x[c[1]], work->x[c[2]], n);
+  cw_unit(n);
+  for (int i = 0; i < 3; i++) {
+    const double u = work->uv[c[i]][0], outward[3] = {cos(u), sin(u), 0};
+    least = fmin(least, cw_dot(n, outward));
+  }
+  return least;
+}
+
+static inline int32_t count_free_points(const CwPatchWork *work) {
+  int32_t count = 0;
+  for (int32_t p = work->given_count; p < work->point_count; p++) count += work->point_triangle[p] >= 0;
+  return count;
+}

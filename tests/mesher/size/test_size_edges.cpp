@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What short and near creases ask for, on prisms at random, and what open edges allow: by hand.
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
@@ -230,6 +233,54 @@ static void widths_of_a_taper(void **) {
   }
 }
 
+// A bar of 40 x 2r x 10 mm whose ends are rounded: with half cylinders, or with two fillets of `radius` each and a flat
+// between.
+static TopoDS_Shape round_bar(double r, double radius) {
+  const double tip = 20 + radius, bend = radius * std::sqrt(0.5), flat = r - radius;
+  BRepBuilderAPI_MakeWire wire;
+  auto side = [&](double sign) {
+    const gp_Pnt a(sign * 20, -sign * r, 0), b(sign * tip, -sign * flat, 0), c(sign * tip, sign * flat, 0),
+        d(sign * 20, sign * r, 0);
+    if (flat > 0) {
+      const gp_Pnt low(sign * (20 + bend), -sign * (flat + bend), 0), high(sign * (20 + bend), sign * (flat + bend), 0);
+      wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, low, b).Value()));
+      wire.Add(BRepBuilderAPI_MakeEdge(b, c));
+      wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(c, high, d).Value()));
+    } else {
+      wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, gp_Pnt(sign * tip, 0, 0), d).Value()));
+    }
+    wire.Add(BRepBuilderAPI_MakeEdge(d, gp_Pnt(-sign * 20, sign * r, 0)));
+  };
+  side(1);
+  side(-1);
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, 10)).Shape();
+}
+
+// The field along the smooth edge of a rounded bar's end, between its ends.
+static double asked_along_smooth_edge(double r, double radius) {
+  CwCad *cad = open_solid(round_bar(r, radius));
+  const double low[3] = {-0.03, -0.02, 0}, high[3] = {0.03, 0.02, 0.01}, x[3] = {0.02, 1e-3 * r, 0.005};
+  CwSizeInput input = {};
+  CwSizeGrid grid;
+  input.cad = cad;
+  input.base_size = 2e-3;
+  check(cw_size_grid_make(low, high, 0.4e-3, 4000000, &grid));
+  check(cw_size_seed_edges(&input, &grid));
+  double value = value_about(grid, x);
+  cw_size_grid_free(&grid);
+  cw_cad_close(&cad);
+  return value;
+}
+
+// A nose asks for its width along its smooth sides; fillets, on which triangles from side to side lie at 45 degrees,
+// ask for nothing there.
+static void noses_ask_for_their_width(void **) {
+  for (double r : {1.0, 1.5, 3.0}) {
+    assert_near(asked_along_smooth_edge(r, r), 2e-3 * r, 1e-6);
+    assert_true(asked_along_smooth_edge(r, 0.6 * r) == cw_size_unset);
+  }
+}
+
 // The top of a cube of 20 mm is open; the sides are two patches.
 static std::string open_top(const TopoDS_Face &face) {
   gp_Pln plane = BRepAdaptor_Surface(face).Plane();
@@ -311,6 +362,7 @@ int main() {
                               cmocka_unit_test(boxes_by_hand),
                               cmocka_unit_test(edges_are_seeded_all_along),
                               cmocka_unit_test(widths_of_a_taper),
+                              cmocka_unit_test(noses_ask_for_their_width),
                               cmocka_unit_test(open_edges_seed_what_they_allow),
                               cmocka_unit_test(open_edges_ask_for_their_mean)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -34,12 +34,6 @@ static double worst_quality(const CwPatchWork *work) {
   return worst;
 }
 
-static int32_t count_free_points(const CwPatchWork *work) {
-  int32_t count = 0;
-  for (int32_t p = work->given_count; p < work->point_count; p++) count += work->point_triangle[p] >= 0;
-  return count;
-}
-
 // The one free point of a hexagon goes into its middle, from wherever; unless it is nearer to it than 0.01 edges.
 static void a_point_goes_to_the_middle_of_its_neighbours(void **state) {
   const double off[4] = {0.0099, 0.0101, 0.2, 0.4};
@@ -346,62 +340,6 @@ static void large_triangles_are_halved(void **state) {
   }
 }
 
-// Half a cylinder of radius 0.1, from side to side (u = 0 and pi) by one chord and out to v = -0.12 and 0.12 on its
-// back. The triangles over that chord are nearly equilateral, but hold it: they stand upright on both sides. Those
-// along the back, which it is not divided by at first, lie at 45 degrees everywhere.
-static void upright_triangles_are_flipped(void **state) {
-  const double corner[4][2] = {{0, 0}, {M_PI / 2, -0.12}, {M_PI, 0}, {M_PI / 2, 0.12}};
-  Plan *plan = new_plan(CYLINDER, 0.2);
-  CwPatchWork work;
-  for (int p = 0; p < 4; p++) add_point(plan, corner[p][0], corner[p][1]);
-  add_outline(plan);
-  open_patch(plan, &work);
-  int i = 0;
-  while (work.given[0] >> i & 1) i++;
-  if (work.corner[0][i] % 2 == 0) assert_int_equal(cw_patch_flip(&work, 0, i), 1);
-  assert_int_equal(cw_patch_delaunay(&work, 1), 0);
-  assert_int_equal(cw_patch_improve(&work), CW_OK);
-  assert_int_equal(check_patch(plan, &work, 0.5 * M_PI * 0.24), 2);
-  assert_int_equal(work.point_count, 4);
-  for (int t = 0; t < 2; t++) {
-    const int32_t *c = work.corner[t];
-    assert_true((c[0] == 1 || c[1] == 1 || c[2] == 1) && (c[0] == 3 || c[1] == 3 || c[2] == 3));
-  }
-  cw_patch_work_close(&work);
-  free(plan);
-}
-
-// The least cosine between a triangle on the cylinder and the normals at its corners.
-static double cosine_on_cylinder(const CwPatchWork *work, const int32_t c[3]) {
-  double n[3], least = 1;
-  cw_normal(work->x[c[0]], work->x[c[1]], work->x[c[2]], n);
-  cw_unit(n);
-  for (int i = 0; i < 3; i++) {
-    const double u = work->uv[c[i]][0], outward[3] = {cos(u), sin(u), 0};
-    least = fmin(least, cw_dot(n, outward));
-  }
-  return least;
-}
-
-// Half a cylinder with three edges across each end and one along each side: no flip lays down all triangles across it,
-// points have to go in. Then none stands at more than 60 degrees.
-static void upright_triangles_are_divided(void **state) {
-  for (int i = 0; i < 8; i++) {
-    const double length = 0.2 + 0.1 * i;
-    Plan *plan = new_plan(CYLINDER, 0.4);
-    CwPatchWork work;
-    for (int k = 0; k < 8; k++) add_point(plan, k < 4 ? k * M_PI / 3 : (7 - k) * M_PI / 3, k < 4 ? 0 : length);
-    add_outline(plan);
-    open_patch(plan, &work);
-    assert_int_equal(cw_patch_improve(&work), CW_OK);
-    check_patch(plan, &work, M_PI * length);
-    for (int32_t t = 0; t < work.triangle_count; t++)
-      if (work.corner[t][0] >= 0) assert_true(cosine_on_cylinder(&work, work.corner[t]) > 0.5);
-    cw_patch_work_close(&work);
-    free(plan);
-  }
-}
-
 // A quarter of a cylinder, cut across in two edges that bend aside by 0.06: the triangle of both lies within 60 degrees
 // of the surface and its angles are those of Delaunay, but it lies in the cut. It is flipped away.
 static void no_triangle_lies_in_a_cut(void **state) {
@@ -480,8 +418,6 @@ int main(void) {
       cmocka_unit_test(a_poor_point_climbs),
       cmocka_unit_test(points_keep_off_given_edges),
       cmocka_unit_test(large_triangles_are_halved),
-      cmocka_unit_test(upright_triangles_are_flipped),
-      cmocka_unit_test(upright_triangles_are_divided),
       cmocka_unit_test(no_triangle_lies_in_a_cut),
       cmocka_unit_test(points_stay_on_the_surface),
   };

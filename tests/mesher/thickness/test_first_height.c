@@ -21,8 +21,10 @@ static CwCase water(void) {
   return table;
 }
 
+// Of as many layers as the case gives, or six.
 static CwFirstHeight choose(const CwCase *table, double y_plus_auto) {
-  return cw_first_height_choose(table, &table->walls.blade, &FLOW, y_plus_auto, 6);
+  int given = table->walls.layer_count;
+  return cw_first_height_choose(table, &table->walls.blade, &FLOW, y_plus_auto, given > 0 ? given : 6);
 }
 
 static void asked_by_y_plus_or_height(void **state) {
@@ -129,8 +131,9 @@ static void random_passages(void **state) {
     table.fluid.kinematic_viscosity = pow(10, 4.0 * rand() / RAND_MAX - 7);
     table.walls.layer_count = rand() % 41;
     if (rand() % 2) table.walls.blade.y_plus = pow(10, 4.0 * rand() / RAND_MAX - 1);
-    CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, 30 + 270.0 * rand() / RAND_MAX, 6);
-    int layers = table.walls.layer_count > 0 ? table.walls.layer_count : CW_LAYERS_LEAST;
+    int given = table.walls.layer_count, layers = given > 0 ? given : CW_LAYERS_LEAST;
+    double y_plus = 30 + 270.0 * rand() / RAND_MAX;
+    CwFirstHeight first = cw_first_height_choose(&table, &table.walls.blade, &flow, y_plus, given > 0 ? given : 6);
     assert_true(first.height > 0 && first.height <= first.asked * (first.source == CW_FIRST_LAMINAR ? 1e9 : 1));
     assert_true(2 * layers * first.height <= 0.4 * width * (1 + 1e-12));
     assert_int_equal(isnan(first.y_plus), first.reynolds < CW_LAMINAR_REYNOLDS);
