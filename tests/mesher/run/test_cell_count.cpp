@@ -5,6 +5,7 @@
 
 extern "C" {
 #include "mesher/run/cell_count.h"
+#include "pipeline/case_schema.h"
 }
 
 #include "planned_solid.h"
@@ -33,7 +34,52 @@ static void tetrahedra_make_up_for_walls(void **) {
   }
 }
 
+// With 2.4 prisms a layer for each unit of a million on the walls, and hardly a tetrahedron, 480,000 cells have the
+// square of the scale at five times the number of layers. Triangles on narrow faces are 12 degrees flat at the scale of
+// 11.76, with 27 layers; 240,000 cells have room for 13. Not more than 6 go, and none that the case does not give.
+static void given_layers_go_where_walls_would_be_flat(void **) {
+  PlannedSolid solid(filleted_step(false));
+  struct {
+    int given, made;
+    int64_t cells;
+  } const rows[] = {{40, 27, 480000}, {27, 27, 480000}, {40, 13, 240000}, {13, 13, 240000},
+                    {40, 6, 50000},   {7, 6, 50000},    {5, 5, 50000},    {6, 6, 50000}};
+  for (const auto &row : rows) {
+    CwMeshRun run = {};
+    CwCase table;
+    CwPatchTarget target[CW_PATCHES_MOST] = {};
+    CwLayerTarget layers[CW_PATCHES_MOST] = {};
+    cw_case_defaults(&table);
+    table.mesh.cells = row.cells;
+    table.walls.layer_count = row.given;
+    table.walls.blade.y_plus = 30;
+    run.table = &table;
+    run.tets.factor = 1e-9;
+    run.prisms.factor = 2.4;
+    run.model.domain_count = 1;
+    CwDomain &domain = run.domain[0];
+    domain.cad = solid.cad;
+    domain.size = solid.size;
+    domain.volume_integral = 1;
+    domain.prism_integral = 1e6;
+    domain.patch_target = target;
+    domain.patch_layers = layers;
+    target[0].walls = table.walls.blade;
+    target[0].flow = {1, 0.1, 0.1, 0.02, 0};
+    cw_mesh_solve_layers(&run);
+    assert_int_equal(domain.layer_count, row.made);
+    assert_near(run.scale, std::sqrt(2.4e6 * row.made / (double)row.cells), 1e-6);
+    double cells = cw_cells_crowded(&run);
+    if (run.scale <= 5)
+      assert_near(cells, 0, 0);
+    else
+      assert_near(cells, 2.4e6 * row.given / 25, 1);
+    assert_int_equal(domain.layer_count, row.made);
+  }
+}
+
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(tetrahedra_make_up_for_walls)};
+  const CMUnitTest tests[] = {cmocka_unit_test(tetrahedra_make_up_for_walls),
+                              cmocka_unit_test(given_layers_go_where_walls_would_be_flat)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
