@@ -273,8 +273,8 @@ static CwStatus pump_of_nearest_wrap(const CwCase *table, CwDesign *design) {
 }
 
 // A wrap that follows from the blade angles, with which a passage would wind round the axis by more than a solid can
-// have, becomes the greatest with which none does, whatever the priority; the blade angles follow it. Where no pump of
-// that wrap meets the head the first one stays, for the geometry to refuse.
+// have, becomes the greatest with which none does, where the head has priority; the blade angles follow it. Where no
+// pump of that wrap meets the head the first one stays, for the geometry to refuse.
 static CwStatus pump_within_a_revolution(const CwCase *table, CwDesign *design) {
   enum { STEPS = 8 };
   const double closeness = 0.99;

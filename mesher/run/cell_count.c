@@ -110,10 +110,10 @@ static void set_layers(CwMeshRun *run, const int *count, double y_plus_auto) {
     cw_domain_set_layers(&run->domain[d], run->table, count[d], y_plus_auto);
 }
 
-static void set_same_layers(CwMeshRun *run, int layers) {
+static void set_same_layers(CwMeshRun *run, int layers, double y_plus_auto) {
   int count[CW_DOMAINS_MOST];
-  for (int d = 0; d < CW_DOMAINS_MOST; d++) count[d] = layers;
-  set_layers(run, count, run->y_plus_auto);
+  for (int d = 0; d < run->model.domain_count; d++) count[d] = layers;
+  set_layers(run, count, y_plus_auto);
 }
 
 // The least y+ of those that the case gives; INFINITY where it gives none, and for walls in laminar flow.
@@ -133,11 +133,10 @@ static double least_given(const CwMeshRun *run) {
 }
 
 void cw_start_layers(CwMeshRun *run) {
-  int count[CW_DOMAINS_MOST], given = run->table->walls.layer_count;
-  for (int d = 0; d < run->model.domain_count; d++) count[d] = given > 0 ? given : CW_LAYERS_LEAST;
-  set_layers(run, count, CW_LOG_LAYER_Y_PLUS);
+  int given = run->table->walls.layer_count, layers = given > 0 ? given : CW_LAYERS_LEAST;
+  set_same_layers(run, layers, CW_LOG_LAYER_Y_PLUS);
   double least = least_given(run);
-  if (!isinf(least)) set_layers(run, count, least);
+  if (!isinf(least)) set_same_layers(run, layers, least);
 }
 
 // The number of layers that each domain needs at the present scale.
@@ -160,7 +159,7 @@ void cw_mesh_solve_layers(CwMeshRun *run) {
   int in_log_layer = cw_walls_auto(walls) && isinf(least_given(run));
   cw_mesh_solve_scale(run);
   for (int made = walls->layer_count; made > CW_LAYER_COUNT_USUAL && run->scale > cw_size_scale_flat();) {
-    set_same_layers(run, --made);
+    set_same_layers(run, --made, run->y_plus_auto);
     cw_mesh_solve_scale(run);
   }
   for (int more = walls->layer_count == 0; more;) {
@@ -212,9 +211,9 @@ double cw_cells_crowded(CwMeshRun *run) {
   int given = run->table->walls.layer_count, made = run->domain[0].layer_count;
   if (scale <= fine) return 0;
   cw_mesh_set_scale(run, fine);
-  if (given > made) set_same_layers(run, given);
+  if (given > made) set_same_layers(run, given, run->y_plus_auto);
   double cells = all_cells_at(run, fine);
-  if (given > made) set_same_layers(run, made);
+  if (given > made) set_same_layers(run, made, run->y_plus_auto);
   cw_mesh_set_scale(run, scale);
   return cells;
 }

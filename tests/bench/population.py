@@ -8,15 +8,14 @@ first is the duty alone (flow, head, speed, fluid); with --options most other ke
 A pump is good when every stage ends with status 0 and
 - its cells are within 2 % of those asked;
 - no tetrahedron of a region has a dihedral angle under 12 degrees, or under what the region's boundary allows, but
-  where the mesher has said before that mesh.cells is too few for the walls' shape, with the layers that the case may
-  give;
+  where the mesher has said before that walls.layer_count is too great for mesh.cells;
 - the first height is met on 99 % of the faces of the walls, but where the mesher has said before that it does not fit
-  the passage (first_height_from "fitted") or that mesh.cells is too few for walls.layer_count, and beside edges of the
-  wall of which it has said that they are too sharp;
+  the passage (first_height_from "fitted") or that walls.layer_count is too great, and beside edges of the wall of which
+  it has said that they are too sharp;
 - cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check
   but those of prisms that the exporter has warned of: prisms of a small determinant or a high aspect ratio, and faces
   of prisms with a high skewness, a small interpolation weight or a small volume ratio, or twisted; and those of
-  tetrahedra too where the mesher has said before that mesh.cells is too few.
+  tetrahedra too where the mesher has said before that walls.layer_count is too great for mesh.cells.
 
 Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
 command that repeats one; then quantiles of the quality of all pumps that were meshed; then how many of them keep the
@@ -46,7 +45,6 @@ LEAST_DIHEDRAL = 12.0  # degrees
 FIRST_HEIGHT_MET = 0.99
 RATIO_FAIR, RATIO_MOST, RATIO_SHARE = 4, 10, 0.95  # of the volumes across the layer top
 GOOD_SHARE = 0.98  # least, of pumps with options
-EDGES_LONG = r"^mesh\.cells \d+.* leaves edges"
 LAYERS_CROWD = r"^mesh\.cells \d+ for walls\.layer_count \d+.* leaves edges"
 LAYERS_LACK = r"^\w+: \d+ of the \d+ layers that lead "
 REFUSALS = (3, 6, 7)  # statuses of pipeline/status.h: wrong input, no design, no geometry
@@ -147,25 +145,23 @@ def judge_mesh(run, figures):
     met = sum(wall["first_height_met_faces"] + (wall["first_height_missed_by_sharpness_faces"] if told_sharp else 0)
               for wall, told_sharp in fit)
     fit_met = met / fit_faces if fit else 1
-    few, crowded, lack = (any(re.search(pattern, text) for text in results["headlines"])
-                          for pattern in (EDGES_LONG, LAYERS_CROWD, LAYERS_LACK))
-    bad, excused = [], []
+    crowded = any(re.search(LAYERS_CROWD, text) for text in results["headlines"])
+    bad = []
     if abs(figures["count"] - 1) > COUNT_OFF:
         bad.append(f"count {100 * (figures['count'] - 1):+.1f} % off")
-    figures["few_cells"] = few
-    figures["layers_told"] = few or lack
-    if margin < 0:
-        (excused if few else bad).append(f"least dihedral {worst['least_dihedral_deg']:.2f} degrees "
-                                         f"(the boundary allows {worst['least_dihedral_allowed_deg']:.1f})")
-    if fit_met < FIRST_HEIGHT_MET:
-        (excused if crowded else bad).append(f"first height met on {100 * fit_met:.1f} %")
-    figures["excused"] = excused
+    figures["crowded"] = crowded
+    figures["layers_told"] = crowded or any(re.search(LAYERS_LACK, text) for text in results["headlines"])
+    if margin < 0 and not crowded:
+        bad.append(f"least dihedral {worst['least_dihedral_deg']:.2f} degrees "
+                   f"(the boundary allows {worst['least_dihedral_allowed_deg']:.1f})")
+    if fit_met < FIRST_HEIGHT_MET and not crowded:
+        bad.append(f"first height met on {100 * fit_met:.1f} %")
     return bad
 
 
-def prisms_explain(line, zones, few_cells):
+def prisms_explain(line, zones, crowded):
     """Whether a failed check is of prisms and their faces alone, all of which the exporter has told of; or of flat
-    tetrahedra besides, where the mesher has told that mesh.cells is too few."""
+    tetrahedra besides, where the mesher has told that layers crowd them."""
     for pattern, key in ((r"(\d+) highly skew faces", "skew_faces_of_prisms"),
                          (r"small interpolation weight .*number of faces: (\d+)", "small_weight_faces_of_prisms"),
                          (r"small volume ratio .*number of faces: (\d+)", "small_volume_ratio_faces_of_prisms"),
@@ -175,7 +171,7 @@ def prisms_explain(line, zones, few_cells):
         counted = re.search(pattern, line)
         if counted:
             prisms = sum(zone[key] for zone in zones)
-            return int(counted[1]) == prisms or (few_cells and int(counted[1]) > prisms)
+            return int(counted[1]) == prisms or (crowded and int(counted[1]) > prisms)
     return False
 
 
@@ -199,7 +195,7 @@ def judge_files(run, validators, figures):
         failed = failed_checks(run)
         figures["check_mesh"] = failed or ["Mesh OK"]
         bad += [f"checkMesh: {line}" for line in failed
-                if not prisms_explain(line, zones, figures["few_cells"])]
+                if not prisms_explain(line, zones, figures["crowded"])]
     return bad
 
 
@@ -357,11 +353,10 @@ def main():
           f"{options.cells} cells: {verdicts.count('good')} good, {verdicts.count('bad')} judged bad, {by_stage}\n")
     for judge in (name for name in ("cgnscheck", "checkMesh") if not shutil.which(name)):
         print(f"not judged by {judge}, which is not installed (pipeline/packages.sh check)\n")
-    told = [result for result in results if result["figures"].get("few_cells")]
+    told = [result["index"] for result in results if result["figures"].get("crowded")]
     if told:
-        excused = sum(bool(result["figures"]["excused"]) for result in told)
-        print(f"of {len(told)} the mesher has said before that mesh.cells is too few; {excused} miss an angle or first "
-              f"heights:\n{'':17}pumps {' '.join(str(result['index']) for result in told)}\n")
+        print(f"of {len(told)} the mesher has said before that walls.layer_count is too great for mesh.cells:\n"
+              f"{'':17}pumps {' '.join(map(str, told))}\n")
     print_failures(options, results)
     print_quantiles(results)
     print_ratios(results)
