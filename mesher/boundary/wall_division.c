@@ -9,6 +9,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/policy.h"
 
 enum { MOST_FOR_BENDS = 12 };
 // Of the length of an edge, how far its curve may lie beside it: a circle's edges turn by 62 degrees.
@@ -105,6 +106,50 @@ static int cuts_bend(const CwNetwork *network, const CwCurve *curve, int32_t cou
   return 0;
 }
 
+// Whether the curve between two points of its division turns away from the edge by more than columns may lean.
+static int turns_away(const CwCurve *curve, const CwCurvePoint *from, const CwCurvePoint *to) {
+  double along[3], step[3];
+  int32_t i = 0;
+  cw_sub(to->x, from->x, along);
+  cw_unit(along);
+  while (i < curve->fine_count && curve->fine_length[i] < from->place) i++;
+  for (; i + 1 < curve->fine_count && curve->fine_length[i + 1] <= to->place; i++) {
+    cw_sub(curve->fine_x[i + 1], curve->fine_x[i], step);
+    if (cw_unit(step) > 0 && cw_dot(step, along) < cw_policy.upright_cosine) return 1;
+  }
+  return 0;
+}
+
+// Halves edges from which the curve turns away, as at the tip of a nose: where two of them meet no column would stand
+// upright on both. Ends beside left-out faces are no tips, nor is what is smaller than a feature.
+static CwStatus halve_at_tips(const CwBoundaryInput *in, const CwCurve *curve, int32_t *count, CwCurvePoint **point) {
+  CwStatus status = CW_OK;
+  CwCurvePoint *made = NULL;
+  for (int32_t before = 0; *count > before && *count <= MOST_FOR_BENDS;) {
+    int32_t last = *count - 1;
+    before = *count;
+    *count = 0;
+    CW_NEW(made, 2 * before);
+    for (int32_t k = 0; k < last; k++) {
+      const CwCurvePoint *from = *point + k, *to = from + 1;
+      int at_gap = (k == 0 && cw_curve_end_gap(in->network, curve, 0) > 0) ||
+                   (k + 1 == last && cw_curve_end_gap(in->network, curve, 1) > 0);
+      made[(*count)++] = *from;
+      if (at_gap || !turns_away(curve, from, to)) continue;
+      CwCurvePoint middle = {.place = 0.5 * (from->place + to->place)};
+      cw_curve_point(in->network, curve, middle.place, middle.x, middle.parameter);
+      if (middle.place - from->place >= cw_policy.size_least_share * in->size_at(in->size, middle.x))
+        made[(*count)++] = middle;
+    }
+    made[(*count)++] = (*point)[last];
+    free(*point);
+    *point = made;
+    made = NULL;
+  }
+done:
+  return status;
+}
+
 // Divides one curve: a task, whose result are its points. Where the wanted edges are wider than the nose of a blade, it
 // gets more of them: points inside the blade's face would else stand out beyond the edges along it.
 static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *size) {
@@ -131,6 +176,7 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
     place = NULL;
     point = NULL;
   }
+  if (!given) CW_TRY(halve_at_tips(in, curve, &count, &point));
   *bytes = point;
   *size = count * (int64_t)sizeof *point;
 done:

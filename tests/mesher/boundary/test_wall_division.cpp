@@ -113,6 +113,48 @@ static void edges_follow_the_sharpest_bend(void **) {
   }
 }
 
+// Halves the arc of an ellipse between two angles, by length, until its tangent lies within 60 degrees of the edge or
+// halves are shorter than `least`.
+static int edges_at_tip(double a, double b, double from, double to, double least) {
+  enum { STEPS = 20000 };
+  const double step = (to - from) / STEPS;
+  const double along[2] = {a * (std::cos(to) - std::cos(from)), b * (std::sin(to) - std::sin(from))};
+  double length = 0, half = 0, middle = from;
+  bool turns = false;
+  for (int i = 0; i < STEPS; i++) {
+    const double s = from + (i + 0.5) * step, t[2] = {-a * std::sin(s), b * std::cos(s)};
+    const double size = std::hypot(t[0], t[1]);
+    length += size * step;
+    turns |= t[0] * along[0] + t[1] * along[1] < 0.5 * size * std::hypot(along[0], along[1]);
+  }
+  if (!turns || length / 2 < least) return 1;
+  for (; half < length / 2; middle += step) half += step * std::hypot(a * std::sin(middle), b * std::cos(middle));
+  return edges_at_tip(a, b, from, middle, least) + edges_at_tip(a, b, middle, to, least);
+}
+
+// Long ellipses lie near one edge, but turn away from it at their tip: there the edges become shorter, down to 0.15 of
+// those wanted.
+static void edges_turn_with_a_tip(void **) {
+  int most = 0;
+  for (double wanted : {11, 15, 25, 60}) {
+    for (double b : {0.5, 1.0}) {
+      wanted_size = 1e-3 * wanted;
+      Walls walls(quarter_prism(10, b, 0, 20));
+      int arcs = 0, edges = edges_at_tip(10, b, 0, M_PI / 2, 0.15 * wanted);
+      walls.make();
+      assert_true(most_beside(10, b, 1) < 0.13);
+      for (int i = 0; i < walls.curves.curve_count; i++) {
+        if (!walls.is_arc(i)) continue;
+        assert_int_equal(walls.curves.curve[i].count, 1 + edges);
+        arcs++;
+      }
+      assert_int_equal(arcs, 2);
+      most = std::max(most, edges);
+    }
+  }
+  assert_int_equal(most, 3);
+}
+
 // Edges of the wanted length, as nearly as whole numbers allow, and evenly: 10, 15 and 20 mm by 2.4 mm.
 static void edges_have_the_wanted_length(void **) {
   wanted_size = 2.4e-3;
@@ -343,6 +385,7 @@ int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(arcs_get_edges_for_their_bend),
       cmocka_unit_test(edges_follow_the_sharpest_bend),
+      cmocka_unit_test(edges_turn_with_a_tip),
       cmocka_unit_test(edges_have_the_wanted_length),
       cmocka_unit_test(a_closed_curve_gets_three_edges),
       cmocka_unit_test(given_points_are_taken),
