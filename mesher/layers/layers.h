@@ -9,6 +9,7 @@
 //   smoothing  beside concave edges and columns tilted by a constraint the columns lean away, at the same thickness
 //   thickness  least of target, 0.6 of where the columns of a concave place meet, 0.35 gap to a wall, less where
 //              that leaves no room for a tetrahedron, 0.6 gap to an open patch, 0.3 x distance more than any neighbour
+//   layer top  where two parts of it face each other too near for a tetrahedron, that gap limits the thickness too
 //   repair     poor prisms and those with a poor layer top are turned, then those columns thinned by 0.8 of which less
 //              makes them better, until nothing is inverted, nothing crosses, and no triangle of the layer top is a
 //              needle or turned away that was none on the wall

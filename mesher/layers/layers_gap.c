@@ -14,6 +14,7 @@
 #include "mesher/policy.h"
 
 enum { BISECTIONS = 20 };
+static const double SAME = 1e-3;  // of a thickness: what is no thinner
 static const double START = 1e-3; // of the shortest edge of the wall: what a ray meets nearer is its own wall
 
 // Corner coordinates of triangle f of walls and obstacles together.
@@ -63,10 +64,8 @@ done:
 
 // Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the normal that
 // points out of the domain.
-static double hit(const CwLayerInput *in, int32_t f, const double x[3], const double g[3], double *facing) {
-  const double *corner[3];
+static double hit(const double *const corner[3], const double x[3], const double g[3], double *facing) {
   double e1[3], e2[3], p[3], q[3], s[3], normal[3];
-  corners(in, f, corner);
   cw_sub(corner[1], corner[0], e1);
   cw_sub(corner[2], corner[0], e2);
   cw_cross(e1, e2, normal);
@@ -145,7 +144,9 @@ double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double cor
 static int meet(void *context, int32_t f) {
   Ray *ray = context;
   const CwLayerInput *in = ray->work->in;
-  double facing = 0, way = hit(in, f, ray->x, ray->g, &facing);
+  const double *corner[3];
+  corners(in, f, corner);
+  double facing = 0, way = hit(corner, ray->x, ray->g, &facing);
   if (way <= ray->offset || way > ray->far || facing < ray->facing) return 0;
   if (f < in->triangle_count) {
     if (belongs_to_crease(ray->work, ray->v, f)) return 0;
@@ -223,6 +224,90 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
 done:
   cw_box_tree_free(&normals);
   free(gaps.vertex);
+  free(most);
+  return status;
+}
+
+// The layer top, in which the ends of columns look for another part of it.
+typedef struct {
+  const CwLayerWork *work;
+  const CwBoxTree *tree;
+  const double (*top)[3];
+} Tops;
+
+// The part of the layer top that the end of a column comes too near to, none: -1; and the way to it, m.
+typedef struct {
+  double way;
+  int64_t triangle;
+} Near;
+
+typedef struct {
+  const Tops *tops;
+  int32_t v;
+  double x[3], g[3], offset, core, far;
+  Near near;
+} TopRay;
+
+static int meet_top(void *context, int32_t f) {
+  TopRay *ray = context;
+  const CwLayerWork *work = ray->tops->work;
+  if (f >= work->in->triangle_count || belongs_to_crease(work, ray->v, f)) return 0;
+  const int32_t *p = work->in->triangle[f];
+  const double *const corner[3] = {ray->tops->top[p[0]], ray->tops->top[p[1]], ray->tops->top[p[2]]};
+  double facing = 0, way = hit(corner, ray->x, ray->g, &facing);
+  if (way <= ray->offset || way > fmin(ray->far, ray->core * (2 * facing - 1))) return 0;
+  ray->far = way;
+  ray->near = (Near){way, f};
+  return 0;
+}
+
+static CwStatus find_near(void *context, int32_t v, void *out) {
+  const Tops *tops = context;
+  const CwLayerWork *work = tops->work;
+  TopRay ray = {.tops = tops, .v = v, .near.triangle = -1};
+  memcpy(ray.x, tops->top[v], sizeof ray.x);
+  memcpy(ray.g, work->column[v], sizeof ray.g);
+  cw_unit(ray.g);
+  ray.offset = START * cw_layers_shortest_edge(work, v);
+  ray.core = ray.far = cw_policy.least_distance * mean_edge(work, v);
+  cw_box_tree_ray(tops->tree, NULL, ray.x, ray.g, &ray.far, meet_top, &ray);
+  *(Near *)out = ray.near;
+  return CW_OK;
+}
+
+CwStatus cw_layers_limit_by_top(CwLayerWork *work, const CwBoxTree *tree, const double (*top)[3], uint8_t *lowered,
+                                int *any) {
+  CwStatus status = CW_OK;
+  const Tops tops = {work, tree, top};
+  Near *near = NULL;
+  double *most = NULL;
+  *any = 0;
+  CW_NEW_UNSET(near, work->n);
+  CW_NEW_UNSET(most, work->n);
+  CW_TRY(
+      cw_parallel_for(work->in->context, "layers: near tops", work->n, sizeof *near, find_near, (void *)&tops, near));
+  for (int32_t v = 0; v < work->n; v++) most[v] = INFINITY;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (near[v].triangle < 0) continue;
+    const int32_t *p = work->in->triangle[near[v].triangle], column[4] = {v, p[0], p[1], p[2]};
+    double opposite = fmax(work->t[p[0]], fmax(work->t[p[1]], work->t[p[2]]));
+    double way = work->t[v] * cw_norm(work->column[v]) + near[v].way + opposite;
+    double core = cw_policy.least_distance * mean_edge(work, v);
+    for (int i = 0; i < 4; i++) {
+      double stretch = cw_norm(work->column[column[i]]);
+      double room = cw_layers_room(work, column[i], way / stretch, core / stretch);
+      most[column[i]] = fmin(most[column[i]], room);
+    }
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    lowered[v] = work->t[v] > (1 + SAME) * most[v];
+    if (!lowered[v]) continue;
+    work->t[v] = most[v];
+    work->reason[v] = CW_LAYER_GAP;
+    *any = 1;
+  }
+done:
+  free(near);
   free(most);
   return status;
 }

@@ -15,6 +15,12 @@ double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double cor
 // t = min(most, room before walls, 0.6 of the gap to obstacles) for the columns as they stand, with its reason; keeps
 // the gaps for the next call. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
+// The same limits where the end of a column, or what stands around it, comes nearer to another part of the layer top
+// than a tetrahedron between them is high: past an edge of the wall no ray along a column sees what its neighbours
+// stand before. tree: of the triangles of the layer top, the walls' first; lowered: gets 1 for the columns made
+// thinner, else 0; *any: whether there are some. Collective.
+CwStatus cw_layers_limit_by_top(CwLayerWork *work, const CwBoxTree *tree, const double (*top)[3], uint8_t *lowered,
+                                int *any);
 // Sets `most`: the target, but in a concave place, where columns side by side lean to one another, 0.6 of the thickness
 // at which they would meet. Beside a concave crease the smoothing keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_concavity(CwLayerWork *work);

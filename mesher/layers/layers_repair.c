@@ -156,6 +156,18 @@ done:
   return status;
 }
 
+// Thins the columns whose ends come too near to others. Collective.
+static CwStatus part_tops(Repair *repair, int *any) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  CW_TRY(cw_layers_limit_by_top(work, &repair->crossing.top, (const double(*)[3])repair->top, repair->mark, any));
+  if (!*any) goto done;
+  CW_TRY(cw_layers_grade(work, repair->mark));
+  place_changed(repair);
+done:
+  return status;
+}
+
 // Marked columns by groups: neighbours, of which each sees what the last one did, are in one. Groups do not see one
 // another.
 typedef struct {
@@ -431,6 +443,9 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*top)[3], 
     } else {
       CW_TRY(find_crossings(&repair));
       if (repair.crossing.pair_count == 0) {
+        int any = 0;
+        if (*rounds < ROUNDS / 2) CW_TRY(part_tops(&repair, &any));
+        if (any) continue;
         CW_TRY(turn_kept(&repair));
         goto done;
       }

@@ -4,6 +4,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers.h"
 #include "mesher/layers/layers_gap.h"
+#include "mesher/layers/layers_topology.h"
 
 // Two plates 1 mm apart: 0.35 of the gap, where edges are so short that tetrahedra fit what is left.
 static void thin_gap(void **state) {
@@ -49,6 +50,57 @@ static void room_by_hand(void **state) {
   least = 0;
   in.division.count = 100; // thin ones: nothing is enough
   assert_near(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
+}
+
+typedef struct {
+  const CwLayerInput *in;
+  double (*top)[3];
+} Top;
+
+static CwBox box_of_top(const void *context, int32_t f) {
+  const Top *of = context;
+  const int32_t *p = of->in->triangle[f];
+  return cw_box_of_triangle(of->top[p[0]], of->top[p[1]], of->top[p[2]]);
+}
+
+// Plates 1 mm apart with columns that no ray from the walls has limited, five even layers. Where the tops come nearer
+// to one another than the 0.65 edges of a tetrahedron all get what a gap of 1 mm leaves.
+static void tops_that_come_near(void **state) {
+  for (double t = 0.1 * MM; t < 0.48 * MM; t += 0.05 * MM) {
+    Case c = {.target = 0.5 * MM};
+    surface_plate(&c.wall, 0.006, 0, 1 * MM, 1);
+    surface_plate(&c.wall, 0.006, 1 * MM, 1 * MM, 0);
+    assert_int_equal(case_make(&c), CW_OK);
+    CwLayerWork work = {0};
+    CwBoxTree tree = {0};
+    int32_t n = c.wall.point_count;
+    c.in.division.count = 5;
+    double(*top)[3] = malloc((size_t)n * sizeof *top);
+    uint8_t *lowered = malloc((size_t)n);
+    assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
+    for (int32_t v = 0; v < n; v++) {
+      work.column[v][0] = work.column[v][1] = 0;
+      work.column[v][2] = c.wall.x[v][2] < 0.5 * MM ? 1 : -1;
+      work.t[v] = t;
+      for (int k = 0; k < 3; k++) top[v][k] = c.wall.x[v][k] + t * work.column[v][k];
+    }
+    const Top context = {&c.in, top};
+    const CwBox within = cw_box_of_points(n, (const double(*)[3])top);
+    assert_int_equal(cw_box_tree_make(NULL, c.in.triangle_count, &within, box_of_top, &context, &tree), CW_OK);
+    int any, thick = t > 1 * MM / 4.4; // so thick ones leave 0.55 mm
+    assert_int_equal(cw_layers_limit_by_top(&work, &tree, (const double(*)[3])top, lowered, &any), CW_OK);
+    assert_int_equal(any, thick);
+    for (int32_t v = 0; v < n; v++) {
+      assert_int_equal(lowered[v], thick);
+      assert_near(work.t[v], thick ? 1 * MM / 4.4 : t, 1e-5 * MM);
+      if (thick) assert_int_equal(work.reason[v], CW_LAYER_GAP);
+    }
+    cw_box_tree_free(&tree);
+    cw_layers_work_free(&work);
+    free(top);
+    free(lowered);
+    case_free(&c);
+  }
 }
 
 // Four columns in a row, each limited by that before it: the slope begins at the first, or at the last of those that
@@ -202,6 +254,7 @@ int main(void) {
       cmocka_unit_test(thin_gap),
       cmocka_unit_test(coarse_gap),
       cmocka_unit_test(room_by_hand),
+      cmocka_unit_test(tops_that_come_near),
       cmocka_unit_test(the_foot_of_a_slope),
       cmocka_unit_test(gap_to_open_patch),
       cmocka_unit_test(gradation),
