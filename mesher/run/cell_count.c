@@ -5,6 +5,7 @@
 
 #include "mesher/policy.h"
 #include "mesher/run/domain_size.h"
+#include "mesher/run/layer_record.h"
 #include "mesher/thickness/layer_count.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/log.h"
@@ -148,20 +149,38 @@ static void find_needed(const CwMeshRun *run, int *needed) {
   }
 }
 
-// More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. Given ones beyond
-// the usual number go where they would leave flat triangles on narrow faces: from there on walls fold. From below the
-// rounds therefore end at the least numbers that are enough, or, beyond the usual number, where edges have become too
-// long for narrow faces: the shape of the pump comes first.
+// What walls of flat triangles bound no filling cures, and from some scale on walls fold: the shape of the pump comes
+// first.
+void cw_mesh_leave_room(CwMeshRun *run, const int32_t *most) {
+  int32_t count[CW_DOMAINS_MOST];
+  int fewer = 0;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    count[d] = run->domain[d].layer_count;
+    if (most && most[d] > 0 && most[d] < count[d]) count[d] = most[d], fewer = 1;
+  }
+  while (fewer || run->scale > cw_size_scale_flat()) {
+    if (!fewer) {
+      for (int d = 0; d < run->model.domain_count; d++) {
+        fewer |= count[d] > CW_LAYERS_LEAST;
+        count[d] -= count[d] > CW_LAYERS_LEAST;
+      }
+    }
+    if (!fewer) break;
+    set_layers(run, count, run->y_plus_auto);
+    cw_mesh_solve_scale(run);
+    fewer = 0;
+  }
+}
+
+// More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers: from below the
+// rounds end at the least numbers that are enough, or, beyond the usual number, where edges have become too long for
+// narrow faces.
 void cw_mesh_solve_layers(CwMeshRun *run) {
   const CwWalls *walls = &run->table->walls;
   double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : 1 + cw_policy.slope;
   cw_start_layers(run);
   int in_log_layer = cw_walls_auto(walls) && isinf(least_given(run));
   cw_mesh_solve_scale(run);
-  for (int made = walls->layer_count; made > CW_LAYER_COUNT_USUAL && run->scale > cw_size_scale_flat();) {
-    set_same_layers(run, --made, run->y_plus_auto);
-    cw_mesh_solve_scale(run);
-  }
   for (int more = walls->layer_count == 0; more;) {
     double y_plus = run->y_plus_auto;
     int count[CW_DOMAINS_MOST], needed[CW_DOMAINS_MOST], before[CW_DOMAINS_MOST], most = 0;
@@ -183,6 +202,7 @@ void cw_mesh_solve_layers(CwMeshRun *run) {
     set_layers(run, count, y_plus);
     cw_mesh_solve_scale(run);
   }
+  cw_mesh_leave_room(run, NULL);
 }
 
 double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]) {
@@ -209,13 +229,47 @@ double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]) {
 double cw_cells_crowded(CwMeshRun *run) {
   double scale = run->scale, fine = cw_size_scale_fine();
   int given = run->table->walls.layer_count, made = run->domain[0].layer_count;
-  if (scale <= fine) return 0;
+  if (scale <= fine && made >= given) return 0;
   cw_mesh_set_scale(run, fine);
   if (given > made) set_same_layers(run, given, run->y_plus_auto);
   double cells = all_cells_at(run, fine);
   if (given > made) set_same_layers(run, made, run->y_plus_auto);
   cw_mesh_set_scale(run, scale);
   return cells;
+}
+
+void cw_tell_layers(CwMeshRun *run) {
+  char y_plus[64] = "";
+  int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count, changed = 0;
+  for (int d = 0; d < run->model.domain_count; d++) {
+    changed |= run->layers_told[d] != run->domain[d].layer_count;
+    run->layers_told[d] = run->domain[d].layer_count;
+  }
+  if (!changed) return;
+  while (json_array_size(run->headlines) > run->headlines_before)
+    json_array_remove(run->headlines, run->headlines_before);
+  double cells = cw_cells_crowded(run);
+  if (cells > 0)
+    cw_warn_of_long_edges(run->context.log, run->table, run->domain[0].layer_count, run->scale, cells, run->headlines);
+  cells = cw_layers_short(run, needed);
+  if (cw_walls_auto(&run->table->walls))
+    snprintf(y_plus, sizeof y_plus, "; y+ %.3g where it is open", run->y_plus_auto);
+  for (int d = 0; given == 0 && d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    if (cells > 0 && needed[d] > domain->layer_count)
+      cw_warn_of_few_layers(run->context.log, domain, needed[d], cells, run->headlines);
+    else
+      cw_log(run->context.log, "%s: %d layers lead from the first height to the size of the tetrahedra%s", domain->name,
+             domain->layer_count, y_plus);
+  }
+}
+
+void cw_mesh_take_laws(CwMeshRun *run, const CwPassStart *start) {
+  run->prisms = start->prisms;
+  run->tets = start->tets;
+  cw_mesh_solve_scale(run);
+  cw_mesh_leave_room(run, start->layers);
+  cw_tell_layers(run);
 }
 
 void cw_learn_prisms(CwMeshRun *run) {

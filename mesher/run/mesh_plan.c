@@ -224,26 +224,6 @@ done:
   return status;
 }
 
-static void tell_layers(CwMeshRun *run) {
-  char y_plus[64] = "";
-  int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count;
-  double cells = cw_cells_crowded(run);
-  run->crowded = given > 0 && cells > 0;
-  if (cells > 0)
-    cw_warn_of_long_edges(run->context.log, run->table, run->domain[0].layer_count, run->scale, cells, run->headlines);
-  cells = cw_layers_short(run, needed);
-  if (cw_walls_auto(&run->table->walls))
-    snprintf(y_plus, sizeof y_plus, "; y+ %.3g where it is open", run->y_plus_auto);
-  for (int d = 0; given == 0 && d < run->model.domain_count; d++) {
-    const CwDomain *domain = &run->domain[d];
-    if (cells > 0 && needed[d] > domain->layer_count)
-      cw_warn_of_few_layers(run->context.log, domain, needed[d], cells, run->headlines);
-    else
-      cw_log(run->context.log, "%s: %d layers lead from the first height to the size of the tetrahedra%s", domain->name,
-             domain->layer_count, y_plus);
-  }
-}
-
 static CwStatus leave_bare(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwBareFaces bare;
@@ -294,7 +274,8 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
   CW_TRY(leave_out_narrow(run));
-  tell_layers(run);
+  run->headlines_before = json_array_size(run->headlines);
+  cw_tell_layers(run);
 done:
   return status;
 }
@@ -327,20 +308,23 @@ done:
   return status;
 }
 
-// Plans a domain without symmetry anew, at the scale and factors of the first plan: a run that goes on from a later
-// pass plans alike.
+// Plans a domain without symmetry anew, with the scale, factors and layers of the first plan: a run that goes on from a
+// later pass plans alike.
 static CwStatus plan_anew(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
   CwOutcome outcome = {0}; // done: there is no symmetry to miss
   CwCellLaw prisms = run->prisms, tets = run->tets;
   double scale = run->scale;
+  int layers = run->domain[d].layer_count;
   cw_domain_clear(&run->domain[d]);
+  run->domain[d].layer_count = run->planned_layers[d];
   run->prisms = run->planned_prisms;
   run->tets = run->planned_tets;
   cw_mesh_set_scale(run, run->planned_scale);
   CW_TRY(plan_domain(run, &run->context, d, &outcome));
   run->prisms = prisms;
   run->tets = tets;
+  run->domain[d].layer_count = layers;
   cw_mesh_set_scale(run, scale);
 done:
   return status;
@@ -463,6 +447,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   run->planned_prisms = run->prisms;
   run->planned_tets = run->tets;
   run->planned_scale = run->scale;
+  for (int d = 0; d < run->model.domain_count; d++) run->planned_layers[d] = run->domain[d].layer_count;
   for (int d = 0; d < run->model.domain_count; d++) cost[d] = run->domain[d].symmetry ? PERIODIC_PLAN : 1;
   CwGroupWork work = {.step = "decomposition",
                       .count = run->model.domain_count,

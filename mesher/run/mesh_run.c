@@ -100,14 +100,9 @@ static CwPassStart start_of(const CwMeshRun *run) {
   for (int d = 0; d < run->model.domain_count; d++) {
     start.whole[d] = run->domain[d].whole;
     start.more_regions[d] = run->domain[d].more_regions;
+    start.layers[d] = run->domain[d].layer_count;
   }
   return start;
-}
-
-static void take_laws(CwMeshRun *run, const CwPassStart *start) {
-  run->prisms = start->prisms;
-  run->tets = start->tets;
-  cw_mesh_solve_scale(run);
 }
 
 // From the size fields to the plan, then the factors and the scale of the state. `again`: the fields are not those that
@@ -122,7 +117,7 @@ static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   CW_TRY(cw_mesh_plan(run));
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
   if (run->stopped) goto done;
-  if (state->start.prisms.factor > 0) take_laws(run, &state->start);
+  if (state->start.prisms.factor > 0) cw_mesh_take_laws(run, &state->start);
   CW_TRY(cw_mesh_plan_whole(run, state->start.whole, state->plane_rounds > 0 ? "they fall short" : "as before"));
 done:
   return status;
@@ -148,14 +143,12 @@ done:
 
 // What the next round begins with where shorter edges do not help: the best mesh, in which the domains that fall short
 // get other planes, of more regions each time, and the last time of no symmetry, since fewer planes leave layers more
-// room. 0 where there are no such rounds left, or where more layers are asked than edges have room for, which no planes
-// cure: then the best mesh as it was.
+// room. 0 where there are no such rounds left: then the best mesh as it was.
 static int take_other_planes(CwMeshRun *run, CwPassState *state) {
   int other = 0;
   state->start = state->best;
   run->finer.count = state->best.places;
   state->plane_rounds++;
-  if (run->crowded) return 0;
   for (int d = 0; d < CW_DOMAINS_MOST && state->plane_rounds <= PLANES_MOST; d++) {
     if (!state->best_lacks[d] || state->best.more_regions[d] == CW_UNDIVIDED) continue;
     state->start.more_regions[d] += state->plane_rounds;
@@ -253,7 +246,7 @@ static CwStatus run_passes(CwMeshRun *run, const char *fingerprint, CwPassState 
     state->start = start_of(run);
     CW_TRY(keep_state(run, fingerprint, state));
     for (int d = 0; d < run->model.domain_count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
-    take_laws(run, &state->start);
+    cw_mesh_take_laws(run, &state->start);
   }
 done:
   return status;

@@ -119,13 +119,14 @@ static CwPassStart start_in(const json_t *file) {
                        .places = int_in(file, "places")};
   by_domain_in(json_object_get(file, "whole"), start.whole);
   by_domain_in(json_object_get(file, "more_regions"), start.more_regions);
+  by_domain_in(json_object_get(file, "layers"), start.layers);
   return start;
 }
 
 static json_t *start_packed(const CwPassStart *start) {
-  return json_pack("{s:o, s:o, s:i, s:o, s:o}", "prisms", law_packed(&start->prisms), "tetrahedra",
+  return json_pack("{s:o, s:o, s:i, s:o, s:o, s:o}", "prisms", law_packed(&start->prisms), "tetrahedra",
                    law_packed(&start->tets), "places", start->places, "whole", by_domain_packed(start->whole),
-                   "more_regions", by_domain_packed(start->more_regions));
+                   "more_regions", by_domain_packed(start->more_regions), "layers", by_domain_packed(start->layers));
 }
 
 CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *fingerprint, CwPassState *state) {

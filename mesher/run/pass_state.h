@@ -16,6 +16,7 @@ typedef struct {
   int32_t places;                        // of `finer` that its size fields have
   int32_t whole[CW_DOMAINS_MOST];        // 1: of each domain, the symmetry is given up
   int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
+  int32_t layers[CW_DOMAINS_MOST];       // of each domain, at most; 0: as many as sizes and case ask for
 } CwPassStart;
 
 typedef struct {

@@ -77,7 +77,9 @@ typedef struct {
   // With which the domains were planned.
   CwCellLaw planned_prisms, planned_tets;
   double planned_scale;
-  int crowded;         // 1: the case gives more layers than edges have room for, as a headline tells
+  int planned_layers[CW_DOMAINS_MOST];
+  int layers_told[CW_DOMAINS_MOST]; // of each domain, as the headlines behind the first `headlines_before` tell
+  size_t headlines_before;
   int copies_told;     // 1: a warning says that each rank holds copies of what a host may share
   int passes, retries; // retries: of all passes
   int64_t cells;       // made

@@ -310,7 +310,7 @@ double cw_size_scale_fine(void) {
 }
 
 double cw_size_scale_flat(void) {
-  return 1 / (tan(cw_policy.flat_angle * CW_DEGREE) * cw_policy.size_least);
+  return 1 / (tan(cw_policy.wanted_angle * CW_DEGREE) * cw_policy.size_least);
 }
 
 void cw_size_set_scale(CwSize *size, double scale) {

@@ -65,7 +65,7 @@ void cw_size_free(CwSize **size);
 
 // The greatest scale at which narrow faces still have edges no longer than twice their width.
 double cw_size_scale_fine(void);
-// The greatest scale at which triangles over narrow faces are not flatter than flat_angle.
+// The greatest scale at which triangles over narrow faces have angles of wanted_angle at least.
 double cw_size_scale_flat(void);
 
 // The factor in front of the whole field; 1 at first.

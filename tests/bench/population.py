@@ -7,15 +7,12 @@ first is the duty alone (flow, head, speed, fluid); with --options most other ke
 
 A pump is good when every stage ends with status 0 and
 - its cells are within 2 % of those asked;
-- no tetrahedron of a region has a dihedral angle under 12 degrees, or under what the region's boundary allows, but
-  where the mesher has said before that walls.layer_count is too great for mesh.cells;
+- no tetrahedron of a region has a dihedral angle under 12 degrees, or under what the region's boundary allows;
 - the first height is met on 99 % of the faces of the walls, but where the mesher has said before that it does not fit
-  the passage (first_height_from "fitted") or that walls.layer_count is too great, and beside edges of the wall of which
-  it has said that they are too sharp;
+  the passage (first_height_from "fitted"), and beside edges of the wall of which it has said that they are too sharp;
 - cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check
   but those of prisms that the exporter has warned of: prisms of a small determinant or a high aspect ratio, and faces
-  of prisms with a high skewness, a small interpolation weight or a small volume ratio, or twisted; and those of
-  tetrahedra too where the mesher has said before that walls.layer_count is too great for mesh.cells.
+  of prisms with a high skewness, a small interpolation weight or a small volume ratio, or twisted.
 
 Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
 command that repeats one; then quantiles of the quality of all pumps that were meshed; then how many of them keep the
@@ -145,23 +142,20 @@ def judge_mesh(run, figures):
     met = sum(wall["first_height_met_faces"] + (wall["first_height_missed_by_sharpness_faces"] if told_sharp else 0)
               for wall, told_sharp in fit)
     fit_met = met / fit_faces if fit else 1
-    crowded = any(re.search(LAYERS_CROWD, text) for text in results["headlines"])
     bad = []
     if abs(figures["count"] - 1) > COUNT_OFF:
         bad.append(f"count {100 * (figures['count'] - 1):+.1f} % off")
-    figures["crowded"] = crowded
-    figures["layers_told"] = crowded or any(re.search(LAYERS_LACK, text) for text in results["headlines"])
-    if margin < 0 and not crowded:
+    figures["layers_told"] = any(re.search(f"{LAYERS_CROWD}|{LAYERS_LACK}", text) for text in results["headlines"])
+    if margin < 0:
         bad.append(f"least dihedral {worst['least_dihedral_deg']:.2f} degrees "
                    f"(the boundary allows {worst['least_dihedral_allowed_deg']:.1f})")
-    if fit_met < FIRST_HEIGHT_MET and not crowded:
+    if fit_met < FIRST_HEIGHT_MET:
         bad.append(f"first height met on {100 * fit_met:.1f} %")
     return bad
 
 
-def prisms_explain(line, zones, crowded):
-    """Whether a failed check is of prisms and their faces alone, all of which the exporter has told of; or of flat
-    tetrahedra besides, where the mesher has told that layers crowd them."""
+def prisms_explain(line, zones):
+    """Whether a failed check is of prisms and their faces alone, all of which the exporter has told of."""
     for pattern, key in ((r"(\d+) highly skew faces", "skew_faces_of_prisms"),
                          (r"small interpolation weight .*number of faces: (\d+)", "small_weight_faces_of_prisms"),
                          (r"small volume ratio .*number of faces: (\d+)", "small_volume_ratio_faces_of_prisms"),
@@ -170,8 +164,7 @@ def prisms_explain(line, zones, crowded):
                          (r"High aspect ratio cells .*number of cells (\d+)", "high_aspect_ratio_prisms")):
         counted = re.search(pattern, line)
         if counted:
-            prisms = sum(zone[key] for zone in zones)
-            return int(counted[1]) == prisms or (crowded and int(counted[1]) > prisms)
+            return int(counted[1]) == sum(zone[key] for zone in zones)
     return False
 
 
@@ -195,7 +188,7 @@ def judge_files(run, validators, figures):
         failed = failed_checks(run)
         figures["check_mesh"] = failed or ["Mesh OK"]
         bad += [f"checkMesh: {line}" for line in failed
-                if not prisms_explain(line, zones, figures["crowded"])]
+                if not prisms_explain(line, zones)]
     return bad
 
 
@@ -353,10 +346,6 @@ def main():
           f"{options.cells} cells: {verdicts.count('good')} good, {verdicts.count('bad')} judged bad, {by_stage}\n")
     for judge in (name for name in ("cgnscheck", "checkMesh") if not shutil.which(name)):
         print(f"not judged by {judge}, which is not installed (pipeline/packages.sh check)\n")
-    told = [result["index"] for result in results if result["figures"].get("crowded")]
-    if told:
-        print(f"of {len(told)} the mesher has said before that walls.layer_count is too great for mesh.cells:\n"
-              f"{'':17}pumps {' '.join(map(str, told))}\n")
     print_failures(options, results)
     print_quantiles(results)
     print_ratios(results)

@@ -100,11 +100,10 @@ class Rules(unittest.TestCase):
                  ("High aspect ratio cells found, Max aspect ratio: 6050.8319, number of cells {}", 9),
                  ("Cells with small determinant (< 0.001) found, number of cells: {}", 24))
         for line, count in lines:
-            self.assertTrue(population.prisms_explain(line.format(count), zones, False), line)
-            self.assertFalse(population.prisms_explain(line.format(count + 1), zones, False), line)
-            self.assertTrue(population.prisms_explain(line.format(count + 1), zones, True), line)
-            self.assertFalse(population.prisms_explain(line.format(count - 1), zones, True), line)
-        self.assertFalse(population.prisms_explain("Concave cells found, number of cells: 7", zones, True))
+            self.assertTrue(population.prisms_explain(line.format(count), zones), line)
+            self.assertFalse(population.prisms_explain(line.format(count + 1), zones), line)
+            self.assertFalse(population.prisms_explain(line.format(count - 1), zones), line)
+        self.assertFalse(population.prisms_explain("Concave cells found, number of cells: 7", zones))
 
 
 if __name__ == "__main__":

@@ -46,7 +46,6 @@ static const Attempt *script; // the last attempt goes on for ever
 static int script_count, at;
 static char trace[1000];
 static int other_plans; // that each domain still has
-static int crowded;     // more layers are asked than edges have room for
 static int64_t asked = 100000;
 static double factor_at_scale;
 
@@ -77,7 +76,6 @@ static CwStatus stage(char letter, CwThinPlaces *places, CwOutcome *outcome) {
 CwStatus cw_mesh_open(CwMeshRun *of) {
   add("o");
   of->model.domain_count = 2;
-  of->crowded = crowded;
   strcpy(of->model.domain[0].name, "rotor");
   strcpy(of->model.domain[1].name, "stator");
   of->domain[0].name = "rotor";
@@ -170,7 +168,9 @@ void cw_learn_tets(CwMeshRun *of) {
   of->tets = (CwCellLaw){.factor = 1. / 3, .scale = 1};
 }
 
-void cw_mesh_solve_scale(CwMeshRun *of) {
+void cw_mesh_take_laws(CwMeshRun *of, const CwPassStart *start) {
+  of->prisms = start->prisms;
+  of->tets = start->tets;
   add("S");
   factor_at_scale = of->tets.factor;
 }

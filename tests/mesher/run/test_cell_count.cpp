@@ -35,15 +35,15 @@ static void tetrahedra_make_up_for_walls(void **) {
 }
 
 // With 2.4 prisms a layer for each unit of a million on the walls, and hardly a tetrahedron, 480,000 cells have the
-// square of the scale at five times the number of layers. Triangles on narrow faces are 12 degrees flat at the scale of
-// 11.76, with 27 layers; 240,000 cells have room for 13. Not more than 6 go, and none that the case does not give.
-static void given_layers_go_where_walls_would_be_flat(void **) {
+// square of the scale at five times the number of layers. Triangles over narrow faces have 20 degrees at the scale of
+// 6.87, with 9 layers; 240,000 cells have room for 4. Not more than 3 are kept, and none that the case does not give.
+static void layers_go_where_walls_would_be_flat(void **) {
   PlannedSolid solid(filleted_step(false));
   struct {
     int given, made;
     int64_t cells;
-  } const rows[] = {{40, 27, 480000}, {27, 27, 480000}, {40, 13, 240000}, {13, 13, 240000},
-                    {40, 6, 50000},   {7, 6, 50000},    {5, 5, 50000},    {6, 6, 50000}};
+  } const rows[] = {{40, 9, 480000}, {9, 9, 480000}, {40, 4, 240000}, {4, 4, 240000}, {15, 4, 240000},
+                    {40, 3, 50000},  {7, 3, 50000},  {3, 3, 50000},   {2, 2, 50000},  {5, 5, 960000}};
   for (const auto &row : rows) {
     CwMeshRun run = {};
     CwCase table;
@@ -70,16 +70,21 @@ static void given_layers_go_where_walls_would_be_flat(void **) {
     assert_int_equal(domain.layer_count, row.made);
     assert_near(run.scale, std::sqrt(2.4e6 * row.made / (double)row.cells), 1e-6);
     double cells = cw_cells_crowded(&run);
-    if (run.scale <= 5)
+    if (run.scale <= 5 && row.made == row.given)
       assert_near(cells, 0, 0);
     else
       assert_near(cells, 2.4e6 * row.given / 25, 1);
     assert_int_equal(domain.layer_count, row.made);
+    const int32_t most[CW_DOMAINS_MOST] = {row.made - 1};
+    cw_mesh_leave_room(&run, most);
+    const int left = row.made - 1 > 0 ? row.made - 1 : row.made;
+    assert_int_equal(domain.layer_count, left);
+    assert_near(run.scale, std::sqrt(2.4e6 * left / (double)row.cells), 1e-6);
   }
 }
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(tetrahedra_make_up_for_walls),
-                              cmocka_unit_test(given_layers_go_where_walls_would_be_flat)};
+                              cmocka_unit_test(layers_go_where_walls_would_be_flat)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

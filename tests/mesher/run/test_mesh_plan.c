@@ -22,6 +22,8 @@ static void plans_that_do_not_fit_give_way(void **state) {
                    .planned_tets.factor = TET_FACTOR,
                    .planned_scale = 2};
   memcpy(run.domain, domain, sizeof domain);
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) run.planned_layers[d] = domain[d].layer_count;
+  run.domain[1].layer_count = 1; // since then
   cw_mesh_set_scale(&run, 2);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
   cw_mesh_set_scale(&run, 1.7);
@@ -30,6 +32,7 @@ static void plans_that_do_not_fit_give_way(void **state) {
   check(cw_mesh_plan_again(&run, &why));
   CwPlane first = run.domain[1].plan.node[0].plane;
   assert_int_equal(run.domain[1].plan.region_count, 7);
+  assert_int_equal(run.domain[1].layer_count, 1);
   check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 8);
   assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
@@ -64,6 +67,7 @@ static void each_symmetry_is_given_up_alone(void **state) {
                    .planned_tets.factor = TET_FACTOR,
                    .planned_scale = 2};
   memcpy(run.domain, domain, sizeof domain);
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) run.planned_layers[d] = domain[d].layer_count;
   check(cw_symmetry_find(domain[0].cad, &domain[0].background, &run.domain[0].symmetry));
   assert_non_null(run.domain[0].symmetry);
   cw_mesh_set_scale(&run, 2);
@@ -108,13 +112,17 @@ static void layers_grow_in_number_before_y_plus(void **state) {
     assert_int_equal(run.y_plus_auto > CW_LOG_LAYER_Y_PLUS, i % 2 && most > CW_LAYER_COUNT_USUAL);
     assert_true(fabs(cw_predicted_off(&run)) < 1e-9);
     if (i % 2 == 0) most = 0;
-    int needed[CW_DOMAINS_MOST], few = run.scale >= cw_size_scale_fine() && i % 2 == 0;
+    int needed[CW_DOMAINS_MOST], few = run.scale >= cw_size_scale_fine();
     double room = cw_layers_short(&run, needed);
     assert_true(room == 0 || (few && room > cells[i / 2]));
     for (int d = 0; d < model.domain_count; d++) {
       int count = run.domain[d].layer_count, need = layers_needed(&run, d);
       if (room > 0) assert_int_equal(needed[d], need);
-      if (few && need > count) assert_true(count >= CW_LAYER_COUNT_USUAL && room > 0);
+      assert_true(run.scale <= cw_size_scale_flat() || count == CW_LAYERS_LEAST);
+      // One layer more takes that share of the cells at most.
+      double with_more = run.scale * sqrt((count + 1.0) / count);
+      if (few && need > count)
+        assert_true(room > 0 && (count >= CW_LAYER_COUNT_USUAL || with_more > cw_size_scale_flat()));
       if (!few) assert_in_range(need, i % 2 ? 1 : count, count);
       if (i % 2) assert_true(count <= CW_LAYER_COUNT_USUAL);
       if (i % 2 == 0 && need > most) most = need;

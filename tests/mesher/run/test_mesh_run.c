@@ -206,19 +206,6 @@ static void what_helps_is_kept(void **state) {
   end();
 }
 
-// What is poor for want of room gets no other planes.
-static void crowded_layers_end_with_shorter_edges(void **state) {
-  crowded = 1;
-  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN zf p00 h00 WLIUGeN m", POOR(5), POOR(6), POOR(7),
-       POOR(5));
-  assert_int_equal(run.finer.count, 0);
-  end();
-  unlink(in_test_folder("mesh/pass.json"));
-  MAKE(BEFORE "Q zf p00 S h00 WLIUGeN Q zf p00 S h00 WLIUGeN m", POOR(5), POOR(4), {.cells = 1});
-  end();
-  crowded = 0;
-}
-
 // A round for quality has the planes that were found before it, and is as whole.
 static void planes_are_kept_with_shorter_edges(void **state) {
   MAKE("of p00 h00w W eA1 W eA0 WLIUGeN Q zf p01 S h10 WLIUGeN m",
@@ -311,7 +298,6 @@ int main(void) {
       TEST(shorter_edges_make_room_for_layers),
       TEST(shorter_edges_come_before_other_planes),
       TEST(what_helps_is_kept),
-      TEST(crowded_layers_end_with_shorter_edges),
       TEST(planes_are_kept_with_shorter_edges),
       TEST(a_good_mesh_is_the_last),
       TEST(rounds_for_quality_may_fail),

@@ -67,6 +67,7 @@ static void check_start(const CwPassStart *read, const CwPassStart *written) {
   assert_int_equal(read->places, written->places);
   assert_memory_equal(read->whole, written->whole, sizeof read->whole);
   assert_memory_equal(read->more_regions, written->more_regions, sizeof read->more_regions);
+  assert_memory_equal(read->layers, written->layers, sizeof read->layers);
 }
 
 static void state_comes_back_as_written(void **unused) {
@@ -75,17 +76,18 @@ static void state_comes_back_as_written(void **unused) {
   char fingerprint[33];
   assert_int_equal(cw_pass_fingerprint(&table, test_folder, &domains, fingerprint), CW_OK);
   CwFinerPlace place[2] = {{0, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, {{1, 2, 3}, 0.1 / 3}}};
-  const CwPassState written = {.pass = 3,
-                               .first_pass = 2,
-                               .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 2, {0, 1}, {0, 2}},
-                               .finer_rounds = 1,
-                               .poor_rounds = 4,
-                               .best = {{11.5, 1.1, 0}, {10.25, 1.1, 0}, 1, {1}, {3, -1}},
-                               .least_deficit = 2. / 3,
-                               .best_round = 3,
-                               .best_lacks = {0, 1},
-                               .plane_rounds = 2,
-                               .finer = {.count = 2, .place = place}};
+  const CwPassState written = {
+      .pass = 3,
+      .first_pass = 2,
+      .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 2, {0, 1}, {0, 2}, {6, 4}},
+      .finer_rounds = 1,
+      .poor_rounds = 4,
+      .best = {{11.5, 1.1, 0}, {10.25, 1.1, 0}, 1, {1}, {3, -1}},
+      .least_deficit = 2. / 3,
+      .best_round = 3,
+      .best_lacks = {0, 1},
+      .plane_rounds = 2,
+      .finer = {.count = 2, .place = place}};
   assert_int_equal(cw_pass_state_write(test_folder, fingerprint, &written), CW_OK);
   CwPassState read = {0};
   assert_int_equal(cw_pass_state_read(NULL, test_folder, fingerprint, &read), CW_OK);
