@@ -121,25 +121,25 @@ static int turns_away(const CwCurve *curve, const CwCurvePoint *from, const CwCu
 }
 
 // Halves edges from which the curve turns away, as at the tip of a nose: where two of them meet no column would stand
-// upright on both. Ends beside left-out faces are no tips, nor is what is smaller than a feature.
-static CwStatus halve_at_tips(const CwBoundaryInput *in, const CwCurve *curve, int32_t *count, CwCurvePoint **point) {
+// upright on both. None becomes shorter than the most even ones for bends would be; a curve that ends beside a left-out
+// face turns there for that alone.
+static CwStatus halve_at_tips(const CwNetwork *network, const CwCurve *curve, int32_t *count, CwCurvePoint **point) {
   CwStatus status = CW_OK;
   CwCurvePoint *made = NULL;
-  for (int32_t before = 0; *count > before && *count <= MOST_FOR_BENDS;) {
+  double least = curve->fine_length[curve->fine_count - 1] / MOST_FOR_BENDS;
+  int at_gap = cw_curve_end_gap(network, curve, 0) > 0 || cw_curve_end_gap(network, curve, 1) > 0;
+  for (int32_t before = 0; !at_gap && *count > before;) {
     int32_t last = *count - 1;
     before = *count;
     *count = 0;
     CW_NEW(made, 2 * before);
     for (int32_t k = 0; k < last; k++) {
       const CwCurvePoint *from = *point + k, *to = from + 1;
-      int at_gap = (k == 0 && cw_curve_end_gap(in->network, curve, 0) > 0) ||
-                   (k + 1 == last && cw_curve_end_gap(in->network, curve, 1) > 0);
       made[(*count)++] = *from;
-      if (at_gap || !turns_away(curve, from, to)) continue;
-      CwCurvePoint middle = {.place = 0.5 * (from->place + to->place)};
-      cw_curve_point(in->network, curve, middle.place, middle.x, middle.parameter);
-      if (middle.place - from->place >= cw_policy.size_least_share * in->size_at(in->size, middle.x))
-        made[(*count)++] = middle;
+      if (to->place - from->place < 2 * least || !turns_away(curve, from, to)) continue;
+      CwCurvePoint *middle = &made[(*count)++];
+      middle->place = 0.5 * (from->place + to->place);
+      cw_curve_point(network, curve, middle->place, middle->x, middle->parameter);
     }
     made[(*count)++] = (*point)[last];
     free(*point);
@@ -176,7 +176,7 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
     place = NULL;
     point = NULL;
   }
-  if (!given) CW_TRY(halve_at_tips(in, curve, &count, &point));
+  if (!given) CW_TRY(halve_at_tips(in->network, curve, &count, &point));
   *bytes = point;
   *size = count * (int64_t)sizeof *point;
 done:

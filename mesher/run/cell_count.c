@@ -149,26 +149,29 @@ static void find_needed(const CwMeshRun *run, int *needed) {
   }
 }
 
+// Sets `count` layers of each domain and solves the scale, where a domain has more. Returns whether one has.
+static int set_fewer(CwMeshRun *run, const int32_t *count) {
+  int fewer = 0;
+  for (int d = 0; d < run->model.domain_count; d++) fewer |= count[d] < run->domain[d].layer_count;
+  if (fewer) {
+    set_layers(run, count, run->y_plus_auto);
+    cw_mesh_solve_scale(run);
+  }
+  return fewer;
+}
+
 // What walls of flat triangles bound no filling cures, and from some scale on walls fold: the shape of the pump comes
 // first.
 void cw_mesh_leave_room(CwMeshRun *run, const int32_t *most) {
   int32_t count[CW_DOMAINS_MOST];
-  int fewer = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
-    count[d] = run->domain[d].layer_count;
-    if (most && most[d] > 0 && most[d] < count[d]) count[d] = most[d], fewer = 1;
+    int32_t made = run->domain[d].layer_count;
+    count[d] = most && most[d] > 0 && most[d] < made ? most[d] : made;
   }
-  while (fewer || run->scale > cw_size_scale_flat()) {
-    if (!fewer) {
-      for (int d = 0; d < run->model.domain_count; d++) {
-        fewer |= count[d] > CW_LAYERS_LEAST;
-        count[d] -= count[d] > CW_LAYERS_LEAST;
-      }
-    }
-    if (!fewer) break;
-    set_layers(run, count, run->y_plus_auto);
-    cw_mesh_solve_scale(run);
-    fewer = 0;
+  set_fewer(run, count);
+  while (run->scale > cw_size_scale_flat()) {
+    for (int d = 0; d < run->model.domain_count; d++) count[d] -= count[d] > CW_LAYERS_LEAST;
+    if (!set_fewer(run, count)) break;
   }
 }
 

@@ -132,27 +132,24 @@ static int edges_at_tip(double a, double b, double from, double to, double least
   return edges_at_tip(a, b, from, middle, least) + edges_at_tip(a, b, middle, to, least);
 }
 
-// Long ellipses lie near one edge, but turn away from it at their tip: there the edges become shorter, down to 0.15 of
-// those wanted.
+// Long ellipses lie near one edge, but turn away from it at their tip: there the edges become shorter, down to those of
+// twelve even ones.
 static void edges_turn_with_a_tip(void **) {
-  int most = 0;
-  for (double wanted : {11, 15, 25, 60}) {
-    for (double b : {0.5, 1.0}) {
-      wanted_size = 1e-3 * wanted;
-      Walls walls(quarter_prism(10, b, 0, 20));
-      int arcs = 0, edges = edges_at_tip(10, b, 0, M_PI / 2, 0.15 * wanted);
-      walls.make();
-      assert_true(most_beside(10, b, 1) < 0.13);
-      for (int i = 0; i < walls.curves.curve_count; i++) {
-        if (!walls.is_arc(i)) continue;
-        assert_int_equal(walls.curves.curve[i].count, 1 + edges);
-        arcs++;
-      }
-      assert_int_equal(arcs, 2);
-      most = std::max(most, edges);
+  wanted_size = 1;
+  for (double b : {0.5, 1.0}) {
+    Walls walls(quarter_prism(10, b, 0, 20));
+    walls.make();
+    assert_true(most_beside(10, b, 1) < 0.13);
+    int arcs = 0;
+    for (int i = 0; i < walls.curves.curve_count; i++) {
+      if (!walls.is_arc(i)) continue;
+      const int edges = edges_at_tip(10, b, 0, M_PI / 2, 1e3 * walls.length(i) / 12);
+      assert_true(edges > 3);
+      assert_int_equal(walls.curves.curve[i].count, 1 + edges);
+      arcs++;
     }
+    assert_int_equal(arcs, 2);
   }
-  assert_int_equal(most, 3);
 }
 
 // Edges of the wanted length, as nearly as whole numbers allow, and evenly: 10, 15 and 20 mm by 2.4 mm.
