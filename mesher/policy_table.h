@@ -17,8 +17,8 @@ NUMBER(double, flat_angle, 12, 0, "degrees",
        "counts as good; 13 for the search: no better")
 NUMBER(double, wanted_angle, 20, 0, "degrees",
        "of tetrahedra: below, new points are tried round about, and a search counts what is less; narrower concave "
-       "edges are opened, wall triangles with greater angles are fair, and planes that cross CAD edges at less run "
-       "along them")
+       "edges are opened, wall triangles with greater angles are fair, planes that cross CAD edges at less run along "
+       "them, and layers go where edges would be so long that triangles over narrow faces have less")
 NUMBER(double, improve_below, 0.4226, 0, "quality",
        "sine of 25 degrees: what is less is improved, and concave edges are opened up to it; more costs time and "
        "aspect and gives no better worst ones")
@@ -41,7 +41,7 @@ NUMBER(double, crease_cosine, 0.94, 1, "cosine",
 NUMBER(double, upright_cosine, 0.5, 0, "cosine",
        "60 degrees: columns of lines of planes that lean more to a wall's normal are lower, and their planes are "
        "moved: cells had small determinants (the paper's pump of 100 million cells); triangles that lean more to "
-       "their surface at a corner are divided")
+       "their surface at a corner are divided, and edges that lean more to their curve")
 NUMBER(double, column_least_cosine, 0.3, 0, "cosine",
        "of a column to the normals of its wall, that a search may choose: vertices of the wall that allow no more are "
        "flipped open, and lines of partition planes that lean more will not do")

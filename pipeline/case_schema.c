@@ -216,8 +216,8 @@ const CwCaseKey cw_case_keys[] = {
     WALL_GROUP("pipe", pipe, "in the suction and discharge pipes and in the diffuser"),
     {"walls", "layer_count", CW_KEY_INT, CW_KEY_AUTO, "", 1, CW_LAYERS_MOST, 0, NULL, AT(walls.layer_count),
      "number of prism layers, on all walls; auto: as many as lead from the first height to the size of the "
-     "tetrahedra, as far as mesh.cells has room for them; of a given number more than six go, and a headline tells of "
-     "it, where they would leave edges so long that triangles on narrow faces are flat"},
+     "tetrahedra, as far as mesh.cells has room for them; given or not, more than three go, and a headline tells of "
+     "it, where they would leave edges so long that triangles on narrow faces have less than 20 degrees"},
     REAL_AUTO("walls", "growth_ratio", "", 1, 2, walls.growth_ratio,
               "largest ratio of the heights of neighbouring layers; auto: 1.3, columns take what they need of it"),
     REAL_COMPUTED("walls", "total_thickness_mm", "mm", 0.001, 200, walls.total_thickness,
