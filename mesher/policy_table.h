@@ -41,7 +41,7 @@ NUMBER(double, crease_cosine, 0.94, 1, "cosine",
 NUMBER(double, upright_cosine, 0.5, 0, "cosine",
        "60 degrees: columns of lines of planes that lean more to a wall's normal are lower, and their planes are "
        "moved: cells had small determinants (the paper's pump of 100 million cells); triangles that lean more to "
-       "their surface at a corner are divided, and edges that lean more to their curve")
+       "their surface at a corner are divided")
 NUMBER(double, column_least_cosine, 0.3, 0, "cosine",
        "of a column to the normals of its wall, that a search may choose: vertices of the wall that allow no more are "
        "flipped open, and lines of partition planes that lean more will not do")

@@ -9,7 +9,6 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
-#include "mesher/policy.h"
 
 enum { MOST_FOR_BENDS = 12 };
 // Of the length of an edge, how far its curve may lie beside it: a circle's edges turn by 62 degrees.
@@ -27,28 +26,16 @@ static CwConstraint curve_constraint(const CwBoundaryInput *in, const CwCurve *c
 
 // What holds the column at a wall corner: the free curve that starts there; else the one open patch or plane of its
 // curves.
-static CwStatus corner_constraint(const CwBoundaryInput *in, int32_t corner, CwConstraint *constraint) {
-  CwStatus status = CW_OK;
-  *constraint = (CwConstraint){CW_CONSTRAINT_NONE, -1};
-  int free_curves = 0;
-  const double *x = in->network->corner[corner].x;
+static CwConstraint corner_constraint(const CwBoundaryInput *in, int32_t corner) {
+  CwConstraint constraint = {CW_CONSTRAINT_NONE, -1};
   for (int32_t i = 0; i < in->network->curve_count; i++) {
     const CwCurve *curve = &in->network->curve[i];
     if (curve->corner[0] != corner && curve->corner[1] != corner) continue;
-    if (!curve->wall) {
-      *constraint = (CwConstraint){CW_CONSTRAINT_CURVE, i};
-      free_curves++;
-    } else if (!free_curves) {
-      CwConstraint along = curve_constraint(in, curve);
-      if (along.kind != CW_CONSTRAINT_NONE) *constraint = along;
-    }
+    if (!curve->wall) return (CwConstraint){CW_CONSTRAINT_CURVE, i};
+    CwConstraint along = curve_constraint(in, curve);
+    if (along.kind != CW_CONSTRAINT_NONE) constraint = along;
   }
-  CW_REQUIRE(
-      free_curves <= 1, CW_ERR_MESH,
-      "%d partition planes or open patches meet in one point of the wall at (%.3f, %.3f, %.3f) mm; at most two can",
-      free_curves + 1, CW_MM(x));
-done:
-  return status;
+  return constraint;
 }
 
 // The open edge that a curve is a piece of, NULL where it is of none.
@@ -106,50 +93,6 @@ static int cuts_bend(const CwNetwork *network, const CwCurve *curve, int32_t cou
   return 0;
 }
 
-// Whether the curve between two points of its division turns away from the edge by more than columns may lean.
-static int turns_away(const CwCurve *curve, const CwCurvePoint *from, const CwCurvePoint *to) {
-  double along[3], step[3];
-  int32_t i = 0;
-  cw_sub(to->x, from->x, along);
-  cw_unit(along);
-  while (i < curve->fine_count && curve->fine_length[i] < from->place) i++;
-  for (; i + 1 < curve->fine_count && curve->fine_length[i + 1] <= to->place; i++) {
-    cw_sub(curve->fine_x[i + 1], curve->fine_x[i], step);
-    if (cw_unit(step) > 0 && cw_dot(step, along) < cw_policy.upright_cosine) return 1;
-  }
-  return 0;
-}
-
-// Halves edges from which the curve turns away, as at the tip of a nose: where two of them meet no column would stand
-// upright on both. None becomes shorter than the most even ones for bends would be; a curve that ends beside a left-out
-// face turns there for that alone.
-static CwStatus halve_at_tips(const CwNetwork *network, const CwCurve *curve, int32_t *count, CwCurvePoint **point) {
-  CwStatus status = CW_OK;
-  CwCurvePoint *made = NULL;
-  double least = curve->fine_length[curve->fine_count - 1] / MOST_FOR_BENDS;
-  int at_gap = cw_curve_end_gap(network, curve, 0) > 0 || cw_curve_end_gap(network, curve, 1) > 0;
-  for (int32_t before = 0; !at_gap && *count > before;) {
-    int32_t last = *count - 1;
-    before = *count;
-    *count = 0;
-    CW_NEW(made, 2 * before);
-    for (int32_t k = 0; k < last; k++) {
-      const CwCurvePoint *from = *point + k, *to = from + 1;
-      made[(*count)++] = *from;
-      if (to->place - from->place < 2 * least || !turns_away(curve, from, to)) continue;
-      CwCurvePoint *middle = &made[(*count)++];
-      middle->place = 0.5 * (from->place + to->place);
-      cw_curve_point(network, curve, middle->place, middle->x, middle->parameter);
-    }
-    made[(*count)++] = (*point)[last];
-    free(*point);
-    *point = made;
-    made = NULL;
-  }
-done:
-  return status;
-}
-
 // Divides one curve: a task, whose result are its points. Where the wanted edges are wider than the nose of a blade, it
 // gets more of them: points inside the blade's face would else stand out beyond the edges along it.
 static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *size) {
@@ -176,7 +119,6 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
     place = NULL;
     point = NULL;
   }
-  if (!given) CW_TRY(halve_at_tips(in->network, curve, &count, &point));
   *bytes = point;
   *size = count * (int64_t)sizeof *point;
 done:
@@ -252,9 +194,7 @@ CwStatus cw_wall_curves_make(const CwContext *context, const CwBoundaryInput *in
   for (int32_t i = 0; i < network->corner_count; i++) {
     curves->corner_vertex[i] = -1;
     if (!network->corner[i].on_wall) continue;
-    CwConstraint constraint;
-    CW_TRY(corner_constraint(in, i, &constraint));
-    CW_TRY(cw_wall_curves_add(curves, network->corner[i].x, constraint, &curves->corner_vertex[i]));
+    CW_TRY(cw_wall_curves_add(curves, network->corner[i].x, corner_constraint(in, i), &curves->corner_vertex[i]));
   }
   for (int32_t i = 0; images->symmetry && i < network->corner_count; i++) {
     if (!network->corner[i].on_wall) continue;

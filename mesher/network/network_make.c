@@ -138,6 +138,30 @@ done:
   return status;
 }
 
+// Marks the corners on the wall, at which one column stands, and so at most one curve leads away from the wall.
+static CwStatus find_wall_corners(CwNetwork *network, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  int32_t *away = NULL;
+  CW_NEW(away, network->corner_count);
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    const CwCurve *curve = &network->curve[i];
+    for (int end = 0; end < 2; end++) {
+      if (curve->wall)
+        network->corner[curve->corner[end]].on_wall = 1;
+      else
+        away[curve->corner[end]]++;
+    }
+  }
+  for (int32_t i = 0; i < network->corner_count; i++) {
+    const CwCorner *corner = &network->corner[i];
+    CW_END_UNLESS(!corner->on_wall || away[i] <= 1, outcome, CW_OUTCOME_REPLAN, corner->x,
+                  "%d partition planes or open patches, more than two, meet in one point of the wall", away[i] + 1);
+  }
+done:
+  free(away);
+  return status;
+}
+
 CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBackground *background,
                          const CwVerticals *inside, const CwPlan *plan, CwNetwork *network, CwOutcome *outcome) {
   CwStatus status = CW_OK;
@@ -176,10 +200,7 @@ CwStatus cw_network_make(const CwContext *context, const CwCad *cad, const CwBac
       if (cw_plan_is_ancestor(plan, a, b)) CW_TRY(add_line(network, inside, a, b, place));
     }
   }
-  for (int32_t i = 0; i < network->curve_count; i++) {
-    if (!network->curve[i].wall) continue;
-    for (int k = 0; k < 2; k++) network->corner[network->curve[i].corner[k]].on_wall = 1;
-  }
+  CW_TRY(find_wall_corners(network, outcome));
 done:
   free(place);
   free(below);

@@ -108,6 +108,28 @@ static void of_two_edges_the_bent_one_is_halved(void **) {
   assert_int_equal(arcs, 2);
 }
 
+// Curves that lie on one another, as those of a plane along an edge of a face do: no halving parts them, and few are.
+static void curves_that_coincide_come_to_an_end(void **) {
+  Divided of(BRepPrimAPI_MakeBox(40, 30, 20).Shape());
+  CwNetwork &network = of.solid.network;
+  int edges = 0, made = 0;
+  for (int i = 0; i < network.curve_count; i++) of.divide(i, 10), edges += 10;
+  CwCurve copy = network.curve[0], *last = &network.curve[network.curve_count - 1];
+  check(cw_curve_fine_make(network.curve[0].fine_count, &copy));
+  for (int k = 0; k < copy.fine_count; k++) {
+    cw_copy(network.curve[0].fine_x[k], copy.fine_x[k]);
+    memcpy(copy.fine_parameter[k], network.curve[0].fine_parameter[k], sizeof copy.fine_parameter[k]);
+    copy.fine_length[k] = network.curve[0].fine_length[k];
+  }
+  cw_curve_fine_free(last);
+  *last = copy;
+  of.divide(network.curve_count - 1, 7);
+  of.refine();
+  of.check_places();
+  for (int i = 0; i < network.curve_count; i++) made += of.division[i].count - 1;
+  assert_true(made > edges && made < 5 * edges);
+}
+
 // Of two arcs the higher one, whichever comes first.
 static void of_two_arcs_the_more_bent_is_halved(void **) {
   for (int first = 0; first < 2; first++) {
@@ -224,11 +246,9 @@ static void images_are_halved_with_their_first(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(of_two_edges_the_bent_one_is_halved),
-      cmocka_unit_test(of_two_arcs_the_more_bent_is_halved),
-      cmocka_unit_test(given_points_stay),
-      cmocka_unit_test(open_faces_ask_for_nothing),
-      cmocka_unit_test(edges_run_round_what_stands_near),
+      cmocka_unit_test(of_two_edges_the_bent_one_is_halved), cmocka_unit_test(curves_that_coincide_come_to_an_end),
+      cmocka_unit_test(of_two_arcs_the_more_bent_is_halved), cmocka_unit_test(given_points_stay),
+      cmocka_unit_test(open_faces_ask_for_nothing),          cmocka_unit_test(edges_run_round_what_stands_near),
       cmocka_unit_test(images_are_halved_with_their_first),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -2,7 +2,15 @@
 // Planes that touch a face or an edge where they ought to cross it: they are refused, so that others may be tried.
 #include <cstring>
 
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <Bnd_Box.hxx>
+#include <TopoDS.hxx>
 
 extern "C" {
 #include "mesher/cad/background_make.h"
@@ -11,16 +19,18 @@ extern "C" {
 
 #include "solids.h"
 
-// Half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and up to two partition planes.
+// A solid, else half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and up to two partition planes.
 struct Half {
-  CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(20, 30, M_PI).Shape());
+  CwCad *cad;
   CwBackground background;
   CwVerticals *inside = nullptr;
   double none[3] = {};
   CwNetwork network = {};
   CwOutcome outcome;
 
-  Half() {
+  explicit Half(const TopoDS_Shape &shape = BRepPrimAPI_MakeCylinder(20, 30, M_PI).Shape(),
+                const PatchOfFace &patch_of = all_wall)
+      : cad(open_solid(shape, patch_of)) {
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
     assert_int_equal(cw_verticals_make(background.x, background.triangle_count, background.triangle, &inside), CW_OK);
   }
@@ -106,10 +116,47 @@ static void planes_that_meet_on_an_edge_are_refused(void **) {
   assert_int_equal(half.divide(level, &slanted), CW_OUTCOME_DONE);
 }
 
+// A pyramid of 20 mm over a square of as much.
+static TopoDS_Shape pyramid() {
+  const gp_Pnt top(10, 10, 20), base[4] = {{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}};
+  BRepBuilderAPI_Sewing sewing;
+  BRepBuilderAPI_MakePolygon square(base[0], base[1], base[2], base[3], true);
+  sewing.Add(BRepBuilderAPI_MakeFace(square.Wire()).Face());
+  for (int i = 0; i < 4; i++)
+    sewing.Add(
+        BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakePolygon(base[i], base[(i + 1) % 4], top, true).Wire()).Face());
+  sewing.Perform();
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape())).Solid();
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
+}
+
+// At the top of the pyramid, on which a wall ends, edges between three open sides meet: two of them. Of two open sides
+// one edge does.
+static void open_patches_that_meet_on_the_wall_are_refused(void **) {
+  for (int open = 1; open < 4; open++) {
+    int sides = 0;
+    Half half(pyramid(), [&](const TopoDS_Face &face) {
+      Bnd_Box box;
+      BRepBndLib::Add(face, box);
+      const bool is_side = box.CornerMax().Z() > 10;
+      return std::string(is_side && sides++ < open ? "side,inlet" : "wall,wall");
+    });
+    const int refused = open == 3 ? CW_OUTCOME_REPLAN : CW_OUTCOME_DONE;
+    assert_int_equal(half.divide({{0, 0, 1}, 0.007}), refused);
+    if (open < 3) continue;
+    assert_non_null(strstr(half.outcome.reason,
+                           "3 partition planes or open patches, more than two, meet in one point of the wall"));
+    const double top[3] = {0.01, 0.01, 0.02};
+    for (int k = 0; k < 3; k++) assert_near(half.outcome.place[k], top[k], 1e-8);
+  }
+}
+
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(a_plane_through_the_middle_divides),
                               cmocka_unit_test(a_plane_that_grazes_is_refused),
                               cmocka_unit_test(a_plane_may_graze_outside_of_its_cell),
-                              cmocka_unit_test(planes_that_meet_on_an_edge_are_refused)};
+                              cmocka_unit_test(planes_that_meet_on_an_edge_are_refused),
+                              cmocka_unit_test(open_patches_that_meet_on_the_wall_are_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
