@@ -11,8 +11,8 @@
 #include "mesher/surface/chords.h"
 #include "pipeline/log.h"
 
-// Halvings of one edge: then curves touch, and the surface mesh names the place. So it is once as many edges are halved
-// as there were: where curves lie on one another each round halves all of them.
+// Halvings of one edge: then curves touch, and the surface mesh names the place. So it is once more edges are halved
+// than there were points: where curves lie on one another each round halves all of them.
 enum { ROUNDS = 16 };
 
 // An edge of a division.
@@ -181,13 +181,13 @@ CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInp
   CwStatus status = CW_OK;
   Faces faces = {.in = in, .division = division};
   CwTaskResults results = {0};
-  int32_t all = cw_cad_face_count(in->cad), total = 0, edges = 0;
+  int32_t all = cw_cad_face_count(in->cad), total = 0, points = 0;
   CW_NEW(faces.face, all);
-  for (int32_t i = 0; i < in->network->curve_count; i++) edges += division[i].count;
+  for (int32_t i = 0; i < in->network->curve_count; i++) points += division[i].count;
   for (int32_t f = 0; f < all; f++) {
     if (is_meshed(in, f)) faces.face[faces.face_count++] = f;
   }
-  for (int round = 0; round < ROUNDS && faces.face_count && total <= edges; round++) {
+  for (int round = 0; round < ROUNDS && faces.face_count && total <= points; round++) {
     int32_t halved = 0;
     CwSchedule schedule = {
         .step = "curves of the walls", .count = faces.face_count, .run = judge_face, .context = &faces};

@@ -117,6 +117,11 @@ static double mean_edge(const CwLayerWork *work, int32_t v) {
   return sum;
 }
 
+// What is left between two layer tops for a tetrahedron to fit in before v, m.
+static double core_of(const CwLayerWork *work, int32_t v) {
+  return cw_policy.least_distance * mean_edge(work, v);
+}
+
 // By how much a tetrahedron across what columns of the thickness t leave of the way has more volume than it may have on
 // their last prism: a prism of its base and a third of its height is as large.
 static double excess(const CwLayerWork *work, int32_t v, double way, double t) {
@@ -190,7 +195,7 @@ static CwStatus free_thickness(void *context, int32_t i, void *out) {
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = START * cw_layers_shortest_edge(work, v);
-  ray.core = cw_policy.least_distance * mean_edge(work, v);
+  ray.core = core_of(work, v);
   ray.far = in->target[v] * ray.stretch;
   ray.far = fmax(ray.far / cw_policy.gap_share, 2 * ray.far + ray.core);
   cw_box_tree_ray(gaps->tree, gaps->normals, ray.x, ray.g, &ray.far, meet, &ray);
@@ -244,8 +249,8 @@ typedef struct {
 typedef struct {
   const Tops *tops;
   int32_t v;
-  double x[3], g[3], offset, core, far;
-  Near near;
+  double x[3], g[3], offset, core;
+  Near near; // the way: the core before there is one
 } TopRay;
 
 static int meet_top(void *context, int32_t f) {
@@ -255,22 +260,20 @@ static int meet_top(void *context, int32_t f) {
   const int32_t *p = work->in->triangle[f];
   const double *const corner[3] = {ray->tops->top[p[0]], ray->tops->top[p[1]], ray->tops->top[p[2]]};
   double facing = 0, way = hit(corner, ray->x, ray->g, &facing);
-  if (way <= ray->offset || way > fmin(ray->far, ray->core * (2 * facing - 1))) return 0;
-  ray->far = way;
-  ray->near = (Near){way, f};
+  if (way > ray->offset && way <= fmin(ray->near.way, ray->core * (2 * facing - 1))) ray->near = (Near){way, f};
   return 0;
 }
 
 static CwStatus find_near(void *context, int32_t v, void *out) {
   const Tops *tops = context;
   const CwLayerWork *work = tops->work;
-  TopRay ray = {.tops = tops, .v = v, .near.triangle = -1};
+  TopRay ray = {.tops = tops, .v = v, .core = core_of(work, v)};
+  ray.near = (Near){ray.core, -1};
   memcpy(ray.x, tops->top[v], sizeof ray.x);
   memcpy(ray.g, work->column[v], sizeof ray.g);
   cw_unit(ray.g);
   ray.offset = START * cw_layers_shortest_edge(work, v);
-  ray.core = ray.far = cw_policy.least_distance * mean_edge(work, v);
-  cw_box_tree_ray(tops->tree, NULL, ray.x, ray.g, &ray.far, meet_top, &ray);
+  cw_box_tree_ray(tops->tree, NULL, ray.x, ray.g, &ray.near.way, meet_top, &ray);
   *(Near *)out = ray.near;
   return CW_OK;
 }
@@ -292,7 +295,7 @@ CwStatus cw_layers_limit_by_top(CwLayerWork *work, const CwBoxTree *tree, const 
     const int32_t *p = work->in->triangle[near[v].triangle], column[4] = {v, p[0], p[1], p[2]};
     double opposite = fmax(work->t[p[0]], fmax(work->t[p[1]], work->t[p[2]]));
     double way = work->t[v] * cw_norm(work->column[v]) + near[v].way + opposite;
-    double core = cw_policy.least_distance * mean_edge(work, v);
+    double core = core_of(work, v);
     for (int i = 0; i < 4; i++) {
       double stretch = cw_norm(work->column[column[i]]);
       double room = cw_layers_room(work, column[i], way / stretch, core / stretch);
