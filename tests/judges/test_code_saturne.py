@@ -12,7 +12,7 @@ import unittest
 from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, execute, fresh, record, said
 
 ITERATIONS = int(os.environ.get("CUTWATER_ITERATIONS", 6))
-CELLS = int(os.environ.get("CUTWATER_SATURNE_CELLS", 80000))
+CELLS = int(os.environ.get("CUTWATER_SATURNE_CELLS", 60000))
 SETTLED = 300
 
 
