@@ -6,6 +6,7 @@
 
 #include "mesher/boundary/boundary_curves.h"
 #include "mesher/boundary/curve_division.h"
+#include "mesher/boundary/nose_division.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
@@ -119,6 +120,7 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
     place = NULL;
     point = NULL;
   }
+  if (!given) CW_TRY(cw_curve_divide_at_noses(in->network, curve, &count, &point));
   *bytes = point;
   *size = count * (int64_t)sizeof *point;
 done:

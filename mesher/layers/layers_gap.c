@@ -117,27 +117,27 @@ static double mean_edge(const CwLayerWork *work, int32_t v) {
   return sum;
 }
 
-// What is left between two layer tops for a tetrahedron to fit in before v, m.
+// What is left between two layer tops, or one and an open patch, for a tetrahedron to fit in before v, m.
 static double core_of(const CwLayerWork *work, int32_t v) {
   return cw_policy.least_distance * mean_edge(work, v);
 }
 
-// By how much a tetrahedron across what columns of the thickness t leave of the way has more volume than it may have on
-// their last prism: a prism of its base and a third of its height is as large.
-static double excess(const CwLayerWork *work, int32_t v, double way, double t) {
+// By how much a tetrahedron across what columns of the thickness t on so many sides leave of the way has more volume
+// than it may have on their last prism: a prism of its base and a third of its height is as large.
+static double excess(const CwLayerWork *work, int32_t v, int sides, double way, double t) {
   const CwLayerDivision *division = &work->in->division;
   double last = division->last ? division->last(division->context, v, t) : 1.0 / fmax(division->count, 1);
-  return way - 2 * t - 3 * cw_policy.core_ratio * last * t;
+  return way - sides * t - 3 * cw_policy.core_ratio * last * t;
 }
 
-double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core) {
-  double share = cw_policy.gap_share * way, left = (way - core) / 2, high = share;
-  double low = fmin(share, fmax(left, cw_layer_least(work->in, v)));
-  if (left >= share || excess(work, v, way, low) <= 0) return low;
-  if (excess(work, v, way, high) >= 0) return high;
+double cw_layers_room(const CwLayerWork *work, int32_t v, int sides, double way, double core) {
+  double share = (sides > 1 ? cw_policy.gap_share : cw_policy.free_share) * way, left = (way - core) / sides;
+  double low = fmin(share, fmax(left, cw_layer_least(work->in, v))), high = share;
+  if (left >= share || excess(work, v, sides, way, low) <= 0) return low;
+  if (excess(work, v, sides, way, high) >= 0) return high;
   for (int i = 0; i < BISECTIONS; i++) {
     double middle = (low + high) / 2;
-    if (excess(work, v, way, middle) > 0) {
+    if (excess(work, v, sides, way, middle) > 0) {
       low = middle;
     } else {
       high = middle;
@@ -153,13 +153,11 @@ static int meet(void *context, int32_t f) {
   corners(in, f, corner);
   double facing = 0, way = hit(corner, ray->x, ray->g, &facing);
   if (way <= ray->offset || way > ray->far || facing < ray->facing) return 0;
-  if (f < in->triangle_count) {
-    if (belongs_to_crease(ray->work, ray->v, f)) return 0;
-    double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
-    ray->best = fmin(ray->best, cw_layers_room(ray->work, ray->v, way / ray->stretch, core / ray->stretch));
-  } else {
-    ray->best = fmin(ray->best, cw_policy.free_share * way / ray->stretch);
-  }
+  int wall = f < in->triangle_count;
+  if (wall && belongs_to_crease(ray->work, ray->v, f)) return 0;
+  double core = ray->core * fmax(0, 2 * facing - 1); // in a wedge there is room beside the column
+  double room = cw_layers_room(ray->work, ray->v, 1 + wall, way / ray->stretch, core / ray->stretch);
+  ray->best = fmin(ray->best, room);
   return 0;
 }
 
@@ -298,7 +296,7 @@ CwStatus cw_layers_limit_by_top(CwLayerWork *work, const CwBoxTree *tree, const 
     double core = core_of(work, v);
     for (int i = 0; i < 4; i++) {
       double stretch = cw_norm(work->column[column[i]]);
-      double room = cw_layers_room(work, column[i], way / stretch, core / stretch);
+      double room = cw_layers_room(work, column[i], 2, way / stretch, core / stretch);
       most[column[i]] = fmin(most[column[i]], room);
     }
   }

@@ -8,12 +8,13 @@
 
 // A tree of all triangles, those of the walls first, then the obstacles. Sets `curve`. Collective.
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
-// How thick the column of v may be where another wall stands `way` before it, m: gap_share of the way, and no more
-// than leaves `core` (m) to the tetrahedra between both layer tops; but as much as makes its last prism no smaller than
-// 1 / core_ratio of a tetrahedron across what is left, and as much as keeps the first layer.
-double cw_layers_room(const CwLayerWork *work, int32_t v, double way, double core);
-// t = min(most, room before walls, 0.6 of the gap to obstacles) for the columns as they stand, with its reason; keeps
-// the gaps for the next call. Collective.
+// How thick the column of v may be where another wall (`sides` 2: layers on both) or an open patch (1) stands `way`
+// before it, m: gap_share or free_share of the way, and no more than leaves `core` (m) to the tetrahedra between; but
+// as much as makes its last prism no smaller than 1 / core_ratio of a tetrahedron across what is left, and as much as
+// keeps the first layer.
+double cw_layers_room(const CwLayerWork *work, int32_t v, int sides, double way, double core);
+// t = min(most, room before walls and obstacles) for the columns as they stand, with its reason; keeps the gaps for the
+// next call. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // The same limits where the end of a column, or what stands around it, comes nearer to another part of the layer top
 // than a tetrahedron between them is high: past an edge of the wall no ray along a column sees what its neighbours

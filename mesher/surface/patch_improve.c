@@ -362,18 +362,27 @@ static int is_steep(const CwPatchWork *work, int32_t t) {
   return cosine_of(work, c[0], c[1], c[2]) < cw_policy.upright_cosine;
 }
 
-// The shortest free edge of a triangle that leads over a nose; -1: none.
-static int edge_over_nose(const CwPatchWork *work, int32_t t) {
+// The shortest free edge of a triangle that leads over a nose, of those that are not too long or of all; -1: none.
+static int edge_over_nose(const CwPatchWork *work, int32_t t, int all) {
   double shortest = INFINITY;
   int best = -1;
   for (int i = 0; i < 3; i++) {
     int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
     double square = cw_patch_distance2(work->x[a], work->x[b]);
-    if (work->given[t] >> i & 1 || square >= shortest || !cw_patch_over_nose(work, a, b)) continue;
+    if (work->given[t] >> i & 1 || square >= shortest || !cw_patch_leads_over(work, a, b)) continue;
+    if (!all && cw_patch_is_long(work, a, b)) continue;
     shortest = square;
     best = i;
   }
   return best;
+}
+
+// Flips an edge over a nose to one that leads over none, or that is shorter where it is too long.
+static int flip_over_nose(CwPatchWork *work, int32_t t, int i) {
+  Flip flip = flip_of(work, t, i);
+  int over = cw_patch_leads_over(work, flip.a, flip.d);
+  if (over ? !cw_patch_is_long(work, flip.b, flip.c) : cw_patch_is_long(work, flip.a, flip.d)) return 0;
+  return cw_patch_flip(work, t, i);
 }
 
 CwStatus cw_patch_divide_noses(CwPatchWork *work) {
@@ -382,11 +391,10 @@ CwStatus cw_patch_divide_noses(CwPatchWork *work) {
     for (int changes = 1, changed; changes > 0;) {
       changes = 0;
       for (int32_t t = 0; t < work->triangle_count; t++) {
-        int i = work->corner[t][0] < 0 ? -1 : edge_over_nose(work, t);
+        int i = work->corner[t][0] < 0 ? -1 : edge_over_nose(work, t, flips);
         if (i < 0) continue;
-        Flip flip = flip_of(work, t, i);
         if (flips)
-          changed = !cw_patch_over_nose(work, flip.a, flip.d) && cw_patch_flip(work, t, i);
+          changed = flip_over_nose(work, t, i);
         else
           CW_TRY(halve_edge(work, t, i, &changed));
         changes += changed;

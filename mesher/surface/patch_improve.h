@@ -6,7 +6,8 @@
 
 // Of a patch that has its given points alone: on noses narrower than the wanted edges, where rows of new points find no
 // room, triangles from side to side get points between, beside those of the sides. Else the normals of the surface at
-// their corners stand square to them and tell no flip which way is up.
+// their corners stand square to them and tell no flip which way is up. Where there is no room for that either, edges
+// from side to side become as short as flips make them.
 CwStatus cw_patch_divide_noses(CwPatchWork *work);
 
 // Of a patch whose points are in place: sweeps of flips, splits, removals and smoothing with lengths and angles in

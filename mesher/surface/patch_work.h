@@ -60,12 +60,13 @@ int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t from)
 CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap,
                          int *inserted);
 
-// Whether a line from point a to b leads over a nose of the surface (mesher/common/nose.h) and is no longer than wanted
-// edges may be.
-int cw_patch_over_nose(const CwPatchWork *work, int32_t a, int32_t b);
+// Whether a line from point a to b leads over a nose of the surface (mesher/common/nose.h); whether it is longer than
+// wanted edges may be.
+int cw_patch_leads_over(const CwPatchWork *work, int32_t a, int32_t b);
+int cw_patch_is_long(const CwPatchWork *work, int32_t a, int32_t b);
 
 // Turns edge i of triangle t; refuses (returns 0) where the edge is given, a triangle would not be counter-clockwise in
-// (u,v), or it alone would lead over a nose.
+// (u,v), or a new edge over a nose would be longer than that one or come in place of a short one over none.
 int cw_patch_flip(CwPatchWork *work, int32_t t, int i);
 
 // Triangles and neighbours around a free point, counter-clockwise: triangle k has the corners p, ring[k],

@@ -38,18 +38,33 @@ static void room_by_hand(void **state) {
   double least = 0;
   CwLayerInput in = {.division.count = 5, .least = &least};
   CwLayerWork work = {.in = &in, .n = 1};
-  assert_near(cw_layers_room(&work, 0, 10, 0), 3.5, 1e-12);
-  assert_near(cw_layers_room(&work, 0, 10, 3), 3.5, 1e-12);
-  assert_near(cw_layers_room(&work, 0, 10, 5), 2.5, 1e-12);
-  assert_near(cw_layers_room(&work, 0, 10, 8), 10 / 4.4, 1e-5);
-  assert_near(cw_layers_room(&work, 0, 10, 20), 10 / 4.4, 1e-5);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 0), 3.5, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 3), 3.5, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 5), 2.5, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 8), 10 / 4.4, 1e-5);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 20), 10 / 4.4, 1e-5);
   least = 2.4;
-  assert_near(cw_layers_room(&work, 0, 10, 8), 2.4, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 8), 2.4, 1e-12);
   least = 4; // more than its share
-  assert_near(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 8), 3.5, 1e-12);
   least = 0;
   in.division.count = 100; // thin ones: nothing is enough
-  assert_near(cw_layers_room(&work, 0, 10, 8), 3.5, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 2, 10, 8), 3.5, 1e-12);
+}
+
+// The same with an open patch 10 before the column: 10 - t = 12 t / 5 at t = 10 / 3.4.
+static void room_before_an_open_patch(void **state) {
+  double least = 0;
+  CwLayerInput in = {.division.count = 5, .least = &least};
+  CwLayerWork work = {.in = &in, .n = 1};
+  assert_near(cw_layers_room(&work, 0, 1, 10, 0), 6, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 1, 10, 4), 6, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 1, 10, 5), 5, 1e-12);
+  assert_near(cw_layers_room(&work, 0, 1, 10, 8), 10 / 3.4, 1e-5);
+  least = 4;
+  assert_near(cw_layers_room(&work, 0, 1, 10, 8), 4, 1e-12);
+  least = 7; // more than its share
+  assert_near(cw_layers_room(&work, 0, 1, 10, 8), 6, 1e-12);
 }
 
 typedef struct {
@@ -121,16 +136,24 @@ static void the_foot_of_a_slope(void **state) {
   assert_int_equal(cw_layers_slope_foot(&work, 3), 3);
 }
 
-// A plate 0.5 mm before an open patch: 0.6 of the gap.
+// A plate 0.5 mm before an open patch: 0.6 of the gap, where edges are so short that tetrahedra fit what is left; with
+// edges of about 0.5 mm 0.65 of these is left.
 static void gap_to_open_patch(void **state) {
-  Case c = {.target = 0.6 * MM};
-  surface_plate(&c.wall, 0.01, 0, 0.5 * MM, 1);
-  const double z = 0.5 * MM,
-               open_patch[4][3] = {{-0.01, -0.01, z}, {0.02, -0.01, z}, {0.02, 0.02, z}, {-0.01, 0.02, z}};
-  surface_quad(&c.open_patch, open_patch, 1, 1);
-  case_run(&c, "plate before an open patch");
-  for (int32_t v = 0; v < c.wall.point_count; v++) assert_near(c.out.thickness[v], 0.3 * MM, 1e-12);
-  case_free(&c);
+  for (int coarse = 0; coarse < 2; coarse++) {
+    Case c = {.target = 0.6 * MM};
+    surface_plate(&c.wall, 0.01, 0, (coarse ? 0.5 : 0.25) * MM, 1);
+    const double z = 0.5 * MM,
+                 open_patch[4][3] = {{-0.01, -0.01, z}, {0.02, -0.01, z}, {0.02, 0.02, z}, {-0.01, 0.02, z}};
+    surface_quad(&c.open_patch, open_patch, 1, 1);
+    case_run(&c, "plate before an open patch");
+    for (int32_t v = 0; v < c.wall.point_count; v++) {
+      if (coarse)
+        assert_true(0.5 * MM - c.out.thickness[v] > 0.64 * 0.5 * MM);
+      else
+        assert_near(c.out.thickness[v], 0.3 * MM, 1e-12);
+    }
+    case_free(&c);
+  }
 }
 
 // A plate opposite half of another: no step in thickness steeper than 0.3.
@@ -254,6 +277,7 @@ int main(void) {
       cmocka_unit_test(thin_gap),
       cmocka_unit_test(coarse_gap),
       cmocka_unit_test(room_by_hand),
+      cmocka_unit_test(room_before_an_open_patch),
       cmocka_unit_test(tops_that_come_near),
       cmocka_unit_test(the_foot_of_a_slope),
       cmocka_unit_test(gap_to_open_patch),
