@@ -36,10 +36,6 @@ static int is_meshed(const CwBoundaryInput *in, int32_t face) {
   return cw_cad_face_is_meshed_wall(in->cad, face) && (!symmetry || !symmetry->face.turns[face]);
 }
 
-static int bounds(const CwCurve *curve, int32_t face) {
-  return curve->wall && curve->kind != CW_CURVE_LINE && (curve->face[0] == face || curve->face[1] == face);
-}
-
 // The piece of `curve`, a copy of `first`, from point k of the division on.
 static void make_chord(const CwBoundaryInput *in, int32_t face, const CwCurve *curve, const CwCurve *first,
                        const CwCurveDivision *division, int32_t k, CwChord *chord) {
@@ -77,7 +73,7 @@ static CwStatus judge_face(void *context, int32_t task, void **bytes, int64_t *s
   Edge *edge = NULL;
   uint8_t *halve = NULL;
   for (int32_t i = 0; i < network->curve_count; i++) {
-    if (bounds(&network->curve[i], face)) count += faces->division[first_of(in, i)].count - 1;
+    if (cw_curve_bounds(&network->curve[i], face)) count += faces->division[first_of(in, i)].count - 1;
   }
   CW_NEW(chord, count);
   CW_NEW(edge, count);
@@ -85,7 +81,7 @@ static CwStatus judge_face(void *context, int32_t task, void **bytes, int64_t *s
   count = 0;
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
-    if (!bounds(curve, face)) continue;
+    if (!cw_curve_bounds(curve, face)) continue;
     int32_t first = first_of(in, i);
     const CwCurveDivision *division = &faces->division[first];
     for (int32_t k = 0; k + 1 < division->count; k++) {
@@ -165,7 +161,7 @@ static CwStatus halve_found(Faces *faces, const CwTaskResults *found, CwCurveDiv
     int concerned = 0;
     if (!is_meshed(in, f)) continue;
     for (int32_t i = 0; i < network->curve_count && !concerned; i++) {
-      concerned = bounds(&network->curve[i], f) && changed[first_of(in, i)];
+      concerned = cw_curve_bounds(&network->curve[i], f) && changed[first_of(in, i)];
     }
     if (concerned) faces->face[left++] = f;
   }

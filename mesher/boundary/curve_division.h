@@ -18,6 +18,11 @@ typedef struct {
   CwCurvePoint *point;
 } CwCurveDivision;
 
+// Whether it is a wall curve along this CAD face, not -1.
+static inline int cw_curve_bounds(const CwCurve *curve, int32_t face) {
+  return curve->wall && curve->kind != CW_CURVE_LINE && (curve->face[0] == face || curve->face[1] == face);
+}
+
 // Halves edges of the divisions (of each curve of the network; count 0: none) until on every wall face the edges lie as
 // the curves do. Collective.
 CwStatus cw_curve_divisions_refine(const CwContext *context, const CwBoundaryInput *in, CwCurveDivision *division);

@@ -8,9 +8,12 @@
 #include "mesher/common/vec.h"
 #include "mesher/policy.h"
 
-// Edges over a tip are not shorter than those of so many even ones. Along a side: edges that one becomes at most, and
-// its length at most in widths of the nose.
-enum { MOST_AT_TIP = 12, MOST_ALONG = 3, MOST_WIDTHS = 14 };
+// Edges over a tip are not shorter than those of so many even ones; along a side one becomes so many at most.
+enum { MOST_AT_TIP = 12, MOST_ALONG = 3 };
+// Tetrahedra that stand on triangles from side to side of a nose are a fifth as high as the edges along it are long, so
+// that the angle between two of their faces has the nose's width over that for its tangent (8.6 degrees where edges
+// were 33 widths long).
+static const double LENGTH_OVER_HEIGHT = 5;
 
 // A curve, and the other wall curves of its faces.
 typedef struct {
@@ -21,10 +24,6 @@ typedef struct {
 
 // Edges that take the place of one between two points.
 typedef int Edges(const Beside *beside, const CwCurvePoint *from, const CwCurvePoint *to);
-
-static int bounds(const CwCurve *curve, int32_t face) {
-  return face >= 0 && (curve->face[0] == face || curve->face[1] == face);
-}
 
 static void normal_at(const CwCad *cad, const CwCurve *curve, const double parameter[2], int32_t face, double n[3]) {
   double uv[2];
@@ -61,45 +60,36 @@ static int edges_at_tip(const Beside *beside, const CwCurvePoint *from, const Cw
   return 1;
 }
 
-// The way from x to a polyline where it is less than `least`, else that; *place: that point, one of the two about it.
-static double way_to(const CwCurve *other, const double x[3], double least, int32_t *place) {
-  const double *length = other->fine_length;
-  for (int32_t i = 0; i + 1 < other->fine_count; i++) {
-    double nearest[3], ahead = cw_distance(other->fine_x[i], x) - least;
-    if (ahead > length[other->fine_count - 1] - length[i]) break; // no point further on is so near
-    cw_lerp(other->fine_x[i], other->fine_x[i + 1], cw_nearest_share(other->fine_x[i], other->fine_x[i + 1], x),
-            nearest);
-    double way = cw_distance(nearest, x);
-    if (way >= least) continue;
-    least = way;
-    *place = i;
+static CwCurvePoint point_at(const Beside *beside, const CwCurve *curve, double place) {
+  CwCurvePoint point = {.place = place};
+  cw_curve_point(beside->network, curve, place, point.x, point.parameter);
+  return point;
+}
+
+// The width of the nose before a point of the curve, which `other` may bound on its other side, if it is less than
+// `least`; else that.
+static double width_before(const Beside *beside, const CwCurvePoint *point, const CwCurve *other, double least) {
+  const CwCurve *curve = beside->curve;
+  const CwCad *cad = beside->network->cad;
+  double n[3], m[3];
+  if (cw_distance(other->fine_x[0], point->x) - other->fine_length[other->fine_count - 1] > least) return least;
+  CwCurvePoint opposite = point_at(beside, other, cw_curve_nearest(other, point->x));
+  double way = cw_distance(opposite.x, point->x);
+  for (int side = 0; side < 2 && way < least; side++) {
+    if (curve->face[side] < 0 || !cw_curve_bounds(other, curve->face[side])) continue;
+    normal_at(cad, curve, point->parameter, curve->face[side], n);
+    normal_at(cad, other, opposite.parameter, curve->face[side], m);
+    if (cw_nose_between(n, m)) return way;
   }
   return least;
 }
 
-static CwCurvePoint point_at(const Beside *beside, double place) {
-  CwCurvePoint point = {.place = place};
-  cw_curve_point(beside->network, beside->curve, place, point.x, point.parameter);
-  return point;
-}
-
 static int edges_along(const Beside *beside, const CwCurvePoint *from, const CwCurvePoint *to) {
-  const CwCurve *curve = beside->curve;
-  const CwCad *cad = beside->network->cad;
-  const CwCurvePoint middle = point_at(beside, 0.5 * (from->place + to->place));
-  const double length = cw_distance(from->x, to->x), enough = length / MOST_WIDTHS;
+  const CwCurvePoint middle = point_at(beside, beside->curve, 0.5 * (from->place + to->place));
+  double enough = cw_distance(from->x, to->x) / LENGTH_OVER_HEIGHT * tan(cw_policy.wanted_angle * CW_DEGREE);
   double width = enough;
-  for (int32_t c = 0; c < beside->count; c++) {
-    const CwCurve *other = &beside->network->curve[beside->other[c]];
-    int32_t place = -1;
-    double way = way_to(other, middle.x, width, &place), n[3], m[3];
-    for (int side = 0; side < 2 && place >= 0; side++) {
-      if (!bounds(other, curve->face[side])) continue;
-      normal_at(cad, curve, middle.parameter, curve->face[side], n);
-      normal_at(cad, other, other->fine_parameter[place], curve->face[side], m);
-      if (cw_nose_between(n, m)) width = way;
-    }
-  }
+  for (int32_t i = 0; i < beside->count; i++)
+    width = width_before(beside, &middle, &beside->network->curve[beside->other[i]], width);
   return (int)fmin(ceil(enough / width), MOST_ALONG);
 }
 
@@ -113,7 +103,7 @@ static CwStatus divide(const Beside *beside, Edges *edges, int32_t *count, CwCur
     int parts = edges(beside, from, to);
     made[number++] = *from;
     for (int i = 1; i < parts; i++)
-      made[number++] = point_at(beside, from->place + (to->place - from->place) * i / parts);
+      made[number++] = point_at(beside, beside->curve, from->place + (to->place - from->place) * i / parts);
   }
   made[number++] = (*point)[last];
   free(*point);
@@ -132,8 +122,9 @@ CwStatus cw_curve_divide_at_noses(const CwNetwork *network, const CwCurve *curve
   CW_NEW_UNSET(beside.other, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *other = &network->curve[i];
-    if (other != curve && other->wall && (bounds(other, curve->face[0]) || bounds(other, curve->face[1])))
-      beside.other[beside.count++] = i;
+    int along = 0;
+    for (int side = 0; side < 2; side++) along |= curve->face[side] >= 0 && cw_curve_bounds(other, curve->face[side]);
+    if (along && other != curve) beside.other[beside.count++] = i;
   }
   CW_TRY(divide(&beside, edges_along, count, point));
   for (int32_t before = 0; *count > before;) {

@@ -117,7 +117,8 @@ static CwStatus take_up(const char *path, const char *fingerprint, CwRegionMesh 
   status = CW_OK;
   *taken = found == CW_REGION_TAKEN;
   if (found == CW_REGION_DAMAGED)
-    snprintf(summary->damage, sizeof summary->damage, "%s", outcome.kind ? outcome.reason : cw_fail_message());
+    snprintf(summary->damage, sizeof summary->damage, "%.*s", (int)sizeof summary->damage - 1,
+             outcome.kind ? outcome.reason : cw_fail_message());
   if (!*taken) cw_region_free(mesh);
 done:
   return status;

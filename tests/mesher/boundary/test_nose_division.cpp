@@ -68,14 +68,15 @@ static TopoDS_Shape round_front(double w) {
   return prism_over(wire.Wire(), 100);
 }
 
-// One edge of 100 mm along each side of the front: no longer than 14 widths, but three at most. The flat back is as
+// One edge of 100 mm along each side of the front: no longer than 5 / tan(20 degrees), or 13.74 widths, but three at
+// most. The flat back is as
 // narrow and no nose. Over the front a half circle becomes two edges: its tangent leans by 90 degrees from one, by 45
 // from two.
 static void edges_along_a_nose_are_no_longer_than_it_is_wide(void **) {
   const struct {
     double width;
     int edges;
-  } wanted[] = {{1, 3}, {2.3, 3}, {2.5, 3}, {3.5, 3}, {3.6, 2}, {7, 2}, {7.3, 1}, {20, 1}};
+  } wanted[] = {{1, 3}, {2.4, 3}, {3.6, 3}, {3.7, 2}, {7.2, 2}, {7.3, 1}, {20, 1}};
   for (const auto &one : wanted) {
     const Noses noses(round_front(one.width));
     int sides = 0, arcs = 0;
