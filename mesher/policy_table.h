@@ -122,7 +122,7 @@ NUMBER(double, lean_share, 0.6, none, "1",
        "edges are thinned (test_layers_pump)")
 NUMBER(double, free_share, 0.6, 1, "1",
        "of the way to an open patch, which has no layers, and of the thickness at which columns that lean to each "
-       "other would meet: what a column takes; with 1 least angles are 3 degrees less (9 pumps, 150,000 cells)")
+       "other would meet: what a column takes at most; with 1 least angles are 3 degrees less (9 pumps, 150,000 cells)")
 NUMBER(double, prism_good, 0.12, 0, "quality", "of prisms and their layer tops that is asked for")
 NUMBER(double, top_flip_gain, 1.1, none, "1", "least factor by which a flip raises the least angle of the layer top")
 NUMBER(double, smoothing_reach, 6, 0, "layers",

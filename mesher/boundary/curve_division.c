@@ -123,9 +123,8 @@ static CwStatus halve_edges(const CwNetwork *network, int32_t count, const Edge 
   for (int32_t k = 0; k < division->count; k++) {
     point[made++] = division->point[k];
     if (next == count || edge[next].edge != k) continue;
-    CwCurvePoint *middle = &point[made++];
-    middle->place = 0.5 * (division->point[k].place + division->point[k + 1].place);
-    cw_curve_point(network, curve, middle->place, middle->x, middle->parameter);
+    double middle = 0.5 * (division->point[k].place + division->point[k + 1].place);
+    point[made++] = cw_curve_point_at(network, curve, middle);
     next++;
   }
   free(division->point);

@@ -18,9 +18,16 @@ typedef struct {
   CwCurvePoint *point;
 } CwCurveDivision;
 
-// Whether it is a wall curve along this CAD face, not -1.
+// The point of a curve at this place.
+static inline CwCurvePoint cw_curve_point_at(const CwNetwork *network, const CwCurve *curve, double place) {
+  CwCurvePoint point = {place, {0}, {0}};
+  cw_curve_point(network, curve, place, point.x, point.parameter);
+  return point;
+}
+
+// Whether it is a wall curve along this CAD face; -1: no face.
 static inline int cw_curve_bounds(const CwCurve *curve, int32_t face) {
-  return curve->wall && curve->kind != CW_CURVE_LINE && (curve->face[0] == face || curve->face[1] == face);
+  return curve->wall && face >= 0 && (curve->face[0] == face || curve->face[1] == face);
 }
 
 // Halves edges of the divisions (of each curve of the network; count 0: none) until on every wall face the edges lie as

@@ -60,12 +60,6 @@ static int edges_at_tip(const Beside *beside, const CwCurvePoint *from, const Cw
   return 1;
 }
 
-static CwCurvePoint point_at(const Beside *beside, const CwCurve *curve, double place) {
-  CwCurvePoint point = {.place = place};
-  cw_curve_point(beside->network, curve, place, point.x, point.parameter);
-  return point;
-}
-
 // The width of the nose before a point of the curve, which `other` may bound on its other side, if it is less than
 // `least`; else that.
 static double width_before(const Beside *beside, const CwCurvePoint *point, const CwCurve *other, double least) {
@@ -73,10 +67,10 @@ static double width_before(const Beside *beside, const CwCurvePoint *point, cons
   const CwCad *cad = beside->network->cad;
   double n[3], m[3];
   if (cw_distance(other->fine_x[0], point->x) - other->fine_length[other->fine_count - 1] > least) return least;
-  CwCurvePoint opposite = point_at(beside, other, cw_curve_nearest(other, point->x));
+  CwCurvePoint opposite = cw_curve_point_at(beside->network, other, cw_curve_nearest(other, point->x));
   double way = cw_distance(opposite.x, point->x);
   for (int side = 0; side < 2 && way < least; side++) {
-    if (curve->face[side] < 0 || !cw_curve_bounds(other, curve->face[side])) continue;
+    if (!cw_curve_bounds(other, curve->face[side])) continue;
     normal_at(cad, curve, point->parameter, curve->face[side], n);
     normal_at(cad, other, opposite.parameter, curve->face[side], m);
     if (cw_nose_between(n, m)) return way;
@@ -85,7 +79,7 @@ static double width_before(const Beside *beside, const CwCurvePoint *point, cons
 }
 
 static int edges_along(const Beside *beside, const CwCurvePoint *from, const CwCurvePoint *to) {
-  const CwCurvePoint middle = point_at(beside, beside->curve, 0.5 * (from->place + to->place));
+  const CwCurvePoint middle = cw_curve_point_at(beside->network, beside->curve, 0.5 * (from->place + to->place));
   double enough = cw_distance(from->x, to->x) / LENGTH_OVER_HEIGHT * tan(cw_policy.wanted_angle * CW_DEGREE);
   double width = enough;
   for (int32_t i = 0; i < beside->count; i++)
@@ -103,7 +97,8 @@ static CwStatus divide(const Beside *beside, Edges *edges, int32_t *count, CwCur
     int parts = edges(beside, from, to);
     made[number++] = *from;
     for (int i = 1; i < parts; i++)
-      made[number++] = point_at(beside, beside->curve, from->place + (to->place - from->place) * i / parts);
+      made[number++] =
+          cw_curve_point_at(beside->network, beside->curve, from->place + (to->place - from->place) * i / parts);
   }
   made[number++] = (*point)[last];
   free(*point);
@@ -122,9 +117,8 @@ CwStatus cw_curve_divide_at_noses(const CwNetwork *network, const CwCurve *curve
   CW_NEW_UNSET(beside.other, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *other = &network->curve[i];
-    int along = 0;
-    for (int side = 0; side < 2; side++) along |= curve->face[side] >= 0 && cw_curve_bounds(other, curve->face[side]);
-    if (along && other != curve) beside.other[beside.count++] = i;
+    if (other != curve && (cw_curve_bounds(other, curve->face[0]) || cw_curve_bounds(other, curve->face[1])))
+      beside.other[beside.count++] = i;
   }
   CW_TRY(divide(&beside, edges_along, count, point));
   for (int32_t before = 0; *count > before;) {

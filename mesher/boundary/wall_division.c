@@ -109,10 +109,7 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
   for (;;) {
     if (!given) CW_TRY(cw_curve_divide(in, curve, 0, curve->fine_length[curve->fine_count - 1], least, &count, &place));
     CW_NEW(point, count);
-    for (int32_t k = 0; k < count; k++) {
-      point[k].place = place[k];
-      cw_curve_point(in->network, curve, place[k], point[k].x, point[k].parameter);
-    }
+    for (int32_t k = 0; k < count; k++) point[k] = cw_curve_point_at(in->network, curve, place[k]);
     if (given || count > MOST_FOR_BENDS || !cuts_bend(in->network, curve, count, point)) break;
     least = count; // one edge more
     free(place);

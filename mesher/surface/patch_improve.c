@@ -113,10 +113,9 @@ static CwStatus split_long(CwPatchWork *work) {
     }
     if (longest < 0 || work->given[t] >> longest & 1) continue;
     int32_t a = work->corner[t][(longest + 1) % 3], b = work->corner[t][(longest + 2) % 3];
-    double size = edge_size(work, a, b);
-    if (most < cw_policy.surface_long_edge * cw_policy.surface_long_edge * size * size) continue;
+    if (!cw_patch_is_long(work, a, b)) continue;
     double uv[2] = {0.5 * (work->uv[a][0] + work->uv[b][0]), 0.5 * (work->uv[a][1] + work->uv[b][1])};
-    CW_TRY(cw_patch_insert(work, uv, t, 0.55, size * 1.1, &inserted));
+    CW_TRY(cw_patch_insert(work, uv, t, 0.55, edge_size(work, a, b) * 1.1, &inserted));
   }
 done:
   return status;
@@ -369,7 +368,7 @@ static int edge_over_nose(const CwPatchWork *work, int32_t t, int all) {
   for (int i = 0; i < 3; i++) {
     int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
     double square = cw_patch_distance2(work->x[a], work->x[b]);
-    if (work->given[t] >> i & 1 || square >= shortest || !cw_patch_leads_over(work, a, b)) continue;
+    if (work->given[t] >> i & 1 || square >= shortest || !cw_patch_over_nose(work, a, b)) continue;
     if (!all && cw_patch_is_long(work, a, b)) continue;
     shortest = square;
     best = i;
@@ -380,7 +379,7 @@ static int edge_over_nose(const CwPatchWork *work, int32_t t, int all) {
 // Flips an edge over a nose to one that leads over none, or that is shorter where it is too long.
 static int flip_over_nose(CwPatchWork *work, int32_t t, int i) {
   Flip flip = flip_of(work, t, i);
-  int over = cw_patch_leads_over(work, flip.a, flip.d);
+  int over = cw_patch_over_nose(work, flip.a, flip.d);
   if (over ? !cw_patch_is_long(work, flip.b, flip.c) : cw_patch_is_long(work, flip.a, flip.d)) return 0;
   return cw_patch_flip(work, t, i);
 }

@@ -341,7 +341,7 @@ done:
   return status;
 }
 
-int cw_patch_leads_over(const CwPatchWork *work, int32_t a, int32_t b) {
+int cw_patch_over_nose(const CwPatchWork *work, int32_t a, int32_t b) {
   double n[3], m[3];
   cw_patch_normal(work, a, n);
   cw_patch_normal(work, b, m);
@@ -362,9 +362,9 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   double left = cw_twice_area(work->uv[a], work->uv[b], work->uv[d]);
   double right = cw_twice_area(work->uv[a], work->uv[d], work->uv[c]);
   if (!(left > 1e-9 * (left + right)) || !(right > 1e-9 * (left + right))) return 0;
-  if (cw_patch_leads_over(work, a, d)) {
+  if (cw_patch_over_nose(work, a, d)) {
     int longer = cw_patch_distance2(work->x[a], work->x[d]) > cw_patch_distance2(work->x[b], work->x[c]);
-    if (longer || (!cw_patch_is_long(work, b, c) && !cw_patch_leads_over(work, b, c))) return 0;
+    if (longer || (!cw_patch_is_long(work, b, c) && !cw_patch_over_nose(work, b, c))) return 0;
   }
   // Corners a b c and d c b become a b d and a d c.
   int32_t ab = work->neighbour[t][(i + 2) % 3], ca = work->neighbour[t][(i + 1) % 3];
@@ -420,7 +420,7 @@ static double quality_drawn(const CwPatchWork *work, int count, const int32_t *r
 static int leads_over_nose(const CwPatchWork *work, int32_t p, int count, const int32_t *ring, int w) {
   for (int k = 2; k + 1 < count; k++) {
     int32_t to = ring[(w + k) % count];
-    if (cw_patch_leads_over(work, ring[w], to) && !cw_patch_leads_over(work, p, to)) return 1;
+    if (cw_patch_over_nose(work, ring[w], to) && !cw_patch_over_nose(work, p, to)) return 1;
   }
   return 0;
 }

@@ -62,7 +62,7 @@ CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, do
 
 // Whether a line from point a to b leads over a nose of the surface (mesher/common/nose.h); whether it is longer than
 // wanted edges may be.
-int cw_patch_leads_over(const CwPatchWork *work, int32_t a, int32_t b);
+int cw_patch_over_nose(const CwPatchWork *work, int32_t a, int32_t b);
 int cw_patch_is_long(const CwPatchWork *work, int32_t a, int32_t b);
 
 // Turns edge i of triangle t; refuses (returns 0) where the edge is given, a triangle would not be counter-clockwise in

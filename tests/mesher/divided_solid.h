@@ -60,6 +60,11 @@ struct DividedSolid {
     network.plan = &plan;
     outcome = {};
   }
+  // The network of the plan, all of it.
+  void make_network() {
+    check(cw_network_make(NULL, cad, &background, inside, &plan, &network, &outcome));
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
+  }
 };
 
 inline CwPlane random_plane(const double through[3], uint64_t *seed) {

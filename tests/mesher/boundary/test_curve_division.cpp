@@ -25,8 +25,7 @@ struct Divided {
 
   explicit Divided(const TopoDS_Shape &shape, const PatchOfFace &patch_of = all_wall, bool periodic = false)
       : solid(shape, patch_of) {
-    check(
-        cw_network_make(NULL, solid.cad, &solid.background, solid.inside, &solid.plan, &solid.network, &solid.outcome));
+    solid.make_network();
     if (periodic) {
       check(cw_symmetry_find(solid.cad, &solid.background, &symmetry));
       assert_non_null(symmetry);

@@ -16,16 +16,11 @@ struct Noses {
   std::vector<std::vector<CwCurvePoint>> curve;
 
   explicit Noses(const TopoDS_Shape &shape) : solid(shape, all_wall) {
-    check(
-        cw_network_make(NULL, solid.cad, &solid.background, solid.inside, &solid.plan, &solid.network, &solid.outcome));
-    assert_int_equal(solid.outcome.kind, CW_OUTCOME_DONE);
+    solid.make_network();
     for (int32_t i = 0; i < solid.network.curve_count; i++) {
       int32_t count = 2;
       CwCurvePoint *point = (CwCurvePoint *)calloc(2, sizeof *point);
-      for (int k = 0; k < 2; k++) {
-        point[k].place = k ? length(i) : 0;
-        cw_curve_point(&solid.network, &solid.network.curve[i], point[k].place, point[k].x, point[k].parameter);
-      }
+      for (int k = 0; k < 2; k++) point[k] = cw_curve_point_at(&solid.network, &solid.network.curve[i], k * length(i));
       check(cw_curve_divide_at_noses(&solid.network, &solid.network.curve[i], &count, &point));
       curve.push_back(std::vector<CwCurvePoint>(point, point + count));
       free(point);
@@ -69,9 +64,8 @@ static TopoDS_Shape round_front(double w) {
 }
 
 // One edge of 100 mm along each side of the front: no longer than 5 / tan(20 degrees), or 13.74 widths, but three at
-// most. The flat back is as
-// narrow and no nose. Over the front a half circle becomes two edges: its tangent leans by 90 degrees from one, by 45
-// from two.
+// most. The flat back is as narrow and no nose. Over the front a half circle becomes two edges: its tangent leans by 90
+// degrees from one, by 45 from two.
 static void edges_along_a_nose_are_no_longer_than_it_is_wide(void **) {
   const struct {
     double width;

@@ -31,9 +31,7 @@ struct Walls {
                  const std::vector<DividingPlane> &planes = {})
       : solid(shape, patch_of) {
     if (!planes.empty()) solid.divide(planes);
-    check(
-        cw_network_make(NULL, solid.cad, &solid.background, solid.inside, &solid.plan, &solid.network, &solid.outcome));
-    assert_int_equal(solid.outcome.kind, CW_OUTCOME_DONE);
+    solid.make_network();
     in = {solid.cad, &solid.plan, &solid.network, &images, size_anywhere, nullptr};
   }
   ~Walls() {

@@ -250,7 +250,7 @@ static void curves_are_the_edges_of_the_polygons(void **) {
 static void vertices_come_first(void **) {
   DividedSolid solid(BRepPrimAPI_MakeBox(40, 30, 25).Shape());
   solid.divide({{{{0, 0, 1}, 0.01}, -1, 0}});
-  check(cw_network_make(NULL, solid.cad, &solid.background, solid.inside, &solid.plan, &solid.network, &solid.outcome));
+  solid.make_network();
   assert_int_equal(solid.network.corner_count, 12);
   assert_int_equal(cw_cad_vertex_count(solid.cad), 8);
   for (int v = 0; v < 8; v++) {
@@ -277,8 +277,7 @@ static void a_line_leaves_the_solid(void **) {
   polygon.Close();
   DividedSolid solid(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()), gp_Vec(0, 0, 25)).Shape());
   solid.divide({{{{0, 0, 1}, 0.012}, -1, 0}, {{{0, 1, 0}, 0.02}, 0, 0}});
-  check(cw_network_make(NULL, solid.cad, &solid.background, solid.inside, &solid.plan, &solid.network, &solid.outcome));
-  assert_int_equal(solid.outcome.kind, CW_OUTCOME_DONE);
+  solid.make_network();
   double least = 1, sum = 0;
   int lines = 0;
   for (int i = 0; i < solid.network.curve_count; i++) {
