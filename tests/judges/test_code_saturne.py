@@ -89,6 +89,9 @@ class CodeSaturne(unittest.TestCase):
                    for patch in record(self.run_folder, "export")["results"]["patches"]}
         self.assertEqual({name: counts[name] for name in patches}, patches)
         log = (self.case / "run_solver.log").read_text(errors="replace")
+        # The interfaces have come back from the plane in which they are joined.
+        volume = float(re.search(r'Volume zone "cells"(?:\n.*){2}\n +Volume += +(\S+)', log)[1])
+        self.assertAlmostEqual(volume / sum(domain["mesh_volume_m3"] for domain in mesh["domains"]), 1, delta=5e-4)
         ends = ("inlet", "outlet", "rotor_interface", "stator_interface")
         rows = re.findall(r"^(Inlet|Smooth wall|Symmetry|Free outlet) +\d+ +(\d+) +(\S+)$", log, re.M)
         last = {name: (int(count), float(flow)) for name, count, flow in rows[-8:]}

@@ -94,9 +94,7 @@ static void set_left_over(const Conditions *at) {
   }
   BFT_FREE(faces);
   if (!told++ && area > 0.01 * PUMP_INTERFACE_AREA)
-    bft_error(__FILE__, __LINE__, 0,
-              "%.3g %% of the interfaces were not joined; allowed: 1 %%: take more cells, "
-              "or a PUMP_JOINING of 0.45 in SRC/pump.h",
+    bft_error(__FILE__, __LINE__, 0, "%.3g %% of the interfaces were not joined; allowed: 1 %%: take more cells",
               100 * area / PUMP_INTERFACE_AREA);
 }
 

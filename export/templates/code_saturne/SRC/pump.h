@@ -6,7 +6,6 @@
 #define PUMP_TURBULENCE @turbulence@
 #define PUMP_ITERATIONS 500 // in all; with more of them ./run goes on
 #define PUMP_SECOND_ORDER 0 // share of it in the velocity's convection: with 1 the flow does not come to rest
-#define PUMP_JOINING 0.3f // share of its edges by which a point of an interface may move, up to 0.45
 #define PUMP_SPEED @speed@ // rad/s about +z
 #define PUMP_FLOW @flow_rate@
 #define PUMP_DENSITY @density@
