@@ -363,8 +363,8 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   double right = cw_twice_area(work->uv[a], work->uv[d], work->uv[c]);
   if (!(left > 1e-9 * (left + right)) || !(right > 1e-9 * (left + right))) return 0;
   if (cw_patch_over_nose(work, a, d)) {
-    int longer = cw_patch_distance2(work->x[a], work->x[d]) > cw_patch_distance2(work->x[b], work->x[c]);
-    if (longer || (!cw_patch_is_long(work, b, c) && !cw_patch_over_nose(work, b, c))) return 0;
+    int shorter = cw_patch_distance2(work->x[a], work->x[d]) < cw_patch_distance2(work->x[b], work->x[c]);
+    if (!shorter || (!cw_patch_is_long(work, b, c) && !cw_patch_over_nose(work, b, c))) return 0;
   }
   // Corners a b c and d c b become a b d and a d c.
   int32_t ab = work->neighbour[t][(i + 2) % 3], ca = work->neighbour[t][(i + 1) % 3];

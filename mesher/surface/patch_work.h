@@ -66,7 +66,7 @@ int cw_patch_over_nose(const CwPatchWork *work, int32_t a, int32_t b);
 int cw_patch_is_long(const CwPatchWork *work, int32_t a, int32_t b);
 
 // Turns edge i of triangle t; refuses (returns 0) where the edge is given, a triangle would not be counter-clockwise in
-// (u,v), or a new edge over a nose would be longer than that one or come in place of a short one over none.
+// (u,v), or a new edge over a nose would not be shorter than that one or come in place of a short one over none.
 int cw_patch_flip(CwPatchWork *work, int32_t t, int i);
 
 // Triangles and neighbours around a free point, counter-clockwise: triangle k has the corners p, ring[k],

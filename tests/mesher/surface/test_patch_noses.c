@@ -82,17 +82,25 @@ static void narrow_noses_are_divided(void **state) {
   }
 }
 
-// Where the wanted edges find room on it, rows of points come of themselves.
+// Where the wanted edges find room on it, rows of points come of themselves; nor is one of two diagonals of the same
+// length turned into the other for ever.
 static void wide_noses_are_not_divided(void **state) {
-  Plan *plan = new_plan(CYLINDER, 0.1);
-  CwPatchWork work;
-  add_rectangle(plan, 0, 0, M_PI, 1);
-  open_patch(plan, &work);
-  cw_patch_delaunay(&work, 0);
-  assert_int_equal(cw_patch_divide_noses(&work), CW_OK);
-  assert_int_equal(count_free_points(&work), 0);
-  cw_patch_work_close(&work);
-  free(plan);
+  for (int divided = 0; divided < 2; divided++) {
+    Plan *plan = new_plan(CYLINDER, 0.1);
+    CwPatchWork work;
+    if (divided) {
+      add_rectangle(plan, 0, 0, M_PI, 1);
+    } else {
+      for (int k = 0; k < 4; k++) add_point(plan, k % 3 ? M_PI : 0, k / 2);
+      add_outline(plan);
+    }
+    open_patch(plan, &work);
+    cw_patch_delaunay(&work, 0);
+    assert_int_equal(cw_patch_divide_noses(&work), CW_OK);
+    assert_int_equal(count_free_points(&work), 0);
+    cw_patch_work_close(&work);
+    free(plan);
+  }
 }
 
 // Half a cylinder with three edges across each end and one along each side: no flip lays down all triangles across it,
