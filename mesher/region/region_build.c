@@ -14,6 +14,7 @@
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/region/tets_on.h"
+#include "mesher/region/top_moves.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "pipeline/hash.h"
 #include "pipeline/mesh/cell.h"
@@ -301,6 +302,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   double(*inner)[3] = NULL;
   CwLatticeSite *site = NULL;
   char name[64];
+  int32_t moved;
   memset(mesh, 0, sizeof *mesh);
   snprintf(name, sizeof name, "%s region %d", context->domain, region + 1);
   snprintf(mesh->domain, sizeof mesh->domain, "%s", context->domain);
@@ -329,6 +331,8 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_NEW(mesh->cells.triangle_cell, build.inner.wall_count + build.inner.open_patch_count);
   CW_TRY_STAGE(add_layers(&build, mesh, outcome), outcome);
   CW_TRY_STAGE(add_open_patches(&build, mesh, outcome), outcome);
+  CW_TRY(cw_top_moves(context->layer_count, mesh, &moved));
+  cw_log_debug(context->from.log, "%s: %d points at flat tetrahedra on the layer top moved", name, moved);
 done:
   if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_region_free(mesh);
   cw_fill_free(&build.fill);
