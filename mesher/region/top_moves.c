@@ -11,6 +11,7 @@
 #include "mesher/fill/tet_quality.h"
 #include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
+#include "pipeline/mesh/cell.h"
 
 // Pattern search: steps of this share of the shortest way to another corner, then half and a quarter.
 enum { STEPS = 3, ROUNDS = 8, MEASURES = 3 };
@@ -22,6 +23,7 @@ typedef enum { STAYS, INSIDE, ON_TOP } Kind;
 typedef struct {
   CwRegionData *cells;
   int layers;
+  double flat_sine;
   uint8_t *kind;         // of each point
   int32_t *row;          // of each point, -1: none
   int32_t count, *point; // of each row
@@ -50,9 +52,14 @@ static void find_kinds(Moves *m, int32_t shared_count) {
   memset(m->kind, STAYS, (size_t)shared_count);
 }
 
-static double tet_quality(const CwRegionData *c, int32_t t) {
-  const int32_t *p = c->tetrahedra[t];
-  return cw_tet_quality(c->points[p[0]], c->points[p[1]], c->points[p[2]], c->points[p[3]]);
+// The quality or, where checkMesh calls the determinant small, less (judge in fill/tet_search.c). Most have inner faces
+// alone; those of faces on patches are less.
+static double quality_of(const Moves *m, int32_t t) {
+  const int32_t *p = m->cells->tetrahedra[t];
+  double(*x)[3] = m->cells->points;
+  CwTetMeasures s = cw_tet_measures(x[p[0]], x[p[1]], x[p[2]], x[p[3]]);
+  double quality = cw_tet_quality_by(&s), determinant = cw_tet_determinant(&s, 0);
+  return quality > 0 ? fmin(quality, m->flat_sine * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT))) : quality;
 }
 
 // The flat tetrahedra on the layer top, and rows for their points.
@@ -64,7 +71,7 @@ static CwStatus find_flat(Moves *m) {
     const int32_t *p = c->tetrahedra[t];
     int on_top = 0;
     for (int k = 0; k < 4; k++) on_top |= m->kind[p[k]] == ON_TOP;
-    if (!on_top || tet_quality(c, t) >= cw_policy.search_wanted) continue;
+    if (!on_top || quality_of(m, t) >= cw_policy.search_wanted) continue;
     CW_GROW(m->flat, flat_capacity, m->flat_count + 1);
     m->flat[m->flat_count++] = t;
     CW_GROW(m->point, capacity, m->count + 4);
@@ -153,7 +160,7 @@ static int are_sound(const Moves *m, int32_t row) {
 static double least_around(const Moves *m, int32_t row) {
   double least = INFINITY;
   for (int32_t i = m->tet.start[row]; i < m->tet.start[row + 1]; i++)
-    least = fmin(least, tet_quality(m->cells, m->tet.triangle[i]));
+    least = fmin(least, quality_of(m, m->tet.triangle[i]));
   return least;
 }
 
@@ -193,7 +200,7 @@ static void move_all(Moves *m, uint8_t *moved) {
   for (int round = 0, changes = 1; round < ROUNDS && changes; round++) {
     changes = 0;
     for (int32_t f = 0; f < m->flat_count; f++)
-      for (int k = 0; k < 4 && tet_quality(m->cells, m->flat[f]) < cw_policy.search_wanted; k++) {
+      for (int k = 0; k < 4 && quality_of(m, m->flat[f]) < cw_policy.search_wanted; k++) {
         int32_t row = m->row[m->cells->tetrahedra[m->flat[f]][k]];
         if (row < 0 || !move_point(m, row)) continue;
         moved[row] = 1;
@@ -205,7 +212,7 @@ static void move_all(Moves *m, uint8_t *moved) {
 CwStatus cw_top_moves(int layers, CwRegionMesh *mesh, int32_t *moved) {
   CwStatus status = CW_OK;
   CwRegionData *cells = &mesh->cells;
-  Moves m = {.cells = cells, .layers = layers};
+  Moves m = {.cells = cells, .layers = layers, .flat_sine = sin(cw_policy.flat_angle * CW_DEGREE)};
   uint8_t *has_moved = NULL;
   *moved = 0;
   if (layers < 2) goto done;
