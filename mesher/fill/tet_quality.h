@@ -7,6 +7,7 @@
 
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
+#include "pipeline/mesh/cell.h"
 
 typedef struct {
   double six;     // times the volume
@@ -67,6 +68,12 @@ static inline double cw_tet_determinant(const CwTetMeasures *s, int open) {
   if (inner < 3) return 0.0;
   double mean = sum / inner, root = (inner == 4 ? 2.0 : 1.0) * s->six * s->six / (8.0 * mean * mean * mean);
   return root * root / 8.0;
+}
+
+// A determinant over the least that checkMesh does not call small, as sines of dihedral angles compare: of flat
+// tetrahedra it goes with the fourth power of these.
+static inline double cw_tet_determinant_share(double determinant) {
+  return sqrt(sqrt(determinant / CW_SMALL_DETERMINANT));
 }
 
 // Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.

@@ -80,7 +80,7 @@ static double judge(const Search *s, const CwTetMesh *mesh, int32_t t, double *s
   if (!s->determinants || *sine < 0.0) return *sine;
   for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] == CW_BESIDE_NOTHING) << i;
   double determinant = cw_tet_determinant(&m, open);
-  return determinant > 0.0 ? fmin(*sine, flat_sine() * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT))) : *sine;
+  return determinant > 0.0 ? fmin(*sine, flat_sine() * cw_tet_determinant_share(determinant)) : *sine;
 }
 
 static double mean_edge(const CwTetMesh *mesh, int32_t t) {

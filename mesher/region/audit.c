@@ -10,6 +10,7 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
+#include "mesher/fill/tet_quality.h"
 #include "mesher/policy.h"
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
@@ -199,7 +200,7 @@ static double flatness_of(const double *const *x, double dihedral, double aspect
   static const double DOUBT = 20, SLENDER = 3;
   if (dihedral > DOUBT && aspect < SLENDER && (on_patches & (on_patches - 1)) == 0) return dihedral;
   double determinant = cw_cell_determinant(4, x, 0xf & ~on_patches);
-  return cw_lesser(dihedral, cw_policy.flat_angle * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT)));
+  return cw_lesser(dihedral, cw_policy.flat_angle * cw_tet_determinant_share(determinant));
 }
 
 static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality *quality, CwOutcome *outcome) {

@@ -11,7 +11,6 @@
 #include "mesher/fill/tet_quality.h"
 #include "mesher/layers/prism_quality.h"
 #include "mesher/policy.h"
-#include "pipeline/mesh/cell.h"
 
 // Pattern search: steps of this share of the shortest way to another corner, then half and a quarter.
 enum { STEPS = 3, ROUNDS = 8, MEASURES = 3 };
@@ -59,7 +58,7 @@ static double quality_of(const Moves *m, int32_t t) {
   double(*x)[3] = m->cells->points;
   CwTetMeasures s = cw_tet_measures(x[p[0]], x[p[1]], x[p[2]], x[p[3]]);
   double quality = cw_tet_quality_by(&s), determinant = cw_tet_determinant(&s, 0);
-  return quality > 0 ? fmin(quality, m->flat_sine * sqrt(sqrt(determinant / CW_SMALL_DETERMINANT))) : quality;
+  return quality > 0 ? fmin(quality, m->flat_sine * cw_tet_determinant_share(determinant)) : quality;
 }
 
 // The flat tetrahedra on the layer top, and rows for their points.
