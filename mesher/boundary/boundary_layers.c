@@ -184,9 +184,11 @@ static CwStatus make_constraints(const CwBoundaryInput *in, const CwSurfaceMesh 
       open_patch_start(open_patch, x, uv[v]);
       open_patch_normal(in->cad, constraint.index, x, uv[v], constraint_normal[v][0]);
     } else if (constraint.kind == CW_CONSTRAINT_CURVE) {
+      const CwCurve *curve = &in->network->curve[constraint.index];
       double direction[3];
       constraint_count[v] = 2;
-      curve_direction(&in->network->curve[constraint.index], x, direction);
+      constraint_stays[v] = curve->edge >= 0;
+      curve_direction(curve, x, direction);
       across(direction, constraint_normal[v][0], constraint_normal[v][1]);
     }
   }

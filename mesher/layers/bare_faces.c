@@ -64,6 +64,16 @@ static int32_t open_face(const CwCad *cad, const Place *place) {
   return -1;
 }
 
+// What there is about the first face is told.
+static void leave(CwCad *cad, int32_t face, const double *area, const double at[3], CwBareFaces *bare) {
+  cw_cad_face_leave_bare(cad, face);
+  bare->area += area[face];
+  if (bare->count++ > 0) return;
+  bare->first = face;
+  bare->open = -1;
+  cw_copy(at, bare->at);
+}
+
 // Leaves faces bare until a column can stand at the place; returns their number.
 static int32_t settle(CwCad *cad, const double *area, const Place *place, CwBareFaces *bare) {
   int32_t before = bare->count;
@@ -76,12 +86,8 @@ static int32_t settle(CwCad *cad, const double *area, const Place *place, CwBare
       if ((freeing < 0 || area[face] < area[freeing]) && can_stand(cad, place, face)) freeing = face;
     }
     int32_t chosen = freeing >= 0 ? freeing : least;
-    cw_cad_face_leave_bare(cad, chosen);
-    if (bare->count++ == 0) {
-      bare->first = chosen;
-      bare->open = open_face(cad, place);
-      cw_copy(place->x, bare->at);
-    }
+    leave(cad, chosen, area, place->x, bare);
+    if (bare->count == 1) bare->open = open_face(cad, place);
   }
   return bare->count - before;
 }
@@ -131,15 +137,17 @@ static double area_of_walls(const CwCad *cad, const double *area) {
   return sum;
 }
 
-CwStatus cw_bare_faces_find(CwCad *cad, const double *area, CwBareFaces *bare) {
+CwStatus cw_bare_faces_find(CwCad *cad, const double *area, int32_t asked, const double at[3], CwBareFaces *bare) {
   CwStatus status = CW_OK;
-  *bare = (CwBareFaces){.first = -1, .open = -1};
-  const double walls = area_of_walls(cad, area);
+  if (asked >= 0) {
+    leave(cad, asked, area, at, bare);
+    bare->asked |= bare->count == 1;
+  }
   for (int32_t made = 1; made > 0;) {
     made = settle_edges(cad, area, bare);
     CW_TRY(settle_corners(cad, area, bare, &made));
   }
-  bare->share = bare->count ? 1 - area_of_walls(cad, area) / walls : 0;
+  if (bare->count > 0) bare->share = bare->area / (bare->area + area_of_walls(cad, area));
 done:
   return status;
 }

@@ -33,7 +33,7 @@ typedef struct {
   const int32_t *constraint_count;         // 0, 1, 2 for each vertex; may be NULL: all free
   const double (*constraint_normal)[2][3]; // unit normals of the surfaces that hold the column
   const uint8_t
-      *constraint_stays; // of each vertex: held by an open patch, which is there in any plan; may be NULL: none
+      *constraint_stays; // of each vertex: held by open patches, which are there in any plan; may be NULL: none
   // Puts a moved vertex back onto its constraints (a cylinder, say); may be NULL. Any thread.
   void (*snap)(const void *context, int32_t vertex, double x[3]);
   const void *snap_context;

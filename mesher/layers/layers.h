@@ -43,12 +43,11 @@ typedef struct {
   CwHostMemory *memory;  // where its arrays lie; NULL: they are this rank's
 } CwLayers;
 
-// Outcome where no valid envelope is found: CW_OUTCOME_FINER with the place where the wall crosses itself, an edge
-// leaves no direction that sees all faces, layers cross however thin they are, or the rounds of repair do not do;
-// CW_OUTCOME_REPLAN where a partition plane holds the column there, or leaves it no direction. Fails with CW_ERR_MESH
-// (place in mm) where a constraint that stays leaves none, with CW_ERR_INPUT on wrong input (triangles without area,
-// points without triangles, thicknesses not above 0). Every column has a thickness > 0. Equal input gives equal bits.
-// Collective.
+// Outcome where no valid envelope is found: CW_OUTCOME_BARE with the place where the wall crosses itself, an edge
+// leaves no direction that sees all faces and lies in its open patches, layers cross however thin they are, or the
+// rounds of repair do not do; CW_OUTCOME_REPLAN where a partition plane holds the column there. Fails with CW_ERR_INPUT
+// on wrong input (triangles without area, points without triangles, thicknesses not above 0). Every column has a
+// thickness > 0. Equal input gives equal bits. Collective.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
 // Shows its arrays (CwArrays).
 void cw_layers_arrays(void *layers, CwArrayVisit visit, void *given);

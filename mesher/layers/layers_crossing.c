@@ -326,23 +326,24 @@ done:
   return status;
 }
 
+// Why thinner columns cannot get clear of a pair; NULL: they can.
+static const char *stuck(const CwLayerWork *work, const CwLayerPair *pair) {
+  const CwLayerInput *in = work->in;
+  const int32_t *f = in->triangle[pair->f], *g = pair->kind_g == 0 ? in->triangle[pair->g] : f;
+  double share = 0;
+  if (pair->kind_f != 0) return "the wall crosses or touches itself";
+  for (int k = 0; k < 3; k++)
+    share = fmax(share, fmax(work->t[f[k]] / in->target[f[k]], work->t[g[k]] / in->target[g[k]]));
+  if (share > LEAST_SHARE) return NULL;
+  return pair->kind_g == 0   ? "the layer top crosses itself however thin the layers are made"
+         : pair->kind_g == 1 ? "the layer top crosses the wall however thin the layers are made"
+                             : "the layer top crosses an open patch however thin the layers are made";
+}
+
 void cw_layers_crossing_judge(const CwLayerCrossing *crossing, CwOutcome *outcome) {
   const CwLayerWork *work = crossing->work;
-  const CwLayerInput *in = work->in;
   for (int32_t i = 0; i < crossing->pair_count; i++) {
-    const CwLayerPair *pair = &crossing->pair[i];
-    const int32_t *f = in->triangle[pair->f], *g = pair->kind_g == 0 ? in->triangle[pair->g] : f;
-    const double *x = in->x[f[0]];
-    const CwOutcomeKind kind = cw_layers_kind_at(work, f[0]);
-    CW_END_UNLESS(pair->kind_f == 0, outcome, kind, x, "the wall crosses or touches itself");
-    double share = 0;
-    for (int k = 0; k < 3; k++) {
-      share = fmax(share, fmax(work->t[f[k]] / in->target[f[k]], work->t[g[k]] / in->target[g[k]]));
-    }
-    CW_END_UNLESS(share > LEAST_SHARE, outcome, kind, x, "the layer top crosses %s however thin the layers are made",
-                  pair->kind_g == 0   ? "itself"
-                  : pair->kind_g == 1 ? "the wall"
-                                      : "an open patch");
+    const char *why = stuck(work, &crossing->pair[i]);
+    if (why) cw_layers_add_place(work, crossing->pair[i].f, 0, outcome, why);
   }
-done:;
 }

@@ -10,6 +10,8 @@
 #include "mesher/parallel/parallel_for.h"
 #include "mesher/policy.h"
 
+static const double APART = 2; // longest edges of a triangle: places where nothing helps
+
 // What keeps the best candidate direction.
 typedef struct {
   int count;
@@ -226,25 +228,25 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
 }
 
 CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v) {
-  return cw_layer_constraints(work->in, v) > 0 && !cw_layer_stays(work->in, v) ? CW_OUTCOME_REPLAN : CW_OUTCOME_FINER;
+  return cw_layer_constraints(work->in, v) > 0 && !cw_layer_stays(work->in, v) ? CW_OUTCOME_REPLAN : CW_OUTCOME_BARE;
+}
+
+void cw_layers_add_place(const CwLayerWork *work, int32_t f, int corner, CwOutcome *outcome, const char *why) {
+  const int32_t *t = work->in->triangle[f], v = t[corner];
+  const CwOutcomeKind kind = cw_layers_kind_at(work, v);
+  double longest = 0;
+  for (int k = 0; k < 3; k++) longest = fmax(longest, cw_distance(work->in->x[t[k]], work->in->x[t[(k + 1) % 3]]));
+  if (outcome->kind == CW_OUTCOME_DONE) cw_outcome_set(outcome, kind, NULL, "%s", why);
+  if (outcome->kind == kind) cw_outcome_add_place(outcome, work->in->x[v], APART * longest);
 }
 
 // Whether a column of this cosine leaves the wall inside what holds it at vertex v. Not in a block: all ranks fail
-// alike, and may go on with other planes, but not with other open patches.
-static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, CwOutcome *outcome) {
-  CwStatus status = CW_OK;
-  const double *x = work->in->x[v];
-  if (cosine > CW_LAYERS_LEAST_COSINE) goto done;
-  CW_REQUIRE(
-      !cw_layer_stays(work->in, v), CW_ERR_MESH,
-      "layers: no column inside the open patch at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
-      "%.2f needed): it is nearly tangent to the wall there",
-      CW_MM(x), cosine, CW_LAYERS_LEAST_COSINE);
-  cw_outcome_set(outcome, CW_OUTCOME_REPLAN, x,
-                 "no column inside a partition plane leaves the wall (best cosine %.3f, at least %.2f needed)", cosine,
-                 CW_LAYERS_LEAST_COSINE);
-done:
-  return status;
+// alike, and may go on with other planes, or without layers there.
+static void judge_column(const CwLayerWork *work, int32_t v, double cosine, CwOutcome *outcome) {
+  if (cosine > CW_LAYERS_LEAST_COSINE) return;
+  cw_outcome_set(outcome, cw_layers_kind_at(work, v), work->in->x[v],
+                 "no column inside %s leaves the wall (best cosine %.3f, at least %.2f needed)",
+                 cw_layer_stays(work->in, v) ? "the open patch" : "a partition plane", cosine, CW_LAYERS_LEAST_COSINE);
 }
 
 CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
@@ -271,7 +273,8 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
       cw_parallel_for(work->in->context, "layers: directions", special.count, sizeof *held, find_held, &special, held));
   for (int32_t i = 0; i < special.count; i++) {
     int32_t v = special.vertex[i];
-    CW_TRY_STAGE(judge_column(work, v, held[i].base_cos, outcome), outcome);
+    judge_column(work, v, held[i].base_cos, outcome);
+    if (outcome->kind != CW_OUTCOME_DONE) goto done;
     memcpy(work->base[v], held[i].base, sizeof held[i].base);
     memcpy(work->along[v], held[i].along, sizeof held[i].along);
     work->base_cos[v] = held[i].base_cos;

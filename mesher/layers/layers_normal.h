@@ -19,11 +19,12 @@ double cw_layers_most_normal(int count, const double (*normal)[3], int constrain
 double cw_layers_fair_normal(int count, const double (*normal)[3], int constraint_count, const double (*constraint)[3],
                              double g[3]);
 // What may help where no column can stand at vertex v: another plan where a partition plane holds it, else shorter
-// edges.
+// edges, or none there.
 CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v);
-// Directions and creases of all vertices. Collective. CW_ERR_MESH where a constraint that stays holds no direction;
-// outcome: that of cw_layers_kind_at where the faces around a vertex see no common one, CW_OUTCOME_REPLAN where other
-// constraints hold none.
+// Adds the corner of wall triangle f to the places of an outcome of that kind, whose reason the first one gives.
+void cw_layers_add_place(const CwLayerWork *work, int32_t f, int corner, CwOutcome *outcome, const char *why);
+// Directions and creases of all vertices. Collective. Outcome: that of cw_layers_kind_at where the faces around a
+// vertex see no common one, or none inside what holds the column.
 CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
 enum { CW_LAYER_NORMALS = 48 }; // distinct ones around a vertex, at most
 // Least cosine that a column over thickness t[v] is lengthened for: it is the offset g / max(n.g, floor), of concave

@@ -406,13 +406,12 @@ done:
 // What was found last, bad or crossing, is marked.
 static void not_repaired(const Repair *repair, CwOutcome *outcome) {
   const CwLayerWork *work = repair->work;
-  int32_t last = 0;
-  for (int32_t v = 0; v < work->n; v++) {
-    if (repair->mark[v]) last = v;
-  }
-  cw_outcome_set(outcome, cw_layers_kind_at(work, last), work->in->x[last],
-                 "no valid layer top after %d rounds: %d prisms of a quality below %g, %d pairs crossing", ROUNDS,
-                 repair->bad_count, repair->limit, repair->crossing.pair_count);
+  char why[160];
+  snprintf(why, sizeof why, "no valid layer top after %d rounds: %d prisms of a quality below %g, %d pairs crossing",
+           ROUNDS, repair->bad_count, repair->limit, repair->crossing.pair_count);
+  for (int32_t f = 0; f < work->in->triangle_count; f++)
+    for (int k = 0; k < 3; k++)
+      if (repair->mark[work->in->triangle[f][k]]) cw_layers_add_place(work, f, k, outcome, why);
 }
 
 static void repair_free(Repair *repair) {

@@ -17,24 +17,29 @@ typedef enum {
   CW_OUTCOME_DONE,
   CW_OUTCOME_REPLAN,     // the partition planes do not fit the domain: others may
   CW_OUTCOME_ASYMMETRIC, // its passages do not come out alike: it may be meshed whole
-  CW_OUTCOME_FINER,      // no layers stand where edges are so long: shorter ones may
+  CW_OUTCOME_FINER,      // edges cross or miss what they bound, so long as they are: shorter ones may not
+  CW_OUTCOME_BARE,       // no layers stand where edges are so long: shorter ones may, or the wall is left bare
   CW_OUTCOME_THIN        // the layers leave no room: thinner ones may
 } CwOutcomeKind;
 
-enum { CW_REASON_SIZE = 600 }; // the failure of a region, its place and the path of its boundary
+enum { CW_REASON_SIZE = 600 };   // the failure of a region, its place and the path of its boundary
+enum { CW_OUTCOME_PLACES = 16 }; // that are told at once
 
 // Plain data: it travels between ranks as bytes. Zeroed: done.
 typedef struct {
   CwOutcomeKind kind;
-  int32_t domain;  // that it is about, set by who knows the domains
-  int has_place;   // 1: the reason holds at `place`
-  double place[3]; // in the unit of lengths
+  int32_t domain;                     // that it is about, set by who knows the domains
+  int32_t places;                     // at which the reason holds, the first of which is told to people
+  double place[CW_OUTCOME_PLACES][3]; // in the unit of lengths
   char reason[CW_REASON_SIZE];
 } CwOutcome;
 
 // Sets kind, place (in the unit of lengths; NULL: none) and reason (printf style); the domain stays.
 void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3], const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+// Adds a place where the same holds, unless one within `apart` of it is there, or there are as many as can be.
+void cw_outcome_add_place(CwOutcome *outcome, const double x[3], double apart);
 
 // "REASON at (x, y, z) mm", for a person. millimetres: of the unit of lengths.
 enum { CW_OUTCOME_TEXT_SIZE = CW_REASON_SIZE + 80 };

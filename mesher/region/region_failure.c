@@ -29,11 +29,11 @@ CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, co
   int32_t(*pair)[2] = NULL, pairs = 0;
   int32_t *crossing = NULL;
   char name[64];
-  *failure = (CwRegionFailure){.failed = 1, .everywhere = !why->has_place};
+  *failure = (CwRegionFailure){.failed = 1, .everywhere = why->places == 0};
   snprintf(failure->message, sizeof failure->message, "%.*s", (int)sizeof failure->message - 1, why->reason);
-  if (why->has_place) {
+  if (why->places > 0) {
     snprintf(failure->patch, sizeof failure->patch, "the layers");
-    cw_copy(why->place, failure->at);
+    cw_copy(why->place[0], failure->at);
   }
   snprintf(name, sizeof name, "boundary of region %d", region + 1);
   CW_TRY(cw_region_boundary_make(from, region, 0, &inner));

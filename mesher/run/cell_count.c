@@ -245,12 +245,15 @@ void cw_tell_layers(CwMeshRun *run) {
   char y_plus[64] = "";
   int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count, changed = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
-    changed |= run->layers_told[d] != run->domain[d].layer_count;
-    run->layers_told[d] = run->domain[d].layer_count;
+    const CwDomain *domain = &run->domain[d];
+    changed |= run->layers_told[d] != domain->layer_count || run->bare_told[d] != domain->bare.count;
+    run->layers_told[d] = domain->layer_count;
+    run->bare_told[d] = domain->bare.count;
   }
   if (!changed) return;
   while (json_array_size(run->headlines) > run->headlines_before)
     json_array_remove(run->headlines, run->headlines_before);
+  for (int d = 0; d < run->model.domain_count; d++) cw_warn_of_bare(run->context.log, &run->domain[d], run->headlines);
   double cells = cw_cells_crowded(run);
   if (cells > 0)
     cw_warn_of_long_edges(run->context.log, run->table, run->domain[0].layer_count, run->scale, cells, run->headlines);

@@ -103,14 +103,22 @@ done:
   return status;
 }
 
-CwStatus cw_domain_leave_bare(CwDomain *domain, CwBareFaces *bare) {
+CwStatus cw_domain_face_areas(const CwDomain *domain, double **area) {
   CwStatus status = CW_OK;
   const CwBackground *background = &domain->background;
-  double *area = NULL, centre[3];
-  CW_NEW(area, cw_cad_face_count(domain->cad));
+  double centre[3];
+  CW_NEW(*area, cw_cad_face_count(domain->cad));
   for (int32_t t = 0; t < background->triangle_count; t++)
-    area[background->face[t]] += cw_background_area(background, t, centre);
-  CW_TRY(cw_bare_faces_find(domain->cad, area, bare));
+    (*area)[background->face[t]] += cw_background_area(background, t, centre);
+done:
+  return status;
+}
+
+CwStatus cw_domain_leave_bare(CwDomain *domain, int32_t asked, const double at[3]) {
+  CwStatus status = CW_OK;
+  double *area = NULL;
+  CW_TRY(cw_domain_face_areas(domain, &area));
+  CW_TRY(cw_bare_faces_find(domain->cad, area, asked, at, &domain->bare));
 done:
   free(area);
   return status;

@@ -35,6 +35,7 @@ typedef struct {
   CwBackground background;
   double solid_volume; // m3, exact
   CwVerticals *inside;
+  CwBareFaces bare;     // of all faces
   CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
   int32_t whole;        // 1: it had a symmetry, which was given up
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
@@ -89,8 +90,12 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
 // Starts the tessellation of the background, with this deflection of its chords, and takes its faces up.
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
-// Walls on which no layers can stand become bare: those that still were not, [out] `bare`.
-CwStatus cw_domain_leave_bare(CwDomain *domain, CwBareFaces *bare);
+// *area: of each face, by its background; caller frees.
+CwStatus cw_domain_face_areas(const CwDomain *domain, double **area);
+
+// Walls on which no layers can stand become bare. Before them the wall `asked`, on which none stand `at` a place; -1:
+// none.
+CwStatus cw_domain_leave_bare(CwDomain *domain, int32_t asked, const double at[3]);
 
 // First height asked on a face, in the model's unit: that of its patch, or the greatest that its bend has room for.
 double cw_domain_first_height(const CwDomain *domain, int face);

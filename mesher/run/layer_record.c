@@ -205,16 +205,21 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          domain->name, cw_policy.free_share, rounded.text);
 }
 
-void cw_warn_of_bare(CwLog *log, const CwDomain *domain, const CwBareFaces *bare, json_t *headlines) {
+void cw_warn_of_bare(CwLog *log, const CwDomain *domain, json_t *headlines) {
+  const CwBareFaces *bare = &domain->bare;
   if (bare->count == 0) return;
   char remedy[160] = "round the solid there";
+  const char *why = bare->asked
+                        ? "layers fold or cross there however short edges are"
+                        : "no direction sees all faces about a corner or an edge of theirs and lies in the open faces "
+                          "there";
   if (bare->open >= 0)
     snprintf(remedy, sizeof remedy, "let '%.80s' cross the walls there, not go on from one",
              cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, bare->open)));
   tell(log, headlines,
-       "%s: %d faces, %.2g %% of the wall, carry no layers: no direction sees all faces about a corner or an edge of "
-       "theirs and lies in the open faces there, first at (%.6g, %.6g, %.6g) mm of face '%s'; %s, where its y+ matters",
-       domain->name, bare->count, 100 * bare->share, CW_MM(bare->at), cw_cad_face_name(domain->cad, bare->first),
+       "%s: %d faces, %.2g %% of the wall, carry no layers: %s, first at (%.6g, %.6g, %.6g) mm of face '%s'; %s, where "
+       "its y+ matters",
+       domain->name, bare->count, 100 * bare->share, why, CW_MM(bare->at), cw_cad_face_name(domain->cad, bare->first),
        remedy);
 }
 

@@ -226,10 +226,19 @@ done:
 
 static CwStatus leave_bare(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwBareFaces bare;
-  for (int d = 0; d < run->model.domain_count; d++) {
-    CW_TRY(cw_domain_leave_bare(&run->domain[d], &bare));
-    cw_warn_of_bare(run->context.log, &run->domain[d], &bare, run->headlines);
+  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(&run->domain[d], -1, NULL));
+done:
+  return status;
+}
+
+CwStatus cw_mesh_leave_bare(CwMeshRun *run, int32_t first) {
+  CwStatus status = CW_OK;
+  for (int32_t i = first; i < run->finer.count; i++) {
+    const CwFinerPlace *place = &run->finer.place[i];
+    CwDomain *domain = &run->domain[place->domain];
+    if (place->bare < 0 || !cw_cad_face_is_wall(domain->cad, place->bare))
+      continue; // one before may have taken it along
+    CW_TRY(cw_domain_leave_bare(domain, place->bare, place->point.x));
   }
 done:
   return status;

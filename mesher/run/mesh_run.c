@@ -45,10 +45,16 @@ done:
   return status;
 }
 
+// Whether the mesh has to be another at the place of an outcome (finer_places).
+static int is_of_places(CwOutcomeKind kind) {
+  return kind == CW_OUTCOME_FINER || kind == CW_OUTCOME_BARE;
+}
+
 // One pass at the present scale. Where equal passages do not come out equal, the impeller is meshed whole; a domain
 // with a plane that grazes a wall, or on which no column leaves one, gets other planes; surfaces and regions that fail
 // are tried again with thinner layers, and with other planes where these do not do. Outcome: CW_OUTCOME_FINER where
-// no layers stand; where `optional`, that of an attempt for which there are no other planes.
+// edges cross, CW_OUTCOME_BARE where no layers stand; where `optional`, that of an attempt for which there are no other
+// planes.
 static CwStatus mesh_pass(CwMeshRun *run, int optional, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwThinPlaces places = {0};
@@ -56,7 +62,7 @@ static CwStatus mesh_pass(CwMeshRun *run, int optional, CwOutcome *outcome) {
     *outcome = (CwOutcome){0};
     places.count = 0;
     CW_TRY(mesh_attempt(run, &places, outcome));
-    if (outcome->kind == CW_OUTCOME_DONE || outcome->kind == CW_OUTCOME_FINER) break;
+    if (outcome->kind == CW_OUTCOME_DONE || is_of_places(outcome->kind)) break;
     if (outcome->kind == CW_OUTCOME_THIN) {
       *outcome = (CwOutcome){0};
       CW_TRY(cw_thin(run, &places, attempt++, outcome));
@@ -123,19 +129,28 @@ done:
   return status;
 }
 
-// Asks for shorter edges where layers do not stand.
-static CwStatus shorten_for_layers(CwMeshRun *run, const CwOutcome *why, CwPassState *state) {
+// Asks for shorter edges where edges cross or layers do not stand; for no layers where short edges do not do.
+static CwStatus change_places(CwMeshRun *run, const CwOutcome *why, CwPassState *state) {
   CwStatus status = CW_OK;
   char text[CW_OUTCOME_TEXT_SIZE];
   const CwDomain *domain = &run->domain[why->domain];
+  const int32_t before = run->finer.count;
+  int shorter = state->finer_rounds < FINER_MOST;
   cw_outcome_text(why, cw_mm(1), text);
-  CW_REQUIRE(state->finer_rounds < FINER_MOST, CW_ERR_MESH,
+  for (int32_t i = 0; i < why->places; i++) {
+    if (shorter)
+      CW_TRY(cw_finer_places_add(domain, why->domain, why->place[i], &run->finer));
+    else if (why->kind == CW_OUTCOME_BARE)
+      CW_TRY(cw_finer_places_add_bare(domain, why->domain, why->place[i], &run->finer));
+  }
+  CW_REQUIRE(run->finer.count > before, CW_ERR_MESH,
              "%s: %s; also with edges %d times shorter there; allowed: a wall that neither folds nor touches itself "
              "there, or more mesh.cells than %lld",
              domain->name, text, 1 << FINER_MOST, (long long)run->table->mesh.cells);
-  cw_log_warn(run->context.log, "%s: %s; made again with shorter edges there", domain->name, text);
-  CW_TRY(cw_finer_places_add(domain, why->domain, why->place, &run->finer));
-  state->finer_rounds++;
+  cw_log_warn(run->context.log, "%s: %s; made again with %s there", domain->name, text,
+              shorter ? "shorter edges" : "no layers");
+  CW_TRY(cw_mesh_leave_bare(run, before));
+  state->finer_rounds += shorter;
   run->retries++;
 done:
   return status;
@@ -227,8 +242,8 @@ static CwStatus run_passes(CwMeshRun *run, const char *fingerprint, CwPassState 
     if (optional && outcome.kind != CW_OUTCOME_DONE) {
       cw_log(run->context.log, "no mesh with these: %s", outcome.reason);
       CW_TRY(improve(run, state, 0, &again));
-    } else if (outcome.kind == CW_OUTCOME_FINER) {
-      CW_TRY(shorten_for_layers(run, &outcome, state));
+    } else if (is_of_places(outcome.kind)) {
+      CW_TRY(change_places(run, &outcome, state));
       state->start = start_of(run);
       again = 1;
     } else {
@@ -263,6 +278,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   if (run->rank == 0) CW_TRY(cw_pass_state_read(run->context.log, run->run_path, fingerprint, &state));
   CW_TRY(cw_pass_state_share(run->context.team, &state));
   run->finer = state.finer;
+  CW_TRY(cw_mesh_leave_bare(run, 0));
   if (state.pass > 0) cw_log(run->context.log, "going on with pass %d of an earlier run", state.pass);
   CW_TRY(begin(run, &state, run->finer.count > 0));
   if (run->stopped) goto done;

@@ -81,9 +81,10 @@ static CwStatus places_in(const json_t *file, CwFinerPlaces *places) {
   CW_GROW(places->place, places->capacity, (int32_t)count);
   for (size_t i = 0; i < count; i++) {
     const json_t *of = json_array_get(file, i);
-    double value[5];
-    for (size_t k = 0; k < 5; k++) value[k] = json_number_value(json_array_get(of, k));
-    places->place[places->count++] = (CwFinerPlace){(int32_t)value[0], {{value[1], value[2], value[3]}, value[4]}};
+    double value[6];
+    for (size_t k = 0; k < 6; k++) value[k] = json_number_value(json_array_get(of, k));
+    places->place[places->count++] =
+        (CwFinerPlace){(int32_t)value[0], (int32_t)value[1], {{value[2], value[3], value[4]}, value[5]}};
   }
 done:
   return status;
@@ -92,8 +93,9 @@ done:
 static json_t *places_packed(const CwFinerPlaces *places) {
   json_t *file = json_array();
   for (int32_t i = 0; i < places->count; i++) {
-    const CwSizePoint *point = &places->place[i].point;
-    json_array_append_new(file, json_pack("[i, f, f, f, f]", places->place[i].domain, point->x[0], point->x[1],
+    const CwFinerPlace *place = &places->place[i];
+    const CwSizePoint *point = &place->point;
+    json_array_append_new(file, json_pack("[i, i, f, f, f, f]", place->domain, place->bare, point->x[0], point->x[1],
                                           point->x[2], point->size));
   }
   return file;

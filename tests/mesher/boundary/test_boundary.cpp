@@ -135,7 +135,7 @@ static void layers_that_cross_a_line_are_found(void **) {
   check(cw_free_curves_make(&boundary.input, &boundary.wall_curves, &boundary.surface, &boundary.layers,
                             &boundary.free_curves, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
-  assert_near(box.outcome.place[0], 0.021, 1e-9);
+  assert_near(box.outcome.place[0][0], 0.021, 1e-9);
   assert_true(boundary.free_curves.tight_count > 0);
   for (int i = 0; i < boundary.free_curves.tight_count; i++) {
     assert_near(boundary.free_curves.tight[i][0], 0.021, 1e-9);

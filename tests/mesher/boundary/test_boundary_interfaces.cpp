@@ -238,7 +238,7 @@ static void layers_that_fill_a_line_are_told(void **) {
     assert_int_equal(boundary.free_curves.outline_count, 0);
     for (int k = 0; k < 2; k++)
       assert_near(cw_distance(boundary.free_curves.tight[k], boundary.layers.top[end[k]]), 0, 0);
-    assert_near(cw_distance(box.outcome.place, boundary.layers.top[end[0]]), 0, 0);
+    assert_near(cw_distance(box.outcome.place[0], boundary.layers.top[end[0]]), 0, 0);
   }
 }
 

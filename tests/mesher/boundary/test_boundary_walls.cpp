@@ -102,7 +102,7 @@ static void triangles_over_a_plane_are_told(void **) {
                              " reaches out of region 1: a cut curve is missing";
   assert_int_equal(box.outcome.kind, CW_OUTCOME_REPLAN);
   assert_string_equal(box.outcome.reason, wanted.c_str());
-  assert_near(cw_distance(box.outcome.place, surface.x[surface.triangle[first][0]]), 0, 0);
+  assert_near(cw_distance(box.outcome.place[0], surface.x[surface.triangle[first][0]]), 0, 0);
 }
 
 // Within 1e-8 of the plane a vertex lies on it.

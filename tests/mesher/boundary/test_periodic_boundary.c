@@ -75,7 +75,7 @@ static void told(Outlines *made, int32_t outline) {
   assert_int_equal(outcome.kind, CW_OUTCOME_ASYMMETRIC);
   snprintf(words, sizeof words, "an interface on plane %d has no periodic image", made->outline[outline].node);
   assert_string_equal(outcome.reason, words);
-  assert_memory_equal(outcome.place, made->x[made->corner[outline][0]], sizeof outcome.place);
+  assert_memory_equal(outcome.place[0], made->x[made->corner[outline][0]], sizeof outcome.place[0]);
   assert_null(made->free_curves.outline_images.next);
   make(made);
 }

@@ -27,10 +27,12 @@ static TopoDS_Shape prism(const std::vector<std::pair<double, double>> &corners)
 }
 
 // Finds the bare faces with areas as the faces are numbered, and closes the CAD; their numbers.
-static std::vector<int> bare_of(CwCad *cad, CwBareFaces *bare) {
+static std::vector<int> bare_of(CwCad *cad, CwBareFaces *bare, int asked = -1) {
+  const double at[3] = {1, 2, 3};
   std::vector<double> area;
+  *bare = {};
   for (int f = 0; f < cw_cad_face_count(cad); f++) area.push_back(1 + f);
-  if (cw_bare_faces_find(cad, area.data(), bare) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_bare_faces_find(cad, area.data(), asked, at, bare) != CW_OK) fail_msg("%s", cw_fail_message());
   std::vector<int> found;
   for (int f = 0; f < cw_cad_face_count(cad); f++)
     if (cw_cad_patch_kind(cad, cw_cad_face_patch(cad, f)) == CW_PATCH_WALL && !cw_cad_face_is_wall(cad, f))
@@ -43,7 +45,7 @@ static void a_box_and_a_block_with_a_notch_have_none(void **state) {
   CwBareFaces bare;
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape());
   assert_int_equal(bare_of(cad, &bare).size(), 0);
-  assert_int_equal(bare.first, -1);
+  assert_near(bare.share, 0, 0);
   cw_cad_close(&cad);
   cad = open_solid(prism({{0, 0}, {20, 0}, {20, 20}, {10, 5}, {0, 20}}));
   assert_int_equal(bare_of(cad, &bare).size(), 0);
@@ -57,8 +59,9 @@ static void is_a_headline(CwCad *cad, const CwBareFaces *bare, const char *remed
   CwDomain domain = {};
   domain.name = "block";
   domain.cad = cad;
+  domain.bare = *bare;
   check(cw_log_open("mesh", nullptr, 0, 0, &log));
-  cw_warn_of_bare(log, &domain, bare, headlines);
+  cw_warn_of_bare(log, &domain, headlines);
   assert_int_equal(json_array_size(headlines), 1);
   const std::string told = json_string_value(json_array_get(headlines, 0));
   assert_string_equal(told.c_str(), cw_log_warning(log, 0));
@@ -118,9 +121,22 @@ static void a_wall_that_goes_on_as_an_inlet_carries_none(void **state) {
   cw_cad_close(&cad);
 }
 
+// The other faces of a box can stand beside one that is bare. Those that are found with it are told with it.
+static void a_face_that_is_asked_for_is_bare(void **state) {
+  CwBareFaces bare;
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape());
+  std::vector<int> found = bare_of(cad, &bare, 3);
+  assert_int_equal(found.size(), 1);
+  assert_int_equal(found[0], 3);
+  assert_near(bare.share, 4. / 21, 1e-15);
+  is_a_headline(cad, &bare, "layers fold or cross there however short edges are, first at (1000, 2000, 3000) mm");
+  cw_cad_close(&cad);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_and_a_block_with_a_notch_have_none),
                                      cmocka_unit_test(a_cusp_carries_none),
+                                     cmocka_unit_test(a_face_that_is_asked_for_is_bare),
                                      cmocka_unit_test(a_wall_that_goes_on_as_an_inlet_carries_none)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

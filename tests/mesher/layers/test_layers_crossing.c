@@ -240,9 +240,10 @@ static void what_no_thinner_column_parts(void **state) {
       if (high >= 0 && (high < 3 || kind == 0)) {
         assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
       } else {
-        assert_int_equal(outcome.kind, kind == 1 ? CW_OUTCOME_REPLAN : CW_OUTCOME_FINER);
+        assert_int_equal(outcome.kind, kind == 1 ? CW_OUTCOME_REPLAN : CW_OUTCOME_BARE);
         assert_non_null(strstr(outcome.reason, crossed[kind]));
-        assert_memory_equal(outcome.place, x[0], sizeof x[0]);
+        assert_int_equal(outcome.places, 1);
+        assert_memory_equal(outcome.place[0], x[0], sizeof x[0]);
       }
     }
   }
@@ -253,7 +254,7 @@ static void what_no_thinner_column_parts(void **state) {
   CwLayerCrossing crossing = {.work = &work, .pair_count = 2, .pair = pair};
   CwOutcome outcome = {0};
   cw_layers_crossing_judge(&crossing, &outcome); // the second: no thickness parts walls
-  assert_int_equal(outcome.kind, CW_OUTCOME_FINER);
+  assert_int_equal(outcome.kind, CW_OUTCOME_BARE);
   assert_non_null(strstr(outcome.reason, "the wall crosses or touches itself"));
 }
 

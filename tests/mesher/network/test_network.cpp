@@ -74,7 +74,7 @@ static void a_plane_that_grazes_is_refused(void **) {
   CwPlane plane = {{x / 0.02, top / 0.02, 0}, 0.02 - 1e-7};
   assert_int_equal(half.divide(plane), CW_OUTCOME_REPLAN);
   assert_non_null(strstr(half.outcome.reason, "partition plane 0 grazes"));
-  assert_near(std::hypot(half.outcome.place[0], half.outcome.place[1]), 0.02, 1e-3);
+  assert_near(std::hypot(half.outcome.place[0][0], half.outcome.place[0][1]), 0.02, 1e-3);
   char text[CW_OUTCOME_TEXT_SIZE];
   print_message("  %s\n", cw_outcome_text(&half.outcome, 1e3, text));
 }
@@ -111,7 +111,7 @@ static void planes_that_meet_on_an_edge_are_refused(void **) {
   slanted.offset = cw_plane_distance(&slanted, x);
   assert_int_equal(half.divide(level, &slanted), CW_OUTCOME_REPLAN);
   assert_non_null(strstr(half.outcome.reason, "partition planes 0 and 1 meet on the border of face"));
-  for (int k = 0; k < 3; k++) assert_near(half.outcome.place[k], x[k], 1e-8);
+  for (int k = 0; k < 3; k++) assert_near(half.outcome.place[0][k], x[k], 1e-8);
   slanted.offset += 1e-3;
   assert_int_equal(half.divide(level, &slanted), CW_OUTCOME_DONE);
 }
@@ -148,7 +148,7 @@ static void open_patches_that_meet_on_the_wall_are_refused(void **) {
     assert_non_null(strstr(half.outcome.reason,
                            "3 partition planes or open patches, more than two, meet in one point of the wall"));
     const double top[3] = {0.01, 0.01, 0.02};
-    for (int k = 0; k < 3; k++) assert_near(half.outcome.place[k], top[k], 1e-8);
+    for (int k = 0; k < 3; k++) assert_near(half.outcome.place[0][k], top[k], 1e-8);
   }
 }
 

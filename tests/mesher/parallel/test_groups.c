@@ -197,7 +197,7 @@ static int be_a_rank(int argc, char **argv) {
     }
     const CwOutcome first = cw_outcomes_first(DOMAINS, outcome);
     wrong += strcmp(first.reason, retry ? "no column on domain 1" : "") != 0;
-    wrong += retry && !(first.domain == 1 && first.has_place && first.place[2] == 1);
+    wrong += retry && !(first.domain == 1 && first.places == 1 && first.place[0][2] == 1);
     // The ranks are together again.
     int32_t domain = 0;
     wrong += cw_parallel_for(&context, "after", count_of(0), sizeof(int64_t), fill, &domain, work.made[1]) != CW_OK;

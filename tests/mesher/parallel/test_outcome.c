@@ -48,6 +48,20 @@ static void ranks_agree(void **state) {
   }
 }
 
+// Those near one that is there are left out, and those beyond the sixteenth; the first is told.
+static void places_stand_apart(void **state) {
+  CwOutcome outcome = {0};
+  char text[CW_OUTCOME_TEXT_SIZE];
+  cw_outcome_set(&outcome, CW_OUTCOME_BARE, NULL, "no layers");
+  assert_int_equal(outcome.places, 0);
+  for (int i = 0; i < 40; i++) cw_outcome_add_place(&outcome, (const double[3]){0.5 * i, 0, 1}, 0.9);
+  assert_int_equal(outcome.places, CW_OUTCOME_PLACES);
+  for (int i = 0; i < outcome.places; i++) assert_true(outcome.place[i][0] == i);
+  assert_string_equal(cw_outcome_text(&outcome, 1, text), "no layers at (0.000, 0.000, 1.000) mm");
+  cw_outcome_set(&outcome, CW_OUTCOME_BARE, outcome.place[3], "no layers");
+  assert_int_equal(outcome.places, 1);
+}
+
 static void text_ends_with_the_place(void **state) {
   char text[CW_OUTCOME_TEXT_SIZE], many[2 * CW_REASON_SIZE];
   const double place[3] = {0.0012, -0.1, 0};
@@ -77,6 +91,7 @@ static void first_that_is_not_done_counts(void **state) {
 int main(int argc, char **argv) {
   if (launched(argc)) return be_a_rank(argc, argv);
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(places_stand_apart),
       cmocka_unit_test(text_ends_with_the_place),
       cmocka_unit_test(first_that_is_not_done_counts),
       cmocka_unit_test(ranks_agree),

@@ -53,7 +53,7 @@ static void is_thin_with(const CwRegionMesh *r, const double place[3], const cha
   CwQuality q;
   audit(r, &q);
   assert_int_equal(outcome.kind, CW_OUTCOME_THIN);
-  for (int k = 0; k < 3 && place; k++) assert_near(outcome.place[k], place[k], 1e-15);
+  for (int k = 0; k < 3 && place; k++) assert_near(outcome.place[0][k], place[k], 1e-15);
   assert_non_null(strstr(outcome.reason, "rotor region 3"));
   assert_non_null(strstr(outcome.reason, "no positive volume"));
   if (!strstr(outcome.reason, part)) fail_msg("\"%s\" lacks \"%s\"", outcome.reason, part);

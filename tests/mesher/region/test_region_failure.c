@@ -52,16 +52,16 @@ static void the_first_crossing_is_the_place(void **state) {
 static void a_place_that_is_told_counts(void **state) {
   static const int crossings[] = {1, 1, 0};
   const char *path = in_test_folder("boundary.vtk");
-  CwOutcome why = {.kind = CW_OUTCOME_THIN, .has_place = 1, .place = {4, 5, 6}};
+  CwOutcome why = {.kind = CW_OUTCOME_THIN, .places = 1, .place = {{4, 5, 6}}};
   CwRegionFailure failure;
   memset(why.reason, 'a', sizeof why.reason - 1);
   assert_int_equal(cw_region_failure_examine(&from, 0, &why, path, &failure), CW_OK);
   assert_int_equal(failure.everywhere, 0);
   assert_string_equal(failure.patch, "the layers");
-  assert_memory_equal(failure.at, why.place, sizeof why.place);
+  assert_memory_equal(failure.at, why.place[0], sizeof failure.at);
   assert_int_equal(strlen(failure.message), sizeof failure.message - 1); // cut
   expect_crossings(path, 3, crossings);
-  why.has_place = 0;
+  why.places = 0;
   assert_int_equal(cw_region_failure_examine(&from, 1, &why, path, &failure), CW_OK);
   assert_int_equal(failure.failed, 1);
   assert_int_equal(failure.everywhere, 1);

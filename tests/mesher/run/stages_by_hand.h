@@ -46,6 +46,7 @@ static const Attempt *script; // the last attempt goes on for ever
 static int script_count, at;
 static char trace[1000];
 static int other_plans; // that each domain still has
+static int walls_left;  // with layers, where none stand
 static int64_t asked = 100000;
 static double factor_at_scale;
 
@@ -193,9 +194,25 @@ CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const doubl
   CwStatus status = CW_OK;
   if (number >= 0) add("F%d", number);
   CW_GROW(places->place, places->capacity, places->count + 1);
-  places->place[places->count++] = (CwFinerPlace){number, {{x[0], x[1], x[2]}, 1}};
+  places->place[places->count++] = (CwFinerPlace){number, -1, {{x[0], x[1], x[2]}, 1}};
 done:
   return status;
+}
+
+CwStatus cw_finer_places_add_bare(const CwDomain *domain, int32_t number, const double x[3], CwFinerPlaces *places) {
+  CwStatus status = CW_OK;
+  if (walls_left == 0) goto done;
+  add("B%d", walls_left);
+  CW_GROW(places->place, places->capacity, places->count + 1);
+  places->place[places->count++] = (CwFinerPlace){number, walls_left--, {{x[0], x[1], x[2]}, 0}};
+done:
+  return status;
+}
+
+CwStatus cw_mesh_leave_bare(CwMeshRun *of, int32_t first) {
+  for (int32_t i = first; i < of->finer.count; i++)
+    if (of->finer.place[i].bare >= 0) add("b%d", of->finer.place[i].bare);
+  return CW_OK;
 }
 
 void cw_finer_places_free(CwFinerPlaces *places) {

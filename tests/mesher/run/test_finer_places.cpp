@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "filleted_step.h"
 
@@ -48,6 +50,58 @@ static void places_ask_for_half(void **) {
   assert_int_equal(places.count, 0);
 }
 
+// Of the walls at a place the least is left bare that still has layers, and its images; none of them asks for shorter
+// edges.
+static void the_least_wall_there_goes_bare(void **) {
+  PlannedSolid solid(filleted_step(false));
+  CwDomain domain = {};
+  CwSymmetry symmetry = {};
+  CwFinerPlaces places = {};
+  CwSizePoint *point = nullptr;
+  double *area = nullptr, x[3], range[2], far[3] = {1, 1, 1};
+  int32_t count;
+  int face[2];
+  domain.cad = solid.cad;
+  domain.background = solid.background;
+  domain.size = solid.size;
+  cw_size_set_scale(solid.size, 1e-3);
+  check(cw_domain_face_areas(&domain, &area));
+  cw_cad_edge_faces(solid.cad, 0, face);
+  cw_cad_edge_range(solid.cad, 0, range);
+  cw_cad_edge_point(solid.cad, 0, 0.5 * (range[0] + range[1]), x, nullptr);
+  const int less = area[face[0]] < area[face[1]] ? 0 : 1;
+  assert_true(area[face[less]] > 0 && area[face[less]] != area[face[!less]]);
+  std::free(area);
+  check(cw_finer_places_add_bare(&domain, 1, far, &places));
+  assert_int_equal(places.count, 0);
+  std::vector<int32_t> next, first, turns;
+  for (int f = 0; f < cw_cad_face_count(solid.cad); f++) next.push_back(f), first.push_back(f), turns.push_back(0);
+  symmetry.count = 2;
+  symmetry.face = {next.data(), first.data(), turns.data()}; // each comes to itself, but for these two
+  next[face[0]] = face[1];
+  next[face[1]] = face[0];
+  first[face[0]] = first[face[1]] = std::min(face[0], face[1]);
+  turns[std::max(face[0], face[1])] = 1;
+  domain.symmetry = &symmetry;
+  check(cw_finer_places_add_bare(&domain, 1, x, &places));
+  assert_int_equal(places.count, 2);
+  for (int i = 0; i < 2; i++) {
+    assert_int_equal(places.place[i].domain, 1);
+    assert_int_equal(places.place[i].bare, face[i == 0 ? less : !less]);
+    assert_near(places.place[i].point.x[0], i == 0 ? x[0] : -x[0], 1e-15);
+  }
+  cw_cad_face_leave_bare(solid.cad, face[less]);
+  domain.symmetry = nullptr;
+  check(cw_finer_places_add_bare(&domain, 0, x, &places));
+  assert_int_equal(places.place[2].bare, face[!less]);
+  for (int d = 0; d < 2; d++) {
+    check(cw_finer_places_of(&places, d, &count, &point));
+    assert_int_equal(count, 0);
+    std::free(point);
+  }
+  cw_finer_places_free(&places);
+}
+
 // Of two regions with places at 11, 15.9 and 17 degrees only the one that is flat asks for shorter edges: at the flat
 // place and at the nearly flat one, below 4/3 of what is wanted. Of places that are near the first alone does.
 static void flat_regions_ask_where_they_are_nearly_flat(void **) {
@@ -76,7 +130,7 @@ static void flat_regions_ask_where_they_are_nearly_flat(void **) {
 }
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(places_ask_for_half),
+  const CMUnitTest tests[] = {cmocka_unit_test(places_ask_for_half), cmocka_unit_test(the_least_wall_there_goes_bare),
                               cmocka_unit_test(flat_regions_ask_where_they_are_nearly_flat)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
