@@ -248,12 +248,15 @@ void cw_tell_layers(CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     changed |= run->layers_told[d] != domain->layer_count || run->bare_told[d] != domain->bare.count;
     run->layers_told[d] = domain->layer_count;
-    run->bare_told[d] = domain->bare.count;
   }
   if (!changed) return;
   while (json_array_size(run->headlines) > run->headlines_before)
     json_array_remove(run->headlines, run->headlines_before);
-  for (int d = 0; d < run->model.domain_count; d++) cw_warn_of_bare(run->context.log, &run->domain[d], run->headlines);
+  for (int d = 0; d < run->model.domain_count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    cw_warn_of_bare(run->bare_told[d] != domain->bare.count ? run->context.log : NULL, domain, run->headlines);
+    run->bare_told[d] = domain->bare.count;
+  }
   double cells = cw_cells_crowded(run);
   if (cells > 0)
     cw_warn_of_long_edges(run->context.log, run->table, run->domain[0].layer_count, run->scale, cells, run->headlines);

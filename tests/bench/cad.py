@@ -108,8 +108,8 @@ def mesh(folder, case, cells, limit):
            "allowed": domain["least_dihedral_allowed_deg"],
            "full": 100 * layers["full_thickness_faces"] / max(layers["wall_faces"], 1),
            "sound": domain["prism_least_scaled_jacobian"] > 0 and domain["least_cell_volume_m3"] > 0}
-    bare = re.search(r"faces, (\S+) % of the wall, carry no layers", said)
-    row["bare"] = float(bare[1]) if bare else 0
+    bare = re.findall(r"faces, (\S+) % of the wall, carry no layers", said)
+    row["bare"] = float(bare[-1]) if bare else 0
     row["cause"] = "meshed" + ("" if is_fair(row) else ", flat tetrahedra") + (", bare walls" if row["bare"] else "")
     return row
 
