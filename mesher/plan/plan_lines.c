@@ -36,7 +36,7 @@ typedef struct {
   const CwPlan *plan;
   const CwPlane *plane;
   int32_t node, above;
-  double point[3], direction[3], from, to;
+  double point[3], direction[3], from, to, most; // most: cost at which no more is asked
   int32_t neighbour_count, neighbour_capacity;
   Neighbour *neighbour;
 } Line;
@@ -134,6 +134,15 @@ static int samples_along(const Line *line, double run) {
   return (int)fmin(fmax(ceil(run / (LINE_STEP * line->model->base_size)), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
 }
 
+static double cost_of(const Lines *lines) {
+  return lines->impossible ? INFINITY : lines->cramped + cw_plan_sharpness(lines->sharp);
+}
+
+// Whether so much more shortage makes the lines cost as much as is asked.
+static int is_enough(const Line *line, const Lines *lines, double cramped) {
+  return cost_of(lines) + cramped * cramped >= line->most;
+}
+
 static void add_cramped(double cramped, Lines *lines) {
   lines->cramped += cramped * cramped;
 }
@@ -214,7 +223,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   int samples = samples_along(line, run), beside = 0;
   double step = run / samples;
   CwPlanWall wall = {.point = -1};
-  for (int i = 0; i < samples && !lines->impossible; i++) {
+  for (int i = 0; i < samples && !is_enough(line, lines, cramped); i++) {
     double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
     double h = cw_size_at(model->size, x), near = plane_near(line, x, cw_policy.plan_room * h);
@@ -276,7 +285,7 @@ static CwStatus judge_line(Line *line, const CwPlanPart *part, double sine, Line
   int found = 0;
   double outside = 0;
   End from = {line->from, -1, 0, 0};
-  for (int32_t i = 0; i <= hits && !lines->impossible; i++) {
+  for (int32_t i = 0; i <= hits && !is_enough(line, lines, outside); i++) {
     End to = {line->to, -1, 0, 0};
     double x[3];
     if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
@@ -304,10 +313,6 @@ static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlan
   return fabs(apart) > 2 * model->sample_spacing;
 }
 
-static double cost_of(const Lines *lines) {
-  return lines->impossible ? INFINITY : lines->cramped + cw_plan_sharpness(lines->sharp);
-}
-
 CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                        const CwPlane *plane, double most, CwPlanLines *found) {
   CwStatus status = CW_OK;
@@ -315,7 +320,7 @@ CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t nod
   CwPlanBound bound = cw_plan_bound(plan, node);
   for (; bound.node >= 0 && cost_of(&lines) < most; bound = cw_plan_next_bound(plan, bound)) {
     const CwPlane *other = &plan->node[bound.node].plane;
-    Line line = {.model = model, .plan = plan, .plane = plane, .node = node, .above = bound.node};
+    Line line = {.model = model, .plan = plan, .plane = plane, .node = node, .above = bound.node, .most = most};
     double across[3];
     if (!cw_plane_line(other, plane, line.point, line.direction)) {
       lines.impossible = !room_between(model, other, plane);

@@ -176,7 +176,6 @@ static void triangles_follow_a_narrow_nose(void **state) {
     for (int k = 0; k < parts; k++) add_point(plan, M_PI, 1.2 * k / parts);
     for (int k = 3; k > 0; k--) add_point(plan, k * M_PI / 3, 1.2);
     for (int k = parts; k > 0; k--) add_point(plan, 0, 1.2 * k / parts);
-    int32_t count = plan->input.point_count;
     add_outline(plan);
     mesh_plan(plan, "narrow nose", 1.2 * M_PI, 1, &mesh);
     check_not_steep(&mesh);
