@@ -96,8 +96,12 @@ static void add_key(const char *group, double height, double y_plus, List *list)
 
 static void add_fitted(const CwPatchTarget *target, const char *patch, const char *group, List *list) {
   const CwFirstHeight *first = &target->first;
-  add(list, "%s%.40s %.3g mm instead of %.3g mm in a passage %.3g mm wide (", list->length ? ", " : "", patch,
-      1e3 * first->height, 1e3 * first->asked, 1e3 * target->flow.width);
+  add(list, "%s%.40s %.3g mm instead of %.3g mm ", list->length ? ", " : "", patch, 1e3 * first->height,
+      1e3 * first->asked);
+  if (first->total > 0)
+    add(list, "in walls.total_thickness_mm %.3g (", 1e3 * first->total);
+  else
+    add(list, "in a passage %.3g mm wide (", 1e3 * target->flow.width);
   add_key(group, first->height, first->y_plus, list);
 }
 
@@ -194,8 +198,8 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          domain->name, CW_LAMINAR_REYNOLDS, laminar.text, CW_LAMINAR_SHARE);
   if (fitted.length)
     tell(log, headlines,
-         "%s: first heights of which %d layers do not fit both walls become the greatest that do, or less beside edges "
-         "of the walls: %s%s",
+         "%s: first heights of which %d layers do not fit both walls, or walls.total_thickness_mm, become the greatest "
+         "that do, or less beside edges of the walls: %s%s",
          domain->name, domain->layer_count, fitted.text,
          domain->layer_count > CW_LAYERS_LEAST ? "; fewer walls.layer_count have room for greater ones" : "");
   if (rounded.length)

@@ -6,6 +6,10 @@
 #include "mesher/policy.h"
 #include "mesher/thickness/layer_thickness.h"
 
+double cw_thickness_given(const CwWalls *walls, const CwWallGroup *group) {
+  return cw_case_given(group->total_thickness) ? group->total_thickness : walls->total_thickness;
+}
+
 double cw_column_room(const CwWallFlow *flow) {
   double across = cw_policy.gap_share * flow->width;
   return flow->before > 0 ? fmin(across, cw_policy.free_share * flow->before) : across;
@@ -25,7 +29,7 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
   double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
-  double fitting = greatest_fitting(flow, walls, layer_count);
+  double fitting = greatest_fitting(flow, walls, layer_count), total = cw_thickness_given(walls, group);
   CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
   if (cw_case_given(group->first_height)) {
     first.asked = group->first_height;
@@ -43,6 +47,11 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
     first.height = CW_LAMINAR_SHARE * flow->width;
     if (flow->before > 0) first.height = fmin(first.height, cw_column_room(flow) / layer_count);
     first.source = CW_FIRST_LAMINAR;
+  }
+  // And the lowest column of so many layers is no higher than all of them may be.
+  if (cw_case_given(total) && total / cw_layer_lowest(layer_count) < fmin(first.height, fitting)) {
+    fitting = total / cw_layer_lowest(layer_count);
+    first.total = total;
   }
   if (first.height > fitting) {
     first.height = fitting;

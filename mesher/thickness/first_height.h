@@ -26,7 +26,7 @@ enum { CW_LAYERS_LEAST = 3 };
 typedef enum {
   CW_FIRST_ASKED,  // as the case gives it, or its y+
   CW_FIRST_AUTO,   // of a y+ in the log layer, or less where the passage is narrow
-  CW_FIRST_FITTED, // what fits the passage, less than that
+  CW_FIRST_FITTED, // what fits the passage, or all layers together as the case gives them, less than that
   CW_FIRST_LAMINAR // a share of the passage: the flow is laminar
 } CwFirstSource;
 
@@ -35,8 +35,12 @@ typedef struct {
   double asked;    // of the case, or of a y+ in the log layer, m
   double y_plus;   // of `height` where the case counts it; NAN in laminar flow
   double reynolds; // of the passage
+  double total;    // all layers together, as the case gives them, where that is what it fits, m; else 0
   CwFirstSource source;
 } CwFirstHeight;
+
+// All layers together on walls of a group, m: NAN, as all that is not given, where the case leaves that open.
+double cw_thickness_given(const CwWalls *walls, const CwWallGroup *group);
 
 // How tall columns may become, m: their share of the passage, or of the way to an open patch.
 double cw_column_room(const CwWallFlow *flow);

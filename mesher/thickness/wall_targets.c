@@ -18,7 +18,7 @@ CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, dou
   }
   // More than this would raise the first height.
   target.thickness = cw_layer_thickness(target.first_height, layer_count, target.growth);
-  double asked = cw_case_given(group->total_thickness) ? group->total_thickness : walls->total_thickness;
+  double asked = cw_thickness_given(walls, group);
   if (cw_case_given(asked)) target.thickness = fmin(target.thickness, asked);
   return target;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "mesher/thickness/first_height.h"
+#include "mesher/thickness/layer_thickness.h"
 #include "pipeline/case_schema.h"
 #include "tests/unit_test.h"
 
@@ -69,6 +70,30 @@ static void what_does_not_fit_becomes_what_fits(void **state) {
 
 // A trailing edge before the interface: six even layers in 0.6 of the way where the height is open; a given one stays
 // as long as layers that fall by 0.6 fit there.
+// Columns of 0.2 mm have the first height that is left of them, and none greater. That of a group goes before that of
+// all walls; where all layers have room it changes nothing.
+static void all_layers_together_leave_no_more(void **state) {
+  double fraction[6];
+  CwCase table = water();
+  table.walls.layer_count = 5;
+  table.walls.blade.y_plus = 100;
+  table.walls.total_thickness = 2e-4;
+  CwFirstHeight first = choose(&table, 30);
+  assert_int_equal(first.source, CW_FIRST_FITTED);
+  NEAR(first.asked, 100 * UNIT);
+  NEAR(first.total, 2e-4);
+  assert_true(first.height < 0.9 * first.asked);
+  NEAR(first.y_plus, first.height / UNIT);
+  NEAR(cw_layer_fractions(2e-4, first.height, 5, 1.3, fraction), first.height);
+  assert_true(cw_layer_fractions(2e-4, 1.01 * first.height, 5, 1.3, fraction) < 1.001 * first.height);
+  table.walls.blade.total_thickness = 4e-5;
+  NEAR(choose(&table, 30).height, first.height / 5);
+  NEAR(choose(&table, 30).total, 4e-5);
+  table.walls.blade.total_thickness = 2e-3;
+  NEAR(choose(&table, 30).height, 100 * UNIT);
+  assert_true(choose(&table, 30).total == 0);
+}
+
 static void an_open_face_before_the_wall_leaves_less_room(void **state) {
   CwCase table = water();
   CwWallFlow flow = FLOW;
@@ -144,6 +169,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(asked_by_y_plus_or_height),
                                      cmocka_unit_test(open_ones_lie_in_the_log_layer),
                                      cmocka_unit_test(what_does_not_fit_becomes_what_fits),
+                                     cmocka_unit_test(all_layers_together_leave_no_more),
                                      cmocka_unit_test(an_open_face_before_the_wall_leaves_less_room),
                                      cmocka_unit_test(laminar_flow_takes_a_share_of_the_passage),
                                      cmocka_unit_test(random_passages)};
