@@ -273,10 +273,12 @@ void cw_tell_layers(CwMeshRun *run) {
   }
 }
 
-void cw_mesh_take_laws(CwMeshRun *run, const CwPassStart *start) {
-  run->prisms = start->prisms;
-  run->tets = start->tets;
-  cw_mesh_solve_scale(run);
+void cw_mesh_take_start(CwMeshRun *run, const CwPassStart *start) {
+  if (start->prisms.factor > 0) {
+    run->prisms = start->prisms;
+    run->tets = start->tets;
+    cw_mesh_solve_scale(run);
+  }
   cw_mesh_leave_room(run, start->layers);
   cw_tell_layers(run);
 }

@@ -35,9 +35,9 @@ double cw_cells_crowded(CwMeshRun *run);
 
 // Tells of bare walls and the numbers of layers, anew where they have changed: the old headlines of them go.
 void cw_tell_layers(CwMeshRun *run);
-// What a pass begins with: the cells as those before have counted them, the scale that follows, and no more layers than
-// leave room then; told of where that changes their numbers.
-void cw_mesh_take_laws(CwMeshRun *run, const CwPassStart *start);
+// What a pass begins with: the cells as those before have counted them, if there were any, the scale that follows, and
+// no more layers than leave room then; told of where that changes their numbers.
+void cw_mesh_take_start(CwMeshRun *run, const CwPassStart *start);
 
 // Cells of all domains at the present scale, over the asked number, less one.
 double cw_predicted_off(const CwMeshRun *run);

@@ -23,8 +23,10 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-// Passes with the same places; rounds of shorter edges for layers, and for quality; of other planes after these.
-enum { PASSES_MOST = 10, FINER_MOST = 6, POOR_MOST = 4, PLANES_MOST = 3 };
+// Passes with the same places; rounds of shorter edges for layers, and for quality; after these of other planes, and
+// then of fewer layers.
+enum { PASSES_MOST = 10, FINER_MOST = 6, POOR_MOST = 4, PLANES_MOST = 3, FEWER_MOST = 3 };
+enum { FEWER_PART = 4 };                    // of its layers, that a domain has less in each
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
 // The stages of one attempt, in their order. After the one that the run is to end with it is done.
@@ -123,7 +125,7 @@ static CwStatus begin(CwMeshRun *run, const CwPassState *state, int again) {
   CW_TRY(cw_mesh_plan(run));
   CW_TRY(cw_stage_view(run, CW_STAGE_DECOMPOSITION));
   if (run->stopped) goto done;
-  if (state->start.prisms.factor > 0) cw_mesh_take_laws(run, &state->start);
+  cw_mesh_take_start(run, &state->start);
   CW_TRY(cw_mesh_plan_whole(run, state->start.whole, state->plane_rounds > 0 ? "they fall short" : "as before"));
 done:
   return status;
@@ -156,10 +158,23 @@ done:
   return status;
 }
 
+// Of fewer layers in the domains that fall short, where edges are longer than so many leave room for. 0 where there are
+// the fewest already.
+static int take_fewer_layers(CwPassState *state) {
+  int fewer = 0, round = state->plane_rounds - PLANES_MOST;
+  for (int d = 0; d < CW_DOMAINS_MOST && round <= FEWER_MOST; d++) {
+    int made = state->best_layers[d], step = made / FEWER_PART > 1 ? made / FEWER_PART : 1;
+    if (!state->best_lacks[d] || made <= CW_LAYERS_LEAST) continue;
+    state->start.layers[d] = made - round * step > CW_LAYERS_LEAST ? made - round * step : CW_LAYERS_LEAST;
+    fewer = 1;
+  }
+  return fewer;
+}
+
 // What the next round begins with where shorter edges do not help: the best mesh, in which the domains that fall short
 // get other planes, of more regions each time, and the last time of no symmetry, since fewer planes leave layers more
-// room. 0 where there are no such rounds left: then the best mesh as it was.
-static int take_other_planes(CwMeshRun *run, CwPassState *state) {
+// room; then fewer layers. NULL where there are no such rounds left: then the best mesh as it was; else what it has.
+static const char *take_other(CwMeshRun *run, CwPassState *state) {
   int other = 0;
   state->start = state->best;
   run->finer.count = state->best.places;
@@ -170,25 +185,30 @@ static int take_other_planes(CwMeshRun *run, CwPassState *state) {
     state->start.whole[d] |= state->plane_rounds == PLANES_MOST;
     other = 1;
   }
-  return other;
+  if (other) return "other planes";
+  if (state->plane_rounds <= PLANES_MOST) state->plane_rounds = PLANES_MOST + 1;
+  return take_fewer_layers(state) ? "fewer layers" : NULL;
 }
 
 // Asks for shorter edges about flat tetrahedra and missed first heights, as long as these become fewer: where edges are
 // as long as a passage is wide no filling is better. After a second round that did not help the domains that fall short
-// get other planes. Then the best mesh is made again. made: whether there is a mesh that may stand, of as many cells as
-// asked or what the first passes came to; *again: 1 where there is anything to make.
+// get other planes, and fewer layers. Then the best mesh is made again. made: whether there is a mesh that may stand,
+// of as many cells as asked or what the first passes came to; *again: 1 where there is anything to make.
 static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again) {
   CwStatus status = CW_OK;
   int32_t poor = 0;
   double deficit = made ? cw_poor_deficit(run, &poor) : INFINITY;
   int many = made && poor > 0 && (double)run->cells < poor * cw_policy.poor_rare;
   int best = made && (state->poor_rounds == 0 || deficit < state->least_deficit);
+  const char *other;
   if (best) {
     state->best = state->start;
     state->best_round = state->poor_rounds;
     state->least_deficit = deficit;
     memset(state->best_lacks, 0, sizeof state->best_lacks);
     if (many) cw_poor_domains(run, state->best_lacks);
+    for (int d = 0; d < run->model.domain_count; d++)
+      state->best_layers[d] = run->scale > cw_size_scale_fine() ? run->domain[d].layer_count : 0;
   }
   if (state->poor_rounds > POOR_MOST) goto done;
   if (many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1)) {
@@ -198,8 +218,8 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
     CW_TRY(cw_finer_at_poor(run));
     state->start = start_of(run);
     state->poor_rounds++;
-  } else if (take_other_planes(run, state)) {
-    cw_log(run->context.log, "domains fall short; they are made again with other planes");
+  } else if ((other = take_other(run, state))) {
+    cw_log(run->context.log, "domains fall short; they are made again with %s", other);
     state->poor_rounds = POOR_MOST;
   } else if (!best) {
     cw_log(run->context.log, "that did not help; the best mesh is made again");
@@ -261,7 +281,7 @@ static CwStatus run_passes(CwMeshRun *run, const char *fingerprint, CwPassState 
     state->start = start_of(run);
     CW_TRY(keep_state(run, fingerprint, state));
     for (int d = 0; d < run->model.domain_count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
-    cw_mesh_take_laws(run, &state->start);
+    cw_mesh_take_start(run, &state->start);
   }
 done:
   return status;

@@ -150,6 +150,7 @@ CwStatus cw_pass_state_read(CwLog *log, const char *run_path, const char *finger
                          .best_round = int_in(file, "best_round"),
                          .plane_rounds = int_in(file, "plane_rounds")};
   by_domain_in(json_object_get(file, "best_lacks"), state->best_lacks);
+  by_domain_in(json_object_get(file, "best_layers"), state->best_layers);
   CW_TRY(places_in(json_object_get(file, "finer"), &state->finer));
 done:
   json_decref(file);
@@ -174,12 +175,13 @@ done:
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
-  json_t *file = json_pack("{s:s, s:i, s:i, s:o, s:i, s:i, s:o, s:f, s:i, s:o, s:i, s:o}", "fingerprint", fingerprint,
-                           "pass", state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start),
-                           "finer_rounds", state->finer_rounds, "poor_rounds", state->poor_rounds, "best",
-                           start_packed(&state->best), "least_deficit", state->least_deficit, "best_round",
-                           state->best_round, "best_lacks", by_domain_packed(state->best_lacks), "plane_rounds",
-                           state->plane_rounds, "finer", places_packed(&state->finer));
+  json_t *file =
+      json_pack("{s:s, s:i, s:i, s:o, s:i, s:i, s:o, s:f, s:i, s:o, s:o, s:i, s:o}", "fingerprint", fingerprint, "pass",
+                state->pass, "first_pass", state->first_pass, "start", start_packed(&state->start), "finer_rounds",
+                state->finer_rounds, "poor_rounds", state->poor_rounds, "best", start_packed(&state->best),
+                "least_deficit", state->least_deficit, "best_round", state->best_round, "best_lacks",
+                by_domain_packed(state->best_lacks), "best_layers", by_domain_packed(state->best_layers),
+                "plane_rounds", state->plane_rounds, "finer", places_packed(&state->finer));
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_sealed_json_write(file, path));

@@ -45,8 +45,9 @@ static CwCase table;
 static const Attempt *script; // the last attempt goes on for ever
 static int script_count, at;
 static char trace[1000];
-static int other_plans; // that each domain still has
-static int walls_left;  // with layers, where none stand
+static int other_plans;    // that each domain still has
+static int crowded_layers; // of the stator, where edges are too long for them
+static int walls_left;     // with layers, where none stand
 static int64_t asked = 100000;
 static double factor_at_scale;
 
@@ -81,6 +82,8 @@ CwStatus cw_mesh_open(CwMeshRun *of) {
   strcpy(of->model.domain[1].name, "stator");
   of->domain[0].name = "rotor";
   of->domain[1].name = "stator";
+  of->domain[1].layer_count = crowded_layers;
+  of->scale = crowded_layers > 0 ? 1.01 * cw_size_scale_fine() : 0.99 * cw_size_scale_fine();
   return CW_OK;
 }
 
@@ -169,7 +172,9 @@ void cw_learn_tets(CwMeshRun *of) {
   of->tets = (CwCellLaw){.factor = 1. / 3, .scale = 1};
 }
 
-void cw_mesh_take_laws(CwMeshRun *of, const CwPassStart *start) {
+void cw_mesh_take_start(CwMeshRun *of, const CwPassStart *start) {
+  if (start->layers[1] > 0) add("k%d", of->domain[1].layer_count = start->layers[1]);
+  if (start->prisms.factor == 0) return;
   of->prisms = start->prisms;
   of->tets = start->tets;
   add("S");

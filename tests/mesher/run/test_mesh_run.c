@@ -234,6 +234,31 @@ static void what_helps_is_kept(void **state) {
   end();
 }
 
+// After other planes come fewer layers, where edges are too long for so many: a quarter less each time than the best
+// mesh has, in what falls short, and no fewer than three.
+static void fewer_layers_come_last(void **state) {
+#define PLANES POOR(9), POOR(9), POOR(9), POOR(9), POOR(9), POOR(9)
+  const char *before = "of p00 h00w WLIUGeN Q zf p00 k13 S h00 WLIUGeN Q zf p00 k13 S h00 WLIUGeN "
+                       "zf p01 h00 WLIUGeN zf p02 h00 WLIUGeN zf p03 h01 WLIUGeN";
+  char wanted[sizeof trace];
+  crowded_layers = 13;
+  snprintf(wanted, sizeof wanted, "%s zf p00 k10 h00 WLIUGeN zf p00 k7 h00 WLIUGeN zf p00 k4 h00 WLIUGeN", before);
+  MAKE(strcat(wanted, " zf p00 h00 WLIUGeN m"), PLANES, POOR(9), POOR(9), POOR(9), POOR(9));
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+  snprintf(wanted, sizeof wanted, "%s zf p00 k10 h00 WLIUGeN zf p00 k6 h00 WLIUGeN m", before); // from the best
+  MAKE(wanted, PLANES, POOR(8), {.cells = 1});
+  end();
+  unlink(in_test_folder("mesh/pass.json"));
+  crowded_layers = 3;
+  MAKE("of p00 h00w WLIUGeN Q zf p00 k3 S h00 WLIUGeN Q zf p00 k3 S h00 WLIUGeN zf p01 h00 WLIUGeN zf p02 h00 WLIUGeN "
+       "zf p03 h01 WLIUGeN zf p00 h00 WLIUGeN m",
+       PLANES, POOR(9));
+  end();
+  crowded_layers = 0;
+#undef PLANES
+}
+
 // A round for quality has the planes that were found before it, and is as whole.
 static void planes_are_kept_with_shorter_edges(void **state) {
   MAKE("of p00 h00w W eA1 W eA0 WLIUGeN Q zf p01 S h10 WLIUGeN m",
@@ -327,6 +352,7 @@ int main(void) {
       TEST(shorter_edges_make_room_for_layers),
       TEST(shorter_edges_come_before_other_planes),
       TEST(what_helps_is_kept),
+      TEST(fewer_layers_come_last),
       TEST(planes_are_kept_with_shorter_edges),
       TEST(a_good_mesh_is_the_last),
       TEST(rounds_for_quality_may_fail),

@@ -86,6 +86,7 @@ static void state_comes_back_as_written(void **unused) {
       .least_deficit = 2. / 3,
       .best_round = 3,
       .best_lacks = {0, 1},
+      .best_layers = {7, 0, 5},
       .plane_rounds = 2,
       .finer = {.count = 2, .place = place}};
   assert_int_equal(cw_pass_state_write(test_folder, fingerprint, &written), CW_OK);
@@ -100,6 +101,7 @@ static void state_comes_back_as_written(void **unused) {
   assert_near(read.least_deficit, written.least_deficit, 0);
   assert_int_equal(read.best_round, 3);
   assert_memory_equal(read.best_lacks, written.best_lacks, sizeof written.best_lacks);
+  assert_memory_equal(read.best_layers, written.best_layers, sizeof written.best_layers);
   assert_int_equal(read.plane_rounds, 2);
   assert_int_equal(read.finer.count, 2);
   for (int i = 0; i < 2; i++) { // to the last bit
