@@ -65,12 +65,12 @@ static int32_t open_face(const CwCad *cad, const Place *place) {
 }
 
 // What there is about the first face is told.
-static void leave(CwCad *cad, int32_t face, const double *area, const double at[3], CwBareFaces *bare) {
+static void leave(CwCad *cad, int32_t face, const double *area, int32_t open, const double at[3], CwBareFaces *bare) {
   cw_cad_face_leave_bare(cad, face);
   bare->area += area[face];
   if (bare->count++ > 0) return;
   bare->first = face;
-  bare->open = -1;
+  bare->open = open;
   cw_copy(at, bare->at);
 }
 
@@ -86,8 +86,7 @@ static int32_t settle(CwCad *cad, const double *area, const Place *place, CwBare
       if ((freeing < 0 || area[face] < area[freeing]) && can_stand(cad, place, face)) freeing = face;
     }
     int32_t chosen = freeing >= 0 ? freeing : least;
-    leave(cad, chosen, area, place->x, bare);
-    if (bare->count == 1) bare->open = open_face(cad, place);
+    leave(cad, chosen, area, open_face(cad, place), place->x, bare);
   }
   return bare->count - before;
 }
@@ -140,8 +139,8 @@ static double area_of_walls(const CwCad *cad, const double *area) {
 CwStatus cw_bare_faces_find(CwCad *cad, const double *area, int32_t asked, const double at[3], CwBareFaces *bare) {
   CwStatus status = CW_OK;
   if (asked >= 0) {
-    leave(cad, asked, area, at, bare);
-    bare->asked |= bare->count == 1;
+    if (bare->count == 0) bare->asked = 1;
+    leave(cad, asked, area, -1, at, bare);
   }
   for (int32_t made = 1; made > 0;) {
     made = settle_edges(cad, area, bare);

@@ -43,8 +43,8 @@ typedef struct {
   CwHostMemory *memory;  // where its arrays lie; NULL: they are this rank's
 } CwLayers;
 
-// Outcome where no valid envelope is found: CW_OUTCOME_BARE with the place where the wall crosses itself, an edge
-// leaves no direction that sees all faces and lies in its open patches, layers cross however thin they are, or the
+// Outcome where no valid envelope is found: CW_OUTCOME_FINER where the wall crosses itself, CW_OUTCOME_BARE where an
+// edge leaves no direction that sees all faces and lies in its open patches, layers cross however thin they are, or the
 // rounds of repair do not do; CW_OUTCOME_REPLAN where a partition plane holds the column there. Fails with CW_ERR_INPUT
 // on wrong input (triangles without area, points without triangles, thicknesses not above 0). Every column has a
 // thickness > 0. Equal input gives equal bits. Collective.

@@ -326,12 +326,11 @@ done:
   return status;
 }
 
-// Why thinner columns cannot get clear of a pair; NULL: they can.
+// Why thinner columns cannot get clear of a pair with a layer top; NULL: they can.
 static const char *stuck(const CwLayerWork *work, const CwLayerPair *pair) {
   const CwLayerInput *in = work->in;
   const int32_t *f = in->triangle[pair->f], *g = pair->kind_g == 0 ? in->triangle[pair->g] : f;
   double share = 0;
-  if (pair->kind_f != 0) return "the wall crosses or touches itself";
   for (int k = 0; k < 3; k++)
     share = fmax(share, fmax(work->t[f[k]] / in->target[f[k]], work->t[g[k]] / in->target[g[k]]));
   if (share > LEAST_SHARE) return NULL;
@@ -343,7 +342,15 @@ static const char *stuck(const CwLayerWork *work, const CwLayerPair *pair) {
 void cw_layers_crossing_judge(const CwLayerCrossing *crossing, CwOutcome *outcome) {
   const CwLayerWork *work = crossing->work;
   for (int32_t i = 0; i < crossing->pair_count; i++) {
-    const char *why = stuck(work, &crossing->pair[i]);
-    if (why) cw_layers_add_place(work, crossing->pair[i].f, 0, outcome, why);
+    const CwLayerPair *pair = &crossing->pair[i];
+    if (pair->kind_f != 0) { // which no want of layers mends
+      const int32_t v = work->in->triangle[pair->f][0];
+      const CwOutcomeKind kind = cw_layers_kind_at(work, v);
+      cw_outcome_set(outcome, kind == CW_OUTCOME_BARE ? CW_OUTCOME_FINER : kind, work->in->x[v],
+                     "the wall crosses or touches itself");
+      return;
+    }
+    const char *why = stuck(work, pair);
+    if (why) cw_layers_add_place(work, pair->f, 0, outcome, why);
   }
 }

@@ -163,9 +163,9 @@ done:
 static int take_fewer_layers(CwPassState *state) {
   int fewer = 0, round = state->plane_rounds - PLANES_MOST;
   for (int d = 0; d < CW_DOMAINS_MOST && round <= FEWER_MOST; d++) {
-    int made = state->best_layers[d], step = made / FEWER_PART > 1 ? made / FEWER_PART : 1;
+    int made = state->best_layers[d], left = made - round * (made / FEWER_PART);
     if (!state->best_lacks[d] || made <= CW_LAYERS_LEAST) continue;
-    state->start.layers[d] = made - round * step > CW_LAYERS_LEAST ? made - round * step : CW_LAYERS_LEAST;
+    state->start.layers[d] = left > CW_LAYERS_LEAST ? left : CW_LAYERS_LEAST;
     fewer = 1;
   }
   return fewer;

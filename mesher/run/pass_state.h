@@ -26,11 +26,10 @@ typedef struct {
   int finer_rounds, poor_rounds; // of shorter edges: for layers, and for quality
   CwPassStart best;              // of the mesh with the least deficit (poor_places)
   double least_deficit;
-  int best_round;                      // of poor_rounds
-  int32_t best_lacks[CW_DOMAINS_MOST]; // 1: of each domain, in the best mesh it falls short
-  int32_t
-      best_layers[CW_DOMAINS_MOST]; // of each domain, in the best mesh, where its edges are too long for them; else 0
-  int plane_rounds;                 // of other planes, then of fewer layers, for these
+  int best_round;                       // of poor_rounds
+  int32_t best_lacks[CW_DOMAINS_MOST];  // 1: of each domain, in the best mesh it falls short
+  int32_t best_layers[CW_DOMAINS_MOST]; // of each domain, in the best mesh, where edges are too long for them; else 0
+  int plane_rounds;                     // of other planes, then of fewer layers, for these
   CwFinerPlaces finer;
 } CwPassState;
 

@@ -29,7 +29,9 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   double viscosity = table->fluid.kinematic_viscosity;
   double speed = cw_case_given(group->velocity) ? group->velocity : flow->speed;
   double unit = cw_first_height(1, speed, flow->length, viscosity, walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
-  double fitting = greatest_fitting(flow, walls, layer_count), total = cw_thickness_given(walls, group);
+  double fitting = greatest_fitting(flow, walls, layer_count);
+  double total = cw_thickness_given(walls, group),
+         thin = total / cw_layer_lowest(layer_count); // NAN where that is open
   CwFirstHeight first = {.reynolds = speed * flow->diameter / viscosity, .source = CW_FIRST_ASKED};
   if (cw_case_given(group->first_height)) {
     first.asked = group->first_height;
@@ -49,8 +51,8 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
     first.source = CW_FIRST_LAMINAR;
   }
   // And the lowest column of so many layers is no higher than all of them may be.
-  if (cw_case_given(total) && total / cw_layer_lowest(layer_count) < fmin(first.height, fitting)) {
-    fitting = total / cw_layer_lowest(layer_count);
+  if (thin < fmin(first.height, fitting)) {
+    fitting = thin;
     first.total = total;
   }
   if (first.height > fitting) {

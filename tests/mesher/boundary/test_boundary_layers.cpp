@@ -260,7 +260,7 @@ static void a_wall_that_crosses_itself_is_told(void **) {
   plate.face.push_back(0);
   plate.region.push_back(0);
   plate.grow(box);
-  assert_int_equal(plate.outcome.kind, CW_OUTCOME_BARE);
+  assert_int_equal(plate.outcome.kind, CW_OUTCOME_FINER);
   assert_null(plate.layers.top);
   assert_null(plate.layers.triangle);
 }

@@ -254,7 +254,7 @@ static void what_no_thinner_column_parts(void **state) {
   CwLayerCrossing crossing = {.work = &work, .pair_count = 2, .pair = pair};
   CwOutcome outcome = {0};
   cw_layers_crossing_judge(&crossing, &outcome); // the second: no thickness parts walls
-  assert_int_equal(outcome.kind, CW_OUTCOME_BARE);
+  assert_int_equal(outcome.kind, CW_OUTCOME_FINER);
   assert_non_null(strstr(outcome.reason, "the wall crosses or touches itself"));
 }
 

@@ -219,7 +219,7 @@ static void a_domain_without_layers_is_told(void **) {
     if (cw_distance(domain.surface.x[v], upper) < cw_distance(domain.surface.x[nearest], upper)) nearest = v;
   domain.surface.x[nearest][2] = -5e-3;
   check(cw_run_layers(walls.made.run.get(), &walls.outcome));
-  assert_int_equal(walls.outcome.kind, CW_OUTCOME_BARE);
+  assert_int_equal(walls.outcome.kind, CW_OUTCOME_FINER);
   assert_int_equal(walls.outcome.domain, 1);
   assert_true(walls.made.record().find("\"layers\"") == std::string::npos);
 }
