@@ -15,6 +15,7 @@
 #include "mesher/boundary/surface_mesh.h"
 #include "mesher/common/polygons.h"
 #include "mesher/layers/layers.h"
+#include "mesher/layers/pinched.h"
 #include "mesher/network/network.h"
 #include "mesher/network/periodic_images.h"
 #include "mesher/parallel/context.h"
@@ -28,6 +29,7 @@ typedef struct {
   const CwPeriodicImages *images;
   CwSizeAt size_at;
   const void *size;
+  const CwPinched *pinched; // NULL: none
 } CwBoundaryInput;
 
 // A CAD edge whose division is given: parameters of its points but for corners of the network, ascending.
@@ -65,9 +67,9 @@ CwStatus cw_surface_mesh_make(const CwContext *context, const CwBoundaryInput *i
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
 // Collective: all ranks work on it and have the same result. Outcome: that of cw_layers_make, CW_OUTCOME_ASYMMETRIC
 // where no symmetric layer top is found.
-CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
-                          const CwBackground *background, const double *target, const double *least,
-                          const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);
+CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwWallCurves *curves,
+                          const CwSurfaceMesh *surface, const CwBackground *background, const double *target,
+                          const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 // Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in free_curves->tight;

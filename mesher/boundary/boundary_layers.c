@@ -8,6 +8,7 @@
 #include "mesher/boundary/boundary.h"
 #include "mesher/boundary/concave_edges.h"
 #include "mesher/boundary/periodic_boundary.h"
+#include "mesher/boundary/pinched_vertices.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/layer_top_flip.h"
 #include "mesher/layers/layers.h"
@@ -201,14 +202,14 @@ done:
   return status;
 }
 
-CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwSurfaceMesh *surface,
-                          const CwBackground *background, const double *target, const double *least,
-                          const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome) {
+CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, const CwWallCurves *curves,
+                          const CwSurfaceMesh *surface, const CwBackground *background, const double *target,
+                          const double *least, const CwLayerDivision *division, CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int32_t n = surface->vertex_count, triangles = surface->triangle_count, open_patches = 0, opened;
   int32_t *constraint_count = NULL, (*open_patch_triangle)[3] = NULL;
   double(*constraint_normal)[2][3] = NULL;
-  uint8_t *constraint_stays = NULL;
+  uint8_t *constraint_stays = NULL, *pinched = NULL;
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   Snap snapping = {in, surface, NULL, &lock};
   CwFlipMesh mesh = {0};
@@ -223,6 +224,7 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
   CW_NEW(snapping.uv, n);
   cw_profiler_part(context, "layers: constraints");
   CW_TRY(make_constraints(in, surface, background, constraint_count, constraint_normal, constraint_stays, snapping.uv));
+  CW_TRY(cw_pinched_vertices(in, curves, surface, &pinched));
   CW_NEW(open_patch_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     if (cw_cad_face_is_wall(in->cad, background->face[t])) continue;
@@ -236,6 +238,7 @@ CwStatus cw_boundary_grow(const CwContext *context, const CwBoundaryInput *in, c
                         .target = target,
                         .least = least,
                         .division = division ? *division : (CwLayerDivision){0},
+                        .pinched = pinched,
                         .constraint_count = constraint_count,
                         .constraint_normal = (const double(*)[2][3])constraint_normal,
                         .constraint_stays = constraint_stays,
@@ -262,6 +265,7 @@ done:
   free(constraint_count);
   free(constraint_normal);
   free(constraint_stays);
+  free(pinched);
   free(snapping.uv);
   free(open_patch_triangle);
   return status;

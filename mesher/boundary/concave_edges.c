@@ -124,6 +124,8 @@ static CwStatus make_part(ConcaveEdges *concave) {
     int32_t v = concave->part.global[i];
     memcpy(concave->top[i], layers->top[v], sizeof *concave->top);
     work->t[i] = layers->thickness[v];
+    work->base_cos[i] = 1;
+    if (work->t[i] == 0) continue;
     for (int k = 0; k < 3; k++) work->column[i][k] = (layers->top[v][k] - wall->x[v][k]) / work->t[i];
     work->base_cos[i] = cw_layers_least_cosine(work, i, work->column[i]) / cw_norm(work->column[i]);
   }

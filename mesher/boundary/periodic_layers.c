@@ -328,7 +328,8 @@ static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
   uint8_t *lowered = NULL;
   CW_NEW(lowered, whole->point_count);
   for (int32_t v = 0; v < whole->point_count; v++) {
-    if (bad[v] && !lowered[v]) lower(part, v, cw_policy.column_kept * layers->thickness[v], layers, lowered);
+    if (bad[v] && !lowered[v] && layers->thickness[v] > 0)
+      lower(part, v, cw_policy.column_kept * layers->thickness[v], layers, lowered);
   }
   for (int again = 1; again;) {
     again = 0;

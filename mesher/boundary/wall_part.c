@@ -10,6 +10,7 @@ void cw_wall_part_free(CwWallPart *part) {
   free(part->x);
   free(part->target);
   free(part->least);
+  free(part->pinched);
   free(part->constraint_normal);
   free(part->triangle);
   free(part->constraint_count);
@@ -51,6 +52,7 @@ CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWal
   CW_NEW(part->x, points);
   CW_NEW(part->target, points);
   if (whole->least) CW_NEW(part->least, points);
+  if (whole->pinched) CW_NEW(part->pinched, points);
   if (whole->constraint_count) {
     CW_NEW(part->constraint_count, points);
     CW_NEW(part->constraint_normal, points);
@@ -61,6 +63,7 @@ CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWal
     memcpy(part->x[i], whole->x[v], sizeof *part->x);
     part->target[i] = whole->target[v];
     if (part->least) part->least[i] = whole->least[v];
+    if (part->pinched) part->pinched[i] = whole->pinched[v];
     if (part->constraint_stays) part->constraint_stays[i] = whole->constraint_stays[v];
     if (!part->constraint_count || !whole->constraint_count[v]) continue; // most pages stay zero, and take no memory
     part->constraint_count[i] = whole->constraint_count[v];
@@ -72,6 +75,7 @@ CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWal
   part->in.triangle = (const int32_t(*)[3])part->triangle;
   part->in.target = part->target;
   part->in.least = part->least;
+  part->in.pinched = part->pinched;
   part->in.constraint_count = part->constraint_count;
   part->in.constraint_normal = (const double(*)[2][3])part->constraint_normal;
   part->in.constraint_stays = part->constraint_stays;

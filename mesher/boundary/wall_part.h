@@ -10,7 +10,7 @@ typedef struct {
   int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
   double (*x)[3], *target, *least, (*constraint_normal)[2][3];
   int32_t (*triangle)[3], *constraint_count;
-  uint8_t *constraint_stays;
+  uint8_t *constraint_stays, *pinched;
 } CwWallPart;
 
 // The triangles with a corner that is marked in `near`, in their order; obstacles are the whole's. `whole`, with its

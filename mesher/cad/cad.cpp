@@ -111,11 +111,7 @@ const char *cw_cad_face_name(const CwCad *cad, int face) {
 }
 
 int cw_cad_face_is_wall(const CwCad *cad, int face) {
-  return cad->table.patch[cad->table.face[face].patch].kind == CW_PATCH_WALL && !cad->face[face].bare;
-}
-
-void cw_cad_face_leave_bare(CwCad *cad, int face) {
-  cad->face[face].bare = true;
+  return cad->table.patch[cad->table.face[face].patch].kind == CW_PATCH_WALL;
 }
 
 int cw_cad_face_reversed(const CwCad *cad, int face) {

@@ -38,9 +38,7 @@ CwPatchKind cw_cad_patch_kind(const CwCad *cad, int patch);
 int cw_cad_face_count(const CwCad *cad);
 int cw_cad_face_patch(const CwCad *cad, int face);
 const char *cw_cad_face_name(const CwCad *cad, int face);
-// Whether layers grow on the face: a wall, unless it was left bare.
-int cw_cad_face_is_wall(const CwCad *cad, int face);
-void cw_cad_face_leave_bare(CwCad *cad, int face);
+int cw_cad_face_is_wall(const CwCad *cad, int face); // whether layers grow on the face
 
 // True where xu x xv points into the fluid, so that triangles that are counter-clockwise in (u,v) must be
 // turned to have their normal out of the domain.

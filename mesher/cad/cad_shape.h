@@ -33,7 +33,6 @@ struct CwCadFace {
   double u_range[2], v_range[2]; // of the surface; infinite where it is unbounded or periodic
   CwCadPole pole;                // (u,v) below and behind cad.h are the plane's where it is one
   int reversed;
-  bool bare;           // a wall without layers
   double left_out = 0; // greatest width, in the unit of the B-rep, of a narrow face that no mesh shows; 0: of no such
 
   gp_Pnt point(const double uv[2]) const;

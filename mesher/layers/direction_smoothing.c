@@ -25,6 +25,7 @@ static void plain(const CwLayerWork *work, int32_t v, const double direction[3],
 
 static int is_source(const CwLayerWork *work, int32_t v) {
   int constrained = cw_layer_constraints(work->in, v) > 0;
+  if (cw_layer_pinched(work->in, v)) return 0;
   return work->crease[v] == CW_CREASE_CONCAVE || (constrained && cw_dot(work->base[v], work->normal[v]) < 0.985);
 }
 
@@ -85,6 +86,7 @@ static CwStatus smoothing_make(CwLayerWork *work) {
   for (int32_t i = 0; i < work->n; i++) {
     int32_t v = work->curve[i], source = smoothing->reach[v].source;
     int leans = source >= 0 && (smoothing->source[source].vertex != v || cw_norm(smoothing->source[source].line) > 0);
+    leans &= !cw_layer_pinched(work->in, v);
     smoothing->place[v] = leans ? smoothing->count : -1;
     if (leans) smoothing->member[smoothing->count++] = v;
   }

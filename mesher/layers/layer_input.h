@@ -17,7 +17,8 @@ typedef struct {
   const void *context;
 } CwLayerDivision;
 
-// The fields are five groups: who works, the wall, the asked thickness, what holds columns, what they must not reach.
+// The fields are six groups: who works, the wall, the asked thickness, where there are no columns, what holds them,
+// what they must not reach.
 typedef struct {
   const CwContext *context; // the ranks that make the layers
   int32_t point_count;
@@ -27,6 +28,7 @@ typedef struct {
   const double *target;         // asked thickness of each vertex, normal to the wall, m
   const double *least;          // no column is thinned below this for a better shape of the layer top; NULL: 0
   CwLayerDivision division;
+  const uint8_t *pinched; // of each vertex: its column has no height, and the layers around taper; may be NULL: none
   // Sliding constraints: a vertex on an open edge with an open patch, or on a partition plane, marches inside that
   // surface. Up to two per vertex: none: free; one: stays in the tangent plane; two: stays on the line of both. A
   // constrained vertex may have wall on both sides (partition plane) or on one (open edge).
@@ -45,6 +47,10 @@ typedef struct {
   const int32_t (*obstacle_triangle)[3];
 } CwLayerInput;
 
+// Whether the column of v has no height.
+static inline int cw_layer_pinched(const CwLayerInput *in, int32_t v) {
+  return in->pinched && in->pinched[v];
+}
 // How many constraints hold the column of v, whether one of them is an open patch, and down to which thickness (m) it
 // may be thinned for a better shape.
 static inline int cw_layer_constraints(const CwLayerInput *in, int32_t v) {

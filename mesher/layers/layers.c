@@ -70,7 +70,10 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *
     // The offset stops at its floor (cw_layers_floor): alone, or whatever else thins it; and the neighbours follow.
     int32_t foot = cw_layers_slope_foot(&work, v);
     int sharp = work.crease[foot] != CW_CREASE_CONCAVE && work.normal_cos[foot] < cw_policy.upright_cosine;
-    if (sharp || work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_SHARPNESS;
+    if (work.reason[foot] == CW_LAYER_TAPER)
+      layers->reason[v] = CW_LAYER_TAPER;
+    else if (sharp || work.reason[v] == CW_LAYER_FULL)
+      layers->reason[v] = CW_LAYER_SHARPNESS;
   }
 done:
   cw_box_tree_free(&tree);
@@ -83,8 +86,10 @@ done:
 CwStatus cw_layers_audit(const CwLayers *layers, const double (*x)[3]) {
   CwStatus status = CW_OK;
   for (int32_t v = 0; v < layers->column_count; v++) {
-    CW_REQUIRE(layers->thickness[v] > 0, CW_ERR_FAULT, "layers: the column at (%.3f, %.3f, %.3f) mm is %g mm thick",
-               CW_MM(x[v]), cw_mm(layers->thickness[v]));
+    const double length = cw_distance(layers->top[v], x[v]);
+    CW_REQUIRE(layers->thickness[v] > 0 || (layers->thickness[v] == 0 && length == 0), CW_ERR_FAULT,
+               "layers: the column at (%.3f, %.3f, %.3f) mm is %g mm thick and %g mm long", CW_MM(x[v]),
+               cw_mm(layers->thickness[v]), cw_mm(length));
   }
   for (int32_t t = 0; t < layers->triangle_count; t++) {
     const int32_t *corner = layers->triangle[t];

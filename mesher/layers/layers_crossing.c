@@ -19,7 +19,7 @@ static const double LEAST_SHARE = 0.01; // of its target: a column this thin tha
 static const double CLEAR = 1e-9;       // way between plane and triangle, over the longest edge, beyond any rounding
 
 // A triangle of the kind: 0 layer top, 1 wall, 2 open patches. Points are numbered through: layer top, wall, open
-// patches.
+// patches. Where a column has no height the layer top has the wall's point.
 typedef struct {
   int32_t corner[3];
   const double *x[3];
@@ -31,7 +31,8 @@ static Triangle triangle_of(const CwLayerCrossing *crossing, int kind, int32_t f
   const int32_t *given = kind == 2 ? in->obstacle_triangle[f] : in->triangle[f];
   const double(*x)[3] = kind == 0 ? crossing->moved_to : kind == 1 ? in->x : in->obstacle_x;
   for (int i = 0; i < 3; i++) {
-    triangle.corner[i] = given[i] + kind * in->point_count;
+    int on_wall = kind == 1 || (kind == 0 && cw_layer_pinched(in, given[i]));
+    triangle.corner[i] = given[i] + (on_wall ? 1 : kind) * in->point_count;
     triangle.x[i] = x[given[i]];
   }
   return triangle;
@@ -93,7 +94,7 @@ static int cross(const Triangle *a, const Triangle *b) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       if (a->corner[i] == b->corner[j]) shared++, in_a = i, in_b = j, of_b[j] = i;
-  if (shared == 2) { // they overlap only where folded flat onto each other, and then their normals are opposite
+  if (shared == 2) {         // they overlap only where folded flat onto each other, and then their normals are opposite
     double n[3], m[3];
     cw_normal(p[0], p[1], p[2], n);
     cw_normal(q[0], q[1], q[2], m);
@@ -214,11 +215,18 @@ static int visit_top(void *context, int32_t item) {
   return finder->status != CW_OK;
 }
 
+// Whether a triangle of the layer top is that of the wall: none of its columns has a height.
+static int is_on_wall(const CwLayerInput *in, int32_t f) {
+  const int32_t *v = in->triangle[f];
+  return cw_layer_pinched(in, v[0]) && cw_layer_pinched(in, v[1]) && cw_layer_pinched(in, v[2]);
+}
+
 // Layer top against the wall and the open patches.
 static int visit_fixed(void *context, int32_t item) {
   Finder *finder = context;
   const CwLayerInput *in = finder->crossing->work->in;
   int32_t walls = in->triangle_count;
+  if (item == finder->f && is_on_wall(in, item)) return 0;
   if (item < walls)
     finder->status = try_pair(finder, 0, 1, item);
   else if (!finder->constrained && has_area(in, item - walls))
@@ -346,7 +354,7 @@ void cw_layers_crossing_judge(const CwLayerCrossing *crossing, CwOutcome *outcom
     if (pair->kind_f != 0) { // which no want of layers mends
       const int32_t v = work->in->triangle[pair->f][0];
       const CwOutcomeKind kind = cw_layers_kind_at(work, v);
-      cw_outcome_set(outcome, kind == CW_OUTCOME_BARE ? CW_OUTCOME_FINER : kind, work->in->x[v],
+      cw_outcome_set(outcome, kind == CW_OUTCOME_PINCH ? CW_OUTCOME_FINER : kind, work->in->x[v],
                      "the wall crosses or touches itself");
       return;
     }

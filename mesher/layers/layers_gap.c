@@ -213,7 +213,10 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   }
   CW_NEW_UNSET(gaps.vertex, work->n);
   for (int32_t v = 0; v < work->n; v++) {
-    if (work->stale[v]) gaps.vertex[gaps.count++] = v;
+    if (cw_layer_pinched(work->in, v))
+      work->gap[v] = INFINITY;
+    else if (work->stale[v])
+      gaps.vertex[gaps.count++] = v;
   }
   memset(work->stale, 0, (size_t)work->n);
   CW_NEW_UNSET(most, gaps.count);
@@ -222,7 +225,9 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], work->gap[v]);
-    work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
+    work->reason[v] = work->t[v] == 0                    ? CW_LAYER_TAPER
+                      : work->t[v] < work->in->target[v] ? CW_LAYER_GAP
+                                                         : CW_LAYER_FULL;
   }
 done:
   cw_box_tree_free(&normals);
@@ -267,11 +272,13 @@ static CwStatus find_near(void *context, int32_t v, void *out) {
   const CwLayerWork *work = tops->work;
   TopRay ray = {.tops = tops, .v = v, .core = core_of(work, v)};
   ray.near = (Near){ray.core, -1};
+  if (work->t[v] == 0) goto done;
   memcpy(ray.x, tops->top[v], sizeof ray.x);
   memcpy(ray.g, work->column[v], sizeof ray.g);
   cw_unit(ray.g);
   ray.offset = START * cw_layers_shortest_edge(work, v);
   cw_box_tree_ray(tops->tree, NULL, ray.x, ray.g, &ray.near.way, meet_top, &ray);
+done:
   *(Near *)out = ray.near;
   return CW_OK;
 }
@@ -296,6 +303,7 @@ CwStatus cw_layers_limit_by_top(CwLayerWork *work, const CwBoxTree *tree, const 
     double core = core_of(work, v);
     for (int i = 0; i < 4; i++) {
       double stretch = cw_norm(work->column[column[i]]);
+      if (stretch == 0) continue;
       double room = cw_layers_room(work, column[i], 2, way / stretch, core / stretch);
       most[column[i]] = fmin(most[column[i]], room);
     }
@@ -326,7 +334,7 @@ static int smoothing_parts(const CwLayerWork *work, int32_t v, int32_t w, const 
 static CwStatus find_most(void *context, int32_t v, void *out) {
   const CwLayerWork *work = context;
   const CwLayerInput *in = work->in;
-  double most = in->target[v];
+  double most = cw_layer_pinched(in, v) ? 0 : in->target[v];
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
     double e[3];

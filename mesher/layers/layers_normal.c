@@ -151,7 +151,7 @@ void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
   const CwLayerInput *in = work->in;
   for (int k = 0; k < 3; k++) end[k] = in->x[v][k] + work->t[v] * work->column[v][k];
-  if (in->snap && cw_layer_constraints(in, v) > 0) in->snap(in->snap_context, v, end);
+  if (work->t[v] > 0 && in->snap && cw_layer_constraints(in, v) > 0) in->snap(in->snap_context, v, end);
 }
 
 // Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
@@ -183,6 +183,10 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   const double none[2][3] = {{0}}, *x = in->x[v];
   Direction *made = out;
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
+  if (cw_layer_pinched(in, v)) { // no direction: its neighbours do not lean from it
+    made->normal_cos = 1;
+    return CW_OK;
+  }
   int count = distinct_normals(work, v, normal);
   double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g), most = -1;
   made->normal_cos = c;
@@ -228,7 +232,7 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
 }
 
 CwOutcomeKind cw_layers_kind_at(const CwLayerWork *work, int32_t v) {
-  return cw_layer_constraints(work->in, v) > 0 && !cw_layer_stays(work->in, v) ? CW_OUTCOME_REPLAN : CW_OUTCOME_BARE;
+  return cw_layer_constraints(work->in, v) > 0 && !cw_layer_stays(work->in, v) ? CW_OUTCOME_REPLAN : CW_OUTCOME_PINCH;
 }
 
 void cw_layers_add_place(const CwLayerWork *work, int32_t f, int corner, CwOutcome *outcome, const char *why) {
@@ -266,6 +270,7 @@ CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
     memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
     work->normal_cos[v] = work->base_cos[v] = made[v].normal_cos;
     work->crease[v] = (uint8_t)made[v].crease;
+    if (cw_layer_pinched(work->in, v)) continue;
     if (made[v].crease != CW_CREASE_NONE || cw_layer_constraints(work->in, v) > 0) special.vertex[special.count++] = v;
   }
   CW_NEW_UNSET(held, special.count);

@@ -67,11 +67,13 @@ static double wedge_quality(const CwLayerWork *work, int32_t f, const double (*t
     int32_t a = in->triangle[f][k], b = in->triangle[f][(k + 1) % 3], c = in->triangle[f][(k + 2) % 3];
     double edge[3], column[3], away[3], rise[3];
     if (!in->constraint_count[a] || !in->constraint_count[b]) continue;
+    const int32_t of = cw_layer_pinched(in, a) ? b : a;
+    if (cw_layer_pinched(in, of)) continue;
     cw_sub(top[b], top[a], edge);
     const double *normal = held_edge(in, a, b, edge);
     if (!normal) continue;
     cw_cross(normal, edge, away);
-    cw_sub(top[a], in->x[a], column);
+    cw_sub(top[of], in->x[of], column);
     if (cw_dot(away, column) < 0) cw_cross(edge, normal, away);
     cw_sub(top[c], top[a], rise);
     cw_unit(edge);
@@ -149,7 +151,7 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*top)[3], CwLayerJudge
   const CwLayerInput *in = work->in;
   const double step[3] = {0.25, 0.1, 0.04};
   int constraints = cw_layer_constraints(in, v);
-  if (constraints == 2) return;
+  if (constraints == 2 || cw_layer_pinched(in, v)) return;
   Turn turn = {.work = work, .v = v, .top = top, .judge = judge};
   turn.least_cosine = fmin(cw_policy.column_least_cosine, 0.9 * work->base_cos[v]);
   turn.quality = judge(work, v, (const double(*)[3])top, -INFINITY, &turn.first);

@@ -22,6 +22,7 @@ double cw_prism_quality(const double *const wall[3], const double *const top[3])
   for (int i = 0; i < 3; i++) {
     double c[3];
     int last = (i + 2) % 3;
+    if (height[i] == 0) continue; // no corner of a tapered prism
     cw_cross(e[last], e[i], c);
     sine[i] = cw_norm(c) / (length[i] * length[last]);
   }
@@ -33,6 +34,7 @@ double cw_prism_quality(const double *const wall[3], const double *const top[3])
     }
     for (int i = 0; i < 3; i++) {
       int last = (i + 2) % 3;
+      if (height[i] == 0) continue;
       double c[3], scale = length[i] * length[last] * height[i] * sine[i];
       cw_cross(edge[i], edge[last], c); // with the minus of edge[last]: into the fluid
       double q = scale > 0 ? cw_dot(c, d[i]) / scale : -1;
@@ -91,6 +93,8 @@ static double sides_quality(const double base[3][3], const double upper[3][3]) {
 double cw_prism_shear_quality(const double *const wall[3], const double *const top[3], int layers,
                               const double last[3]) {
   double least = 1;
+  for (int k = 0; k < 3; k++)
+    if (cw_distance(wall[k], top[k]) == 0) return least; // tapered
   for (int on_wall = 0; on_wall < 2; on_wall++) {
     double base[3][3], upper[3][3];
     for (int k = 0; k < 3; k++) {

@@ -18,7 +18,7 @@ typedef enum {
   CW_OUTCOME_REPLAN,     // the partition planes do not fit the domain: others may
   CW_OUTCOME_ASYMMETRIC, // its passages do not come out alike: it may be meshed whole
   CW_OUTCOME_FINER,      // edges cross, miss what they bound, or fold the wall: shorter ones may not
-  CW_OUTCOME_BARE,       // no layers stand where edges are so long: shorter ones may, or the wall is left bare
+  CW_OUTCOME_PINCH,      // no layers stand where edges are so long: shorter ones may, or they taper
   CW_OUTCOME_THIN        // the layers leave no room: thinner ones may
 } CwOutcomeKind;
 

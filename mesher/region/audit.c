@@ -69,9 +69,10 @@ static void count_flat(const CwRegionData *data, int32_t cell, double flatness, 
   add_flat(&place, 2 * length, quality);
 }
 
-// The tetrahedra of a region, whose pairs are judged.
+// The tetrahedra of a region but those of tapered columns, whose pairs are judged.
 typedef struct {
   const CwRegionData *data;
+  int32_t count;
   float *volume; // of each
   CwQuality *quality;
 } Tetrahedra;
@@ -80,7 +81,7 @@ typedef struct {
 // they count as flat, the larger as the place.
 static void judge_pair(void *given, int32_t cell, int32_t other) {
   const Tetrahedra *of = given;
-  if (cell >= of->data->tetrahedron_count || other >= of->data->tetrahedron_count) return;
+  if (cell >= of->count || other >= of->count) return;
   double a = of->volume[cell], b = of->volume[other], weight = cw_lesser(a, b) / (a + b), length = 0;
   if (weight >= CW_SMALL_WEIGHT) return;
   const int32_t larger = a > b ? cell : other, *corner = of->data->tetrahedra[larger];
@@ -208,6 +209,7 @@ static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality 
   CwStatus status = CW_OK;
   double aspects = 0.0;
   const CwRegionData *data = &r->cells;
+  const int32_t tetrahedra = data->tetrahedron_count - r->layer_tetrahedra;
   uint8_t *on_patches = NULL;
   CW_TRY(find_on_patches(data, &on_patches));
   quality->cells = cw_region_cell_count(data);
@@ -220,7 +222,7 @@ static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality 
     if (outcome->kind != CW_OUTCOME_DONE) goto done;
     quality->volume += volume;
     quality->least_volume = cw_lesser(quality->least_volume, volume);
-    if (corners == 4) {
+    if (c < tetrahedra) {
       CwTetShape shape;
       tet_volume[c] = (float)volume;
       cw_tet_shape(x, &shape);
@@ -243,7 +245,7 @@ static CwStatus check_cells(const CwRegionMesh *r, float *tet_volume, CwQuality 
       quality->prism_jacobian_bin[bin_of(jacobian, 1.0 / CW_QUALITY_BINS, CW_QUALITY_BINS)]++;
     }
   }
-  if (r->cells.tetrahedron_count) quality->aspect_mean = aspects / r->cells.tetrahedron_count;
+  if (tetrahedra) quality->aspect_mean = aspects / tetrahedra;
 done:
   free(on_patches);
   return status;
@@ -251,7 +253,8 @@ done:
 
 CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  Tetrahedra tetrahedra = {.data = &region->cells, .quality = quality};
+  Tetrahedra tetrahedra = {
+      .data = &region->cells, .count = region->cells.tetrahedron_count - region->layer_tetrahedra, .quality = quality};
   cw_quality_start(quality);
   CW_NEW_UNSET(tetrahedra.volume, region->cells.tetrahedron_count);
   CW_TRY(check_indices(region));
@@ -286,9 +289,9 @@ void cw_quality_start(CwQuality *sum) {
   sum->prism_least_scaled_jacobian = 1.0;
 }
 
-void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
-  int64_t before = 0;
-  for (int k = 0; k < 8; k++) before += sum->aspect_class[k];
+void cw_quality_add(CwQuality *sum, const CwQuality *more) {
+  int64_t before = 0, tetrahedra = 0;
+  for (int k = 0; k < 8; k++) before += sum->aspect_class[k], tetrahedra += more->aspect_class[k];
   if (before + tetrahedra > 0) {
     sum->aspect_mean =
         (sum->aspect_mean * (double)before + more->aspect_mean * (double)tetrahedra) / (double)(before + tetrahedra);

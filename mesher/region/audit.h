@@ -65,10 +65,10 @@ CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality, CwOutco
 // What is left to audit in a periodic image of a region that passed: its points are its own, but its cells and faces
 // are those of the first. Its outcome and *open_faces are as there.
 CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces, CwOutcome *outcome);
-// Adds figures of one region, which holds `tetrahedra`, to those of others. Starts by cw_quality_start: no
+// Adds figures of one region to those of others. Starts by cw_quality_start: no
 // cells, volume 0, least volume infinite, dihedral angles 180 and 0 degrees, scaled Jacobian 1.
 void cw_quality_start(CwQuality *sum);
-void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra);
+void cw_quality_add(CwQuality *sum, const CwQuality *more);
 
 #ifdef __cplusplus
 }

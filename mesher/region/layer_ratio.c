@@ -61,7 +61,7 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, CwLay
   CW_NEW_UNSET(wall, cells->triangle_count);
   CW_NEW_UNSET(above, cells->triangle_count);
   for (int32_t t = 0; t < cells->triangle_count; t++) {
-    if (cells->triangle_cell[t] < cells->tetrahedron_count) continue;
+    if (cells->triangle_cell[t] < cells->tetrahedron_count + cells->pyramid_count) continue; // open, or tapered
     memcpy(end[ends], cells->prisms[cells->triangle_cell[t] + last] + 3, sizeof *end);
     wall[ends++] = t;
   }

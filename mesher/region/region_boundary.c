@@ -24,7 +24,7 @@ static int32_t local_of(Gathering *gathering, int32_t node) {
 }
 
 static int32_t count_of(const CwRegionBoundary *inner) {
-  return inner->wall_count + inner->open_patch_count + inner->interface_count;
+  return inner->wall_count + inner->bare_count + inner->open_patch_count + inner->interface_count;
 }
 
 static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], int turned, int32_t source) {
@@ -33,6 +33,12 @@ static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], i
   for (int k = 0; k < 3; k++) inner->triangle[at][k] = local_of(gathering, corner[turned ? 2 - k : k]);
   inner->source[at] = source;
   ++*count;
+}
+
+// Whether a wall triangle carries no layers: all its columns are pinched.
+static int is_bare(const CwLayers *layers, int32_t t) {
+  const int32_t *corner = layers->triangle[t];
+  return layers->thickness[corner[0]] == 0 && layers->thickness[corner[1]] == 0 && layers->thickness[corner[2]] == 0;
 }
 
 CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int planned, CwRegionBoundary *inner) {
@@ -52,10 +58,12 @@ CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int 
   CW_NEW(inner->x, 3 * (size_t)count);
   CW_NEW(gathering.local, from->interfaces->nodes.count);
   memset(gathering.local, -1, (size_t)from->interfaces->nodes.count * sizeof *gathering.local);
-  for (int32_t i = wall_start; i < wall_end; i++) {
-    int32_t t = from->surface->region_triangle[i];
-    add(&gathering, &inner->wall_count, from->layers->triangle[t], 0, t);
-  }
+  for (int bare = 0; bare < 2; bare++)
+    for (int32_t i = wall_start; i < wall_end; i++) {
+      int32_t t = from->surface->region_triangle[i];
+      if (is_bare(from->layers, t) != bare) continue;
+      add(&gathering, bare ? &inner->bare_count : &inner->wall_count, from->layers->triangle[t], 0, t);
+    }
   for (int32_t t = 0; t < open_patch->count; t++)
     if (open_patch->region[t] == region) add(&gathering, &inner->open_patch_count, open_patch->triangle[t], 0, t);
   for (int32_t t = 0; t < on_planes->count; t++) {
@@ -89,7 +97,7 @@ CwFillInput cw_region_fill_input(const CwRegionInput *from, const CwRegionBounda
                        .offset_count = count_of(inner),
                        .interface_count = inner->interface_count,
                        .bare_first = inner->wall_count,
-                       .bare_count = inner->open_patch_count};
+                       .bare_count = inner->bare_count + inner->open_patch_count};
 }
 
 CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *crossing, const char *title,
@@ -97,8 +105,7 @@ CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *cr
   CwStatus status = CW_OK;
   int32_t count = count_of(inner), *surface = NULL;
   CW_NEW(surface, count);
-  for (int32_t t = inner->wall_count; t < count; t++)
-    surface[t] = 1 + (t >= inner->wall_count + inner->open_patch_count);
+  for (int32_t t = inner->wall_count; t < count; t++) surface[t] = 1 + (t >= count - inner->interface_count);
   const CwVtkField field[2] = {{"surface", surface, NULL}, {"crossing", crossing, NULL}};
   const CwVtkTriangles triangles = {.title = title,
                                     .point_count = inner->node_count,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The closed inner boundary of a region: layer top, open patches, interfaces, in this order, with nodes of its own
-// numbering.
+// The closed inner boundary of a region: layer top, walls without layers, open patches, interfaces, in this order, with
+// nodes of its own numbering.
 #pragma once
 
 #include "mesher/region/region_input.h"
 #include "mesher/fill/fill.h"
 
 typedef struct {
-  int32_t wall_count, open_patch_count, interface_count; // triangles
-  int32_t (*triangle)[3];                                // local nodes; normal out of the region
-  int32_t *source;                                       // wall, open patch or interface triangle of the boundary
+  int32_t wall_count, bare_count, open_patch_count, interface_count; // triangles
+  int32_t (*triangle)[3];                                            // local nodes; normal out of the region
+  int32_t *source; // wall, open patch or interface triangle of the boundary
   int32_t node_count;
   int32_t *node; // boundary node of each local one
   double (*x)[3];
@@ -19,8 +19,8 @@ typedef struct {
 CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int planned, CwRegionBoundary *inner);
 void cw_region_boundary_free(CwRegionBoundary *inner);
 
-// Writes it as VTK PolyData, for a look (cell data surface: 0 layer top, 1 open patch, 2 interface; crossing: a number
-// of each triangle, NULL: none).
+// Writes it as VTK PolyData, for a look (cell data surface: 0 layer top, 1 open patch or wall without layers, 2
+// interface; crossing: a number of each triangle, NULL: none).
 CwStatus cw_region_boundary_vtk(const CwRegionBoundary *inner, const int32_t *crossing, const char *title,
                                 const char *path);
 

@@ -19,6 +19,11 @@
 #include "pipeline/hash.h"
 #include "pipeline/mesh/cell.h"
 
+// Whether a node of the boundary is the end of a column that has a height.
+static int has_column(const CwRegionInput *from, int32_t node) {
+  return node < from->surface->vertex_count && from->layers->thickness[node] > 0;
+}
+
 CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwSharedNodes *shared) {
   CwStatus status = CW_OK;
   const CwNodeTable *nodes = &from->interfaces->nodes;
@@ -30,7 +35,7 @@ CwStatus cw_shared_nodes_make(const CwRegionInput *from, int layer_count, CwShar
     shared->base[i] = nodes->on_plane[i] ? shared->count : -1;
     if (!nodes->on_plane[i]) continue;
     shared->node[found++] = i;
-    shared->count += i < from->surface->vertex_count ? layer_count + 1 : 1;
+    shared->count += has_column(from, i) ? layer_count + 1 : 1;
   }
 done:
   return status;
@@ -112,7 +117,7 @@ static void place_point(Build *build, int32_t i, int32_t *next, CwRegionMesh *me
   const CwRegionInput *from = &context->from;
   const int32_t levels = context->layer_count, node = i < build->inner.node_count ? build->inner.node[i] : -1;
   const int64_t base = node >= 0 ? context->shared->base[node] : -1;
-  const int on_top = node >= 0 && node < from->surface->vertex_count;
+  const int on_top = node >= 0 && has_column(from, node);
   double fraction[CW_LAYERS_MOST + 1];
   if (on_top) {
     build->column[i] = *next;
@@ -136,8 +141,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   const CwRegionInput *from = &context->from;
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0, next = 0, *order = NULL;
   for (int32_t i = 0; i < build->inner.node_count; i++) {
-    int on_top = build->inner.node[i] < from->surface->vertex_count,
-        is_shared = context->shared->base[build->inner.node[i]] >= 0;
+    int on_top = has_column(from, build->inner.node[i]), is_shared = context->shared->base[build->inner.node[i]] >= 0;
     if (on_top) total += levels;
     if (is_shared) shared += on_top ? levels + 1 : 1;
   }
@@ -185,9 +189,14 @@ done:
   return status;
 }
 
+static int is_pinched(const Build *build, int32_t local) {
+  return !has_column(&build->context->from, build->inner.node[local]);
+}
+
 // Point at `level` of the column of a local layer top node: 0 on the wall, layer_count on the layer top.
 static int32_t column_point(const Build *build, int32_t local, int level) {
-  return level == build->context->layer_count ? build->place[local] : build->column[local] + level;
+  return level == build->context->layer_count || is_pinched(build, local) ? build->place[local]
+                                                                          : build->column[local] + level;
 }
 
 // Nodes of a face of an interface lie on its exact surface: solvers couple the two sides there.
@@ -209,74 +218,146 @@ done:
   return;
 }
 
-// Prisms of all columns, wall triangles under them, and the quads of their sides on open patches.
-static CwStatus add_layers(Build *build, CwRegionMesh *mesh, CwOutcome *outcome) {
+// The cells over a wall triangle: prisms; where layers taper, pyramids or tetrahedra with a point at each pinched
+// corner. `k`: their layer. Base and top look into the fluid.
+static void add_cell(const Build *build, const int32_t corner[3], int k, int pinched, int32_t cell,
+                     CwRegionData *cells) {
+  int32_t base[3], end[3];
+  int first = 0; // the corner that is pinched alone, or alone is not
+  for (int c = 0; c < 3; c++) {
+    base[c] = column_point(build, corner[(3 - c) % 3], k);
+    end[c] = column_point(build, corner[(3 - c) % 3], k + 1);
+    if (is_pinched(build, corner[(3 - c) % 3]) == (pinched == 1)) first = c;
+  }
+  int b = (first + 1) % 3, c = (first + 2) % 3;
+  if (pinched == 0)
+    memcpy(cells->prisms[cell - cells->tetrahedron_count - cells->pyramid_count],
+           (int32_t[6]){base[0], base[1], base[2], end[0], end[1], end[2]}, sizeof *cells->prisms);
+  else if (pinched == 1)
+    memcpy(cells->pyramids[cell - cells->tetrahedron_count],
+           (int32_t[5]){base[b], end[b], end[c], base[c], base[first]}, sizeof *cells->pyramids);
+  else
+    memcpy(cells->tetrahedra[cell], (int32_t[4]){base[first], base[b], base[c], end[first]}, sizeof *cells->tetrahedra);
+}
+
+// The sides of a wall triangle's cells along its edge from a to b, which lies on an open patch: quads, or triangles
+// beside a pinched end.
+static void add_sides(Build *build, int32_t a, int32_t b, int32_t open_patch, int32_t first_cell, CwRegionMesh *mesh,
+                      CwOutcome *outcome) {
+  CwRegionData *cells = &mesh->cells;
+  const int patch = cw_cad_face_patch(build->context->from.in->cad, open_patch);
+  const int pinched_a = is_pinched(build, a), pinched_b = is_pinched(build, b);
+  for (int k = 0; k < build->context->layer_count && !(pinched_a && pinched_b); k++) {
+    const int32_t quad[4] = {column_point(build, b, k), column_point(build, a, k), column_point(build, a, k + 1),
+                             column_point(build, b, k + 1)};
+    if (pinched_a || pinched_b) {
+      int32_t t = cells->triangle_count++, *corner = cells->triangles[t];
+      for (int c = 0; c < 3; c++) corner[c] = quad[c < 2 ? c : pinched_a ? 3 : 2];
+      cells->triangle_patch[t] = patch;
+      cells->triangle_cell[t] = first_cell + k;
+      check_on_open_patch(build, mesh, open_patch, corner, 3, outcome);
+    } else {
+      int32_t q = cells->quad_count++;
+      memcpy(cells->quads[q], quad, sizeof quad);
+      cells->quad_patch[q] = patch;
+      cells->quad_cell[q] = first_cell + k;
+      check_on_open_patch(build, mesh, open_patch, quad, 4, outcome);
+    }
+    if (outcome->kind != CW_OUTCOME_DONE) return;
+  }
+}
+
+// How many corners of a wall triangle are pinched.
+static int count_pinched(const Build *build, const int32_t corner[3]) {
+  return is_pinched(build, corner[0]) + is_pinched(build, corner[1]) + is_pinched(build, corner[2]);
+}
+
+// Memory for the cells of the layers and for all boundary faces. first: the first cell over a wall triangle by the
+// number of its pinched corners.
+static CwStatus make_room(const Build *build, CwRegionMesh *mesh, int32_t first[3]) {
   CwStatus status = CW_OK;
   const CwRegionContext *context = build->context;
-  const CwRegionInput *from = &context->from;
-  int levels = context->layer_count;
-  mesh->cells.prism_count = build->inner.wall_count * levels;
-  CW_NEW(mesh->cells.prisms, mesh->cells.prism_count);
-  int32_t sides = 0;
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass == 1) {
-      CW_NEW(mesh->cells.quads, (size_t)sides * (size_t)levels);
-      CW_NEW(mesh->cells.quad_patch, (size_t)sides * (size_t)levels);
-      CW_NEW(mesh->cells.quad_cell, (size_t)sides * (size_t)levels);
-    }
-    for (int32_t t = 0; t < build->inner.wall_count; t++) {
-      const int32_t *corner = build->inner.triangle[t];
-      int32_t first_cell = mesh->cells.tetrahedron_count + t * levels;
-      for (int e = 0; e < 3; e++) {
-        int32_t a = corner[e], b = corner[(e + 1) % 3],
-                open_patch = cw_open_edge_face(&context->open_edge_places, build->inner.node[a], build->inner.node[b]);
-        if (open_patch < 0) continue;
-        sides += pass == 0;
-        for (int k = 0; pass == 1 && k < levels; k++) {
-          int32_t q = mesh->cells.quad_count++;
-          mesh->cells.quads[q][0] = column_point(build, b, k);
-          mesh->cells.quads[q][1] = column_point(build, a, k);
-          mesh->cells.quads[q][2] = column_point(build, a, k + 1);
-          mesh->cells.quads[q][3] = column_point(build, b, k + 1);
-          mesh->cells.quad_patch[q] = cw_cad_face_patch(from->in->cad, open_patch);
-          mesh->cells.quad_cell[q] = first_cell + k;
-          check_on_open_patch(build, mesh, open_patch, mesh->cells.quads[q], 4, outcome);
-          if (outcome->kind != CW_OUTCOME_DONE) goto done;
-        }
-      }
-      if (pass == 0) continue;
-      for (int k = 0; k < levels; k++) {
-        int32_t *prism = mesh->cells.prisms[t * levels + k];
-        for (int c = 0; c < 3; c++) { // turned, so that the base looks into the fluid
-          prism[c] = column_point(build, corner[(3 - c) % 3], k);
-          prism[c + 3] = column_point(build, corner[(3 - c) % 3], k + 1);
-        }
-      }
-      int32_t w = mesh->cells.triangle_count++;
-      for (int c = 0; c < 3; c++) mesh->cells.triangles[w][c] = column_point(build, corner[c], 0);
-      mesh->cells.triangle_patch[w] = cw_cad_face_patch(from->in->cad, from->surface->face[build->inner.source[t]]);
-      mesh->cells.triangle_cell[w] = first_cell;
-    }
+  const CwRegionBoundary *inner = &build->inner;
+  CwRegionData *cells = &mesh->cells;
+  int32_t of[3] = {0}, sides = 0;
+  for (int32_t t = 0; t < inner->wall_count; t++) {
+    const int32_t *corner = inner->triangle[t];
+    of[count_pinched(build, corner)] += context->layer_count;
+    for (int e = 0; e < 3; e++)
+      sides +=
+          cw_open_edge_face(&context->open_edge_places, inner->node[corner[e]], inner->node[corner[(e + 1) % 3]]) >= 0;
   }
+  first[2] = build->fill.tetrahedron_count;
+  mesh->layer_tetrahedra = of[2];
+  cells->tetrahedron_count = first[1] = first[2] + of[2];
+  cells->pyramid_count = of[1];
+  first[0] = first[1] + of[1];
+  cells->prism_count = of[0];
+  CW_NEW(cells->tetrahedra, cells->tetrahedron_count);
+  CW_NEW(cells->pyramids, of[1]);
+  CW_NEW(cells->prisms, of[0]);
+  const size_t quads = (size_t)sides * (size_t)context->layer_count;
+  const size_t triangles =
+      (size_t)(inner->wall_count + inner->bare_count + inner->open_patch_count) + (of[1] + of[2] > 0 ? quads : 0);
+  CW_NEW(cells->quads, quads);
+  CW_NEW(cells->quad_patch, quads);
+  CW_NEW(cells->quad_cell, quads);
+  CW_NEW(cells->triangles, triangles);
+  CW_NEW(cells->triangle_patch, triangles);
+  CW_NEW(cells->triangle_cell, triangles);
 done:
   return status;
 }
 
-// Triangles of the open patches with the tetrahedron behind each.
+// Cells of all columns, wall triangles under them, and the sides on open patches.
+static CwStatus add_layers(Build *build, const int32_t of_kind[3], CwRegionMesh *mesh, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  const CwRegionContext *context = build->context;
+  const CwRegionInput *from = &context->from;
+  CwRegionData *cells = &mesh->cells;
+  int32_t next[3] = {of_kind[0], of_kind[1], of_kind[2]}, *first = NULL;
+  CW_NEW_UNSET(first, build->inner.wall_count);
+  for (int32_t t = 0; t < build->inner.wall_count; t++) {
+    const int32_t *corner = build->inner.triangle[t];
+    const int pinched = count_pinched(build, corner);
+    first[t] = next[pinched];
+    for (int k = 0; k < context->layer_count; k++) add_cell(build, corner, k, pinched, next[pinched]++, cells);
+    int32_t w = cells->triangle_count++;
+    for (int c = 0; c < 3; c++) cells->triangles[w][c] = column_point(build, corner[c], 0);
+    cells->triangle_patch[w] = cw_cad_face_patch(from->in->cad, from->surface->face[build->inner.source[t]]);
+    cells->triangle_cell[w] = first[t];
+  }
+  for (int32_t t = 0; t < build->inner.wall_count; t++) {
+    for (int e = 0; e < 3; e++) {
+      int32_t a = build->inner.triangle[t][e], b = build->inner.triangle[t][(e + 1) % 3],
+              open_patch = cw_open_edge_face(&context->open_edge_places, build->inner.node[a], build->inner.node[b]);
+      if (open_patch < 0) continue;
+      add_sides(build, a, b, open_patch, first[t], mesh, outcome);
+      if (outcome->kind != CW_OUTCOME_DONE) goto done;
+    }
+  }
+done:
+  free(first);
+  return status;
+}
+
+// Triangles of walls without layers and of the open patches with the tetrahedron behind each.
 static CwStatus add_open_patches(Build *build, CwRegionMesh *mesh, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwRegionInput *from = &build->context->from;
   const int32_t first = build->inner.wall_count, made = mesh->cells.triangle_count;
-  const int32_t count = build->inner.open_patch_count;
+  const int32_t count = build->inner.bare_count + build->inner.open_patch_count;
   const int32_t(*corner)[3] = (const int32_t(*)[3])build->inner.triangle + first;
   CW_TRY(cw_tets_on(build->fill.point_count, count, corner, build->fill.tetrahedron_count,
                     (const int32_t(*)[4])build->fill.tetrahedron, mesh->cells.triangle_cell + made));
   for (int32_t t = 0; t < count; t++) {
-    const int32_t open_patch = from->interfaces->open_patch.face[build->inner.source[first + t]];
-    const int patch = cw_cad_face_patch(from->in->cad, open_patch);
+    const int32_t source = build->inner.source[first + t];
+    const int32_t face =
+        t < build->inner.bare_count ? from->surface->face[source] : from->interfaces->open_patch.face[source];
+    const int patch = cw_cad_face_patch(from->in->cad, face);
     for (int c = 0; c < 3; c++) mesh->cells.triangles[made + t][c] = build->place[corner[t][c]];
     mesh->cells.triangle_patch[made + t] = patch;
-    check_on_open_patch(build, mesh, open_patch, mesh->cells.triangles[made + t], 3, outcome);
+    check_on_open_patch(build, mesh, face, mesh->cells.triangles[made + t], 3, outcome);
     if (outcome->kind != CW_OUTCOME_DONE) goto done;
     const double *x = mesh->cells.points[mesh->cells.triangles[made + t][0]];
     CW_REQUIRE(mesh->cells.triangle_cell[made + t] >= 0, CW_ERR_FAULT,
@@ -302,7 +383,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   double(*inner)[3] = NULL;
   CwLatticeSite *site = NULL;
   char name[64];
-  int32_t moved;
+  int32_t moved, first[3];
   memset(mesh, 0, sizeof *mesh);
   snprintf(name, sizeof name, "%s region %d", context->domain, region + 1);
   snprintf(mesh->domain, sizeof mesh->domain, "%s", context->domain);
@@ -321,15 +402,11 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   mesh->recovery = build.fill.recovery;
   CW_TRY(place_points(&build, mesh));
   CW_TRY(order_tetrahedra(&build));
-  mesh->cells.tetrahedron_count = build.fill.tetrahedron_count;
-  CW_NEW(mesh->cells.tetrahedra, mesh->cells.tetrahedron_count);
-  for (int32_t t = 0; t < mesh->cells.tetrahedron_count; t++) {
+  CW_TRY(make_room(&build, mesh, first));
+  for (int32_t t = 0; t < build.fill.tetrahedron_count; t++) {
     for (int k = 0; k < 4; k++) mesh->cells.tetrahedra[t][k] = build.place[build.fill.tetrahedron[t][k]];
   }
-  CW_NEW(mesh->cells.triangles, build.inner.wall_count + build.inner.open_patch_count);
-  CW_NEW(mesh->cells.triangle_patch, build.inner.wall_count + build.inner.open_patch_count);
-  CW_NEW(mesh->cells.triangle_cell, build.inner.wall_count + build.inner.open_patch_count);
-  CW_TRY_STAGE(add_layers(&build, mesh, outcome), outcome);
+  CW_TRY_STAGE(add_layers(&build, first, mesh, outcome), outcome);
   CW_TRY_STAGE(add_open_patches(&build, mesh, outcome), outcome);
   CW_TRY(cw_top_moves(context->layer_count, mesh, &moved));
   cw_log_debug(context->from.log, "%s: %d points at flat tetrahedra on the layer top moved", name, moved);

@@ -13,9 +13,10 @@
 static void name_patch(const CwRegionInput *from, const CwRegionBoundary *inner, int32_t triangle, char patch[40]) {
   int32_t source = inner->source[triangle];
   const char *name = "partition plane";
-  if (triangle < inner->wall_count) {
+  int32_t walls = inner->wall_count + inner->bare_count;
+  if (triangle < walls) {
     name = cw_cad_patch_name(from->in->cad, cw_cad_face_patch(from->in->cad, from->surface->face[source]));
-  } else if (triangle < inner->wall_count + inner->open_patch_count) {
+  } else if (triangle < walls + inner->open_patch_count) {
     name =
         cw_cad_patch_name(from->in->cad, cw_cad_face_patch(from->in->cad, from->interfaces->open_patch.face[source]));
   }
@@ -37,7 +38,7 @@ CwStatus cw_region_failure_examine(const CwRegionInput *from, int32_t region, co
   }
   snprintf(name, sizeof name, "boundary of region %d", region + 1);
   CW_TRY(cw_region_boundary_make(from, region, 0, &inner));
-  int32_t count = inner.wall_count + inner.open_patch_count + inner.interface_count;
+  int32_t count = inner.wall_count + inner.bare_count + inner.open_patch_count + inner.interface_count;
   CW_NEW(crossing, count);
   CW_TRY(cw_self_intersections(inner.node_count, (const double(*)[3])inner.x, count,
                                (const int32_t(*)[3])inner.triangle, &pairs, &pair));
@@ -64,7 +65,8 @@ void cw_region_failure_thin(const CwRegionInput *from, int32_t region, const CwR
       int32_t v = from->layers->triangle[t][k];
       int near = failure->everywhere ? from->surface->region[t] == region
                                      : cw_distance(from->layers->top[v], failure->at) < distance;
-      if (near) most[v] = fmin(most[v], cw_policy.column_kept * from->layers->thickness[v]);
+      if (near && from->layers->thickness[v] > 0)
+        most[v] = fmin(most[v], cw_policy.column_kept * from->layers->thickness[v]);
     }
   }
 }

@@ -18,7 +18,8 @@ static const struct {
                 {"number", offsetof(CwRegionMesh, number)},
                 {"recovered_triangles", offsetof(CwRegionMesh, recovery.missing)},
                 {"recovery_flips", offsetof(CwRegionMesh, recovery.flips)},
-                {"tetgen", offsetof(CwRegionMesh, recovery.tetgen)}};
+                {"tetgen", offsetof(CwRegionMesh, recovery.tetgen)},
+                {"layer_tetrahedra", offsetof(CwRegionMesh, layer_tetrahedra)}};
 enum { INTEGERS = sizeof integers / sizeof *integers };
 
 static CwStatus write_items(hid_t file, CwRegionMesh *r) {

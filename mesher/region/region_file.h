@@ -22,6 +22,7 @@ typedef struct {
   char fingerprint[CW_HASH_TEXT]; // hex of all that the region follows from
   char digest[CW_HASH_TEXT];      // of its file; "" before there is one
   CwFillRecovery recovery;        // how its boundary was recovered
+  int32_t layer_tetrahedra;       // the last ones, of tapered columns
   CwRegionData cells;             // as the file has them, but in the unit of the model; shared points first
 } CwRegionMesh;
 

@@ -22,6 +22,7 @@ typedef enum { STAYS, INSIDE, ON_TOP } Kind;
 typedef struct {
   CwRegionData *cells;
   int layers;
+  int32_t fill_count; // of tetrahedra; the others are of tapered columns
   double flat_sine;
   uint8_t *kind;         // of each point
   int32_t *row;          // of each point, -1: none
@@ -44,6 +45,10 @@ static void find_kinds(Moves *m, int32_t shared_count) {
     for (int k = 0; k < 6; k++) m->kind[c->prisms[p][k]] = STAYS;
   for (int32_t t = 0; t < c->prism_count / m->layers; t++)
     for (int k = 3; k < 6; k++) m->kind[c->prisms[last_prism(m, t)][k]] = ON_TOP;
+  for (int32_t p = 0; p < c->pyramid_count; p++)
+    for (int k = 0; k < 5; k++) m->kind[c->pyramids[p][k]] = STAYS;
+  for (int32_t t = m->fill_count; t < c->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) m->kind[c->tetrahedra[t][k]] = STAYS;
   for (int32_t t = 0; t < c->triangle_count; t++)
     for (int k = 0; k < 3; k++) m->kind[c->triangles[t][k]] = STAYS;
   for (int32_t q = 0; q < c->quad_count; q++)
@@ -66,7 +71,7 @@ static CwStatus find_flat(Moves *m) {
   CwStatus status = CW_OK;
   const CwRegionData *c = m->cells;
   int32_t flat_capacity = 0, capacity = 0;
-  for (int32_t t = 0; t < c->tetrahedron_count; t++) {
+  for (int32_t t = 0; t < m->fill_count; t++) {
     const int32_t *p = c->tetrahedra[t];
     int on_top = 0;
     for (int k = 0; k < 4; k++) on_top |= m->kind[p[k]] == ON_TOP;
@@ -214,6 +219,7 @@ CwStatus cw_top_moves(int layers, CwRegionMesh *mesh, int32_t *moved) {
   Moves m = {.cells = cells, .layers = layers, .flat_sine = sin(cw_policy.flat_angle * CW_DEGREE)};
   uint8_t *has_moved = NULL;
   *moved = 0;
+  m.fill_count = cells->tetrahedron_count - mesh->layer_tetrahedra;
   if (layers < 2) goto done;
   CW_NEW_UNSET(m.kind, cells->point_count);
   CW_NEW_UNSET(m.row, cells->point_count);
@@ -222,7 +228,7 @@ CwStatus cw_top_moves(int layers, CwRegionMesh *mesh, int32_t *moved) {
   CW_TRY(find_flat(&m));
   if (!m.flat_count) goto done;
   const int32_t columns = cells->prism_count / layers;
-  CW_TRY(list_cells(&m, cells->tetrahedron_count, *cells->tetrahedra, 4, 4, &m.tet));
+  CW_TRY(list_cells(&m, m.fill_count, *cells->tetrahedra, 4, 4, &m.tet));
   CW_TRY(list_cells(&m, columns, cells->prisms[layers - 1] + 3, 3, 6 * layers, &m.column));
   CW_NEW_UNSET(m.measure, columns);
   CW_NEW_UNSET(m.height, m.count);

@@ -246,7 +246,7 @@ void cw_tell_layers(CwMeshRun *run) {
   int needed[CW_DOMAINS_MOST], given = run->table->walls.layer_count, changed = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
-    changed |= run->layers_told[d] != domain->layer_count || run->bare_told[d] != domain->bare.count;
+    changed |= run->layers_told[d] != domain->layer_count || run->pinched_told[d] != domain->pinched.place_count + 1;
     run->layers_told[d] = domain->layer_count;
   }
   if (!changed) return;
@@ -254,8 +254,9 @@ void cw_tell_layers(CwMeshRun *run) {
     json_array_remove(run->headlines, run->headlines_before);
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
-    cw_warn_of_bare(run->bare_told[d] != domain->bare.count ? run->context.log : NULL, domain, run->headlines);
-    run->bare_told[d] = domain->bare.count;
+    const int told = domain->pinched.place_count + 1;
+    cw_warn_of_pinched(run->pinched_told[d] != told ? run->context.log : NULL, domain, run->headlines);
+    run->pinched_told[d] = told;
   }
   double cells = cw_cells_crowded(run);
   if (cells > 0)
@@ -294,10 +295,11 @@ void cw_learn_prisms(CwMeshRun *run) {
   cw_cell_law_learn(&run->prisms, factor, run->scale, 2, 0);
 }
 
+// All cells count that are none of full layers.
 void cw_learn_tets(CwMeshRun *run) {
-  double made = 0, integral = 0;
+  double made = (double)run->cells, integral = 0;
   for (int d = 0; d < run->model.domain_count; d++) {
-    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
+    made -= (double)run->domain[d].layer_count * run->domain[d].surface.triangle_count;
     integral += cw_domain_tet_integral(&run->domain[d], run->scale);
   }
   double asked = (double)run->table->mesh.cells, before = run->tets.scale;

@@ -33,7 +33,8 @@ double cw_layers_short(CwMeshRun *run, int needed[CW_DOMAINS_MOST]);
 // about how many cells have room, or more where walls are limited; else returns 0.
 double cw_cells_crowded(CwMeshRun *run);
 
-// Tells of bare walls and the numbers of layers, anew where they have changed: the old headlines of them go.
+// Tells of where layers taper to nothing and the numbers of layers, anew where they have changed: the old headlines of
+// them go.
 void cw_tell_layers(CwMeshRun *run);
 // What a pass begins with: the cells as those before have counted them, if there were any, the scale that follows, and
 // no more layers than leave room then; told of where that changes their numbers.

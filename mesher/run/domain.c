@@ -114,16 +114,6 @@ done:
   return status;
 }
 
-CwStatus cw_domain_leave_bare(CwDomain *domain, int32_t asked, const double at[3]) {
-  CwStatus status = CW_OK;
-  double *area = NULL;
-  CW_TRY(cw_domain_face_areas(domain, &area));
-  CW_TRY(cw_bare_faces_find(domain->cad, area, asked, at, &domain->bare));
-done:
-  free(area);
-  return status;
-}
-
 double cw_domain_first_height(const CwDomain *domain, int face) {
   const double *radius = domain->face_radius[face];
   // Round a lesser radius the first layer would be more than twice as long on its outer side; inside of one, the layers
@@ -206,7 +196,8 @@ CwStatus cw_domain_start(const CwContext *context, CwDomain *domain, CwOutcome *
                                     .network = &domain->network,
                                     .images = &domain->images,
                                     .size_at = cw_size_at,
-                                    .size = domain->size};
+                                    .size = domain->size,
+                                    .pinched = &domain->pinched};
   CW_TRY_STAGE(cw_network_make(context, domain->cad, &domain->background, domain->inside, &domain->plan,
                                &domain->network, outcome),
                outcome);
@@ -294,6 +285,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_verticals_free(&domain->inside);
   cw_tessellation_free(&domain->tessellation);
   cw_background_free(&domain->background);
+  cw_pinched_free(&domain->pinched);
   cw_cad_close(&domain->cad);
   free(domain->layer_sample);
   free(domain->face_triangles);

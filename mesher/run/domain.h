@@ -6,7 +6,7 @@
 #include "mesher/cad/face_radius.h"
 #include "mesher/cad/sharp_edge.h"
 #include "mesher/cad/symmetry.h"
-#include "mesher/layers/bare_faces.h"
+#include "mesher/layers/pinched.h"
 #include "mesher/parallel/context.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_build.h"
@@ -35,7 +35,7 @@ typedef struct {
   CwBackground background;
   double solid_volume; // m3, exact
   CwVerticals *inside;
-  CwBareFaces bare;     // of all faces
+  CwPinched pinched;    // where columns have no height
   CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
   int32_t whole;        // 1: it had a symmetry, which was given up
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
@@ -92,10 +92,6 @@ CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
 // *area: of each face, by its background; caller frees.
 CwStatus cw_domain_face_areas(const CwDomain *domain, double **area);
-
-// Walls on which no layers can stand become bare. Before them the wall `asked`, on which none stand `at` a place; -1:
-// none.
-CwStatus cw_domain_leave_bare(CwDomain *domain, int32_t asked, const double at[3]);
 
 // First height asked on a face, in the model's unit: that of its patch, or the greatest that its bend has room for.
 double cw_domain_first_height(const CwDomain *domain, int face);

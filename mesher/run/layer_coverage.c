@@ -44,16 +44,18 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage 
   for (int32_t i = domain->surface.region_start[region]; i < domain->surface.region_start[region + 1]; i++) {
     int32_t t = domain->surface.region_triangle[i];
     CwLayerCoverage *of = &coverage[cw_cad_face_patch(domain->cad, domain->surface.face[t])];
-    int full = 1, met = 1, worst = 0, why = 0;
+    int full = 1, met = 1, worst = 0, why = 0, pinched = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = domain->layers.triangle[t][k];
       double thickness = domain->layers.thickness[v];
+      pinched += thickness == 0;
       full &= thickness >= 0.99 * targets->target[v];
       int reason = domain->layers.reason[v];
       if (reason > worst) worst = reason;
       if (!cw_domain_first_is_met(domain, v)) {
-        // Where one corner is beside a sharp edge, room about the others would not do.
-        if (why != CW_LAYER_SHARPNESS && (reason == CW_LAYER_SHARPNESS || reason > why)) why = reason;
+        // Where one corner is beside a sharp edge, or where layers taper, room about the others would not do.
+        int settled = why == CW_LAYER_SHARPNESS || why == CW_LAYER_TAPER;
+        if (!settled && (reason == CW_LAYER_SHARPNESS || reason == CW_LAYER_TAPER || reason > why)) why = reason;
         met = 0;
       }
       of->thickness += thickness / 3;
@@ -64,6 +66,7 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage 
     of->first_met += met;
     of->reason[full ? 0 : worst]++;
     if (!met) of->missed[why]++;
-    count_thin(domain, t, of);
+    of->without += pinched == 3;
+    if (pinched == 0) count_thin(domain, t, of);
   }
 }

@@ -9,6 +9,7 @@ typedef struct {
   int64_t faces, full, first_met;   // wall faces; with the full thickness; with the first height
   int64_t reason[CW_LAYER_REASONS]; // by CwLayerReason: why not the full thickness; [0]: it is
   int64_t missed[CW_LAYER_REASONS]; // why not the first height
+  int64_t without;                  // faces without any layer
   double thickness, least;          // sum over the faces, least of all, m
   int64_t thin;                     // prisms whose determinant checkMesh calls small (thin_prism)
   double thin_wanted;               // how many times as tall the thinnest would have to be

@@ -209,22 +209,22 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
          domain->name, cw_policy.free_share, rounded.text);
 }
 
-void cw_warn_of_bare(CwLog *log, const CwDomain *domain, json_t *headlines) {
-  const CwBareFaces *bare = &domain->bare;
-  if (bare->count == 0) return;
+void cw_warn_of_pinched(CwLog *log, const CwDomain *domain, json_t *headlines) {
+  const CwPinched *pinched = &domain->pinched;
   char remedy[160] = "round the solid there";
-  const char *why = bare->asked
-                        ? "layers fold or cross there however short edges are"
-                        : "no direction sees all faces about a corner or an edge of theirs and lies in the open faces "
-                          "there";
-  if (bare->open >= 0)
+  if (pinched->open >= 0)
     snprintf(remedy, sizeof remedy, "let '%.80s' cross the walls there, not go on from one",
-             cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, bare->open)));
-  tell(log, headlines,
-       "%s: %d faces, %.2g %% of the wall, carry no layers: %s, first at (%.6g, %.6g, %.6g) mm of face '%s'; %s, where "
-       "its y+ matters",
-       domain->name, bare->count, 100 * bare->share, why, CW_MM(bare->at), cw_cad_face_name(domain->cad, bare->first),
-       remedy);
+             cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, pinched->open)));
+  if (pinched->edges + pinched->corners > 0)
+    tell(log, headlines,
+         "%s: layers taper to nothing at %d edges and %d corners: no direction sees all faces about them and lies in "
+         "the open faces there, first at (%.6g, %.6g, %.6g) mm; %s, where its y+ matters",
+         domain->name, pinched->edges, pinched->corners, CW_MM(pinched->at), remedy);
+  if (pinched->place_count > 0)
+    tell(log, headlines,
+         "%s: layers taper to nothing at %d places: they fold or cross there however short edges are, first at (%.6g, "
+         "%.6g, %.6g) mm; a solid that is blunter there has room for them",
+         domain->name, pinched->place_count, CW_MM(pinched->place[0].x));
 }
 
 void cw_put_sharp_edge(const CwDomain *domain, json_t *result) {

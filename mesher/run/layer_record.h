@@ -18,8 +18,8 @@ void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch);
 // passage.
 void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headlines);
 
-// And of walls that were left bare of layers, if any, with what would mend the first place of them.
-void cw_warn_of_bare(CwLog *log, const CwDomain *domain, json_t *headlines);
+// And of where layers taper to nothing, if anywhere, with what would mend the first place.
+void cw_warn_of_pinched(CwLog *log, const CwDomain *domain, json_t *headlines);
 
 // Tells, before anything is meshed too, of walls that meet in an edge so sharp that first heights beside it are missed;
 // and adds the angle of the sharpest to the entry of the domain.

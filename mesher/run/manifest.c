@@ -97,6 +97,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
     sum.faces += made->faces;
     sum.full += made->full;
     sum.first_met += made->first_met;
+    sum.without += made->without;
     sum.thickness += made->thickness;
     sum.least = fmin(sum.least, made->least);
     for (int i = 0; i < CW_LAYER_REASONS; i++) {
@@ -117,6 +118,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
                 (json_int_t)sum.first_met, "first_height_target_m", metres_json(target->first_height, 1),
                 "mean_thickness_m", metres_json(sum.faces ? sum.thickness / (double)sum.faces : 0, 1),
                 "least_thickness_m", metres_json(sum.faces ? sum.least : 0, 1));
+  json_object_set_new(result, "without_layers_faces", json_integer((json_int_t)sum.without));
   json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
   for (int i = CW_LAYER_FULL + 1; i < CW_LAYER_REASONS; i++) {
     put_by_reason(result, "thinned", i, sum.reason[i]);
@@ -191,25 +193,27 @@ static void put_balance(const CwMeshRun *run, int d, json_t *result) {
 static json_t *sums_json(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   CwQuality quality;
-  int64_t points = domain->shared.count, tets = 0, prisms = 0;
+  int64_t points = domain->shared.count, tets = 0, pyramids = 0, prisms = 0;
   double allowed = CW_TET_BOUND_MOST, solid = domain->solid_volume;
   int32_t tetgen = 0;
   cw_quality_start(&quality);
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
     const CwRegionSummary *made = &run->summary[d][r];
-    cw_quality_add(&quality, &made->quality, made->tetrahedra);
+    cw_quality_add(&quality, &made->quality);
     points += made->own_points;
     tets += made->tetrahedra;
+    pyramids += made->pyramids;
     prisms += made->prisms;
     tetgen += made->recovery.tetgen;
     allowed = fmin(allowed, made->dihedral_allowed);
   }
-  json_t *result = json_pack(
-      "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
-      "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
-      domain->interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3", metres_json(quality.volume, 3),
-      "solid_volume_m3", metres_json(solid, 3), "volume_error", cw_json_number(quality.volume / solid - 1),
-      "least_cell_volume_m3", metres_json(quality.least_volume, 3));
+  json_t *result = json_pack("{s:s, s:I, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name,
+                             "points", (json_int_t)points, "tetrahedra", (json_int_t)tets, "pyramids",
+                             (json_int_t)pyramids, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count,
+                             "interfaces", domain->interfaces.outline_count, "colours", domain->colours,
+                             "mesh_volume_m3", metres_json(quality.volume, 3), "solid_volume_m3", metres_json(solid, 3),
+                             "volume_error", cw_json_number(quality.volume / solid - 1), "least_cell_volume_m3",
+                             metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   cw_put_left_out(domain, result);
   cw_put_sharp_edge(domain, result);

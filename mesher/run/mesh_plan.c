@@ -224,21 +224,22 @@ done:
   return status;
 }
 
-static CwStatus leave_bare(CwMeshRun *run) {
+static CwStatus find_pinched(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_leave_bare(&run->domain[d], -1, NULL));
+  for (int d = 0; d < run->model.domain_count; d++)
+    CW_TRY(cw_pinched_find(run->domain[d].cad, &run->domain[d].pinched));
 done:
   return status;
 }
 
-CwStatus cw_mesh_leave_bare(CwMeshRun *run, int32_t first) {
+CwStatus cw_mesh_pinch(CwMeshRun *run, int32_t first) {
   CwStatus status = CW_OK;
   for (int32_t i = first; i < run->finer.count; i++) {
     const CwFinerPlace *place = &run->finer.place[i];
-    CwDomain *domain = &run->domain[place->domain];
-    if (place->bare < 0 || !cw_cad_face_is_wall(domain->cad, place->bare))
-      continue; // one before may have taken it along
-    CW_TRY(cw_domain_leave_bare(domain, place->bare, place->point.x));
+    const double *x = place->point.x;
+    if (!place->pinched) continue;
+    CW_TRY(
+        cw_pinched_add(&(CwPinchedPlace){{x[0], x[1], x[2]}, place->point.size}, &run->domain[place->domain].pinched));
   }
 done:
   return status;
@@ -251,7 +252,7 @@ static CwStatus leave_out_narrow(CwMeshRun *run) {
   cw_profiler_part(&run->context, "narrow faces");
   CW_TRY(cw_leave_out_narrow(run, &left));
   if (left == 0) goto done;
-  CW_TRY(leave_bare(run));
+  CW_TRY(find_pinched(run));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:
@@ -273,7 +274,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->model.domain_count, "domains"));
   CW_TRY(triangulate_domains(run));
-  CW_TRY(leave_bare(run));
+  CW_TRY(find_pinched(run));
   for (int d = 0; d < run->model.domain_count; d++) CW_TRY(cw_domain_measure_walls(&run->context, &run->domain[d]));
   cw_start_layers(run);
   for (int d = 0; d < run->model.domain_count; d++) {

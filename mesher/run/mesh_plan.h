@@ -9,9 +9,8 @@
 // Opens all domains: geometry, background, symmetry, size field and its first scale.
 CwStatus cw_mesh_open(CwMeshRun *run);
 
-// The walls that places of `run`, from `first` on, leave bare carry no layers any more, nor those on which none can
-// stand beside them. To be followed by cw_mesh_resize.
-CwStatus cw_mesh_leave_bare(CwMeshRun *run, int32_t first);
+// Columns have no height any more at those places of `run`, from `first` on, that are pinched.
+CwStatus cw_mesh_pinch(CwMeshRun *run, int32_t first);
 
 // Makes the size fields anew, finer at the places of `run`; what followed from the old ones is gone.
 CwStatus cw_mesh_resize(CwMeshRun *run);

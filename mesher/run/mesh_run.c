@@ -49,14 +49,14 @@ done:
 
 // Whether the mesh has to be another at the place of an outcome (finer_places).
 static int is_of_places(CwOutcomeKind kind) {
-  return kind == CW_OUTCOME_FINER || kind == CW_OUTCOME_BARE;
+  return kind == CW_OUTCOME_FINER || kind == CW_OUTCOME_PINCH;
 }
 
 // One pass at the present scale. Where equal passages do not come out equal, the impeller is meshed whole; a domain
 // with a plane that grazes a wall, or on which no column leaves one, gets other planes; surfaces and regions that fail
 // are tried again with thinner layers, and with other planes where these do not do. Outcome: CW_OUTCOME_FINER where
-// edges cross, CW_OUTCOME_BARE where no layers stand; where `optional`, that of an attempt for which there are no other
-// planes.
+// edges cross, CW_OUTCOME_PINCH where no layers stand; where `optional`, that of an attempt for which there are no
+// other planes.
 static CwStatus mesh_pass(CwMeshRun *run, int optional, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwThinPlaces places = {0};
@@ -142,8 +142,8 @@ static CwStatus change_places(CwMeshRun *run, const CwOutcome *why, CwPassState 
   for (int32_t i = 0; i < why->places; i++) {
     if (shorter)
       CW_TRY(cw_finer_places_add(domain, why->domain, why->place[i], &run->finer));
-    else if (why->kind == CW_OUTCOME_BARE)
-      CW_TRY(cw_finer_places_add_bare(domain, why->domain, why->place[i], &run->finer));
+    else if (why->kind == CW_OUTCOME_PINCH)
+      CW_TRY(cw_finer_places_add_pinched(domain, why->domain, why->place[i], before, &run->finer));
   }
   CW_REQUIRE(run->finer.count > before, CW_ERR_MESH,
              "%s: %s; also with edges %d times shorter there; allowed: a wall that neither folds nor touches itself "
@@ -151,7 +151,7 @@ static CwStatus change_places(CwMeshRun *run, const CwOutcome *why, CwPassState 
              domain->name, text, 1 << FINER_MOST, (long long)run->table->mesh.cells);
   cw_log_warn(run->context.log, "%s: %s; made again with %s there", domain->name, text,
               shorter ? "shorter edges" : "no layers");
-  CW_TRY(cw_mesh_leave_bare(run, before));
+  CW_TRY(cw_mesh_pinch(run, before));
   state->finer_rounds += shorter;
   run->retries++;
 done:
@@ -298,7 +298,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   if (run->rank == 0) CW_TRY(cw_pass_state_read(run->context.log, run->run_path, fingerprint, &state));
   CW_TRY(cw_pass_state_share(run->context.team, &state));
   run->finer = state.finer;
-  CW_TRY(cw_mesh_leave_bare(run, 0));
+  CW_TRY(cw_mesh_pinch(run, 0));
   if (state.pass > 0) cw_log(run->context.log, "going on with pass %d of an earlier run", state.pass);
   CW_TRY(begin(run, &state, run->finer.count > 0));
   if (run->stopped) goto done;

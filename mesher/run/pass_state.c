@@ -95,7 +95,7 @@ static json_t *places_packed(const CwFinerPlaces *places) {
   for (int32_t i = 0; i < places->count; i++) {
     const CwFinerPlace *place = &places->place[i];
     const CwSizePoint *point = &place->point;
-    json_array_append_new(file, json_pack("[i, i, f, f, f, f]", place->domain, place->bare, point->x[0], point->x[1],
+    json_array_append_new(file, json_pack("[i, i, f, f, f, f]", place->domain, place->pinched, point->x[0], point->x[1],
                                           point->x[2], point->size));
   }
   return file;

@@ -28,8 +28,8 @@ static int is_judged(const CwDomain *domain, int patch) {
 }
 
 // How many times missed_share of the domain's faces miss their first height, beyond the first time; but for those
-// beside sharp edges, where it has any: of these is told beforehand too. Round edges are as sharp where edges of the
-// mesh are long.
+// where layers taper, and those beside sharp edges, where it has any: of these is told beforehand too. Round edges are
+// as sharp where edges of the mesh are long.
 static double lacks_first_heights(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   double faces = 0, missed = 0;
@@ -38,7 +38,7 @@ static double lacks_first_heights(const CwMeshRun *run, int d) {
     for (int32_t r = 0; is_judged(domain, p) && r < domain->plan.region_count; r++) {
       const CwLayerCoverage *of = &run->summary[d][r].coverage[p];
       faces += of->faces;
-      missed += of->faces - of->first_met - (sharp ? of->missed[CW_LAYER_SHARPNESS] : 0);
+      missed += of->faces - of->first_met - of->missed[CW_LAYER_TAPER] - (sharp ? of->missed[CW_LAYER_SHARPNESS] : 0);
     }
   }
   return faces > 0 ? fmax(missed / (cw_policy.missed_share * faces) - 1, 0) : 0;
@@ -103,7 +103,8 @@ CwStatus cw_finer_at_poor(CwMeshRun *run) {
       if (surface->source[t] != t || !is_judged(domain, cw_cad_face_patch(domain->cad, surface->face[t]))) continue;
       for (int k = 0; k < 3; k++) {
         int32_t v = domain->layers.triangle[t][k];
-        if (sharp && domain->layers.reason[v] == CW_LAYER_SHARPNESS) continue;
+        const int reason = domain->layers.reason[v];
+        if (reason == CW_LAYER_TAPER || (sharp && reason == CW_LAYER_SHARPNESS)) continue;
         if (!cw_domain_first_is_met(domain, v)) CW_TRY(add_apart(run, d, surface->x[v], before));
       }
     }

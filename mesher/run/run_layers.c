@@ -60,8 +60,8 @@ static CwStatus grow(void *given, const CwContext *context, int32_t d, CwOutcome
   CwStatus status = CW_OK;
   CwDomain *domain = &((const CwMerging *)given)->run->domain[d];
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->targets};
-  CW_TRY_STAGE(cw_boundary_grow(context, &domain->input, &domain->surface, &domain->background, domain->targets.target,
-                                domain->targets.least, &division, &domain->layers, outcome),
+  CW_TRY_STAGE(cw_boundary_grow(context, &domain->input, &domain->wall_curves, &domain->surface, &domain->background,
+                                domain->targets.target, domain->targets.least, &division, &domain->layers, outcome),
                outcome);
   CW_AUDIT(cw_layers_audit(&domain->layers, (const double(*)[3])domain->surface.x));
   cw_profiler_part(context, "layers: small prisms");

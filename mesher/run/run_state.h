@@ -79,7 +79,7 @@ typedef struct {
   double planned_scale;
   int planned_layers[CW_DOMAINS_MOST];
   // Of each domain, as the headlines behind the first `headlines_before` tell: layers, and faces without.
-  int layers_told[CW_DOMAINS_MOST], bare_told[CW_DOMAINS_MOST];
+  int layers_told[CW_DOMAINS_MOST], pinched_told[CW_DOMAINS_MOST];
   size_t headlines_before;
   int copies_told;     // 1: a warning says that each rank holds copies of what a host may share
   int passes, retries; // retries: of all passes

@@ -96,6 +96,8 @@ static CwStatus judge(void *context, int32_t i, void *out) {
   const int32_t *corner = layers->triangle[t];
   double first[3];
   if (surface->source[t] != t) return CW_OK;
+  for (int k = 0; k < 3; k++)
+    if (layers->thickness[corner[k]] == 0) return CW_OK; // tapered
   if (is_thick(columns, t)) return CW_OK;
   *made = LEFT;
   for (int k = 0; k < 3; k++) first[k] = columns->layers->first_height[corner[k]];

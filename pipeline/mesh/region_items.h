@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-enum { CW_REGION_FORMAT = 3, CW_REGION_ARRAYS = 11 };
+enum { CW_REGION_FORMAT = 4, CW_REGION_ARRAYS = 11 };
 
 // A region in memory, as its file has it: the fields are its arrays and their counts; see docs/file-formats.md for
 // shapes and orders.

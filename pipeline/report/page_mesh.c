@@ -329,9 +329,10 @@ static double coverage(const json_t *patch, int reason) {
 
 static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *const *list) {
   CwStatus status = CW_OK;
-  static const char *const names[CW_LAYER_REASONS] = {"full thickness", "thinned by a sharp edge", "thinned by a gap",
+  static const char *const names[CW_LAYER_REASONS] = {"full thickness",       "thinned by a sharp edge",
+                                                      "tapered to nothing",   "thinned by a gap",
                                                       "thinned by gradation", "thinned by repair"};
-  static const uint32_t colours[CW_LAYER_REASONS] = {0x5f9e7c, 0x9a86b8, 0xe0b653, 0x8db4da, 0xc8665a};
+  static const uint32_t colours[CW_LAYER_REASONS] = {0x5f9e7c, 0x9a86b8, 0x8a6f5a, 0xe0b653, 0x8db4da, 0xc8665a};
   size_t count = 0, row = 0;
   double *share[CW_LAYER_REASONS] = {NULL};
   CwPlotCategory *category = NULL;
@@ -461,22 +462,22 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   CW_TRY(coverage_chart(page, data, list));
   fputs("<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
         "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
-        "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>sharp edge</th><th class=\"n\"><br>gap</th><th "
-        "class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th></tr>\n",
+        "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>sharp edge</th><th class=\"n\"><br>taper</th>"
+        "<th class=\"n\"><br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th></tr>\n",
         page);
-  layer_rows(page, data, list, 9, thickness_cells);
+  layer_rows(page, data, list, 10, thickness_cells);
   fputs(
       "</table>\n<p>The volume ratio is that of the last prism of a column and the tetrahedron on it, the greater over "
       "the less.</p>\n"
       "<table><tr><th>Patch</th><th class=\"n p\">y<sup>+</sup><br>asked</th><th class=\"n p\"><br>made for</th>"
       "<th class=\"n p\">First height, &micro;m<br>asked</th><th class=\"n p\"><br>made for</th>"
       "<th class=\"n\"><br>met</th>"
-      "<th class=\"n\">Missed by<br>sharp edge</th><th class=\"n\"><br>gap</th><th class=\"n\"><br>gradation</th><th "
-      "class=\"n\"><br>repair</th>"
+      "<th class=\"n\">Missed by<br>sharp edge</th><th class=\"n\"><br>taper</th><th class=\"n\"><br>gap</th>"
+      "<th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
       "<th class=\"n\">Volume ratio<br>up to 4</th><th class=\"n p\"><br>95&#8239;% up to</th>"
       "<th class=\"n p\"><br>greatest</th></tr>\n",
       page);
-  layer_rows(page, data, list, 13, height_cells);
+  layer_rows(page, data, list, 14, height_cells);
   fputs("</table>\n", page);
 done:
   return status;

@@ -107,10 +107,11 @@ def mesh(folder, case, cells, limit):
     row = {"cells": results["cells"], "seconds": round(seconds, 1), "dihedral": domain["least_dihedral_deg"],
            "allowed": domain["least_dihedral_allowed_deg"],
            "full": 100 * layers["full_thickness_faces"] / max(layers["wall_faces"], 1),
+           "tapered": 100 * layers["thinned_by_taper_faces"] / max(layers["wall_faces"], 1),
+           "bare": 100 * layers["without_layers_faces"] / max(layers["wall_faces"], 1),
            "sound": domain["prism_least_scaled_jacobian"] > 0 and domain["least_cell_volume_m3"] > 0}
-    bare = re.findall(r"faces, (\S+) % of the wall, carry no layers", said)
-    row["bare"] = float(bare[-1]) if bare else 0
-    row["cause"] = "meshed" + ("" if is_fair(row) else ", flat tetrahedra") + (", bare walls" if row["bare"] else "")
+    row["cause"] = "meshed" + ("" if is_fair(row) else ", flat tetrahedra")
+    row["cause"] += "" if row["bare"] <= MOST_BARE else ", bare walls"
     return row
 
 
@@ -135,7 +136,8 @@ def shown(name, row):
     text = f"{name:44s} {row.get('faces', 0):4d} faces  {row['cause']}: " + row.get("shown", "")
     if "cells" in row:
         text += (f"{row['cells']:7d} cells {row['seconds']:5.1f} s, dihedral {row['dihedral']:4.1f} of "
-                 f"{row['allowed']:4.1f}, full {row['full']:5.1f} %, bare {row['bare']:.1f} %")
+                 f"{row['allowed']:4.1f}, full {row['full']:5.1f} %, "
+                 f"tapered {row['tapered']:4.1f} %, bare {row['bare']:.1f} %")
     if "hxt" in row:
         text += "  hxt " + (row["hxt"] if isinstance(row["hxt"], str) else f"{row['hxt'][0]:7d} {row['hxt'][1]:5.1f}")
     return text
@@ -204,6 +206,7 @@ def asked_and_had(rows):
     slow = causes["timeout"] + sum(row["seconds"] > LIMIT for row in made)
     fair = sum(map(is_fair, made)) / len(made) if made else 0
     # The record tells no width of the gap at a bare face: all of the wall counts, also gaps with no room for two cells.
+    # What tapers has its layers.
     return (("closed solids meshed without an invalid cell", str(len(solids)), str(sum(row["sound"] for row in made))),
             ("meshes with layers on 99 % of all wall, narrow gaps too", str(len(made)),
              str(sum(row["bare"] <= MOST_BARE for row in made))),

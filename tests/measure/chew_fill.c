@@ -19,7 +19,7 @@ static CwStatus make_room(int32_t count, const CwChewInterface *interface, const
   const CwRegionBoundary *inner = &region->inner;
   surface->node_count = inner->node_count;
   surface->wall_count = inner->wall_count;
-  surface->fixed_count = surface->triangle_count = inner->wall_count + inner->open_patch_count;
+  surface->fixed_count = surface->triangle_count = inner->wall_count + inner->bare_count + inner->open_patch_count;
   for (int32_t i = 0; i < count; i++) {
     if (interface[i].region[0] != region->region && interface[i].region[1] != region->region) continue;
     surface->node_count += interface[i].point_count - interface[i].outline.point_count;

@@ -48,7 +48,7 @@ CwStatus cw_chew_region_open(const CwRegionInput *from, int32_t region, CwChewRe
   *made = (CwChewRegion){.region = region};
   CW_TRY(cw_region_boundary_make(from, region, 1, &made->inner));
   const CwRegionBoundary *inner = &made->inner;
-  int32_t fixed = inner->wall_count + inner->open_patch_count;
+  int32_t fixed = inner->wall_count + inner->bare_count + inner->open_patch_count;
   CW_TRY(cw_rays_make(NULL, inner->node_count, (const double(*)[3])inner->x, fixed + inner->interface_count,
                       (const int32_t(*)[3])inner->triangle, &made->rays));
   CwBox all = cw_box_of_points(inner->node_count, (const double(*)[3])inner->x);

@@ -78,8 +78,8 @@ static inline void make_layers(Box &box) {
   DomainSurfaces &boundary = box.boundary;
   make_walls(box);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &box.background, target.data(), nullptr, nullptr,
-                         &boundary.layers, &box.outcome));
+  check(cw_boundary_grow(NULL, &boundary.input, &boundary.wall_curves, &boundary.surface, &box.background,
+                         target.data(), nullptr, nullptr, &boundary.layers, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   check(cw_layers_audit(&boundary.layers, boundary.surface.x));
 }
@@ -91,7 +91,8 @@ static inline void make_surfaces(Box &box) {
   std::vector<void *> open_patches(faces, nullptr), interfaces;
   int64_t size;
   make_layers(box);
-  for (int v = 0; v < boundary.surface.vertex_count; v++) { // corners and edges keep the asked thickness to the walls
+  for (int v = 0; !boundary.input.pinched && v < boundary.surface.vertex_count;
+       v++) { // corners and edges keep the asked thickness to the walls
     for (int k = 1; k < 3; k++) {
       double side = k == 1 ? 0.030 : 0.020, x = boundary.layers.top[v][k];
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);

@@ -51,7 +51,8 @@ struct DomainRun {
     domain.wall_curves = boundary.wall_curves;
     domain.surface = boundary.surface;
     domain.layers = boundary.layers;
-    domain.input = {cad, &domain.plan, &domain.network, &domain.images, boundary.input.size_at, boundary.input.size};
+    domain.input = {cad,    &domain.plan, &domain.network, &domain.images, boundary.input.size_at, boundary.input.size,
+                    nullptr};
   }
   // The record as it stands.
   std::string record() const {

@@ -16,8 +16,8 @@ inline void make_layers(Tank &tank) {
   DomainSurfaces &boundary = tank.boundary;
   make_walls(tank);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &tank.background, target.data(), nullptr, nullptr,
-                         &boundary.layers, &tank.outcome));
+  check(cw_boundary_grow(NULL, &boundary.input, &boundary.wall_curves, &boundary.surface, &tank.background,
+                         target.data(), nullptr, nullptr, &boundary.layers, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
 }
 

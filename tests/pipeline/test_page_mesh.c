@@ -188,10 +188,12 @@ static void quality_is_in_shares(void **state) {
 
 static void set_layers(void) {
   set(ROTOR, "layer_coverage",
-      "[{'patch': 'hub_nut', 'wall_faces': 200, 'full_thickness_faces': 150, 'thinned_by_sharpness_faces': 20,"
-      " 'thinned_by_gap_faces': 15, 'thinned_by_gradation_faces': 10, 'thinned_by_repair_faces': 5,"
+      "[{'patch': 'hub_nut', 'wall_faces': 200, 'full_thickness_faces': 150, 'thinned_by_sharpness_faces': 18,"
+      " 'thinned_by_taper_faces': 2, 'thinned_by_gap_faces': 15, 'thinned_by_gradation_faces': 10, "
+      "'thinned_by_repair_faces': 5,"
       " 'mean_thickness_m': 1.5e-3, 'least_thickness_m': 2.5e-4, 'y_plus': 24, 'first_height_asked_m': 2.5e-4,"
       " 'first_height_target_m': 2.25e-4, 'first_height_met_faces': 190, 'first_height_missed_by_sharpness_faces': 4,"
+      " 'first_height_missed_by_taper_faces': 2,"
       " 'first_height_missed_by_gap_faces': 3, 'first_height_missed_by_gradation_faces': 2,"
       " 'first_height_missed_by_repair_faces': 1, 'thin_last_layer_faces': 6, 'thick_last_layer_faces': 4,"
       " 'volume_ratio_95_percent': 3.25, 'volume_ratio_greatest': 7.5},"
@@ -209,19 +211,19 @@ static void layers_are_told_by_patch(void **state) {
   char *page = page_of(cw_page_layers, &data);
   assert_holds(page, "<p>Layers on every wall face: rotor 5, stator 4, suction 5; as many as lead to the size");
   assert_holds(page, "it is met on 75.0 % of the wall faces");
-  assert_row(page, "Hub nut|200|75.0 %|1.5|0.25|20|15|10|5");
-  assert_row(page, "Hub nut|30|24|250|225|95.0 %|4|3|2|1|95.0 %|3.25|7.5");
-  assert_row(page, "Blade|" DASH "|" DASH "|" DASH "|" DASH "|50.0 %|0|0|0|0|" DASH "|" DASH "|" DASH);
-  assert_row(page, "Pipe|7|7|" DASH "|" DASH "|60.0 %|0|0|0|0|" DASH "|" DASH "|" DASH);
-  assert_row(page, "Lid|0|&ndash;|" DASH "|" DASH "|0|0|0|0"); // no face, no share
-  assert_int_equal(count_in(page, "<td colspan=\"9\">Suction</td>"), 1);
-  assert_int_equal(count_in(page, "<td colspan=\"13\">Stator</td>"), 1);
-  // The chart: of the hub's nut 75 % full, then 10, 7.5, 5 and 2.5 % thinned.
-  static const char *const colours[] = {"#5f9e7c", "#9a86b8", "#e0b653", "#8db4da", "#c8665a"};
-  static const double wanted[] = {75, 10, 7.5, 5, 2.5};
-  double bar[5][4][4];
-  for (int s = 0; s < 5; s++) assert_true(bars_of(page, colours[s], bar[s]) >= 1);
-  for (int s = 0; s < 5; s++) assert_near(bar[s][0][2] / bar[0][0][2], wanted[s] / 75, 1e-3);
+  assert_row(page, "Hub nut|200|75.0 %|1.5|0.25|18|2|15|10|5");
+  assert_row(page, "Hub nut|30|24|250|225|95.0 %|4|2|3|2|1|95.0 %|3.25|7.5");
+  assert_row(page, "Blade|" DASH "|" DASH "|" DASH "|" DASH "|50.0 %|0|0|0|0|0|" DASH "|" DASH "|" DASH);
+  assert_row(page, "Pipe|7|7|" DASH "|" DASH "|60.0 %|0|0|0|0|0|" DASH "|" DASH "|" DASH);
+  assert_row(page, "Lid|0|&ndash;|" DASH "|" DASH "|0|0|0|0|0"); // no face, no share
+  assert_int_equal(count_in(page, "<td colspan=\"10\">Suction</td>"), 1);
+  assert_int_equal(count_in(page, "<td colspan=\"14\">Stator</td>"), 1);
+  // The chart: of the hub's nut 75 % full, then 9, 1, 7.5, 5 and 2.5 % thinned.
+  static const char *const colours[] = {"#5f9e7c", "#9a86b8", "#8a6f5a", "#e0b653", "#8db4da", "#c8665a"};
+  static const double wanted[] = {75, 9, 1, 7.5, 5, 2.5};
+  double bar[6][4][4];
+  for (int s = 0; s < 6; s++) assert_true(bars_of(page, colours[s], bar[s]) >= 1);
+  for (int s = 0; s < 6; s++) assert_near(bar[s][0][2] / bar[0][0][2], wanted[s] / 75, 1e-3);
   assert_near(bar[0][1][2] / bar[0][0][2], 100. / 75, 1e-3); // the blade
   assert_holds(page, ">hub nut<");
   free(page);

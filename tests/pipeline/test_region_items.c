@@ -99,7 +99,7 @@ static void files_that_are_none_are_told(void **state) {
   hid_t file = -1;
   write_file(7);
   assert_int_equal(cw_region_items_open(path, &file, NULL), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "attribute 'format' is 7; it must be 3"));
+  assert_non_null(strstr(cw_fail_message(), "attribute 'format' is 7; it must be 4"));
   assert_int_equal(truncate(path, 100), 0);
   assert_int_equal(cw_region_items_open(path, &file, NULL), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "is missing, damaged or cut short"));

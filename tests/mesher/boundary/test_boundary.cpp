@@ -21,6 +21,7 @@ extern "C" {
 #include "mesher/region/region_build.h"
 #include "mesher/region/region_failure.h"
 #include "mesher/region/region_number.h"
+#include "pipeline/mesh/cell.h"
 }
 
 #include "divided_box.h"
@@ -188,11 +189,23 @@ static void edges_keep_apart_in_a_narrow_gap(void **) {
   assert_int_equal(arcs, 2);
 }
 
-// Regions of the whole box: audited, together as large as the box, with shared points and faces that agree to the last
-// bit.
-static void fill_the_box(int rule) {
+// Area of the faces that a region lists on patches.
+static double listed_area(const CwRegionData &cells) {
+  double sum = 0, area[3];
+  for (int t = 0; t < cells.triangle_count + cells.quad_count; t++) {
+    const bool quad = t >= cells.triangle_count;
+    cw_face_area(cells.points, quad ? cells.quads[t - cells.triangle_count] : cells.triangles[t], quad ? 4 : 3, area);
+    sum += cw_norm(area);
+  }
+  return sum;
+}
+
+// Regions of the whole box: audited, together as large as the box, with all of its surface, and with shared points and
+// faces that agree to the last bit.
+static void fill_the_box(int rule, const CwPinched *pinched) {
   Box box(3);
   DomainSurfaces &boundary = box.boundary;
+  boundary.input.pinched = pinched;
   make_surfaces(box);
   assert_int_equal(boundary.interfaces.outline_count, 6); // four pieces of plane 0, one of each other
   int pair_count, colours, number[4];
@@ -203,9 +216,10 @@ static void fill_the_box(int rule) {
   if (rule) refine_interfaces(boundary, number);
   check(cw_interfaces_audit(&boundary.interfaces, 4));
   const Regions regions(boundary);
-  double volume = 0;
+  double volume = 0, area = 0;
   uint64_t open_faces = 0;
   SharedPoints shared;
+  int pyramids = 0, layer_tetrahedra = 0, walls = 0;
   for (int r = 0; r < 4; r++) {
     CwRegionMesh mesh;
     CwQuality quality;
@@ -217,24 +231,43 @@ static void fill_the_box(int rule) {
     volume += quality.volume;
     assert_true(quality.open_faces != 0);
     assert_true(quality.beside.count > 0 && quality.apart.count > 0);
-    assert_int_equal(quality.beside.count + quality.apart.count, mesh.cells.tetrahedron_count);
+    assert_int_equal(quality.beside.count + quality.apart.count, mesh.cells.tetrahedron_count - mesh.layer_tetrahedra);
+    pyramids += mesh.cells.pyramid_count;
+    layer_tetrahedra += mesh.layer_tetrahedra;
+    walls += mesh.cells.prism_count + mesh.cells.pyramid_count + mesh.layer_tetrahedra;
+    area += listed_area(mesh.cells);
     open_faces += quality.open_faces;
     shared.add(mesh);
     check_point_order(mesh, even_size(nullptr, nullptr));
     cw_region_free(&mesh);
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
+  assert_near(area / (2 * (0.04 * 0.03 + 0.04 * 0.02 + 0.03 * 0.02)), 1, 1e-12);
   assert_int_equal(open_faces, 0);
+  if (pinched)
+    assert_true(pyramids > 0 && layer_tetrahedra > 0 && walls < 4 * boundary.surface.triangle_count);
+  else
+    assert_true(pyramids + layer_tetrahedra == 0 && walls == 4 * boundary.surface.triangle_count);
   shared.check(regions.shared.count);
   free(pair);
 }
 
 static void regions_fill_the_box(void **) {
-  fill_the_box(0);
+  fill_the_box(0, nullptr);
 }
 
 static void regions_fill_the_box_by_the_rule(void **) {
-  fill_the_box(1);
+  fill_the_box(1, nullptr);
+}
+
+// Layers taper about an edge at the inlet and where plane 0 cuts a wall: there pyramids stand at pinched columns,
+// tetrahedra between two, and nothing between three.
+static void regions_fill_the_box_where_layers_taper(void **) {
+  CwPinched pinched = {};
+  check(cw_pinched_add((const CwPinchedPlace[]){{{0, 0, 0.008}, 0.004}}, &pinched));
+  check(cw_pinched_add((const CwPinchedPlace[]){{{0.021, 0.015, 0.020}, 0.004}}, &pinched));
+  for (int rule = 0; rule < 2; rule++) fill_the_box(rule, &pinched);
+  cw_pinched_free(&pinched);
 }
 
 // The file of a failed region: as many points and triangles as the boundary of region 0 has, all kinds of surface, some
@@ -346,7 +379,8 @@ int main() {
       cmocka_unit_test(layers_that_cross_a_line_are_found), cmocka_unit_test(network_of_a_box),
       cmocka_unit_test(curves_lie_on_their_planes),         cmocka_unit_test(edges_follow_a_narrow_nose),
       cmocka_unit_test(edges_keep_apart_in_a_narrow_gap),   cmocka_unit_test(regions_fill_the_box),
-      cmocka_unit_test(regions_fill_the_box_by_the_rule),   cmocka_unit_test(a_crossing_boundary_is_examined),
+      cmocka_unit_test(regions_fill_the_box_by_the_rule),   cmocka_unit_test(regions_fill_the_box_where_layers_taper),
+      cmocka_unit_test(a_crossing_boundary_is_examined),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

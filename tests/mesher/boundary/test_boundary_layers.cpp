@@ -44,7 +44,7 @@ static void columns_are_brought_to_planes_and_lines(void **) {
 // The nearest point of a cylinder lies on the ray from its axis.
 static void columns_are_brought_to_open_patches(void **) {
   DividedSolid solid(segment_prism(10, 2, 20), by_shape);
-  const CwBoundaryInput in = {solid.cad, nullptr, nullptr, nullptr, nullptr, nullptr};
+  const CwBoundaryInput in = {solid.cad, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
   const int face = curved_face(solid.cad);
   const double uv[2] = {0.8, 0.01};
   for (int i = 0; i < 5; i++) {
@@ -103,8 +103,8 @@ static void make_layers(DividedSolid &solid, DomainSurfaces &boundary) {
   assert_int_equal(solid.outcome.kind, CW_OUTCOME_DONE);
   make_wall_surface(boundary, &solid.outcome);
   std::vector<double> target(boundary.surface.vertex_count, 1.5e-3);
-  check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &solid.background, target.data(), nullptr, nullptr,
-                         &boundary.layers, &solid.outcome));
+  check(cw_boundary_grow(NULL, &boundary.input, &boundary.wall_curves, &boundary.surface, &solid.background,
+                         target.data(), nullptr, nullptr, &boundary.layers, &solid.outcome));
   assert_int_equal(solid.outcome.kind, CW_OUTCOME_DONE);
 }
 
@@ -207,7 +207,7 @@ struct Plate {
     surface.face = face.data();
     surface.region = region.data();
     surface.source = source.data();
-    check(cw_boundary_grow(NULL, &box.boundary.input, &surface, &box.background, target.data(), nullptr, nullptr,
+    check(cw_boundary_grow(NULL, &box.boundary.input, NULL, &surface, &box.background, target.data(), nullptr, nullptr,
                            &layers, &outcome));
   }
 };
@@ -333,8 +333,8 @@ static void copies_of_flipped_edges_follow(void **) {
     assert_true(turn_edge(surface.triangle[of[0]], surface.triangle[of[1]], surface.x, &longer));
   }
   std::vector<double> target(surface.vertex_count, 1.5e-3);
-  check(cw_boundary_grow(NULL, &tank.boundary.input, &surface, &tank.background, target.data(), nullptr, nullptr,
-                         &tank.boundary.layers, &tank.outcome));
+  check(cw_boundary_grow(NULL, &tank.boundary.input, &tank.boundary.wall_curves, &surface, &tank.background,
+                         target.data(), nullptr, nullptr, &tank.boundary.layers, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   const int32_t(*made)[3] = tank.boundary.layers.triangle;
   int changed = 0;

@@ -32,7 +32,7 @@ struct Walls {
       : solid(shape, patch_of) {
     if (!planes.empty()) solid.divide(planes);
     solid.make_network();
-    in = {solid.cad, &solid.plan, &solid.network, &images, size_anywhere, nullptr};
+    in = {solid.cad, &solid.plan, &solid.network, &images, size_anywhere, nullptr, nullptr};
   }
   ~Walls() {
     cw_wall_curves_free(&curves);

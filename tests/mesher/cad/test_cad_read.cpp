@@ -183,7 +183,7 @@ static void parts_of_a_cylinder_are_read(void **) {
   int bent = 0;
   for (int f = 0; f < 5; f++) {
     const CwCadFace &face = made.cad.face[f];
-    assert_true(face.u_knots.knot.empty() && face.v_knots.knot.empty() && !face.pole.is && !face.bare);
+    assert_true(face.u_knots.knot.empty() && face.v_knots.knot.empty() && !face.pole.is);
     assert_int_equal(face.reversed, made.cad.face_map(f + 1).Orientation() == TopAbs_REVERSED);
     if (face.surface.GetType() == GeomAbs_Plane) continue;
     assert_true(face.u_range[0] == -INFINITY && face.u_range[1] == INFINITY);

@@ -4,6 +4,7 @@
 
 #include "layers_case.h"
 #include "mesher/common/vec.h"
+#include "mesher/policy.h"
 #include "tests/test_folder.h"
 #include "tests/whole_file.h"
 
@@ -17,6 +18,34 @@ static void flat_square(void **state) {
     assert_near(c.out.top[v][2], 0.6 * MM, 1e-15);
   }
   assert_near(c.share, 1, 0);
+  case_free(&c);
+}
+
+// About a pinched column thicknesses rise by the slope: along the lines of squares, and along a diagonal as far as it
+// is one of the mesh, by the way along edges.
+static void layers_taper_to_a_pinched_column(void **state) {
+  Case c = {.target = 0.6 * MM};
+  surface_plate(&c.wall, 0.01, 0, 1 * MM, 1);
+  assert_int_equal(case_make(&c), CW_OK);
+  cw_layers_free(&c.out);
+  uint8_t *pinched = calloc((size_t)c.wall.point_count, 1);
+  const double middle[3] = {0.005, 0.005, 0};
+  int32_t tapered = 0;
+  for (int32_t v = 0; v < c.wall.point_count; v++) pinched[v] = cw_distance(c.wall.x[v], middle) < 1e-12;
+  c.in.pinched = pinched;
+  assert_int_equal(cw_layers_make(&c.in, &c.out, &c.outcome), CW_OK);
+  assert_int_equal(c.outcome.kind, CW_OUTCOME_DONE);
+  for (int32_t v = 0; v < c.wall.point_count; v++) {
+    const double *x = c.wall.x[v], away = cw_distance(x, middle), t = c.out.thickness[v];
+    const double by_edges = fabs(x[0] - 0.005) + fabs(x[1] - 0.005);
+    assert_true(t >= fmin(0.6 * MM, cw_policy.slope * away) - 1e-15);
+    assert_true(t <= fmin(0.6 * MM, cw_policy.slope * by_edges) + 1e-15);
+    assert_near(c.out.top[v][2], t, 1e-15);
+    if (t < 0.6 * MM - 1e-12) assert_int_equal(c.out.reason[v], CW_LAYER_TAPER);
+    tapered += t < 0.6 * MM - 1e-12;
+  }
+  assert_int_equal(tapered, 9); // those a square away
+  free(pinched);
   case_free(&c);
 }
 
@@ -161,7 +190,7 @@ static void failures(void **state) {
   surface_point(&fold.wall, d);
   surface_triangle(&fold.wall, 0, 1, 2);
   surface_triangle(&fold.wall, 2, 1, 0);
-  asks_for_shorter_edges(&fold, CW_OUTCOME_BARE, "see no common direction", a, 0);
+  asks_for_shorter_edges(&fold, CW_OUTCOME_PINCH, "see no common direction", a, 0);
 
   // An open patch that pierces the floor: no layer top is clear of it.
   Case pierced = {.target = 0.6 * MM};
@@ -169,7 +198,7 @@ static void failures(void **state) {
   surface_box(&pierced.wall, low, high, 1 * MM, 63, 0);
   for (int i = 0; i < 3; i++) surface_point(&pierced.open_patch, corner[i]);
   surface_triangle(&pierced.open_patch, 0, 1, 2);
-  asks_for_shorter_edges(&pierced, CW_OUTCOME_BARE, "the layer top crosses an open patch", corner[2], 3.7 * MM);
+  asks_for_shorter_edges(&pierced, CW_OUTCOME_PINCH, "the layer top crosses an open patch", corner[2], 3.7 * MM);
 
   Case zero = {.target = 0};
   surface_box(&zero.wall, low, high, 1 * MM, 63, 0);
@@ -232,7 +261,11 @@ static void spoiled_layers_are_told(void **state) {
   square(&of);
   assert_int_equal(cw_layers_audit(&of.layers, (const double(*)[3])of.x), CW_OK);
   of.thickness[2] = 0;
-  told(&of, "the column at (1000.000, 1000.000, 0.000) mm is 0 mm thick");
+  told(&of, "the column at (1000.000, 1000.000, 0.000) mm is 0 mm thick and 200 mm long");
+  of.thickness[2] = of.top[2][2] = 0; // a pinched one
+  assert_int_equal(cw_layers_audit(&of.layers, (const double(*)[3])of.x), CW_OK);
+  of.thickness[2] = -1;
+  told(&of, "is -1000 mm thick and 0 mm long");
   of.triangle[1][2] = 4;
   told(&of, "triangle 1 has the corners 0, 2, 4 of 4 columns");
   of.triangle[0][1] = 0;
@@ -250,7 +283,7 @@ static void vtk_has_the_layer_top(void **state) {
   remove(path);
   assert_non_null(strstr(text, "POINTS 4 double\n0 0 -0.1"));
   assert_non_null(strstr(text, "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\n"));
-  assert_non_null(strstr(text, "SCALARS reason int 1\nLOOKUP_TABLE default\n2\n4\n")); // of its thinnest column
+  assert_non_null(strstr(text, "SCALARS reason int 1\nLOOKUP_TABLE default\n3\n5\n")); // of its thinnest column
   assert_non_null(strstr(text, "SCALARS region int 1\nLOOKUP_TABLE default\n3\n4\n"));
   free(text);
 }
@@ -258,6 +291,7 @@ static void vtk_has_the_layer_top(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(flat_square),
+      cmocka_unit_test(layers_taper_to_a_pinched_column),
       cmocka_unit_test(inside_of_box),
       cmocka_unit_test(box_in_box),
       cmocka_unit_test(l_channel),

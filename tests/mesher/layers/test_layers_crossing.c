@@ -240,7 +240,7 @@ static void what_no_thinner_column_parts(void **state) {
       if (high >= 0 && (high < 3 || kind == 0)) {
         assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
       } else {
-        assert_int_equal(outcome.kind, kind == 1 ? CW_OUTCOME_REPLAN : CW_OUTCOME_BARE);
+        assert_int_equal(outcome.kind, kind == 1 ? CW_OUTCOME_REPLAN : CW_OUTCOME_PINCH);
         assert_non_null(strstr(outcome.reason, crossed[kind]));
         assert_int_equal(outcome.places, 1);
         assert_memory_equal(outcome.place[0], x[0], sizeof x[0]);

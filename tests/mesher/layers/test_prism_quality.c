@@ -4,7 +4,8 @@
 #include "mesher/layers/prism_quality.h"
 #include "tests/unit_test.h"
 
-// Right, half as wide at the end, drawn out by a column that leans by 45 degrees, closed to a point, turned inside out.
+// Right, half as wide at the end, drawn out by a column that leans by 45 degrees, closed to a point, turned inside out;
+// tapered to a corner, and turned inside out there.
 static void prisms_by_hand(void **state) {
   const double wall[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
   const struct {
@@ -13,7 +14,9 @@ static void prisms_by_hand(void **state) {
                {{{0.25, 0.25, -2}, {0.75, 0.25, -2}, {0.25, 0.75, -2}}, 2 / sqrt(4.125)},
                {{{0, 0, -1}, {2, 0, -1}, {0, 1, -1}}, 1 / sqrt(5)},
                {{{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, -1},
-               {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, -1}};
+               {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, -1},
+               {{{0, 0, 0}, {1, 0, -2}, {0, 1, -2}}, 1 / sqrt(5)},
+               {{{0, 0, 0}, {1, 0, 2}, {0, 1, 2}}, -1}};
   for (size_t i = 0; i < sizeof prism / sizeof *prism; i++) {
     const double *const b[3] = {prism[i].x[0], prism[i].x[1], prism[i].x[2]};
     assert_near(cw_prism_quality(a, b), prism[i].quality, 1e-12);

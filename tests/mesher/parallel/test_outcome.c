@@ -52,13 +52,13 @@ static void ranks_agree(void **state) {
 static void places_stand_apart(void **state) {
   CwOutcome outcome = {0};
   char text[CW_OUTCOME_TEXT_SIZE];
-  cw_outcome_set(&outcome, CW_OUTCOME_BARE, NULL, "no layers");
+  cw_outcome_set(&outcome, CW_OUTCOME_PINCH, NULL, "no layers");
   assert_int_equal(outcome.places, 0);
   for (int i = 0; i < 40; i++) cw_outcome_add_place(&outcome, (const double[3]){0.5 * i, 0, 1}, 0.9);
   assert_int_equal(outcome.places, CW_OUTCOME_PLACES);
   for (int i = 0; i < outcome.places; i++) assert_true(outcome.place[i][0] == i);
   assert_string_equal(cw_outcome_text(&outcome, 1, text), "no layers at (0.000, 0.000, 1.000) mm");
-  cw_outcome_set(&outcome, CW_OUTCOME_BARE, outcome.place[3], "no layers");
+  cw_outcome_set(&outcome, CW_OUTCOME_PINCH, outcome.place[3], "no layers");
   assert_int_equal(outcome.places, 1);
 }
 

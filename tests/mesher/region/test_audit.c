@@ -398,7 +398,7 @@ static void sums_of_two_regions(void **state) {
   CwQuality q, sum;
   passes(&r, &q);
   cw_quality_start(&sum);
-  cw_quality_add(&sum, &q, 1);
+  cw_quality_add(&sum, &q);
   sum.flattest = 13.0; // that of the first lies on patches all over
   q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0, q.flattest = 11.0;
   q.flat[0] = (CwFlatPlace){{0, 3, 0}, 11};
@@ -407,7 +407,7 @@ static void sums_of_two_regions(void **state) {
   q.beside = (CwTetFigures){5, 9.0, 3.0, 2.5, 0.25, 20.0};
   q.apart = (CwTetFigures){7, 8.0, 2.0, 4.5, 0.5, 30.0};
   const CwTetFigures beside = sum.beside, apart = sum.apart;
-  cw_quality_add(&sum, &q, 3);
+  cw_quality_add(&sum, &q);
   assert_near(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
   assert_near(sum.aspect_max, 4.0, 0.0);
   assert_near(sum.dihedral_least, 12.0, 0.0);

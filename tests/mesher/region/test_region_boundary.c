@@ -23,7 +23,8 @@ static int32_t refined[3][3] = {{0, 1, 5}, {1, 2, 5}, {2, 0, 5}}, refined_region
 
 static const CwSurfaceMesh surface = {
     .triangle_count = WALLS, .region_start = region_start, .region_triangle = region_triangle};
-static const CwLayers layers = {.triangle_count = WALLS, .triangle = wall};
+static double thickness[NODES] = {1, 1, 1, 1, 1, 1};
+static const CwLayers layers = {.triangle_count = WALLS, .triangle = wall, .thickness = thickness};
 static const CwInterfaces interfaces = {.nodes = {.count = NODES, .x = x},
                                         .open_patch = {OPEN, open_patch, open_face, open_region},
                                         .refined = {3, refined, refined_region},
@@ -38,7 +39,8 @@ static CwStatus audit(const CwRegionBoundary *inner, const char *name) {
 
 static double six_volumes(const CwRegionBoundary *inner) {
   double sum = 0;
-  for (int32_t t = 0; t < inner->wall_count + inner->open_patch_count + inner->interface_count; t++) {
+  for (int32_t t = 0; t < inner->wall_count + inner->bare_count + inner->open_patch_count + inner->interface_count;
+       t++) {
     const double *a = inner->x[inner->triangle[t][0]], *b = inner->x[inner->triangle[t][1]],
                  *c = inner->x[inner->triangle[t][2]];
     sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);

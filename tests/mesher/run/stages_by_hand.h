@@ -47,7 +47,6 @@ static int script_count, at;
 static char trace[1000];
 static int other_plans;    // that each domain still has
 static int crowded_layers; // of the stator, where edges are too long for them
-static int walls_left;     // with layers, where none stand
 static int64_t asked = 100000;
 static double factor_at_scale;
 
@@ -199,24 +198,24 @@ CwStatus cw_finer_places_add(const CwDomain *domain, int32_t number, const doubl
   CwStatus status = CW_OK;
   if (number >= 0) add("F%d", number);
   CW_GROW(places->place, places->capacity, places->count + 1);
-  places->place[places->count++] = (CwFinerPlace){number, -1, {{x[0], x[1], x[2]}, 1}};
+  places->place[places->count++] = (CwFinerPlace){number, 0, {{x[0], x[1], x[2]}, 1}};
 done:
   return status;
 }
 
-CwStatus cw_finer_places_add_bare(const CwDomain *domain, int32_t number, const double x[3], CwFinerPlaces *places) {
+CwStatus cw_finer_places_add_pinched(const CwDomain *domain, int32_t number, const double x[3], int32_t before,
+                                     CwFinerPlaces *places) {
   CwStatus status = CW_OK;
-  if (walls_left == 0) goto done;
-  add("B%d", walls_left);
+  assert_int_equal(before, places->count);
   CW_GROW(places->place, places->capacity, places->count + 1);
-  places->place[places->count++] = (CwFinerPlace){number, walls_left--, {{x[0], x[1], x[2]}, 0}};
+  places->place[places->count++] = (CwFinerPlace){number, 1, {{x[0], x[1], x[2]}, 1}};
 done:
   return status;
 }
 
-CwStatus cw_mesh_leave_bare(CwMeshRun *of, int32_t first) {
+CwStatus cw_mesh_pinch(CwMeshRun *of, int32_t first) {
   for (int32_t i = first; i < of->finer.count; i++)
-    if (of->finer.place[i].bare >= 0) add("b%d", of->finer.place[i].bare);
+    if (of->finer.place[i].pinched) add("P%d", i);
   return CW_OK;
 }
 

@@ -50,50 +50,40 @@ static void places_ask_for_half(void **) {
   assert_int_equal(places.count, 0);
 }
 
-// Of the walls at a place the least is left bare that still has layers, and its images; none of them asks for shorter
-// edges.
-static void the_least_wall_there_goes_bare(void **) {
+// Columns within an edge of a place and its images are pinched, twice as far where a place of before is near; none of
+// them asks for shorter edges.
+static void places_are_pinched(void **) {
   PlannedSolid solid(filleted_step(false));
-  CwDomain domain = {};
   CwSymmetry symmetry = {};
+  CwDomain domain = {};
   CwFinerPlaces places = {};
   CwSizePoint *point = nullptr;
-  double *area = nullptr, x[3], range[2], far[3] = {1, 1, 1};
+  const double x[3] = {2e-3, 1e-3, 3e-3};
   int32_t count;
-  int face[2];
-  domain.cad = solid.cad;
-  domain.background = solid.background;
-  domain.size = solid.size;
-  cw_size_set_scale(solid.size, 1e-3);
-  check(cw_domain_face_areas(&domain, &area));
-  cw_cad_edge_faces(solid.cad, 0, face);
-  cw_cad_edge_range(solid.cad, 0, range);
-  cw_cad_edge_point(solid.cad, 0, 0.5 * (range[0] + range[1]), x, nullptr);
-  const int less = area[face[0]] < area[face[1]] ? 0 : 1;
-  assert_true(area[face[less]] > 0 && area[face[less]] != area[face[!less]]);
-  std::free(area);
-  check(cw_finer_places_add_bare(&domain, 1, far, &places));
-  assert_int_equal(places.count, 0);
-  std::vector<int32_t> next, first, turns;
-  for (int f = 0; f < cw_cad_face_count(solid.cad); f++) next.push_back(f), first.push_back(f), turns.push_back(0);
   symmetry.count = 2;
-  symmetry.face = {next.data(), first.data(), turns.data()}; // each comes to itself, but for these two
-  next[face[0]] = face[1];
-  next[face[1]] = face[0];
-  first[face[0]] = first[face[1]] = std::min(face[0], face[1]);
-  turns[std::max(face[0], face[1])] = 1;
+  domain.size = solid.size;
   domain.symmetry = &symmetry;
-  check(cw_finer_places_add_bare(&domain, 1, x, &places));
-  assert_int_equal(places.count, 2);
-  for (int i = 0; i < 2; i++) {
+  cw_size_set_scale(solid.size, 0.02);
+  const double edge = cw_size_at(solid.size, x), near[3] = {x[0], x[1] + 1.5 * edge, x[2]};
+  const double far[3] = {x[0], x[1] + 5 * edge, x[2]};
+  check(cw_finer_places_add_pinched(&domain, 1, x, 0, &places));
+  check(cw_finer_places_add_pinched(&domain, 1, x, 0, &places)); // of the same round
+  assert_int_equal(places.count, 4);
+  for (int i = 0; i < 4; i++) {
     assert_int_equal(places.place[i].domain, 1);
-    assert_int_equal(places.place[i].bare, face[i == 0 ? less : !less]);
-    assert_near(places.place[i].point.x[0], i == 0 ? x[0] : -x[0], 1e-15);
+    assert_int_equal(places.place[i].pinched, 1);
+    assert_near(places.place[i].point.x[0], i % 2 ? -x[0] : x[0], 1e-15);
+    assert_near(places.place[i].point.size, edge, 0);
   }
-  cw_cad_face_leave_bare(solid.cad, face[less]);
   domain.symmetry = nullptr;
-  check(cw_finer_places_add_bare(&domain, 0, x, &places));
-  assert_int_equal(places.place[2].bare, face[!less]);
+  check(cw_finer_places_add_pinched(&domain, 1, near, 4, &places));
+  check(cw_finer_places_add_pinched(&domain, 1, near, 5, &places));
+  check(cw_finer_places_add_pinched(&domain, 1, far, 4, &places));
+  check(cw_finer_places_add_pinched(&domain, 0, near, 7, &places));
+  assert_near(places.place[4].point.size, 2 * edge, 0);
+  assert_near(places.place[5].point.size, 4 * edge, 0);
+  assert_near(places.place[6].point.size, cw_size_at(solid.size, far), 0);
+  assert_near(places.place[7].point.size, cw_size_at(solid.size, near), 0);
   for (int d = 0; d < 2; d++) {
     check(cw_finer_places_of(&places, d, &count, &point));
     assert_int_equal(count, 0);
@@ -130,7 +120,7 @@ static void flat_regions_ask_where_they_are_nearly_flat(void **) {
 }
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(places_ask_for_half), cmocka_unit_test(the_least_wall_there_goes_bare),
+  const CMUnitTest tests[] = {cmocka_unit_test(places_ask_for_half), cmocka_unit_test(places_are_pinched),
                               cmocka_unit_test(flat_regions_ask_where_they_are_nearly_flat)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -75,7 +75,7 @@ static void state_comes_back_as_written(void **unused) {
   cw_case_defaults(&table);
   char fingerprint[33];
   assert_int_equal(cw_pass_fingerprint(&table, test_folder, &domains, fingerprint), CW_OK);
-  CwFinerPlace place[2] = {{0, -1, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, 17, {{1, 2, 3}, 0.1 / 3}}};
+  CwFinerPlace place[2] = {{0, 0, {{0.1, -0.2, 1. / 3}, 0.03}}, {1, 1, {{1, 2, 3}, 0.1 / 3}}};
   const CwPassState written = {
       .pass = 3,
       .first_pass = 2,
@@ -106,7 +106,7 @@ static void state_comes_back_as_written(void **unused) {
   assert_int_equal(read.finer.count, 2);
   for (int i = 0; i < 2; i++) { // to the last bit
     assert_int_equal(read.finer.place[i].domain, place[i].domain);
-    assert_int_equal(read.finer.place[i].bare, place[i].bare);
+    assert_int_equal(read.finer.place[i].pinched, place[i].pinched);
     assert_memory_equal(&read.finer.place[i].point, &place[i].point, sizeof place[i].point);
   }
   cw_finer_places_free(&read.finer);
@@ -151,7 +151,7 @@ static void broken_state_is_left_aside(void **unused) {
 static int be_a_rank(int argc, char **argv) {
   CwTeam *all;
   begin_as_rank(&argc, &argv, &all);
-  CwFinerPlace place[2] = {{0, -1, {{0.1, 0.2, 0.3}, 0.4}}, {1, 17, {{1, 2, 3}, 4}}};
+  CwFinerPlace place[2] = {{0, 0, {{0.1, 0.2, 0.3}, 0.4}}, {1, 1, {{1, 2, 3}, 4}}};
   CwPassState state = {0};
   const int rank = cw_team_rank(all);
   if (rank == 0)
@@ -159,7 +159,7 @@ static int be_a_rank(int argc, char **argv) {
   int wrong = cw_pass_state_share(all, &state) != CW_OK;
   wrong += state.pass != 3 || state.best_round != 2 || state.start.more_regions[1] != 7 || state.finer.count != 2;
   for (int i = 0; wrong == 0 && i < 2; i++) {
-    wrong += state.finer.place[i].domain != place[i].domain || state.finer.place[i].bare != place[i].bare;
+    wrong += state.finer.place[i].domain != place[i].domain || state.finer.place[i].pinched != place[i].pinched;
     wrong += memcmp(&state.finer.place[i].point, &place[i].point, sizeof place[i].point) != 0;
   }
   if (rank > 0) cw_finer_places_free(&state.finer);

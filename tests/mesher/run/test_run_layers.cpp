@@ -181,8 +181,8 @@ static void layers_are_grown_to_their_targets(void **) {
     std::vector<double> least(boundary.surface.vertex_count, cw_layer_lowest(LAYERS) * asked);
     std::vector<double> target(least.size(), scale * thickness), first(least.size(), asked), most(least.size(), growth);
     CwLayerDivision division = {LAYERS, last_share, &asked};
-    check(cw_boundary_grow(NULL, &boundary.input, &boundary.surface, &by_hand.background, target.data(), least.data(),
-                           &division, &boundary.layers, &by_hand.outcome));
+    check(cw_boundary_grow(NULL, &boundary.input, &boundary.wall_curves, &boundary.surface, &by_hand.background,
+                           target.data(), least.data(), &division, &boundary.layers, &by_hand.outcome));
     const CwColumnTargets targets = {LAYERS,        (int32_t)least.size(), first.data(), most.data(),
                                      target.data(), least.data(),          nullptr};
     check(cw_columns_divide(NULL, &targets, &boundary.surface, &boundary.layers));

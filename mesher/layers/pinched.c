@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/layers/bare_faces.h"
+#include "mesher/layers/pinched.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers_normal.h"
@@ -34,14 +35,14 @@ static double parameter_at(const CwCad *cad, int32_t edge, double share) {
   return range[0] + share * (range[1] - range[0]);
 }
 
-// Whether a column can stand there if the face `without` is bare too; -1: none.
-static int can_stand(const CwCad *cad, const Place *place, int32_t without) {
+// Whether a column can stand there: where there is no wall it need not.
+static int can_stand(const CwCad *cad, const Place *place) {
   double inward[FACES_MOST][3], constraint[FACES_MOST][3], g[3];
   int walls = 0, constraints = 0, open = 0;
   int32_t seen[FACES_MOST];
   for (int32_t i = 0; i < place->count; i++) {
     const double *n = place->normal[i];
-    if (cw_cad_face_is_wall(cad, place->face[i]) && place->face[i] != without) {
+    if (cw_cad_face_is_wall(cad, place->face[i])) {
       for (int k = 0; k < 3; k++) inward[walls][k] = -n[k];
       walls++;
       continue;
@@ -60,54 +61,39 @@ static int can_stand(const CwCad *cad, const Place *place, int32_t without) {
 
 static int32_t open_face(const CwCad *cad, const Place *place) {
   for (int32_t i = 0; i < place->count; i++)
-    if (cw_cad_patch_kind(cad, cw_cad_face_patch(cad, place->face[i])) != CW_PATCH_WALL) return place->face[i];
+    if (!cw_cad_face_is_wall(cad, place->face[i])) return place->face[i];
   return -1;
 }
 
-// What there is about the first face is told.
-static void leave(CwCad *cad, int32_t face, const double *area, int32_t open, const double at[3], CwBareFaces *bare) {
-  cw_cad_face_leave_bare(cad, face);
-  bare->area += area[face];
-  if (bare->count++ > 0) return;
-  bare->first = face;
-  bare->open = open;
-  cw_copy(at, bare->at);
+static Place place_on(const CwCad *cad, int32_t edge, double t) {
+  Place place = {.count = 0};
+  int face[2];
+  cw_cad_edge_faces(cad, edge, face);
+  cw_cad_edge_point(cad, edge, t, place.x, NULL);
+  for (int k = 0; k < 2; k++) add_face(cad, edge, face[k], t, &place);
+  return place;
 }
 
-// Leaves faces bare until a column can stand at the place; returns their number.
-static int32_t settle(CwCad *cad, const double *area, const Place *place, CwBareFaces *bare) {
-  int32_t before = bare->count;
-  while (!can_stand(cad, place, -1)) {
-    int32_t least = -1, freeing = -1;
-    for (int32_t i = 0; i < place->count; i++) {
-      int32_t face = place->face[i];
-      if (!cw_cad_face_is_wall(cad, face)) continue;
-      if (least < 0 || area[face] < area[least]) least = face;
-      if ((freeing < 0 || area[face] < area[freeing]) && can_stand(cad, place, face)) freeing = face;
-    }
-    int32_t chosen = freeing >= 0 ? freeing : least;
-    leave(cad, chosen, area, open_face(cad, place), place->x, bare);
-  }
-  return bare->count - before;
+// Notes what there is about the first of all.
+static void note(const CwCad *cad, const Place *place, CwPinched *pinched) {
+  if (pinched->edges + pinched->corners > 0) return;
+  pinched->open = open_face(cad, place);
+  cw_copy(place->x, pinched->at);
 }
 
-static int32_t settle_edges(CwCad *cad, const double *area, CwBareFaces *bare) {
-  int32_t made = 0;
+static void find_edges(const CwCad *cad, CwPinched *pinched) {
   for (int32_t e = 0; e < cw_cad_edge_count(cad); e++) {
-    int face[2];
-    cw_cad_edge_faces(cad, e, face);
-    for (int i = 0; i < SAMPLES; i++) {
-      Place place = {.count = 0};
-      double t = parameter_at(cad, e, (i + 0.5) / SAMPLES);
-      cw_cad_edge_point(cad, e, t, place.x, NULL);
-      for (int k = 0; k < 2; k++) add_face(cad, e, face[k], t, &place);
-      made += settle(cad, area, &place, bare);
+    for (int i = 0; i < SAMPLES && !pinched->on_edge[e]; i++) {
+      const Place place = place_on(cad, e, parameter_at(cad, e, (i + 0.5) / SAMPLES));
+      if (can_stand(cad, &place)) continue;
+      note(cad, &place, pinched);
+      pinched->on_edge[e] = 1;
+      pinched->edges++;
     }
   }
-  return made;
 }
 
-static CwStatus settle_corners(CwCad *cad, const double *area, CwBareFaces *bare, int32_t *made) {
+static CwStatus find_corners(const CwCad *cad, CwPinched *pinched) {
   CwStatus status = CW_OK;
   Place *place = NULL;
   int32_t corners = cw_cad_vertex_count(cad);
@@ -121,32 +107,46 @@ static CwStatus settle_corners(CwCad *cad, const double *area, CwBareFaces *bare
   }
   for (int32_t v = 0; v < corners; v++) {
     cw_cad_vertex_point(cad, v, place[v].x);
-    *made += settle(cad, area, &place[v], bare);
+    if (can_stand(cad, &place[v])) continue;
+    note(cad, &place[v], pinched);
+    pinched->on_corner[v] = 1;
+    pinched->corners++;
   }
 done:
   free(place);
   return status;
 }
 
-// Of those on which layers grow.
-static double area_of_walls(const CwCad *cad, const double *area) {
-  double sum = 0;
-  for (int f = 0; f < cw_cad_face_count(cad); f++)
-    if (cw_cad_face_is_wall(cad, f)) sum += area[f];
-  return sum;
-}
-
-CwStatus cw_bare_faces_find(CwCad *cad, const double *area, int32_t asked, const double at[3], CwBareFaces *bare) {
+CwStatus cw_pinched_find(const CwCad *cad, CwPinched *pinched) {
   CwStatus status = CW_OK;
-  if (asked >= 0) {
-    if (bare->count == 0) bare->asked = 1;
-    leave(cad, asked, area, -1, at, bare);
-  }
-  for (int32_t made = 1; made > 0;) {
-    made = settle_edges(cad, area, bare);
-    CW_TRY(settle_corners(cad, area, bare, &made));
-  }
-  if (bare->count > 0) bare->share = bare->area / (bare->area + area_of_walls(cad, area));
+  free(pinched->on_edge);
+  free(pinched->on_corner);
+  pinched->on_edge = pinched->on_corner = NULL;
+  pinched->edges = pinched->corners = 0;
+  CW_NEW(pinched->on_edge, cw_cad_edge_count(cad));
+  CW_NEW(pinched->on_corner, cw_cad_vertex_count(cad));
+  find_edges(cad, pinched);
+  CW_TRY(find_corners(cad, pinched));
 done:
   return status;
+}
+
+int cw_pinched_at(const CwCad *cad, int32_t edge, double t) {
+  const Place place = place_on(cad, edge, t);
+  return !can_stand(cad, &place);
+}
+
+CwStatus cw_pinched_add(const CwPinchedPlace *place, CwPinched *pinched) {
+  CwStatus status = CW_OK;
+  CW_GROW(pinched->place, pinched->capacity, pinched->place_count + 1);
+  pinched->place[pinched->place_count++] = *place;
+done:
+  return status;
+}
+
+void cw_pinched_free(CwPinched *pinched) {
+  free(pinched->on_edge);
+  free(pinched->on_corner);
+  free(pinched->place);
+  memset(pinched, 0, sizeof *pinched);
 }
