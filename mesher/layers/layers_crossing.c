@@ -94,7 +94,7 @@ static int cross(const Triangle *a, const Triangle *b) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       if (a->corner[i] == b->corner[j]) shared++, in_a = i, in_b = j, of_b[j] = i;
-  if (shared == 2) {         // they overlap only where folded flat onto each other, and then their normals are opposite
+  if (shared == 2) { // they overlap only where folded flat onto each other, and then their normals are opposite
     double n[3], m[3];
     cw_normal(p[0], p[1], p[2], n);
     cw_normal(q[0], q[1], q[2], m);

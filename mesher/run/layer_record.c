@@ -211,18 +211,20 @@ void cw_warn_of_first_heights(CwLog *log, const CwDomain *domain, json_t *headli
 
 void cw_warn_of_pinched(CwLog *log, const CwDomain *domain, json_t *headlines) {
   const CwPinched *pinched = &domain->pinched;
+  const int known = pinched->edges + pinched->corners > 0; // by the solid alone
   char remedy[160] = "round the solid there";
-  if (pinched->open >= 0)
+  if (known && pinched->open >= 0)
     snprintf(remedy, sizeof remedy, "let '%.80s' cross the walls there, not go on from one",
              cw_cad_patch_name(domain->cad, cw_cad_face_patch(domain->cad, pinched->open)));
-  if (pinched->edges + pinched->corners > 0)
+  if (known)
     tell(log, headlines,
-         "%s: layers taper to nothing at %d edges and %d corners: no direction sees all faces about them and lies in "
-         "the open faces there, first at (%.6g, %.6g, %.6g) mm; %s, where its y+ matters",
+         "%s: layers taper to nothing at edges (%d) and corners (%d) about which no direction sees all faces and lies "
+         "in "
+         "the open ones, first at (%.6g, %.6g, %.6g) mm; %s, where its y+ matters",
          domain->name, pinched->edges, pinched->corners, CW_MM(pinched->at), remedy);
   if (pinched->place_count > 0)
     tell(log, headlines,
-         "%s: layers taper to nothing at %d places: they fold or cross there however short edges are, first at (%.6g, "
+         "%s: layers taper to nothing at places (%d) where they fold or cross however short edges are, first at (%.6g, "
          "%.6g, %.6g) mm; a solid that is blunter there has room for them",
          domain->name, pinched->place_count, CW_MM(pinched->place[0].x));
 }

@@ -83,10 +83,10 @@ static void a_cusp_is_pinched(void **state) {
     }
     if (degrees < 10) {
       assert_int_equal(pinched.open, -1);
-      are_headlines(cad, &pinched, {"at 1 edges and 2 corners"});
+      are_headlines(cad, &pinched, {"at edges (1) and corners (2)"});
       check(cw_pinched_add((const CwPinchedPlace[]){{{1, 2, 3}, 4}}, &pinched));
       are_headlines(cad, &pinched,
-                    {"round the solid there", "at 1 places: they fold or cross there however short edges "
+                    {"round the solid there", "at places (1) where they fold or cross however short edges "
                                               "are, first at (1000, 2000, 3000) mm"});
     }
     cw_pinched_free(&pinched);
