@@ -125,6 +125,16 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
   return changed;
 }
 
+// Where layers taper their first height is lost in the end: they keep their growth instead, so that the last layer is
+// the tallest of them, beside tetrahedra as tall as its edges are long.
+static void keep_growth(const CwColumnTargets *targets, CwLayers *layers) {
+  for (int32_t v = 0; v < targets->vertex_count; v++) {
+    if (layers->reason[v] != CW_LAYER_TAPER) continue;
+    double most = layers->thickness[v] / cw_layer_thickness(1, targets->layer_count, targets->growth[v]);
+    layers->first_height[v] = fmin(layers->first_height[v], most);
+  }
+}
+
 CwStatus cw_columns_divide(const CwContext *context, const CwColumnTargets *targets, const CwSurfaceMesh *surface,
                            CwLayers *layers) {
   CwStatus status = CW_OK;
@@ -133,6 +143,7 @@ CwStatus cw_columns_divide(const CwContext *context, const CwColumnTargets *targ
   uint8_t *judgement = NULL, *mark = NULL;
   CW_NEW_UNSET(layers->first_height, surface->vertex_count);
   memcpy(layers->first_height, targets->first_height, (size_t)surface->vertex_count * sizeof *layers->first_height);
+  if (layers->reason) keep_growth(targets, layers);
   CW_NEW(judgement, count);
   CW_NEW(mark, surface->vertex_count);
   CW_NEW_UNSET(list, count);

@@ -13,8 +13,8 @@
 void cw_column_determinants(const CwColumnTargets *targets, const CwSurfaceMesh *surface, const CwLayers *layers,
                             int32_t t, const double first[3], double *determinant);
 
-// Sets the first heights of all columns, once they stand: those asked or, around prisms of small determinants that more
-// even layers cure, less in short columns and up to 1.09 times as much in others, in steps of a twentieth until they
-// do. Periodic images get that of their first. Collective.
+// Sets the first heights of all columns, once they stand: those asked; where layers taper, what leaves them their
+// growth; or, around prisms of small determinants that more even layers cure, less in short columns and up to 1.09
+// times as much in others, in steps of a twentieth until they do. Periodic images get that of their first. Collective.
 CwStatus cw_columns_divide(const CwContext *context, const CwColumnTargets *targets, const CwSurfaceMesh *surface,
                            CwLayers *layers);

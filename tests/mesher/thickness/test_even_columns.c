@@ -10,6 +10,8 @@
 #include "mesher/thickness/layer_thickness.h"
 #include "tests/unit_test.h"
 
+static uint8_t reason[4]; // of the columns, for their thickness
+
 // First height made of the four columns of so many layers where `asked` is, and the least determinant then; corners 0
 // and 2 are on both triangles. spread: of the square that the columns end in.
 static double make_spread(int layers, double asked, const double thickness[4], double spread, double made[4]) {
@@ -17,8 +19,8 @@ static double make_spread(int layers, double asked, const double thickness[4], d
   double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4], least = 1;
   int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
   CwSurfaceMesh surface = {.vertex_count = 4, .x = x, .triangle_count = 2, .source = source};
-  CwLayers columns = {.triangle = triangle, .top = top, .thickness = own};
-  CwColumnTargets targets = {.layer_count = layers, .first_height = first, .growth = growth};
+  CwLayers columns = {.triangle = triangle, .top = top, .thickness = own, .reason = reason};
+  CwColumnTargets targets = {.layer_count = layers, .vertex_count = 4, .first_height = first, .growth = growth};
   memcpy(own, thickness, sizeof own);
   memcpy(top, x, sizeof top);
   for (int k = 0; k < 8; k++) top[k / 2][k % 2] += (spread - 1) * (x[k / 2][k % 2] - 0.5);
@@ -55,6 +57,16 @@ static void short_ones_until_none_is_small(void **state) {
   assert_near(made[0], start * pow(0.95, 4), 1e-12);
   assert_true(determinant(short_one - made[0]) > CW_SMALL_DETERMINANT);
   assert_true(determinant(short_one - made[0] / 0.95) < 1.05 * CW_SMALL_DETERMINANT);
+}
+
+// The last of two layers is 1.2 times as high as the first where they taper and have no room for a first of 50 mm.
+static void tapered_ones_keep_their_growth(void **state) {
+  double made[4];
+  reason[1] = reason[3] = CW_LAYER_TAPER;
+  make(2, 0.05, (double[4]){0.105, 0.105, 0.105, 0.12}, made);
+  const double wanted[4] = {0.05, 0.105 / 2.2, 0.05, 0.05};
+  for (int v = 0; v < 4; v++) assert_near(made[v], wanted[v], 1e-15);
+  reason[1] = reason[3] = CW_LAYER_FULL;
 }
 
 static void others_stay(void **state) {
@@ -109,7 +121,8 @@ static void those_that_lean_apart(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small), cmocka_unit_test(others_stay),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small),
+                                     cmocka_unit_test(tapered_ones_keep_their_growth), cmocka_unit_test(others_stay),
                                      cmocka_unit_test(growing_ones_within_a_tenth),
                                      cmocka_unit_test(those_that_lean_apart)};
   return cmocka_run_group_tests(tests, NULL, NULL);
