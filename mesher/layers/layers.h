@@ -44,6 +44,13 @@ typedef struct {
   CwHostMemory *memory;  // where its arrays lie; NULL: they are this rank's
 } CwLayers;
 
+// How many corners of a triangle have columns of no height.
+static inline int cw_layers_pinched(const CwLayers *layers, int32_t triangle) {
+  const int32_t *corner = layers->triangle[triangle];
+  const double *thickness = layers->thickness;
+  return (thickness[corner[0]] == 0) + (thickness[corner[1]] == 0) + (thickness[corner[2]] == 0);
+}
+
 // Outcome where no valid envelope is found: CW_OUTCOME_FINER where the wall crosses itself, CW_OUTCOME_PINCH where an
 // edge leaves no direction that sees all faces and lies in its open patches, layers cross however thin they are, or the
 // rounds of repair do not do; CW_OUTCOME_REPLAN where a partition plane holds the column there. Fails with CW_ERR_INPUT

@@ -35,12 +35,6 @@ static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], i
   ++*count;
 }
 
-// Whether a wall triangle carries no layers: all its columns are pinched.
-static int is_bare(const CwLayers *layers, int32_t t) {
-  const int32_t *corner = layers->triangle[t];
-  return layers->thickness[corner[0]] == 0 && layers->thickness[corner[1]] == 0 && layers->thickness[corner[2]] == 0;
-}
-
 CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int planned, CwRegionBoundary *inner) {
   CwStatus status = CW_OK;
   Gathering gathering = {from, inner, NULL};
@@ -61,7 +55,7 @@ CwStatus cw_region_boundary_make(const CwRegionInput *from, int32_t region, int 
   for (int bare = 0; bare < 2; bare++)
     for (int32_t i = wall_start; i < wall_end; i++) {
       int32_t t = from->surface->region_triangle[i];
-      if (is_bare(from->layers, t) != bare) continue;
+      if ((cw_layers_pinched(from->layers, t) == 3) != bare) continue;
       add(&gathering, bare ? &inner->bare_count : &inner->wall_count, from->layers->triangle[t], 0, t);
     }
   for (int32_t t = 0; t < open_patch->count; t++)

@@ -267,11 +267,6 @@ static void add_sides(Build *build, int32_t a, int32_t b, int32_t open_patch, in
   }
 }
 
-// How many corners of a wall triangle are pinched.
-static int count_pinched(const Build *build, const int32_t corner[3]) {
-  return is_pinched(build, corner[0]) + is_pinched(build, corner[1]) + is_pinched(build, corner[2]);
-}
-
 // Memory for the cells of the layers and for all boundary faces. first: the first cell over a wall triangle by the
 // number of its pinched corners.
 static CwStatus make_room(const Build *build, CwRegionMesh *mesh, int32_t first[3]) {
@@ -282,7 +277,7 @@ static CwStatus make_room(const Build *build, CwRegionMesh *mesh, int32_t first[
   int32_t of[3] = {0}, sides = 0;
   for (int32_t t = 0; t < inner->wall_count; t++) {
     const int32_t *corner = inner->triangle[t];
-    of[count_pinched(build, corner)] += context->layer_count;
+    of[cw_layers_pinched(context->from.layers, inner->source[t])] += context->layer_count;
     for (int e = 0; e < 3; e++)
       sides +=
           cw_open_edge_face(&context->open_edge_places, inner->node[corner[e]], inner->node[corner[(e + 1) % 3]]) >= 0;
@@ -319,7 +314,7 @@ static CwStatus add_layers(Build *build, const int32_t of_kind[3], CwRegionMesh 
   CW_NEW_UNSET(first, build->inner.wall_count);
   for (int32_t t = 0; t < build->inner.wall_count; t++) {
     const int32_t *corner = build->inner.triangle[t];
-    const int pinched = count_pinched(build, corner);
+    const int pinched = cw_layers_pinched(from->layers, build->inner.source[t]);
     first[t] = next[pinched];
     for (int k = 0; k < context->layer_count; k++) add_cell(build, corner, k, pinched, next[pinched]++, cells);
     int32_t w = cells->triangle_count++;

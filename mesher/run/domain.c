@@ -103,17 +103,6 @@ done:
   return status;
 }
 
-CwStatus cw_domain_face_areas(const CwDomain *domain, double **area) {
-  CwStatus status = CW_OK;
-  const CwBackground *background = &domain->background;
-  double centre[3];
-  CW_NEW(*area, cw_cad_face_count(domain->cad));
-  for (int32_t t = 0; t < background->triangle_count; t++)
-    (*area)[background->face[t]] += cw_background_area(background, t, centre);
-done:
-  return status;
-}
-
 double cw_domain_first_height(const CwDomain *domain, int face) {
   const double *radius = domain->face_radius[face];
   // Round a lesser radius the first layer would be more than twice as long on its outer side; inside of one, the layers

@@ -90,8 +90,6 @@ void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count
 // Starts the tessellation of the background, with this deflection of its chords, and takes its faces up.
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 CwStatus cw_domain_take_background(const CwContext *context, CwDomain *domain, void *const *bytes);
-// *area: of each face, by its background; caller frees.
-CwStatus cw_domain_face_areas(const CwDomain *domain, double **area);
 
 // First height asked on a face, in the model's unit: that of its patch, or the greatest that its bend has room for.
 double cw_domain_first_height(const CwDomain *domain, int face);

@@ -44,11 +44,10 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, CwLayerCoverage 
   for (int32_t i = domain->surface.region_start[region]; i < domain->surface.region_start[region + 1]; i++) {
     int32_t t = domain->surface.region_triangle[i];
     CwLayerCoverage *of = &coverage[cw_cad_face_patch(domain->cad, domain->surface.face[t])];
-    int full = 1, met = 1, worst = 0, why = 0, pinched = 0;
+    int full = 1, met = 1, worst = 0, why = 0, pinched = cw_layers_pinched(&domain->layers, t);
     for (int k = 0; k < 3; k++) {
       int32_t v = domain->layers.triangle[t][k];
       double thickness = domain->layers.thickness[v];
-      pinched += thickness == 0;
       full &= thickness >= 0.99 * targets->target[v];
       int reason = domain->layers.reason[v];
       if (reason > worst) worst = reason;

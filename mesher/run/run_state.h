@@ -78,7 +78,8 @@ typedef struct {
   CwCellLaw planned_prisms, planned_tets;
   double planned_scale;
   int planned_layers[CW_DOMAINS_MOST];
-  // Of each domain, as the headlines behind the first `headlines_before` tell: layers, and faces without.
+  // Of each domain, as the headlines behind the first `headlines_before` tell: layers, and the places where these
+  // taper, one more than there are.
   int layers_told[CW_DOMAINS_MOST], pinched_told[CW_DOMAINS_MOST];
   size_t headlines_before;
   int copies_told;     // 1: a warning says that each rank holds copies of what a host may share

@@ -96,8 +96,7 @@ static CwStatus judge(void *context, int32_t i, void *out) {
   const int32_t *corner = layers->triangle[t];
   double first[3];
   if (surface->source[t] != t) return CW_OK;
-  for (int k = 0; k < 3; k++)
-    if (layers->thickness[corner[k]] == 0) return CW_OK; // tapered
+  if (cw_layers_pinched(layers, t) > 0) return CW_OK;
   if (is_thick(columns, t)) return CW_OK;
   *made = LEFT;
   for (int k = 0; k < 3; k++) first[k] = columns->layers->first_height[corner[k]];
@@ -143,7 +142,7 @@ CwStatus cw_columns_divide(const CwContext *context, const CwColumnTargets *targ
   uint8_t *judgement = NULL, *mark = NULL;
   CW_NEW_UNSET(layers->first_height, surface->vertex_count);
   memcpy(layers->first_height, targets->first_height, (size_t)surface->vertex_count * sizeof *layers->first_height);
-  if (layers->reason) keep_growth(targets, layers);
+  keep_growth(targets, layers);
   CW_NEW(judgement, count);
   CW_NEW(mark, surface->vertex_count);
   CW_NEW_UNSET(list, count);
