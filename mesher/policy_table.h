@@ -68,7 +68,9 @@ NUMBER(int64_t, even_steps, 5, 0, "1", "each shorter by the same")
 NUMBER(double, search_wanted, 0.3090, none, "sine",
        "18 degrees: and below where the boundary allows more; layer tops leave room for three beside a plane")
 NUMBER(int64_t, search_patch, 150, none, "tetrahedra", "of a patch; of 300: 0.4 degrees less in the same time")
-NUMBER(int64_t, search_tries, 250, none, "1", "of a beginning")
+NUMBER(
+    int64_t, search_vain, 20, none, "1",
+    "tries in a row without gain that end a beginning; of 10 to 60 angles are as good (regions of 18 solids from CAD)")
 NUMBER(int64_t, search_share, 500, none, "tetrahedra",
        "of a mesh for one try more, and for a bad one: where there are more bad ones it is the boundary that asks for "
        "them, and a search is time wasted")

@@ -16,8 +16,8 @@
 #include "pipeline/mesh/cell.h"
 
 static const CwPolicy *const policy = &cw_policy;
-enum { PLACES = 6, CHANGES = 3 }; // places searched; of one disturbance
-static const double SHAKEN = 0.3; // edges: farthest that points are moved by a disturbance
+enum { PLACES = 6, BEGINNINGS = 8, CHANGES = 3 }; // places searched; of a place; of one disturbance
+static const double SHAKEN = 0.3;                 // edges: farthest that points are moved by a disturbance
 
 typedef struct {
   double least, sine, deficit; // least judged, and least sine; what all lack, the worst by far the most
@@ -257,7 +257,7 @@ done:
   return status;
 }
 
-// Goes on from the best that was found.
+// Goes on from the best that was found, until as many tries as the policy has in a row lead nowhere.
 static CwStatus search_patch(Search *s, int32_t t) {
   CwStatus status = CW_OK;
   Rated trial, *best = &s->now.rated;
@@ -265,14 +265,17 @@ static CwStatus search_patch(Search *s, int32_t t) {
   *best = rate(s, &s->now.patch.mesh);
   s->now.gain = best->deficit;
   double allowed = fmin(best->sine, policy->search_wanted);
-  for (int k = 0; best->least < s->begin && k < policy->search_tries && s->tries > 0; k++) {
+  int vain = 0;
+  for (int k = 0; best->least < s->begin && vain < policy->search_vain && s->tries > 0; k++) {
     s->tries--;
+    vain++;
     s->whole->count.search_tries++;
     CW_TRY(begin_trial(s));
     if (k > 0) CW_TRY(disturb(s));
     CW_TRY(improve_trial(s, k == 0, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
     if (trial.sine < allowed) continue;
+    vain = 0;
     CwTetMesh swap = s->now.patch.mesh;
     s->now.patch.mesh = s->trial;
     s->trial = swap;
@@ -286,7 +289,7 @@ done:
 // What leads nowhere from one beginning may do from another.
 static CwStatus search_place(Search *s, int32_t t) {
   CwStatus status = CW_OK;
-  for (int k = 0; s->tries > 0 && (k == 0 || s->best.rated.least < s->again); k++) {
+  for (int k = 0; k < BEGINNINGS && s->tries > 0 && (k == 0 || s->best.rated.least < s->again); k++) {
     CW_TRY(search_patch(s, t));
     double more = s->now.rated.least - s->best.rated.least;
     if (k == 0 || more > 0.0 || (more == 0.0 && s->now.gain > s->best.gain)) {
@@ -406,12 +409,12 @@ CwStatus cw_tet_search(CwTetWork *w) {
     CW_TRY(sine_allowed(w->mesh, &allowed));
     s.again = fmin(flat_sine(), allowed);
     s.begin = fmin(policy->search_wanted, fmax(flat_sine(), allowed));
-    s.work.insert = s.work.insert_round = s.begin;
+    s.work.insert = s.begin;
     CW_TRY(search_places(&s));
   }
   // After the angles, with tries of its own.
   s.determinants = 1;
-  s.begin = s.work.insert = s.work.insert_round = flat_sine();
+  s.begin = s.work.insert = flat_sine();
   s.again = flat_sine();
   s.tries = policy->search_fewest;
   CW_TRY(search_places(&s));

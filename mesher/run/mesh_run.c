@@ -158,15 +158,21 @@ done:
   return status;
 }
 
-// Of fewer layers in the domains that fall short, where edges are longer than so many leave room for. 0 where there are
-// the fewest already.
+// Of a domain in a round of fewer layers; in round 0 as many as the best mesh has.
+static int layers_left(const CwPassState *state, int d, int round) {
+  int made = state->best_layers[d], left = made - round * (made / FEWER_PART);
+  return made <= CW_LAYERS_LEAST ? made : left > CW_LAYERS_LEAST ? left : CW_LAYERS_LEAST;
+}
+
+// Of fewer layers in the domains that fall short, where edges are longer than so many leave room for. 0 where they
+// would be no fewer than before.
 static int take_fewer_layers(CwPassState *state) {
   int fewer = 0, round = state->plane_rounds - PLANES_MOST;
-  for (int d = 0; d < CW_DOMAINS_MOST && round <= FEWER_MOST; d++) {
-    int made = state->best_layers[d], left = made - round * (made / FEWER_PART);
-    if (!state->best_lacks[d] || made <= CW_LAYERS_LEAST) continue;
-    state->start.layers[d] = left > CW_LAYERS_LEAST ? left : CW_LAYERS_LEAST;
-    fewer = 1;
+  for (int d = 0; d < CW_DOMAINS_MOST && round <= FEWER_MOST; d++)
+    fewer |= state->best_lacks[d] && layers_left(state, d, round) < layers_left(state, d, round - 1);
+  for (int d = 0; d < CW_DOMAINS_MOST && fewer; d++) {
+    int left = layers_left(state, d, round);
+    if (state->best_lacks[d] && left < state->best_layers[d]) state->start.layers[d] = left;
   }
   return fewer;
 }

@@ -16,11 +16,11 @@ static CwStatus read_text(const char *text, CwPolicy *policy) {
 
 static void lines_change_their_numbers_alone(void **unused) {
   CwPolicy policy = cw_policy;
-  assert_int_equal(read_text("# for a trial\nimprove_below 0.375 # sine\n\nsearch_tries\t17\n", &policy), CW_OK);
+  assert_int_equal(read_text("# for a trial\nimprove_below 0.375 # sine\n\nsearch_vain\t17\n", &policy), CW_OK);
   assert_true(policy.improve_below == 0.375);
-  assert_int_equal(policy.search_tries, 17);
+  assert_int_equal(policy.search_vain, 17);
   policy.improve_below = cw_policy.improve_below;
-  policy.search_tries = cw_policy.search_tries;
+  policy.search_vain = cw_policy.search_vain;
   assert_memory_equal(&policy, &cw_policy, sizeof policy);
 }
 
@@ -34,7 +34,7 @@ static void refused(const char *text, const char *part) {
 static void wrong_lines_are_refused_with_their_number(void **unused) {
   refused("improve_below 0.4\nimprove_blow 0.4\n", "numbers:2: there is no number `improve_blow`");
   refused("improve_below much\n", "numbers:1: `much` is not a number");
-  refused("search_tries 1.5\n", "`1.5` is not a whole number for `search_tries`");
+  refused("search_vain 1.5\n", "`1.5` is not a whole number for `search_vain`");
   refused("improve_below\n", "numbers:1: a line is `name value`");
   refused("improve_below nan\n", "is not a number");
 }

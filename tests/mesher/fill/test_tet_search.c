@@ -40,7 +40,21 @@ static void judge_all(CwTetWork *w) {
   cw_tet_shapes_free(&shapes);
 }
 
-// A lump out of a shaken lattice, its hull fixed, in which `spoilt` points then go nearly as far as a face opposite.
+// `spoilt` points go nearly as far as a face opposite.
+static void spoil(CwTetMesh *mesh, int spoilt) {
+  int32_t apart = spoilt > 0 ? 4500 / spoilt : 0;
+  for (int32_t t = 40; spoilt > 0; t += apart, spoilt--) {
+    while (mesh->tet[t].corner[0] < 0 || mesh->source[mesh->tet[t].corner[0]] == 0) t++;
+    const int32_t *c = mesh->tet[t].corner;
+    double *p = mesh->point[c[0]].x;
+    for (int i = 0; i < 3; i++) {
+      double opposite = (mesh->point[c[1]].x[i] + mesh->point[c[2]].x[i] + mesh->point[c[3]].x[i]) / 3.0;
+      p[i] += 0.9 * (opposite - p[i]);
+    }
+  }
+}
+
+// A lump out of a shaken lattice, its hull fixed, with points that are spoilt.
 static CwTetWork lump(int spoilt, CwTetPatch *patch) {
   double(*x)[3];
   CwTetMesh whole;
@@ -62,16 +76,7 @@ static CwTetWork lump(int spoilt, CwTetPatch *patch) {
                  .source_count = 2};
   judge_all(&w);
   assert_int_equal(cw_tet_improve_list(&w, 5, 1), CW_OK);
-  int32_t apart = spoilt > 0 ? 4500 / spoilt : 0;
-  for (int32_t t = 40; spoilt > 0; t += apart, spoilt--) {
-    while (mesh->tet[t].corner[0] < 0 || mesh->source[mesh->tet[t].corner[0]] == 0) t++;
-    const int32_t *c = mesh->tet[t].corner;
-    double *p = mesh->point[c[0]].x;
-    for (int i = 0; i < 3; i++) {
-      double opposite = (mesh->point[c[1]].x[i] + mesh->point[c[2]].x[i] + mesh->point[c[3]].x[i]) / 3.0;
-      p[i] += 0.9 * (opposite - p[i]);
-    }
-  }
+  spoil(mesh, spoilt);
   judge_all(&w);
   return w;
 }
@@ -79,6 +84,20 @@ static CwTetWork lump(int spoilt, CwTetPatch *patch) {
 static void finish(CwTetWork *w, CwTetPatch *patch) {
   cw_tet_work_free(w);
   cw_tet_patch_free(patch);
+}
+
+// Flat tetrahedra.
+static int32_t bad_ones(const CwTetWork *w) {
+  int32_t bad = 0;
+  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
+    const double *x[4];
+    CwTetShape shape;
+    for (int i = 0; i < 4 && w->mesh->tet[t].corner[0] >= 0; i++) x[i] = w->mesh->point[w->mesh->tet[t].corner[i]].x;
+    if (w->mesh->tet[t].corner[0] < 0) continue;
+    cw_tet_shape(x, &shape);
+    bad += shape.dihedral_least < cw_policy.flat_angle;
+  }
+  return bad;
 }
 
 // What is bad becomes good, twice the same way; hull and volume stay.
@@ -111,14 +130,7 @@ static void many_bad_ones_of_a_small_mesh(void **state) {
   CwTetPatch patch;
   CwTetWork w = lump(20, &patch);
   double volume, least = least_angle(w.mesh, &volume);
-  int32_t bad = 0;
-  for (int32_t k = 0; k < w.next.count; k++) {
-    const double *x[4];
-    CwTetShape shape;
-    for (int i = 0; i < 4; i++) x[i] = w.mesh->point[w.mesh->tet[w.next.tet[k]].corner[i]].x;
-    cw_tet_shape(x, &shape);
-    bad += shape.dihedral_least < cw_policy.flat_angle;
-  }
+  int32_t bad = bad_ones(&w);
   assert_true(least < 8.0 && bad > w.mesh->tet_count / cw_policy.search_share && bad <= cw_policy.search_any);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(w.count.patches_changed >= 1 && least_angle(w.mesh, &volume) >= least);
@@ -198,17 +210,28 @@ static void what_the_boundary_forces_is_not_pressed(void **state) {
   finish(&w, &patch);
 }
 
-// Where the boundary's edges are no reason to end, the search begins again until it has used its tries.
+// Where the boundary's edges are no reason to end, the search begins again, so often that what is bad elsewhere has
+// tries left.
 static void tries_are_bounded(void **state) {
-  CwTetPatch patch;
-  CwTetWork w = lump(0, &patch);
-  double volume;
-  assert_true(pinch_hull(w.mesh, 1, 0.01));
-  judge_all(&w);
-  assert_int_equal(cw_tet_search(&w), CW_OK);
-  assert_true(least_angle(w.mesh, &volume) < 12.0);
-  assert_int_equal(w.count.search_tries, 2 * cw_policy.search_fewest); // for angles, and for determinants
-  finish(&w, &patch);
+  enum { BEGINNINGS = 8, SPOILT = 3 };
+  for (int spoilt = 0; spoilt <= SPOILT; spoilt += SPOILT) {
+    CwTetPatch patch;
+    CwTetWork w = lump(0, &patch);
+    double volume;
+    assert_true(pinch_hull(w.mesh, 1, 0.01));
+    spoil(w.mesh, spoilt);
+    judge_all(&w);
+    int32_t bad = bad_ones(&w);
+    assert_int_equal(cw_tet_search(&w), CW_OK);
+    assert_true(least_angle(w.mesh, &volume) < 12.0);
+    if (spoilt > 0) {
+      assert_true(bad > SPOILT && w.count.patches_changed >= SPOILT);
+      assert_in_range(bad_ones(&w), 1, 3); // those at the hull
+    } else {
+      assert_in_range(w.count.search_tries, BEGINNINGS * cw_policy.search_vain, cw_policy.search_fewest);
+    }
+    finish(&w, &patch);
+  }
 }
 
 // In closed form as by the sum over the faces, which checkMesh takes.
