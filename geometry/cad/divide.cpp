@@ -8,6 +8,7 @@
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
@@ -41,6 +42,47 @@ int seams(const TopoDS_Shape &shape, TopoDS_Edge *first, int *face) {
       if (!count++) *first = edge, *face = i;
     }
   return count;
+}
+
+// Gives a periodic spline the parameters from `first` on: where they are others now, one period further or less.
+void begin_at(Geom_BSplineSurface &surface, int along, double first) {
+  double range[4];
+  surface.Bounds(range[0], range[1], range[2], range[3]);
+  const double low = range[2 * along], period = range[2 * along + 1] - low,
+               shift = std::floor((first - low) / period) * period, at = first - shift;
+  int knot, next;
+  if (along) {
+    surface.InsertVKnot(at, 1, SAME * period, Standard_False);
+    surface.LocateV(at, 2 * SAME * period, knot, next);
+    surface.SetVOrigin(knot);
+  } else {
+    surface.InsertUKnot(at, 1, SAME * period, Standard_False);
+    surface.LocateU(at, 2 * SAME * period, knot, next);
+    surface.SetUOrigin(knot);
+  }
+  TColStd_Array1OfReal knots(1, along ? surface.NbVKnots() : surface.NbUKnots());
+  along ? surface.VKnots(knots) : surface.UKnots(knots);
+  for (double &value : knots) value += shift;
+  along ? surface.SetVKnots(knots) : surface.SetUKnots(knots);
+}
+
+// Brings the ends of periodic splines to those of the faces on them: ShapeUpgrade makes a piece of a face that goes
+// over the end of its surface end there. In place; what lies on the surfaces stays where it is.
+void begin_with_faces(const TopoDS_Shape &shape) {
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+    TopLoc_Location location;
+    const auto surface =
+        Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(TopoDS::Face(at.Current()), location));
+    if (surface.IsNull()) continue;
+    double range[4], end[4];
+    BRepTools::UVBounds(TopoDS::Face(at.Current()), range[0], range[1], range[2], range[3]);
+    surface->Bounds(end[0], end[1], end[2], end[3]);
+    for (int along = 0; along < 2; along++) {
+      const double *of = range + 2 * along, *has = end + 2 * along, least = SAME * (has[1] - has[0]);
+      if (!(along ? surface->IsVPeriodic() : surface->IsUPeriodic())) continue;
+      if (of[0] < has[0] - least || of[1] > has[1] + least) begin_at(*surface, along, of[0]);
+    }
+  }
 }
 
 // Whether a side of a surface is one point: u (0) or v (1) at `value`, the other from `first` to `last`.
@@ -176,6 +218,7 @@ CwStatus divide_part(int pieces, const CwCadFrame &frame, CwLog *log, double uni
   TopoDS_Edge edge;
   int face = 0;
   const int before = cw_cad_faces(part.solid).Extent();
+  begin_with_faces(part.solid);
   if (several_poles(part.solid, &edge, &face) || has_kinks(part.solid)) {
     PiecesTool divide(part.solid);
     divide.Perform();

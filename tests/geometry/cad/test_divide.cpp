@@ -5,15 +5,18 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
@@ -51,12 +54,51 @@ static void check(const TopoDS_Shape &solid, int pieces, int faces, double volum
       assert_true(BRep_Tool::Degenerated(edge) || !BRep_Tool::IsClosed(edge, TopoDS::Face(map(f))));
     }
     assert_true(poles <= 1);
+    double u[2], v[2], end[4];
+    BRepTools::UVBounds(TopoDS::Face(map(f)), u[0], u[1], v[0], v[1]);
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(map(f)));
+    surface->Bounds(end[0], end[1], end[2], end[3]);
+    assert_true(surface->IsUPeriodic() || (u[0] > end[0] - 1e-6 && u[1] < end[1] + 1e-6));
+    assert_true(surface->IsVPeriodic() || (v[0] > end[2] - 1e-6 && v[1] < end[3] + 1e-6));
   }
 }
 
 static void spheres_get_eighths_and_the_like(void **) {
   check(BRepPrimAPI_MakeSphere(7).Shape(), 4, 8, 4 * M_PI / 3 * 343);
   check(BRepPrimAPI_MakeSphere(7).Shape(), 5, 10, 4 * M_PI / 3 * 343);
+}
+
+// Lets the parameters of a periodic spline begin at a share of what they were.
+static void begin_elsewhere(Geom_BSplineSurface &surface, double share) {
+  double end[4];
+  surface.Bounds(end[0], end[1], end[2], end[3]);
+  const double u = end[0] + share * (end[1] - end[0]), v = end[2] + share * (end[3] - end[2]);
+  int knot, next;
+  surface.InsertUKnot(u, 1, 1e-9, Standard_False);
+  surface.LocateU(u, 1e-8, knot, next);
+  surface.SetUOrigin(knot);
+  surface.InsertVKnot(v, 1, 1e-9, Standard_False);
+  surface.LocateV(v, 1e-8, knot, next);
+  surface.SetVOrigin(knot);
+}
+
+// A ring that is one periodic spline, whose parameters begin elsewhere than its face, an eighth of a turn before or
+// after: of the thirds of the face one lies on either side of the end.
+static void faces_over_the_end_of_their_surface(void **) {
+  for (int eighth = 1; eighth < 8; eighth += 6) {
+    const TopoDS_Shape ring = BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeTorus(9, 2).Shape()).Shape();
+    const TopoDS_Face face = TopoDS::Face(cw_cad_faces(ring)(1));
+    TopLoc_Location location;
+    const auto surface = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face, location));
+    surface->SetUPeriodic();
+    surface->SetVPeriodic();
+    begin_elsewhere(*surface, eighth / 8.0);
+    double range[4], end[4];
+    BRepTools::UVBounds(face, range[0], range[1], range[2], range[3]);
+    surface->Bounds(end[0], end[1], end[2], end[3]);
+    assert_true(range[0] < end[0] - 0.1 && range[2] < end[2] - 0.1);
+    check(ring, 3, 9, 2 * M_PI * 9 * M_PI * 4);
+  }
 }
 
 static void tips_of_cones_stay(void **) {
@@ -130,6 +172,7 @@ static void names_go_with_the_pieces(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(spheres_get_eighths_and_the_like),
+                                     cmocka_unit_test(faces_over_the_end_of_their_surface),
                                      cmocka_unit_test(tips_of_cones_stay),
                                      cmocka_unit_test(ogives_keep_their_points),
                                      cmocka_unit_test(rings_through_the_axis),
