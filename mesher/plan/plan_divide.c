@@ -27,6 +27,7 @@ enum {
   SMALL_PART = 16,      // regions to come of a part for which other planes are tried
   TRIES = 4,
   TRIES_MOST = 6,
+  TRIES_FURTHER = 10, // for each region to come, of a part and all parts of it together
   MANY = 150 // of them; more, and for so many regions, which find less room
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
@@ -292,12 +293,12 @@ static void kept_free(Kept *kept) {
 }
 
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                       int side, double limit, double *bad);
+                       int side, double tries, double limit, double *bad);
 
-// Divides the part by this plane, and both sides further. *bad: by how much all planes together score more than they
-// should. Gives up once that is `limit` or more.
+// Divides the part by this plane, and both sides further, with so many tries. *bad: by how much all planes together
+// score more than they should. Gives up once that is `limit` or more.
 static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions,
-                          const Best *by, double limit, double *bad) {
+                          const Best *by, double tries, double limit, double *bad) {
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
   int32_t node = plan->node_count++, first[2] = {by->below, regions - by->below};
@@ -308,7 +309,8 @@ static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPa
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
   for (int s = 0; s < 2 && *bad < limit; s++) {
     double further;
-    CW_TRY(divide(model, plan, &half[s], first[s], node, s, limit - *bad, &further));
+    double share = tries * first[s] / regions;
+    CW_TRY(divide(model, plan, &half[s], first[s], node, s, share, limit - *bad, &further));
     cw_plan_part_free(&half[s]);
     *bad += further;
   }
@@ -318,21 +320,23 @@ done:
 }
 
 // Divides the part, or leaves it whole where no plane will do. Where a small part, or what comes of it, divides badly
-// by the best plane, others are tried: the best of them may leave a part that no plane divides well. *bad is `limit`
-// or more, and the subtree of no use, where it would not be less.
+// by the best plane, others are tried: the best of them may leave a part that no plane divides well. `tries`: of this
+// part and all parts of it, at least one each; the planes tried share them. *bad is `limit` or more, and the subtree of
+// no use, where it would not be less.
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                       int side, double limit, double *bad) {
+                       int side, double tries, double limit, double *bad) {
   CwStatus status = CW_OK;
   const int32_t node = plan->node_count, region = plan->region_count;
   Choice choice = {.model = model, .plan = plan, .part = part, .node = node, .regions = regions};
   Kept kept = {0};
   Best best;
   double least = limit;
-  int32_t tries = regions > SMALL_PART ? 1 : model->region_count < MANY ? TRIES : TRIES_MOST;
+  int32_t planes = regions > SMALL_PART ? 1 : model->region_count < MANY ? TRIES : TRIES_MOST;
+  planes = planes > tries ? (int32_t)fmax(1, floor(tries)) : planes;
   int found = 0, last = 0; // whether some plane did; whether its subtree stands in the plan
   *bad = 0;
   if (parent >= 0) plan->node[parent].child[side] = node; // it tells on which side the node's cell lies
-  while (regions > 1 && choice.tried_count < tries && (!found || least > 0)) {
+  while (regions > 1 && choice.tried_count < planes && (!found || least > 0)) {
     double further;
     plan->node_count = node;
     plan->region_count = region;
@@ -340,11 +344,11 @@ static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart 
     CW_TRY(next_best(&choice, CW_PLAN_FAULT + least, &best));
     last = 0;
     if (best.below == 0) break;
-    CW_TRY(divide_by(model, plan, part, regions, &best, least, &further));
+    CW_TRY(divide_by(model, plan, part, regions, &best, fmax(0, tries / planes - 1), least, &further));
     if (further >= least) continue;
     least = further;
     found = last = 1;
-    if (choice.tried_count < tries && least > 0) CW_TRY(keep(plan, node, region, &kept));
+    if (choice.tried_count < planes && least > 0) CW_TRY(keep(plan, node, region, &kept));
   }
   if (found) {
     if (!last) put_back(&kept, node, region, plan);
@@ -368,7 +372,7 @@ CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart
   CwStatus status = CW_OK;
   const int32_t node = plan->node_count;
   double bad;
-  CW_TRY(divide(model, plan, part, regions, parent, side, INFINITY, &bad));
+  CW_TRY(divide(model, plan, part, regions, parent, side, TRIES_FURTHER * regions, INFINITY, &bad));
   if (plan->node_count > node) CW_TRY(cw_plan_improve(model, plan, part, node));
 done:
   return status;

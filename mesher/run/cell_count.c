@@ -38,10 +38,24 @@ static double tets_per_volume(const CwMeshRun *run, double scale) {
   return 6.6 + 1.33 * finer + 0.37 * fmax(finer, 0) + 4.65 * scale * walls / volume;
 }
 
+static int64_t layers_of(const CwMeshRun *run) {
+  int64_t layers = 0;
+  for (int d = 0; d < run->model.domain_count; d++) layers += run->domain[d].layer_count;
+  return layers;
+}
+
+// What was counted tells nothing of another number of layers: of those that fill a passage they leave a few tetrahedra
+// in what the integral takes for next to nothing.
+static double tets_at(const CwMeshRun *run, double scale) {
+  const CwCellLaw *law = &run->tets;
+  int is_of_these = law->factor > 0 && (law->layers == 0 || law->layers == layers_of(run));
+  return is_of_these ? cw_cell_law_at(law, scale) : tets_per_volume(run, scale);
+}
+
 static double cells_at(const CwMeshRun *run, int d, double scale) {
   double asked = (double)run->table->mesh.cells;
   double prisms = run->prisms.factor > 0 ? cw_cell_law_at(&run->prisms, scale) : prisms_per_layer(asked);
-  double tets = run->tets.factor > 0 ? cw_cell_law_at(&run->tets, scale) : tets_per_volume(run, scale);
+  double tets = tets_at(run, scale);
   return prisms * run->domain[d].layer_count * run->domain[d].prism_integral / (scale * scale) +
          tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
@@ -96,7 +110,7 @@ static double cells_on_walls(const CwMeshRun *run, double scale) {
   for (int d = 0; d < run->model.domain_count; d++) {
     const CwDomain *domain = &run->domain[d];
     cells += (double)domain->layer_count * domain->surface.triangle_count +
-             cw_cell_law_at(&run->tets, scale) * cw_domain_tet_integral(domain, scale) / (scale * scale * scale);
+             tets_at(run, scale) * cw_domain_tet_integral(domain, scale) / (scale * scale * scale);
   }
   return cells;
 }
@@ -302,6 +316,7 @@ void cw_learn_tets(CwMeshRun *run) {
     made -= (double)run->domain[d].layer_count * run->domain[d].surface.triangle_count;
     integral += cw_domain_tet_integral(&run->domain[d], run->scale);
   }
+  if (run->tets.layers != layers_of(run)) run->tets = (CwCellLaw){.layers = layers_of(run)}; // its slope as well
   double asked = (double)run->table->mesh.cells, before = run->tets.scale;
   int between = before > 0 && (all_cells_at(run, before) > asked) != ((double)run->cells > asked);
   cw_cell_law_learn(&run->tets, made * run->scale * run->scale * run->scale / integral, run->scale, 3, between);

@@ -5,6 +5,8 @@
 // the logarithms).
 #pragma once
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -13,6 +15,7 @@ typedef struct {
   double factor;   // cells per unit of the integral; 0: not known yet
   double scale;    // at which they were counted; 0: predicted, for any scale
   double exponent; // of the factor, as a function of the scale
+  int64_t layers;  // of all domains together, with which they were counted; 0: predicted, for any number
 } CwCellLaw;
 
 double cw_cell_law_at(const CwCellLaw *law, double scale);

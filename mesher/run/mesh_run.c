@@ -88,7 +88,7 @@ static double rounded(double value) {
 }
 
 static CwCellLaw rounded_law(const CwCellLaw *law) {
-  return (CwCellLaw){rounded(law->factor), rounded(law->scale), rounded(law->exponent)};
+  return (CwCellLaw){rounded(law->factor), rounded(law->scale), rounded(law->exponent), law->layers};
 }
 
 // What a run that goes on from here has to know.

@@ -65,14 +65,19 @@ done:
   return status;
 }
 
+static int int_in(const json_t *file, const char *key) {
+  return (int)json_integer_value(json_object_get(file, key));
+}
+
 static CwCellLaw law_in(const json_t *file) {
   return (CwCellLaw){json_number_value(json_object_get(file, "factor")),
                      json_number_value(json_object_get(file, "scale")),
-                     json_number_value(json_object_get(file, "exponent"))};
+                     json_number_value(json_object_get(file, "exponent")), int_in(file, "layers")};
 }
 
 static json_t *law_packed(const CwCellLaw *law) {
-  return json_pack("{s:f, s:f, s:f}", "factor", law->factor, "scale", law->scale, "exponent", law->exponent);
+  return json_pack("{s:f, s:f, s:f, s:I}", "factor", law->factor, "scale", law->scale, "exponent", law->exponent,
+                   "layers", (json_int_t)law->layers);
 }
 
 static CwStatus places_in(const json_t *file, CwFinerPlaces *places) {
@@ -99,10 +104,6 @@ static json_t *places_packed(const CwFinerPlaces *places) {
                                           point->x[2], point->size));
   }
   return file;
-}
-
-static int int_in(const json_t *file, const char *key) {
-  return (int)json_integer_value(json_object_get(file, key));
 }
 
 static void by_domain_in(const json_t *list, int32_t of_domain[CW_DOMAINS_MOST]) {

@@ -7,8 +7,9 @@ layers, beside gmsh's HXT without layers on the same faces.
                        [--out DIR]
 
 FOLDER holds STEP (.step, .stp), IGES (.iges, .igs), B-rep (.brep, .rle) and FreeCAD's files (.FCStd, which hold
-B-reps), also gzipped, at any depth. Debian has them in occt-misc (/usr/share/opencascade/data), gmsh-doc, netgen-doc
-(/usr/share/doc), freecad-common (/usr/share/freecad/examples) and kicad-packages3d (/usr/share/kicad/3dmodels).
+B-reps), also gzipped, at any depth. Debian has them in occt-misc, gmsh-doc, netgen-doc and freecad-common: the table of
+docs/measurements.md is of these four, unpacked into one folder (`apt-get download PACKAGE`, `dpkg -x FILE.deb FOLDER`).
+Many more are in kicad-packages3d.
 Solids of as many faces and the same volume count once. They are read, healed and divided as those of a case
 (tests/measure/cad_solids.cpp). Without FOLDER it is that of CUTWATER_CAD.
 

@@ -47,8 +47,9 @@ SECTIONS = {
     "cad": Section(
         "Solids of CAD files of others", "tests/bench/cad.py --brief",
         "Each closed solid as a domain of its own, all its faces walls with five layers, beside gmsh's HXT without "
-        "layers (`tests/bench/cad.py --help`). The environment variable CUTWATER_CAD names the folder of the files; "
-        "without it the section is passed over."),
+        "layers. The files are those of Debian's occt-misc, gmsh-doc, netgen-doc and freecad-common "
+        "(`tests/bench/cad.py --help`). The environment variable CUTWATER_CAD names their folder; without it the "
+        "section is passed over."),
     "ablation": Section(
         "What each number of the policy does", f"{ABLATE} --part together",
         "Effects of the numbers of `mesher/policy_table.h` on failures, quality, layers, count and time, by a "

@@ -34,6 +34,40 @@ static void tetrahedra_make_up_for_walls(void **) {
   }
 }
 
+// 30,000 tetrahedra at a scale of 2 are 12 for each unit of an integral of 20,000 over the cube of it, as long as there
+// are as many layers. With others as many as in any pump are expected, 6.6 + 1.33 ln(1/10) for 30,000 cells and no
+// walls, and what is counted then tells no slope until it is counted twice.
+static void counts_hold_for_their_layers(void **) {
+  PlannedSolid solid(filleted_step(false));
+  CwMeshRun run = {};
+  CwCase table = {};
+  table.mesh.cells = 30000;
+  run.table = &table;
+  run.prisms.factor = 2.4;
+  run.tets.factor = 20;
+  run.model.domain_count = 1;
+  CwDomain &domain = run.domain[0];
+  domain.size = solid.size;
+  domain.volume_integral = 20000;
+  domain.layer_count = 5;
+  domain.surface.triangle_count = 2000;
+  const auto learn = [&](double scale, double tetrahedra) {
+    run.scale = scale;
+    run.cells = (int64_t)(tetrahedra + domain.layer_count * 2000);
+    cw_learn_tets(&run);
+  };
+  learn(2, 30000);
+  assert_near(run.tets.factor, 12, 1e-12);
+  assert_near(cw_predicted_cells(&run, 0), 30000, 1e-6);
+  domain.layer_count = 4;
+  assert_near(cw_predicted_cells(&run, 0), (6.6 - 1.33 * std::log(10)) * 20000 / 8, 1e-6);
+  learn(2.5, 20000);
+  assert_near(run.tets.exponent, 0, 0);
+  assert_near(cw_predicted_cells(&run, 0), 20000, 1e-6);
+  learn(2.25, 24000); // 13.7 a unit where there were 15.6
+  assert_near(run.tets.exponent, std::log(24 * std::pow(2.25, 3) / (20 * std::pow(2.5, 3))) / std::log(0.9), 1e-9);
+}
+
 // With 2.4 prisms a layer for each unit of a million on the walls, and hardly a tetrahedron, 480,000 cells have the
 // square of the scale at five times the number of layers. Triangles over narrow faces have 20 degrees at the scale of
 // 6.87, with 9 layers; 240,000 cells have room for 4. Not more than 3 are kept, and none that the case does not give.
@@ -85,6 +119,7 @@ static void layers_go_where_walls_would_be_flat(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(tetrahedra_make_up_for_walls),
+                              cmocka_unit_test(counts_hold_for_their_layers),
                               cmocka_unit_test(layers_go_where_walls_would_be_flat)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -79,7 +79,7 @@ static void state_comes_back_as_written(void **unused) {
   const CwPassState written = {
       .pass = 3,
       .first_pass = 2,
-      .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5}, 2, {0, 1}, {0, 2}, {6, 4}},
+      .start = {{12.2450980392, 1.2, 0.1}, {10.8712345678, 1.3, -0.5, 11}, 2, {0, 1}, {0, 2}, {6, 4}},
       .finer_rounds = 1,
       .poor_rounds = 4,
       .best = {{11.5, 1.1, 0}, {10.25, 1.1, 0}, 1, {1}, {3, -1}},
