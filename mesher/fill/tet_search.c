@@ -396,7 +396,9 @@ done:
 
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
-  Search s = {.whole = w, .begin = policy->search_wanted, .work = {.limit = wanted_sine(), .fixed_count = 1}};
+  Search s = {.whole = w,
+              .begin = policy->search_wanted,
+              .work = {.limit = wanted_sine(), .insert = flat_sine(), .fixed_count = 1}};
   double least, allowed = 0.0;
   s.work.mesh = &s.trial;
   s.work.source_count = 1;
@@ -409,13 +411,11 @@ CwStatus cw_tet_search(CwTetWork *w) {
     CW_TRY(sine_allowed(w->mesh, &allowed));
     s.again = fmin(flat_sine(), allowed);
     s.begin = fmin(policy->search_wanted, fmax(flat_sine(), allowed));
-    s.work.insert = s.begin;
     CW_TRY(search_places(&s));
   }
   // After the angles, with tries of its own.
   s.determinants = 1;
-  s.begin = s.work.insert = flat_sine();
-  s.again = flat_sine();
+  s.begin = s.again = flat_sine();
   s.tries = policy->search_fewest;
   CW_TRY(search_places(&s));
 done:
