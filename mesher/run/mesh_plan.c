@@ -178,11 +178,12 @@ done:
 }
 
 // The size fields: seeds face by face, of the edges, and lines through the domain; then the fields they spread to, with
-// the exact volumes beside them.
+// the exact volumes beside them. The same ones whatever meshes were made before.
 static CwStatus make_sizes(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults seeds = {0}, results = {.shared = 1};
   int32_t parts[CW_DOMAINS_MOST];
+  cw_start_layers(run); // which the seeds make room for
   for (int d = 0; d < run->model.domain_count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
   CW_TRY(run_parts(run, "size seeds", "parts", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
   for (int d = 0; d < run->model.domain_count; d++) {
