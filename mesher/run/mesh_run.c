@@ -216,7 +216,10 @@ static CwStatus improve(CwMeshRun *run, CwPassState *state, int made, int *again
     for (int d = 0; d < run->model.domain_count; d++)
       state->best_layers[d] = run->scale > cw_size_scale_fine() ? run->domain[d].layer_count : 0;
   }
-  if (state->poor_rounds > POOR_MOST) goto done;
+  if (state->poor_rounds > POOR_MOST) {
+    CW_AUDIT(deficit == state->least_deficit ? CW_OK : CW_FAIL(CW_ERR_MESH, "the best mesh, made again, is another"));
+    goto done;
+  }
   if (many && state->poor_rounds < POOR_MOST && (best || state->poor_rounds == state->best_round + 1)) {
     cw_log(run->context.log,
            "regions with flat tetrahedra, or domains that miss first heights: %d; made again with shorter edges there",
