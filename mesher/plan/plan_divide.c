@@ -27,8 +27,8 @@ enum {
   SMALL_PART = 16,      // regions to come of a part for which other planes are tried
   TRIES = 4,
   TRIES_MOST = 6,
-  TRIES_FURTHER = 10, // for each region to come, of a part and all parts of it together
-  MANY = 150 // of them; more, and for so many regions, which find less room
+  MANY = 150,        // of them; more, and for so many regions, which find less room
+  TRIES_FURTHER = 10 // for each region to come, of a part and all parts of it together
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                        // shifts until they are twice as wide
@@ -308,8 +308,7 @@ static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPa
   plan->node[node].worst = cw_plan_place(model, part, &by->plane, NULL).worst;
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
   for (int s = 0; s < 2 && *bad < limit; s++) {
-    double further;
-    double share = tries * first[s] / regions;
+    double further, share = tries * first[s] / regions;
     CW_TRY(divide(model, plan, &half[s], first[s], node, s, share, limit - *bad, &further));
     cw_plan_part_free(&half[s]);
     *bad += further;

@@ -92,8 +92,8 @@ static int32_t bad_ones(const CwTetWork *w) {
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     const double *x[4];
     CwTetShape shape;
-    for (int i = 0; i < 4 && w->mesh->tet[t].corner[0] >= 0; i++) x[i] = w->mesh->point[w->mesh->tet[t].corner[i]].x;
     if (w->mesh->tet[t].corner[0] < 0) continue;
+    for (int i = 0; i < 4; i++) x[i] = w->mesh->point[w->mesh->tet[t].corner[i]].x;
     cw_tet_shape(x, &shape);
     bad += shape.dihedral_least < cw_policy.flat_angle;
   }
@@ -228,7 +228,9 @@ static void tries_are_bounded(void **state) {
       assert_true(bad > SPOILT && w.count.patches_changed >= SPOILT);
       assert_in_range(bad_ones(&w), 1, 3); // those at the hull
     } else {
-      assert_in_range(w.count.search_tries, BEGINNINGS * cw_policy.search_vain, cw_policy.search_fewest);
+      const int64_t vain = BEGINNINGS * cw_policy.search_vain; // a little gained in some of them
+      assert_true(2 * vain < cw_policy.search_fewest);
+      assert_in_range(w.count.search_tries, vain, 2 * vain);
     }
     finish(&w, &patch);
   }

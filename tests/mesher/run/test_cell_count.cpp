@@ -10,21 +10,28 @@ extern "C" {
 
 #include "planned_solid.h"
 
-// 2,000 wall triangles under 5 layers are 10,000 prisms; of 40,000 cells 30,000 are left to tetrahedra, 12 for each
-// unit of the integral, which is 20,000 over the cube of the scale: that is 2. With 1,000 triangles more there are
-// 5,000 less.
-static void tetrahedra_make_up_for_walls(void **) {
-  PlannedSolid solid(filleted_step(false));
+// A run of one domain of 5 layers, with 2,000 wall triangles and an integral of 20,000 over the volume.
+static CwMeshRun run_of(const PlannedSolid &solid, const CwCase *table, double tets) {
   CwMeshRun run = {};
-  CwCase table = {};
-  table.mesh.cells = 40000;
-  run.table = &table;
-  run.tets.factor = 12;
+  run.table = table;
+  run.tets.factor = tets;
   run.prisms.factor = 2.4;
   run.model.domain_count = 1;
   run.domain[0].size = solid.size;
   run.domain[0].volume_integral = 20000;
   run.domain[0].layer_count = 5;
+  run.domain[0].surface.triangle_count = 2000;
+  return run;
+}
+
+// 2,000 wall triangles under 5 layers are 10,000 prisms; of 40,000 cells 30,000 are left to tetrahedra, 12 for each
+// unit of the integral, which is 20,000 over the cube of the scale: that is 2. With 1,000 triangles more there are
+// 5,000 less.
+static void tetrahedra_make_up_for_walls(void **) {
+  PlannedSolid solid(filleted_step(false));
+  CwCase table = {};
+  table.mesh.cells = 40000;
+  CwMeshRun run = run_of(solid, &table, 12);
   for (int triangles : {2000, 3000}) {
     run.domain[0].surface.triangle_count = triangles;
     run.scale = 1.9;
@@ -39,18 +46,10 @@ static void tetrahedra_make_up_for_walls(void **) {
 // walls, and what is counted then tells no slope until it is counted twice.
 static void counts_hold_for_their_layers(void **) {
   PlannedSolid solid(filleted_step(false));
-  CwMeshRun run = {};
   CwCase table = {};
   table.mesh.cells = 30000;
-  run.table = &table;
-  run.prisms.factor = 2.4;
-  run.tets.factor = 20;
-  run.model.domain_count = 1;
+  CwMeshRun run = run_of(solid, &table, 20);
   CwDomain &domain = run.domain[0];
-  domain.size = solid.size;
-  domain.volume_integral = 20000;
-  domain.layer_count = 5;
-  domain.surface.triangle_count = 2000;
   const auto learn = [&](double scale, double tetrahedra) {
     run.scale = scale;
     run.cells = (int64_t)(tetrahedra + domain.layer_count * 2000);
