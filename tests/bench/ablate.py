@@ -57,7 +57,7 @@ def arguments(words=None):
 
 def policy_numbers(text):
     """name: (type, value, value that switches it off or None) of NUMBER(type, name, value, off, unit, meaning)."""
-    row = r'NUMBER\((\w+), (\w+), ([-\w.+]+), ([-\w.+]+), "'
+    row = r'NUMBER\(\s*(\w+), (\w+), ([-\w.+]+), ([-\w.+]+), "'
     return {name: (kind, float(value), None if off == "none" else float(off))
             for kind, name, value, off in re.findall(row, text)}
 

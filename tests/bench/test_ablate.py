@@ -75,7 +75,7 @@ class Effects(unittest.TestCase):
 
 class Moves(unittest.TestCase):
     def test_numbers_are_read_as_they_stand(self):
-        text = 'NUMBER(double, one, 0.5, none, "h",\n       "a thing")\nNUMBER(int64_t, two, 3, 0, "1", "x")'
+        text = 'NUMBER(double, one, 0.5, none, "h",\n       "a thing")\nNUMBER(\n    int64_t, two, 3, 0, "1", "x")'
         self.assertEqual(policy_numbers(text), {"one": ("double", 0.5, None), "two": ("int64_t", 3, 0)})
 
     def test_every_number_of_the_mesher_is_read(self):
