@@ -141,7 +141,6 @@ NUMBER(double, turn_top, 0.4, none, "1", "what the quality of the layer top coun
 NUMBER(double, least_growth, 0.6, 1, "1",
        "of layers in thinned columns; of more than the usual number the last is as great a part of the first: without "
        "that tetrahedra had 20,000 times the volume of prisms beside them (17 layers, 150,000 cells)")
-NUMBER(double, tallest_column, 2.5, none, "h", "at the wall: about what columns come to, for the planes")
 NUMBER(double, layer_count_share, 0.95, none, "1", "of the wall faces that have layers enough then")
 
 // Size field (size/).

@@ -109,13 +109,10 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
   }
   CW_NEW(model->edge, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
-    double thickness = 0;
     int faces[2];
     cw_cad_edge_faces(cad, e, faces);
     cw_cad_edge_range(cad, e, range);
-    for (int side = 0; side < 2; side++)
-      thickness = fmax(thickness, options->thickness[cw_cad_face_patch(cad, faces[side])]);
-    if (thickness == 0) continue; // between two open patches
+    if (!cw_cad_face_is_wall(cad, faces[0]) && !cw_cad_face_is_wall(cad, faces[1])) continue;
     int smooth = cw_plan_edge_is_smooth(cad, e);
     double layers = smooth ? 0 : cw_policy.plan_room;
     int32_t points = points_of_edge(cad, e, range, step);
@@ -125,8 +122,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), made->x, made->tangent);
       cw_unit(made->tangent);
       made->touch = cw_policy.boundary_distance * cw_size_at(model->size, made->x);
-      CwPlanWall wall = cw_plan_wall_near(model, made->x, thickness, -1);
-      made->room = layers * (wall.thickness > 0 ? wall.thickness : thickness);
+      made->room = layers * cw_plan_wall_near(model, made->x, model->thickest, -1).thickness;
       made->end = i == 0 || i == points - 1;
     }
   }
@@ -280,15 +276,11 @@ static CwStatus measure(void *context, int32_t t, void *out) {
   double centre[3] = {0, 0, 0};
   cw_background_normal(background, t, made->normal);
   if (!walls->model->wall[t]) return CW_OK;
-  int patch = cw_cad_face_patch(walls->cad, background->face[t]);
   for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
   double h = cw_size_at(walls->model->size, centre);
   made->density = (options->prism_factor + SHELL) / (h * h);
-  made->thickness = options->thickness[patch];
-  if (options->least_thickness) {
-    made->thickness = fmin(made->thickness, fmax(options->least_thickness[patch], options->tallest * h));
-  }
-  if (made->thickness > 0) made->thickness = limited_by_gap(walls->model, t, made->normal, made->thickness);
+  double thickness = options->thickness(options->given, background->face[t], centre, made->normal);
+  made->thickness = limited_by_gap(walls->model, t, made->normal, thickness);
   return CW_OK;
 }
 

@@ -14,10 +14,10 @@
 // What a plan is asked to be.
 typedef struct {
   int32_t region_count; // at least 1; the plan has fewer where no plane divides a part of the domain any more
-  const double
-      *thickness; // of the layers on each patch of the CAD, m (0 on open patches): planes and lines keep room for it
-  const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
-  double tallest;
+  // Of the layers over the point x of a CAD face that is a wall, m: planes and lines keep room for them; normal: of the
+  // wall, out of the domain. Several threads call it at a time.
+  double (*thickness)(const void *given, int32_t face, const double x[3], const double normal[3]);
+  const void *given;
   double base_size;    // at which the model is looked at: a wanted edge length of a mesh of about a million cells
   double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;

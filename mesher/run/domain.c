@@ -139,24 +139,23 @@ int cw_domain_least_regions(const CwCase *table, double cells) {
   return (int)fmin(table->mesh.least_regions, fmax(1, floor(cells / cw_policy.region_cells_fewest)));
 }
 
+// Of the layers over a wall, for the planner.
+static double thickness_at(const void *given, int32_t face, const double x[3], const double normal[3]) {
+  const CwDomain *domain = given;
+  CwLayerTarget layers = domain->patch_layers[cw_cad_face_patch(domain->cad, face)];
+  layers.first_height = cw_domain_first_height(domain, face);
+  return cw_column_thickness_at(&layers, domain->layer_count, cw_size_at, domain->size, x, normal);
+}
+
 CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase *table, double cells,
                         double prism_factor, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = fmax(ceil(cells / cw_domain_region_cells(&table->mesh)), cw_domain_least_regions(table, cells));
-  double *thickness = NULL, *least = NULL;
-  CW_NEW(thickness, cw_cad_patch_count(domain->cad));
-  CW_NEW(least, cw_cad_patch_count(domain->cad));
-  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
-    thickness[p] = domain->patch_layers[p].thickness;
-    least[p] = domain->layer_count * domain->patch_layers[p].first_height;
-  }
   int32_t more = domain->more_regions * (domain->symmetry ? domain->symmetry->count : 1);
   CwPlanOptions options = {.region_count = domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + more,
-                           .thickness = thickness,
-                           .least_thickness = least,
-                           .tallest = cw_policy.tallest_column,
+                           .thickness = thickness_at,
+                           .given = domain,
                            .base_size = domain->base_size,
                            .prism_factor = prism_factor};
   status = domain->symmetry
@@ -171,8 +170,6 @@ CwStatus cw_domain_plan(const CwContext *context, CwDomain *domain, const CwCase
   plan = (CwPlan){0};
 done:
   cw_plan_free(&plan);
-  free(thickness);
-  free(least);
   return status;
 }
 

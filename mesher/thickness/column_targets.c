@@ -32,6 +32,18 @@ double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, do
   return fmin(layers->thickness, fair_thickness(layers->first_height, layer_count, layers->growth, size, layers->last));
 }
 
+double cw_column_thickness_at(const CwLayerTarget *layers, int layer_count, CwSizeAt size_at, const void *size,
+                              const double x[3], const double normal[3]) {
+  double at_wall = size_at(size, x), thickness = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    double end[3];
+    for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * normal[k];
+    double above = fmin(fmax(at_wall, size_at(size, end)), at_wall + cw_policy.slope * thickness);
+    thickness = fair_thickness(layers->first_height, layer_count, layers->growth, above, layers->last);
+  }
+  return fmin(layers->thickness, thickness);
+}
+
 // What the tasks below read.
 typedef struct {
   const CwBoundaryInput *in;
@@ -77,28 +89,21 @@ static Bend bend_at(const CwSurfaceMesh *surface, const CwIncident *around, int3
   return bend;
 }
 
-// The thickness of a column that is fair by the cells around it, or the target where that is less. The tetrahedron on
-// it stands at the end of the column, where the size is another than at the wall: the thickness is reckoned twice.
-// Nowhere grow sizes faster than thicknesses. Periodic images get that of their first: the size field is symmetric only
-// to within its grid.
+// The thickness of a column that is fair by the cells around it, or the target where that is less. Periodic images get
+// that of their first: the size field is symmetric only to within its grid.
 static CwStatus find_fair(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   const CwBoundaryInput *in = columns->in;
   const CwSurfaceMesh *surface = columns->surface;
-  const CwColumnTargets *targets = columns->targets;
-  const double *x = surface->x[v];
   if (cw_image_node_turns(&surface->images, v) > 0) return CW_OK;
   Bend bend = bend_at(surface, columns->around, v);
-  double size = size_at(in, x), thickness = 0, last = columns->asked[v].last;
+  CwLayerTarget layers = columns->asked[v];
+  layers.first_height = columns->targets->first_height[v];
+  layers.growth = columns->targets->growth[v];
   // In a concave place tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
-  if (bend.cosine < cw_policy.crease_cosine && bend.rise > cw_policy.concave_rise) last *= bend.cosine;
-  for (int pass = 0; pass < 2; pass++) {
-    double end[3];
-    for (int k = 0; k < 3; k++) end[k] = x[k] - thickness * bend.normal[k];
-    double above = fmin(fmax(size, size_at(in, end)), size + cw_policy.slope * thickness);
-    thickness = fair_thickness(targets->first_height[v], targets->layer_count, targets->growth[v], above, last);
-  }
-  *(double *)out = fmin(columns->asked[v].thickness, thickness);
+  if (bend.cosine < cw_policy.crease_cosine && bend.rise > cw_policy.concave_rise) layers.last *= bend.cosine;
+  *(double *)out =
+      cw_column_thickness_at(&layers, columns->targets->layer_count, in->size_at, in->size, surface->x[v], bend.normal);
   return CW_OK;
 }
 

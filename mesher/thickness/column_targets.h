@@ -26,6 +26,12 @@ typedef struct {
 // Thickness of a column over a flat wall where edges are `size` long, m.
 double cw_column_thickness_flat(const CwLayerTarget *layers, int layer_count, double size);
 
+// The same over the point x of a wall with the unit normal `normal`, out of the domain. The tetrahedron on it stands at
+// the end of the column, where the size is another than at the wall: the thickness is reckoned twice. Nowhere grow
+// sizes faster than thicknesses.
+double cw_column_thickness_at(const CwLayerTarget *layers, int layer_count, CwSizeAt size_at, const void *size,
+                              const double x[3], const double normal[3]);
+
 // Sets first heights, growths, targets and least thicknesses of all wall vertices; layers: of each CAD face; around:
 // the wall's triangles. Periodic images get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has
 // no triangle.

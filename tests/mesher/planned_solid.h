@@ -12,6 +12,10 @@ extern "C" {
 
 #include "solids.h"
 
+static inline double thickness_of(const void *thickness, int32_t, const double[3], const double[3]) {
+  return *static_cast<const double *>(thickness);
+}
+
 struct PlannedSolid {
   CwCad *cad;
   CwBackground background;
@@ -20,7 +24,9 @@ struct PlannedSolid {
   CwPlanModel model;
   CwPlanPart whole;
 
-  explicit PlannedSolid(const TopoDS_Shape &shape, double thickness = 1e-3) : cad(open_solid(shape)) {
+  explicit PlannedSolid(const TopoDS_Shape &shape, double thickness = 1e-3,
+                        decltype(CwPlanOptions::thickness) thickness_at = thickness_of)
+      : cad(open_solid(shape)) {
     CwMeshTable table = {};
     const double relative = 1;
     int64_t bytes;
@@ -38,7 +44,7 @@ struct PlannedSolid {
     check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block, &bytes));
     check(cw_size_unpack(&block, &size));
     for (void *one : seed) free(one);
-    CwPlanOptions options = {3, &thickness, nullptr, 0, 2e-3, 12};
+    CwPlanOptions options = {3, thickness_at, &thickness, 2e-3, 12};
     check(cw_plan_model_make(NULL, cad, &background, inside, size, &options, &model));
     check(cw_plan_part_whole(&model, &whole));
     model.mean_work = whole.work / 3;

@@ -43,6 +43,9 @@ static inline void open_domain(CwDomain *made, int number, const char *folder) {
   check(cw_domain_take_background(NULL, made, part));
   for (int f = 0; f < faces; f++) free(part[f]);
   free(part);
+  made->face_radius = calloc((size_t)faces, sizeof *made->face_radius);
+  assert_non_null(made->face_radius);
+  check(cw_face_radii(made->cad, &made->background, made->face_radius));
   int seeds = cw_size_seed_parts(made->cad);
   seed = calloc((size_t)seeds, sizeof *seed);
   assert_non_null(seed);

@@ -91,9 +91,10 @@ static void check_tree(const CwPlan *plan) {
 // Layers on a face at x, m; 0 on open patches.
 static double layers_at(const CwDomain *of, int face, const double x[3]) {
   int patch = cw_cad_face_patch(of->cad, face);
-  const CwLayerTarget *target = &of->patch_layers[patch];
+  CwLayerTarget target = of->patch_layers[patch];
   if (cw_cad_patch_kind(of->cad, patch) != CW_PATCH_WALL) return 0;
-  return fmin(target->thickness, fmax(1.05 * of->layer_count * target->first_height, 2.5 * cw_size_at(of->size, x)));
+  target.first_height = cw_domain_first_height(of, face);
+  return cw_column_thickness_flat(&target, of->layer_count, cw_size_at(of->size, x));
 }
 
 // Predicted tetrahedra: a lattice by volume / h^3 and a shell by area / h^2 that fits it to the layer top.

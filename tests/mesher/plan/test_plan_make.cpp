@@ -23,7 +23,8 @@ struct Bar : PlannedSolid {
 
   explicit Bar(int32_t regions) : PlannedSolid(BRepPrimAPI_MakeBox(60, 20, 20).Shape(), layers) {
     options.region_count = regions;
-    options.thickness = &layers;
+    options.thickness = thickness_of;
+    options.given = &layers;
     options.base_size = 2e-3;
     options.prism_factor = 12;
     check(cw_plan_make(nullptr, cad, &background, inside, size, &options, &plan));

@@ -11,7 +11,8 @@ extern "C" {
 
 // A box of 40 x 30 x 20 mm with layers of 1 mm.
 struct Box : PlannedSolid {
-  explicit Box(double thickness = 1e-3) : PlannedSolid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), thickness) {}
+  explicit Box(double thickness = 1e-3, decltype(CwPlanOptions::thickness) thickness_at = thickness_of)
+      : PlannedSolid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), thickness, thickness_at) {}
 };
 
 static const double layers = 1e-3, area = 2 * (40 * 30 + 40 * 20 + 30 * 20) * 1e-6, volume = 40e-3 * 30e-3 * 20e-3;
@@ -37,6 +38,24 @@ static void samples_stand_for_the_volume(void **) {
   }
   assert_true(of_volume > 5 && of_volume < 12);
   assert_near(outside / of_volume, 38e-3 * 28e-3 * 18e-3, 0.1 * volume);
+}
+
+// At the top, 20 mm high, a fifth more than elsewhere.
+static double thicker_at_the_top(const void *thickness, int32_t, const double x[3], const double normal[3]) {
+  return thickness_of(thickness, 0, x, normal) * (1 + 10 * x[2] * normal[2]);
+}
+
+static void layers_are_as_thick_as_their_place_asks(void **) {
+  Box box(layers, thicker_at_the_top);
+  int top = 0;
+  for (int32_t t = 0; t < box.background.triangle_count; t++) {
+    int at_top = box.model.triangle[t].normal[2] > 0.5;
+    top += at_top;
+    assert_near(box.model.triangle[t].thickness, (at_top ? 1.2 : 1) * layers, 1e-9);
+  }
+  assert_true(top > 0);
+  const double above[3] = {0.02, 0.015, 0.0195};
+  assert_near(cw_plan_wall_near(&box.model, above, 1e-3, -1).thickness, 1.2 * layers, 1e-9);
 }
 
 static void walls_have_their_layers_and_prisms(void **) {
@@ -130,6 +149,7 @@ static void edges_keep_planes_off(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(samples_stand_for_the_volume),
+                              cmocka_unit_test(layers_are_as_thick_as_their_place_asks),
                               cmocka_unit_test(walls_have_their_layers_and_prisms),
                               cmocka_unit_test(layers_give_way_to_a_wall_opposite),
                               cmocka_unit_test(the_nearest_wall_is_found),

@@ -58,7 +58,7 @@ struct PlannedTank : PlannedSolid {
   CwOutcome outcome = {};
   PlannedTank(const TopoDS_Shape &shape, int turns, int regions) : PlannedSolid(shape) {
     const double thickness = 1e-3;
-    const CwPlanOptions options = {regions, &thickness, nullptr, 0, 2e-3, 12};
+    const CwPlanOptions options = {regions, thickness_of, &thickness, 2e-3, 12};
     status = cw_sector_plan_make(NULL, cad, &background, inside, size, &options, turns, &plan, &outcome);
   }
   ~PlannedTank() {

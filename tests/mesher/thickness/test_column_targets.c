@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/policy.h"
 #include "mesher/thickness/column_targets.h"
 #include "mesher/thickness/layer_thickness.h"
 #include "tests/unit_test.h"
@@ -73,6 +74,25 @@ static void a_flat_wall(void **state) {
   CwLayerTarget open = DOUBLING;
   open.last = 1.0 / 6;
   assert_near(cw_column_thickness_flat(&open, 3, edge_below(6 * 2.25)), 4.75, 1e-9);
+}
+
+// Layers of 1, 1.5 and 2.25 over the wall z = 0, below which the fluid lies and edges grow by `rise` a length.
+static double falling(const void *rise, const double x[3]) {
+  return edge_below(2.25) - *(const double *)rise * x[2];
+}
+
+static void a_column_ends_where_sizes_are_others(void **state) {
+  const double x[3] = {3, 4, 0}, normal[3] = {0, 0, 1}, at_wall = 4.75;
+  const double none = 0, finer = -0.1, little = 0.1, much = 2;
+  assert_near(cw_column_thickness_at(&DOUBLING, 3, falling, &none, x, normal), at_wall, 1e-9);
+  assert_near(cw_column_thickness_at(&DOUBLING, 3, falling, &finer, x, normal), at_wall, 1e-9);
+  // As over a wall with the edges that stand at the end of that column; they rise by no more than columns may.
+  double end = cw_column_thickness_flat(&DOUBLING, 3, edge_below(2.25) + little * at_wall);
+  assert_true(end > at_wall);
+  assert_near(cw_column_thickness_at(&DOUBLING, 3, falling, &little, x, normal), end, 1e-9);
+  double most = cw_column_thickness_flat(&DOUBLING, 3, edge_below(2.25) + cw_policy.slope * at_wall);
+  assert_true(most > end && most < 7);
+  assert_near(cw_column_thickness_at(&DOUBLING, 3, falling, &much, x, normal), most, 1e-9);
 }
 
 static void the_finer_patch_holds_where_two_meet(void **state) {
@@ -196,10 +216,13 @@ static void the_least_columns_have_their_first_height(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(images_have_those_of_their_first),         cmocka_unit_test(a_flat_wall),
-      cmocka_unit_test(the_finer_patch_holds_where_two_meet),     cmocka_unit_test(bends_of_the_wall),
-      cmocka_unit_test(a_vertex_without_triangle_is_an_error),    cmocka_unit_test(the_share_of_graded_columns),
-      cmocka_unit_test(the_least_columns_have_their_first_height)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(images_have_those_of_their_first),
+                                     cmocka_unit_test(a_flat_wall),
+                                     cmocka_unit_test(a_column_ends_where_sizes_are_others),
+                                     cmocka_unit_test(the_finer_patch_holds_where_two_meet),
+                                     cmocka_unit_test(bends_of_the_wall),
+                                     cmocka_unit_test(a_vertex_without_triangle_is_an_error),
+                                     cmocka_unit_test(the_share_of_graded_columns),
+                                     cmocka_unit_test(the_least_columns_have_their_first_height)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
