@@ -7,7 +7,7 @@ after the other: cells made, passes, layers, least dihedral angle, mean aspect o
 checkMesh says (-allGeometry -allTopology).
 
 first   wall faces whose first height is within 10 % of its target, %
-layers  number of prism layers
+layers  of prisms, of each domain
 even    faces of the layer top across which volumes change by no more than 4, %; in brackets the greatest change
 worst   patch with the fewest of them, of those with 100 faces or more
 beside  how much greater the mean aspect of the tetrahedra beside partition planes is than that of the others, %
@@ -36,8 +36,8 @@ def table_row(name, run, told):
     for domain in domains:
         near, apart = domain["tetrahedra_beside_planes"], domain["tetrahedra_apart"]
         beside.append(f"{100 * (near['aspect_mean'] / apart['aspect_mean'] - 1):+.1f}")
-    print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}{results['layers']:>7}"
-          f"  {100 * shares['first_height']:>6.2f}  {even:>15}  {worst:22} "
+    print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}"
+          f"{of_domains('layers', '{}'):>16}  {100 * shares['first_height']:>6.2f}  {even:>15}  {worst:22} "
           f"{of_domains('least_dihedral_deg', '{:.1f}'):>12} "
           f"{of_domains('tetrahedron_aspect_mean', '{:.2f}'):>12} {' / '.join(beside):>12}  {told}", flush=True)
 
@@ -48,7 +48,7 @@ def main():
     parser.add_argument("--cells", nargs="*", default=[None])
     parser.add_argument("--work", type=made_folder)
     options = parser.parse_args()
-    print(f"{'case':10}{'asked':>12}{'made':>12}{'passes':>7}{'layers':>7}  {'first':>6}  {'even':>15}  {'worst':22} "
+    print(f"{'case':10}{'asked':>12}{'made':>12}{'passes':>7}{'layers':>16}  {'first':>6}  {'even':>15}  {'worst':22} "
           f"{'dihedral':>12} {'aspect':>12} {'beside':>12}  checkMesh", flush=True)
     for cells in options.cells:
         for name, case in cases_named(options.names):
